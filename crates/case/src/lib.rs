@@ -1,0 +1,1 @@
+//! The case file: units, validation with source positions, JSON Schema

@@ -1,0 +1,2 @@
+//! The pounding command line.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Accelerogram readers, one format a file, and scaling

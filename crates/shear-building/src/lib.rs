@@ -1,0 +1,1 @@
+//! Shear buildings: storeys, mass, stiffness, damping and modes

@@ -1,0 +1,1 @@
+//! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result

@@ -1,0 +1,1 @@
+//! The verification ladder of `pounding`: see the integration tests beside this file.

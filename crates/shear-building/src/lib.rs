@@ -1,1 +1,17 @@
-//! Shear buildings: storeys, mass, stiffness, damping and modes
+//! Shear buildings: storeys, mass, stiffness, damping and modes.
+//!
+//! A building is a chain of storeys, bottom first. Storey `i` has a floor mass
+//! and a stiffness that connects the floor to the one below (the ground for the
+//! first), so that the stiffness matrix is tridiagonal.
+
+mod building;
+mod damping;
+mod error;
+mod modes;
+mod tridiagonal;
+
+pub use building::ShearBuilding;
+pub use damping::{Damping, DampingMatrix};
+pub use error::ShearBuildingError;
+pub use modes::Modes;
+pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

@@ -1,0 +1,174 @@
+//! Viscous damping of a building.
+
+use nalgebra::DMatrix;
+
+use crate::modes::Undamped;
+use crate::tridiagonal::SymmetricTridiagonal;
+
+/// How a building is damped.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Damping {
+    /// `C = alpha M + beta K` with given factors (Rayleigh 1877).
+    Rayleigh {
+        /// Mass factor (1/s).
+        alpha: f64,
+        /// Stiffness factor (s).
+        beta: f64,
+    },
+    /// `C = alpha M + beta K` with the same ratio in two modes.
+    RayleighRatio {
+        /// Damping ratio (-).
+        ratio: f64,
+        /// The two modes, from 1.
+        modes: [usize; 2],
+    },
+    /// `C = beta K` with this ratio in the first mode.
+    StiffnessProportional {
+        /// Damping ratio of mode 1 (-).
+        ratio: f64,
+    },
+    /// `C = alpha M` with this ratio in the first mode.
+    MassProportional {
+        /// Damping ratio of mode 1 (-).
+        ratio: f64,
+    },
+    /// `C = M Phi diag(2 zeta omega) Phi' M`: one ratio per mode, or a single one
+    /// for all modes. Modes beyond the list are an error, not undamped.
+    Modal {
+        /// Damping ratios from the first mode (-).
+        ratios: Vec<f64>,
+    },
+    /// A dashpot in every storey, between the floor and the one below.
+    Dashpots {
+        /// Coefficients from the bottom (N s/m).
+        coefficients: Vec<f64>,
+    },
+}
+
+/// The damping matrix of a building (N s/m).
+#[derive(Debug, Clone, PartialEq)]
+pub enum DampingMatrix {
+    /// All kinds but modal damping.
+    Tridiagonal(SymmetricTridiagonal),
+    /// Modal damping couples every floor with every other.
+    Dense(DMatrix<f64>),
+}
+
+impl DampingMatrix {
+    /// `out = C v` (N).
+    pub fn multiply(&self, v: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Tridiagonal(c) => c.multiply(v, out),
+            Self::Dense(c) => {
+                for (i, o) in out.iter_mut().enumerate() {
+                    *o = v.iter().enumerate().map(|(j, x)| c[(i, j)] * x).sum();
+                }
+            }
+        }
+    }
+}
+
+impl Damping {
+    /// The damping matrix, or the reason why there is none.
+    pub(crate) fn matrix(
+        &self,
+        mass: &[f64],
+        stiffness: &SymmetricTridiagonal,
+        modes: &Undamped,
+    ) -> Result<DampingMatrix, String> {
+        let n = mass.len();
+        let omega = &modes.circular_frequency;
+        let proportional = |alpha: f64, beta: f64| {
+            DampingMatrix::Tridiagonal(SymmetricTridiagonal {
+                diagonal: (0..n)
+                    .map(|i| alpha * mass[i] + beta * stiffness.diagonal[i])
+                    .collect(),
+                off_diagonal: stiffness.off_diagonal.iter().map(|k| beta * k).collect(),
+            })
+        };
+        match self {
+            Self::Rayleigh { alpha, beta } => {
+                not_negative("alpha", *alpha)?;
+                not_negative("beta", *beta)?;
+                Ok(proportional(*alpha, *beta))
+            }
+            Self::RayleighRatio { ratio, modes } => {
+                check_ratio(*ratio)?;
+                let [i, j] = *modes;
+                if i == j || i == 0 || j == 0 || i > n || j > n {
+                    return Err(format!(
+                        "modes = [{i}, {j}] must be two different modes from 1 to {n}"
+                    ));
+                }
+                let (a, b) = (omega[i - 1], omega[j - 1]);
+                Ok(proportional(
+                    2.0 * ratio * a * b / (a + b),
+                    2.0 * ratio / (a + b),
+                ))
+            }
+            Self::StiffnessProportional { ratio } => {
+                check_ratio(*ratio)?;
+                Ok(proportional(0.0, 2.0 * ratio / omega[0]))
+            }
+            Self::MassProportional { ratio } => {
+                check_ratio(*ratio)?;
+                Ok(proportional(2.0 * ratio * omega[0], 0.0))
+            }
+            Self::Modal { ratios } => modal(ratios, mass, modes),
+            Self::Dashpots { coefficients } => {
+                if coefficients.len() != n {
+                    return Err(format!(
+                        "{} dashpots for {n} storeys; give one for each",
+                        coefficients.len()
+                    ));
+                }
+                for c in coefficients {
+                    not_negative("dashpot", *c)?;
+                }
+                Ok(DampingMatrix::Tridiagonal(SymmetricTridiagonal::chain(
+                    coefficients,
+                )))
+            }
+        }
+    }
+}
+
+fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix, String> {
+    let n = mass.len();
+    if ratios.len() != n && ratios.len() != 1 {
+        return Err(format!(
+            "{} modal ratios for {n} modes; give one for each, or a single one for all",
+            ratios.len()
+        ));
+    }
+    for ratio in ratios {
+        check_ratio(*ratio)?;
+    }
+    let ratio = |j: usize| ratios[if ratios.len() == 1 { 0 } else { j }];
+    Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |p, q| {
+        (0..n)
+            .map(|j| {
+                let weight = 2.0 * ratio(j) * modes.circular_frequency[j];
+                weight * (mass[p] * modes.shape[(p, j)]) * (mass[q] * modes.shape[(q, j)])
+            })
+            .sum()
+    })))
+}
+
+fn check_ratio(ratio: f64) -> Result<(), String> {
+    if (0.0..1.0).contains(&ratio) {
+        Ok(())
+    } else {
+        Err(format!(
+            "ratio {ratio} is not in 0..1 (5 % of critical is 0.05)"
+        ))
+    }
+}
+
+fn not_negative(name: &str, value: f64) -> Result<(), String> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(format!("{name} = {value} must be zero or more"))
+    }
+}

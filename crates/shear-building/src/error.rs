@@ -1,0 +1,55 @@
+//! What can be wrong with a building.
+
+/// A building that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShearBuildingError {
+    /// No storeys.
+    #[error("building {building} has no storeys")]
+    NoStoreys {
+        /// Name of the building.
+        building: String,
+    },
+    /// Lists of unequal length.
+    #[error("building {building}: {quantity} has {found} values for {expected} storeys")]
+    Length {
+        /// Name of the building.
+        building: String,
+        /// Quantity with the wrong number of values.
+        quantity: &'static str,
+        /// Values given.
+        found: usize,
+        /// Storeys.
+        expected: usize,
+    },
+    /// A value that is not finite, or not positive where it must be.
+    #[error("building {building}, storey {storey}: {quantity} = {value} must be {required}")]
+    Value {
+        /// Name of the building.
+        building: String,
+        /// Quantity.
+        quantity: &'static str,
+        /// Storey, from 1.
+        storey: usize,
+        /// Value (SI).
+        value: f64,
+        /// What is allowed.
+        required: &'static str,
+    },
+    /// Damping that cannot be.
+    #[error("building {building}: damping: {reason}")]
+    Damping {
+        /// Name of the building.
+        building: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A matrix that is not positive definite.
+    #[error("the matrix is not positive definite: pivot {pivot:e} in row {row}")]
+    NotPositiveDefinite {
+        /// Row, from 1.
+        row: usize,
+        /// Pivot found there.
+        pivot: f64,
+    },
+}

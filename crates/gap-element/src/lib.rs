@@ -1,1 +1,16 @@
-//! Impact models for the gaps between buildings: trait, models, registry, two-body collision
+//! Impact models for the gaps between buildings: trait, models, registry, two-body collision.
+
+pub mod descriptor;
+pub mod error;
+pub mod model;
+pub mod parameters;
+pub mod registry;
+
+mod classes;
+
+mod models;
+
+pub use descriptor::*;
+pub use error::GapElementError;
+pub use model::*;
+pub use parameters::ModelParameters;

@@ -1,0 +1,216 @@
+//! The contract of an impact model.
+//!
+//! Sign convention: the penetration `delta = u_left - u_right - gap > 0` is
+//! contact, `v = d(delta)/dt > 0` is approach, and a positive force pushes the
+//! floors apart. The contract knows nothing of integrators or files.
+
+use crate::descriptor::ModelDescriptor;
+
+/// Greatest number of constants that a model may fix for one collision.
+pub const MAXIMUM_CONSTANTS: usize = 4;
+
+/// Smallest approach velocity (m/s) that laws scaled by the approach velocity
+/// divide by. Buildings that touch at rest close at zero speed; without this
+/// floor `v / approach_velocity` would be 0/0 there. A collision slower than
+/// 1 mm/s is treated, in those laws only, as if it closed at 1 mm/s.
+pub const APPROACH_VELOCITY_FLOOR: f64 = 1.0e-3;
+
+/// What is fixed at the located closure of one collision and holds until the
+/// contact opens.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Collision {
+    /// Relative velocity at the located closure (m/s), not floored.
+    pub approach_velocity: f64,
+    /// `m1 m2 / (m1 + m2)` of the two floors (kg); the floor's own mass
+    /// against a rigid wall.
+    pub effective_mass: f64,
+    /// The model's constants in the order of
+    /// [`ModelDescriptor::constants`], unused places zero.
+    pub constants: [f64; MAXIMUM_CONSTANTS],
+}
+
+/// What a model remembers inside one collision. Changed at accepted steps only.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Memory {
+    /// Greatest penetration of this collision so far (m).
+    pub maximum_penetration: f64,
+}
+
+/// The part of a contact that the force law is evaluated in. It changes only
+/// at located events; an open gap has no phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Since closure, or since the last turning point with growing penetration.
+    Approach,
+    /// After a turning point, penetration falling.
+    Restitution,
+    /// The floors move as one (dry friction at zero relative velocity); the
+    /// force is whatever holds them.
+    Stuck,
+    /// The law would pull, and the separation rule forbids it: no force while
+    /// the floors still overlap.
+    Released,
+}
+
+/// Force of the contact and its partial derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Force {
+    /// Force (N), positive pushes apart.
+    pub value: f64,
+    /// Partial derivative with respect to the penetration (N/m).
+    pub by_penetration: f64,
+    /// Partial derivative with respect to the relative velocity (N s/m).
+    pub by_velocity: f64,
+}
+
+/// The function whose sign change ends a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Guard {
+    /// Relative velocity `v` (m/s): the turning point.
+    Velocity,
+    /// The law's force before any cut of tension, [`ImpactModel::raw_force`] (N).
+    RawForce,
+    /// Holding force minus the lower bound of [`ImpactModel::stick_range`] (N).
+    StickLower,
+    /// Upper bound of [`ImpactModel::stick_range`] minus holding force (N).
+    StickUpper,
+}
+
+/// Direction of the sign change that counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+}
+
+/// Where a transition leads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// To this phase.
+    Phase(Phase),
+    /// The driver computes the force that would hold the floors together. Inside
+    /// [`ImpactModel::stick_range`] the contact sticks; above it, it goes on in
+    /// approach; below it, in restitution.
+    StickOrSlip,
+}
+
+/// One way out of a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Transition {
+    /// The function watched.
+    pub guard: Guard,
+    /// The sign change that fires.
+    pub direction: Direction,
+    /// The phase after it.
+    pub target: Target,
+}
+
+/// When a contact is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum SeparationRule {
+    /// At zero penetration; the law may pull shortly before.
+    ZeroPenetration,
+    /// `max(0, F)`: at zero force the floors stop acting on one another
+    /// ([`Phase::Released`]); the contact is over at zero penetration.
+    NoTension,
+}
+
+/// What is known of a free two-body collision without integration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosedForm {
+    /// Achieved restitution, separation over approach velocity (-).
+    pub restitution: f64,
+    /// Greatest penetration (m), where a closed form exists.
+    pub peak_penetration: Option<f64>,
+    /// Greatest force (N), where a closed form exists.
+    pub peak_force: Option<f64>,
+    /// Time from closure until the floors stop acting on one another (s),
+    /// where a closed form exists.
+    pub duration: Option<f64>,
+}
+
+/// An impact model with its parameters: a pure function of its arguments.
+///
+/// The driver latches the approach velocity at located closure
+/// ([`ImpactModel::begin`]), evaluates [`ImpactModel::force`] with the phase
+/// held fixed inside a step, cuts the step where a guard of
+/// [`ImpactModel::transitions`] changes sign, and calls
+/// [`ImpactModel::commit`] for accepted steps only.
+pub trait ImpactModel: Send + Sync + std::fmt::Debug {
+    /// The model's card: names, citation, parameters, class, verification.
+    fn descriptor(&self) -> &'static ModelDescriptor;
+
+    /// The rule by which contact ends.
+    fn separation(&self) -> SeparationRule;
+
+    /// Fixes the constants of a collision from the approach velocity (m/s) at
+    /// located closure and the effective mass (kg).
+    fn begin(&self, approach_velocity: f64, effective_mass: f64) -> Collision;
+
+    /// Force and both partial derivatives at penetration `delta` (m) and
+    /// relative velocity `velocity` (m/s). The phase is held: the law of the
+    /// phase is continued smoothly past its end, so that a step that overshoots
+    /// an event stays accurate up to it. Zero in [`Phase::Released`]; in
+    /// [`Phase::Stuck`] the driver supplies the force and does not call this.
+    fn force(
+        &self,
+        collision: &Collision,
+        memory: &Memory,
+        phase: Phase,
+        delta: f64,
+        velocity: f64,
+    ) -> Force;
+
+    /// The law's force (N) before any cut of tension. The same as
+    /// [`ImpactModel::force`] where nothing is cut.
+    fn raw_force(
+        &self,
+        collision: &Collision,
+        memory: &Memory,
+        phase: Phase,
+        delta: f64,
+        velocity: f64,
+    ) -> f64 {
+        self.force(collision, memory, phase, delta, velocity).value
+    }
+
+    /// Recoverable energy (J) at penetration `delta` (m): the part of the work
+    /// done on the contact that its spring would give back.
+    fn stored_energy(
+        &self,
+        collision: &Collision,
+        memory: &Memory,
+        phase: Phase,
+        delta: f64,
+    ) -> f64;
+
+    /// The ways out of `phase` other than the end of the contact at zero
+    /// penetration, which every model shares.
+    fn transitions(&self, phase: Phase) -> &'static [Transition];
+
+    /// Least and greatest force (N) with which the contact can hold the floors
+    /// together at penetration `delta` (m). Equal bounds: it cannot stick.
+    fn stick_range(&self, collision: &Collision, memory: &Memory, delta: f64) -> (f64, f64) {
+        let force = self
+            .force(collision, memory, Phase::Approach, delta, 0.0)
+            .value;
+        (force, force)
+    }
+
+    /// Takes an accepted state into the memory.
+    fn commit(&self, memory: &mut Memory, phase: Phase, delta: f64, velocity: f64) {
+        let _ = (phase, velocity);
+        memory.maximum_penetration = memory.maximum_penetration.max(delta);
+    }
+
+    /// Free collision at this approach velocity (m/s) and effective mass (kg)
+    /// in closed form, `None` where the law has none.
+    fn closed_form(&self, approach_velocity: f64, effective_mass: f64) -> Option<ClosedForm>;
+
+    /// Whether the force is a smooth function of time at the instant of
+    /// closure. Powers such as `delta^1.5` or `delta^0.25` are not: an
+    /// integrator then has to start the contact with a tiny step.
+    fn smooth_at_closure(&self) -> bool;
+}

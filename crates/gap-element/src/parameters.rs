@@ -1,0 +1,199 @@
+//! Parameters of a model as a user gives them, checked against its descriptor.
+
+use std::collections::BTreeMap;
+
+use crate::descriptor::{ModelDescriptor, ParameterDescriptor};
+use crate::error::GapElementError;
+use crate::model::SeparationRule;
+
+/// Parameters by name (SI) and the separation rule.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ModelParameters {
+    /// Values in SI units.
+    pub values: BTreeMap<String, f64>,
+    /// Separation rule; `None` is the model's first.
+    pub separation: Option<SeparationRule>,
+}
+
+impl ModelParameters {
+    /// Parameters from pairs of name and SI value.
+    #[must_use]
+    pub fn from_pairs(pairs: &[(&str, f64)]) -> Self {
+        Self {
+            values: pairs.iter().map(|(k, v)| ((*k).to_owned(), *v)).collect(),
+            separation: None,
+        }
+    }
+
+    /// The same with a separation rule.
+    #[must_use]
+    pub fn with_separation(mut self, rule: SeparationRule) -> Self {
+        self.separation = Some(rule);
+        self
+    }
+
+    /// Refuses unknown, missing and out-of-range parameters.
+    pub(crate) fn check(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
+        for (name, value) in &self.values {
+            let Some(parameter) = model.parameters.iter().find(|p| p.name == name) else {
+                return Err(GapElementError::UnknownParameter {
+                    model: model.name,
+                    parameter: name.clone(),
+                    known: model.parameters.iter().map(|p| p.name).collect(),
+                });
+            };
+            if !parameter.allows(*value) {
+                return Err(GapElementError::OutOfRange {
+                    model: model.name,
+                    parameter: parameter.name,
+                    value: *value,
+                    range: parameter.range(),
+                });
+            }
+        }
+        for parameter in model.parameters.iter().filter(|p| p.required) {
+            self.required(model.name, parameter.name)?;
+        }
+        let rule = self.separation(model);
+        if !model.separation_rules.contains(&rule) {
+            return Err(GapElementError::Separation {
+                model: model.name,
+                rule: rule.name().to_owned(),
+                offered: model.separation_rules.iter().map(|r| r.name()).collect(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The separation rule asked for, or the model's first.
+    #[must_use]
+    pub fn separation(&self, model: &ModelDescriptor) -> SeparationRule {
+        self.separation
+            .or_else(|| model.separation_rules.first().copied())
+            .unwrap_or(SeparationRule::ZeroPenetration)
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<f64> {
+        self.values.get(name).copied()
+    }
+
+    pub(crate) fn required(
+        &self,
+        model: &'static str,
+        name: &'static str,
+    ) -> Result<f64, GapElementError> {
+        self.get(name)
+            .ok_or_else(|| GapElementError::MissingParameter {
+                model,
+                parameter: name.to_owned(),
+            })
+    }
+
+    /// The damping parameter itself, or from the restitution by the model's own
+    /// relation; exactly one of the two must be given.
+    pub(crate) fn damping(
+        &self,
+        model: &'static str,
+        raw: &'static str,
+        relation: impl Fn(f64) -> f64,
+    ) -> Result<f64, GapElementError> {
+        match (self.get("restitution"), self.get(raw)) {
+            (Some(_), Some(_)) => Err(GapElementError::Conflict {
+                model,
+                first: "restitution",
+                second: raw,
+            }),
+            (Some(e), None) => Ok(relation(e)),
+            (None, Some(value)) => Ok(value),
+            (None, None) => Err(GapElementError::MissingParameter {
+                model,
+                parameter: format!("restitution or {raw}"),
+            }),
+        }
+    }
+}
+
+impl ParameterDescriptor {
+    /// Whether a value lies in the range.
+    #[must_use]
+    pub fn allows(&self, value: f64) -> bool {
+        let ((low, low_in), (high, high_in)) = (self.minimum, self.maximum);
+        value.is_finite()
+            && (value > low || (low_in && value == low))
+            && (value < high || (high_in && value == high))
+    }
+
+    /// The range in mathematical brackets.
+    #[must_use]
+    pub fn range(&self) -> String {
+        let ((low, low_in), (high, high_in)) = (self.minimum, self.maximum);
+        format!(
+            "{}{low}, {high}{}",
+            if low_in { '[' } else { '(' },
+            if high_in { ']' } else { ')' }
+        )
+    }
+}
+
+impl SeparationRule {
+    /// Name in the case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ZeroPenetration => "zero_penetration",
+            Self::NoTension => "no_tension",
+        }
+    }
+
+    /// The rule of this name in the case file.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::ZeroPenetration, Self::NoTension]
+            .into_iter()
+            .find(|rule| rule.name() == name)
+    }
+}
+
+/// `restitution` of a dissipative model, in (0, 1].
+pub(crate) const RESTITUTION: ParameterDescriptor = ParameterDescriptor {
+    name: "restitution",
+    unit: crate::descriptor::ParameterUnit::One,
+    minimum: (0.0, false),
+    maximum: (1.0, true),
+    default: None,
+    required: false,
+    explanation: "Ratio of separation to approach velocity asked for",
+};
+
+/// Linear contact stiffness.
+pub(crate) const LINEAR_STIFFNESS: ParameterDescriptor = ParameterDescriptor {
+    name: "stiffness",
+    unit: crate::descriptor::ParameterUnit::NewtonPerMetre,
+    minimum: (0.0, false),
+    maximum: (f64::INFINITY, false),
+    default: None,
+    required: true,
+    explanation: "Contact stiffness",
+};
+
+/// Contact stiffness of a law with the exponent 3/2.
+pub(crate) const HERTZ_STIFFNESS: ParameterDescriptor = ParameterDescriptor {
+    name: "stiffness",
+    unit: crate::descriptor::ParameterUnit::NewtonPerMetreToExponent,
+    minimum: (0.0, false),
+    maximum: (f64::INFINITY, false),
+    default: None,
+    required: true,
+    explanation: "Contact stiffness, N/m^1.5",
+};
+
+/// Damping ratio of a model of the linear class.
+pub(crate) const DAMPING_RATIO: ParameterDescriptor = ParameterDescriptor {
+    name: "damping_ratio",
+    unit: crate::descriptor::ParameterUnit::One,
+    minimum: (0.0, true),
+    maximum: (f64::INFINITY, false),
+    default: None,
+    required: false,
+    explanation: "Damping ratio of the contact, instead of restitution",
+};

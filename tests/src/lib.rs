@@ -1,1 +1,194 @@
-//! The verification ladder of `pounding`: see the integration tests beside this file.
+//! The verification ladder of `pounding`: the reference cases and small helpers
+//! that the integration tests share.
+
+use std::sync::Arc;
+
+use pounding_gap_element::{ModelParameters, SeparationRule, registry};
+use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_time_history::{Floor, GroundAcceleration, System};
+use serde::Deserialize;
+
+/// Any failure while a case is built.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// `data/reference_cases.json`.
+#[derive(Debug, Deserialize)]
+pub struct ReferenceCases {
+    /// Cases by name.
+    pub cases: std::collections::BTreeMap<String, ReferenceCase>,
+}
+
+/// One case with converged values for each model.
+#[derive(Debug, Deserialize)]
+pub struct ReferenceCase {
+    /// Buildings from the left.
+    pub buildings: Vec<ReferenceBuilding>,
+    /// Contact levels.
+    pub links: Vec<ReferenceLink>,
+    /// Values by short model name.
+    pub models: std::collections::BTreeMap<String, ReferenceValues>,
+}
+
+/// A building of a reference case (SI).
+#[derive(Debug, Deserialize)]
+pub struct ReferenceBuilding {
+    /// Name.
+    pub name: String,
+    /// Floor masses.
+    pub m: Vec<f64>,
+    /// Storey stiffnesses.
+    pub k: Vec<f64>,
+    /// Mass factor of the damping.
+    #[serde(rename = "alphaM")]
+    pub alpha: f64,
+    /// Stiffness factor of the damping.
+    #[serde(rename = "betaK")]
+    pub beta: f64,
+}
+
+/// A contact level of a reference case (SI).
+#[derive(Debug, Deserialize)]
+pub struct ReferenceLink {
+    /// Left degree of freedom.
+    pub a: usize,
+    /// Right degree of freedom.
+    pub b: usize,
+    /// Gap.
+    pub gap: f64,
+    /// Stiffness of linear laws.
+    pub k_lin: f64,
+    /// Stiffness of laws with exponent 3/2.
+    pub k_hertz: f64,
+    /// Restitution.
+    pub e: f64,
+}
+
+/// Converged values.
+#[derive(Debug, Deserialize)]
+pub struct ReferenceValues {
+    /// Peak displacement of every degree of freedom (m).
+    pub peak_u: Vec<f64>,
+    /// Peak force of every level (N).
+    #[serde(rename = "peak_F")]
+    pub peak_force: Vec<f64>,
+    /// First contact (s), -1 for none.
+    pub t_first: Vec<f64>,
+    /// Largest approach velocity (m/s).
+    pub max_v0: Vec<f64>,
+    /// Displacements at the end (m).
+    pub final_u: Vec<f64>,
+    /// Impacts of every level.
+    pub n_impacts: Vec<usize>,
+    /// Times that floors stuck together.
+    pub n_stick: usize,
+    /// Input energy (J).
+    #[serde(rename = "E_input")]
+    pub input: f64,
+    /// Viscous damping (J).
+    #[serde(rename = "E_visc")]
+    pub viscous: f64,
+    /// Contact work (J).
+    #[serde(rename = "E_contact")]
+    pub contact: f64,
+    /// Contact work of every level (J).
+    #[serde(rename = "E_contact_link")]
+    pub contact_levels: Vec<f64>,
+}
+
+/// Reads the reference cases.
+///
+/// # Errors
+/// If the data file is damaged.
+pub fn reference_cases() -> Result<ReferenceCases, Failure> {
+    Ok(serde_json::from_str(include_str!(
+        "../data/reference_cases.json"
+    ))?)
+}
+
+/// The synthetic motion of the reference cases.
+///
+/// # Errors
+/// If the data file is damaged.
+pub fn synthetic_motion() -> Result<GroundAcceleration, Failure> {
+    let samples = include_str!("../data/synthetic_005.csv")
+        .lines()
+        .map(|line| line.trim().parse::<f64>())
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(GroundAcceleration {
+        samples: samples.into(),
+        time_step: 0.005,
+    })
+}
+
+/// The system of a reference case with one of the short-named models; `scale`
+/// multiplies all gaps.
+///
+/// # Errors
+/// If the case is not well defined.
+pub fn reference_system(
+    case: &ReferenceCase,
+    model: &str,
+    ground: GroundAcceleration,
+    scale: f64,
+) -> Result<System, Failure> {
+    let mut buildings = Vec::new();
+    let mut place = Vec::new();
+    for (index, b) in case.buildings.iter().enumerate() {
+        place.extend((0..b.m.len()).map(|storey| (index, storey)));
+        buildings.push(Arc::new(ShearBuilding::new(
+            b.name.clone(),
+            b.m.clone(),
+            b.k.clone(),
+            vec![3.0; b.m.len()],
+            Damping::Rayleigh {
+                alpha: b.alpha,
+                beta: b.beta,
+            },
+        )?));
+    }
+    let mut system = System::new(buildings, ground);
+    for left in 0..case.buildings.len().saturating_sub(1) {
+        let mut pairs = Vec::new();
+        for link in case.links.iter().filter(|l| place[l.a].0 == left) {
+            let (a, b) = (place[link.a], place[link.b]);
+            pairs.push((
+                Floor::Storey(a.0, a.1),
+                Floor::Storey(b.0, b.1),
+                link.gap * scale,
+                reference_model(link, model)?,
+            ));
+        }
+        let between = [
+            case.buildings[left].name.clone(),
+            case.buildings[left + 1].name.clone(),
+        ];
+        system.add_gap(&between.join("-"), between, pairs)?;
+    }
+    Ok(system)
+}
+
+/// The model of a level by its short name in the reference data.
+fn reference_model(
+    link: &ReferenceLink,
+    model: &str,
+) -> Result<Arc<dyn pounding_gap_element::ImpactModel>, Failure> {
+    let linear = ("stiffness", link.k_lin);
+    let hertz = ("stiffness", link.k_hertz);
+    let e = ("restitution", link.e);
+    let (name, parameters) = match model {
+        "linear" => ("linear_elastic", vec![linear]),
+        "kv" | "kv_cut" => ("anagnostopoulos_2004", vec![linear, e]),
+        "mj" => ("mahmoud_jankowski_2011", vec![linear, e]),
+        "hertz" => ("hertz_1882", vec![hertz]),
+        "hertzdamp" => ("muthukumar_desroches_2006", vec![hertz, e]),
+        "jank" => ("jankowski_2005", vec![hertz, e]),
+        "fricl" => ("borovin_2014", vec![linear, e, ("exponent", 1.0)]),
+        "frich" => ("borovin_2014", vec![hertz, e, ("exponent", 1.5)]),
+        other => return Err(format!("no model {other} in the reference data").into()),
+    };
+    let mut parameters = ModelParameters::from_pairs(&parameters);
+    if model == "kv_cut" {
+        parameters = parameters.with_separation(SeparationRule::NoTension);
+    }
+    Ok(registry::build(name, &parameters)?.into())
+}

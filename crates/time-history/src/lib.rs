@@ -1,1 +1,25 @@
-//! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result
+//! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result.
+
+mod contact;
+mod driver;
+mod dynamics;
+mod error;
+mod events;
+mod impacts;
+mod ledger;
+mod methods;
+mod options;
+mod outcome;
+mod peaks;
+mod polynomial;
+mod recorder;
+mod small_solver;
+mod system;
+
+pub use driver::run;
+pub use error::TimeHistoryError;
+pub use methods::Information;
+pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
+pub use outcome::*;
+pub use recorder::{GridRecorder, Recorder, Sample, StepView};
+pub use system::{ContactLevel, Floor, Gap, GroundAcceleration, System};

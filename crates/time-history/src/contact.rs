@@ -1,0 +1,108 @@
+//! The state of every contact level: open, or closed in a phase of a collision.
+
+use pounding_gap_element::{Collision, Force, Memory, Phase};
+
+use crate::system::{ContactLevel, System};
+
+/// A contact level at one time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Mode {
+    /// The floors are apart.
+    Open,
+    /// The floors are in contact.
+    Closed(Contact),
+}
+
+/// A contact in progress.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Contact {
+    pub phase: Phase,
+    pub collision: Collision,
+    pub memory: Memory,
+}
+
+/// All contact levels and the list of those that are closed.
+#[derive(Debug, Clone)]
+pub(crate) struct Contacts {
+    pub modes: Vec<Mode>,
+    closed: Vec<usize>,
+}
+
+impl Contacts {
+    pub(crate) fn all_open(levels: usize) -> Self {
+        Self {
+            modes: vec![Mode::Open; levels],
+            closed: Vec::with_capacity(levels),
+        }
+    }
+
+    /// Closed levels in index order.
+    pub(crate) fn closed(&self) -> &[usize] {
+        &self.closed
+    }
+
+    pub(crate) fn contact(&self, level: usize) -> Option<&Contact> {
+        match &self.modes[level] {
+            Mode::Open => None,
+            Mode::Closed(contact) => Some(contact),
+        }
+    }
+
+    pub(crate) fn close(&mut self, level: usize, contact: Contact) {
+        self.modes[level] = Mode::Closed(contact);
+        let place = self.closed.partition_point(|l| *l < level);
+        self.closed.insert(place, level);
+    }
+
+    pub(crate) fn open(&mut self, level: usize) {
+        self.modes[level] = Mode::Open;
+        self.closed.retain(|l| *l != level);
+    }
+
+    pub(crate) fn set_phase(&mut self, level: usize, phase: Phase) {
+        if let Mode::Closed(contact) = &mut self.modes[level] {
+            contact.phase = phase;
+        }
+    }
+
+    /// Lets every model take the accepted state into its memory.
+    pub(crate) fn commit(&mut self, system: &System, u: &[f64], v: &[f64]) {
+        for &l in &self.closed {
+            let level = &system.levels()[l];
+            if let Mode::Closed(contact) = &mut self.modes[l] {
+                level.model.commit(
+                    &mut contact.memory,
+                    contact.phase,
+                    level.penetration(u),
+                    level.relative(v),
+                );
+            }
+        }
+    }
+}
+
+impl Contact {
+    /// Law of the contact; not for [`Phase::Stuck`].
+    pub(crate) fn force(&self, level: &ContactLevel, delta: f64, velocity: f64) -> Force {
+        level
+            .model
+            .force(&self.collision, &self.memory, self.phase, delta, velocity)
+    }
+
+    pub(crate) fn raw_force(&self, level: &ContactLevel, delta: f64, velocity: f64) -> f64 {
+        level
+            .model
+            .raw_force(&self.collision, &self.memory, self.phase, delta, velocity)
+    }
+
+    /// Recoverable energy in the contact (J).
+    pub(crate) fn stored_energy(&self, level: &ContactLevel, delta: f64) -> f64 {
+        level
+            .model
+            .stored_energy(&self.collision, &self.memory, self.phase, delta)
+    }
+
+    pub(crate) fn is_stuck(&self) -> bool {
+        self.phase == Phase::Stuck
+    }
+}

@@ -1,0 +1,208 @@
+//! The equations of motion with the contact phases held, and the energy integrals.
+//!
+//! Relative to the ground: `M u'' = -K u - C u' + contact - M 1 a_g`. The state
+//! carries, beside displacements and velocities, the integrals that the energy
+//! ledger needs, so that every method integrates them with its own accuracy.
+
+use crate::contact::Contacts;
+use crate::small_solver::SmallSolver;
+use crate::system::{ContactLevel, System};
+
+/// Where everything stands in the flat state vector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layout {
+    pub dofs: usize,
+    pub levels: usize,
+}
+
+impl Layout {
+    pub(crate) fn of(system: &System) -> Self {
+        Self {
+            dofs: system.degrees_of_freedom(),
+            levels: system.levels().len(),
+        }
+    }
+    /// Length of the state vector.
+    pub(crate) fn dimension(self) -> usize {
+        2 * self.dofs + 2 + 2 * self.levels
+    }
+    /// Work of the ground motion on the buildings (J).
+    pub(crate) fn input(self) -> usize {
+        2 * self.dofs
+    }
+    /// Work of the viscous damping (J).
+    pub(crate) fn viscous(self) -> usize {
+        2 * self.dofs + 1
+    }
+    /// Work done on the contact of a level (J).
+    pub(crate) fn work(self, level: usize) -> usize {
+        2 * self.dofs + 2 + level
+    }
+    /// Impulse of the contact force of a level (N s).
+    pub(crate) fn impulse(self, level: usize) -> usize {
+        2 * self.dofs + 2 + self.levels + level
+    }
+}
+
+/// One interval between samples, with linear ground acceleration.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Segment {
+    /// Time at its start (s).
+    pub start: f64,
+    /// Its length (s).
+    pub length: f64,
+    /// Ground acceleration at its start (m/s2).
+    pub acceleration: f64,
+    /// Slope of the ground acceleration (m/s3).
+    pub slope: f64,
+}
+
+impl Segment {
+    pub(crate) fn ground(&self, tau: f64) -> f64 {
+        self.acceleration + self.slope * tau
+    }
+}
+
+/// Right-hand side with its work space.
+#[derive(Debug, Clone)]
+pub(crate) struct Dynamics<'a> {
+    pub system: &'a System,
+    pub layout: Layout,
+    /// Contact force of every level at the last evaluation (N).
+    pub forces: Vec<f64>,
+    damping: Vec<f64>,
+    net: Vec<f64>,
+    stuck: Vec<usize>,
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+    solver: SmallSolver,
+}
+
+impl<'a> Dynamics<'a> {
+    pub(crate) fn new(system: &'a System) -> Self {
+        let layout = Layout::of(system);
+        Self {
+            system,
+            layout,
+            forces: vec![0.0; layout.levels],
+            damping: vec![0.0; layout.dofs],
+            net: vec![0.0; layout.dofs],
+            stuck: Vec::with_capacity(layout.levels),
+            matrix: Vec::new(),
+            right: Vec::new(),
+            solver: SmallSolver::default(),
+        }
+    }
+
+    /// Time derivative of the whole state. Leaves the contact forces in
+    /// [`Dynamics::forces`].
+    pub(crate) fn derivative(
+        &mut self,
+        contacts: &Contacts,
+        ground: f64,
+        state: &[f64],
+        out: &mut [f64],
+    ) {
+        let n = self.layout.dofs;
+        let (u, v) = (&state[..n], &state[n..2 * n]);
+        out[..n].copy_from_slice(v);
+        let (input, viscous) = self.accelerations(contacts, ground, u, v, &mut out[n..2 * n]);
+        out[2 * n..].fill(0.0);
+        out[self.layout.input()] = input;
+        out[self.layout.viscous()] = viscous;
+        for &l in contacts.closed() {
+            let rate = self.system.levels()[l].relative(v);
+            out[self.layout.work(l)] = self.forces[l] * rate;
+            out[self.layout.impulse(l)] = self.forces[l];
+        }
+    }
+
+    /// Accelerations relative to the ground (m/s2). Returns the power of the
+    /// ground motion and of the viscous damping (W).
+    pub(crate) fn accelerations(
+        &mut self,
+        contacts: &Contacts,
+        ground: f64,
+        u: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        self.system.internal_forces(u, v, out, &mut self.damping);
+        self.net.fill(0.0);
+        self.stuck.clear();
+        for &l in contacts.closed() {
+            let Some(contact) = contacts.contact(l) else {
+                continue;
+            };
+            if contact.is_stuck() {
+                self.stuck.push(l);
+                continue;
+            }
+            let level = &self.system.levels()[l];
+            let force = contact
+                .force(level, level.penetration(u), level.relative(v))
+                .value;
+            self.forces[l] = force;
+            push_apart(level, force, &mut self.net);
+        }
+        let (mut input, mut viscous) = (0.0, 0.0);
+        let mass = self.system.mass();
+        for i in 0..out.len() {
+            input -= mass[i] * v[i] * ground;
+            viscous += v[i] * self.damping[i];
+            out[i] = (out[i] + self.net[i]) / mass[i] - ground;
+        }
+        if !self.stuck.is_empty() {
+            self.hold(out);
+        }
+        (input, viscous)
+    }
+
+    /// Adds the forces that keep the relative accelerations of stuck levels zero.
+    fn hold(&mut self, accelerations: &mut [f64]) {
+        let (levels, mass) = (self.system.levels(), self.system.mass());
+        self.matrix.clear();
+        self.right.clear();
+        for &l in &self.stuck {
+            self.right.push(levels[l].relative(accelerations));
+            for &m in &self.stuck {
+                self.matrix.push(coupling(&levels[l], &levels[m], mass));
+            }
+        }
+        // The matrix is positive definite; a NaN in it surfaces as a rejected step.
+        if !self.solver.solve(&self.matrix, &mut self.right) {
+            self.right.fill(f64::NAN);
+        }
+        self.net.fill(0.0);
+        for (k, &l) in self.stuck.iter().enumerate() {
+            self.forces[l] = self.right[k];
+            push_apart(&levels[l], self.right[k], &mut self.net);
+        }
+        for ((a, f), m) in accelerations.iter_mut().zip(&self.net).zip(mass) {
+            *a += f / m;
+        }
+    }
+}
+
+/// Adds a contact force to the floors of a level. A floor has at most one
+/// neighbour on either side, so its sum has two terms and commutes: a mirrored
+/// case gives the same bits.
+pub(crate) fn push_apart(level: &ContactLevel, force: f64, net: &mut [f64]) {
+    if let Some(l) = level.left {
+        net[l] -= force;
+    }
+    if let Some(r) = level.right {
+        net[r] += force;
+    }
+}
+
+/// Relative acceleration at level `a` caused by a unit force that pulls the
+/// floors of level `b` together: `g_a' M^-1 g_b`.
+fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 {
+    let term = |x: Option<usize>, y: Option<usize>, sign: f64| match (x, y) {
+        (Some(i), Some(j)) if i == j => sign / mass[i],
+        _ => 0.0,
+    };
+    (term(a.left, b.left, 1.0) + term(a.right, b.right, 1.0))
+        + (term(a.left, b.right, -1.0) + term(a.right, b.left, -1.0))
+}

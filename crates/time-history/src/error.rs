@@ -1,0 +1,99 @@
+//! What can go wrong, with where and when.
+
+use std::path::PathBuf;
+
+/// Failure of an assembly, a run, or a result file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TimeHistoryError {
+    /// A gap of the system is not well defined.
+    #[error("gap {gap}: {reason}")]
+    GapDefinition {
+        /// Name of the gap.
+        gap: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// An option of the analysis is out of range.
+    #[error("analysis: {option} = {value} is out of range: {reason}")]
+    Option {
+        /// Key of the option.
+        option: &'static str,
+        /// Its value (SI).
+        value: f64,
+        /// What is allowed.
+        reason: &'static str,
+    },
+    /// The step had to be cut below what time can resolve.
+    #[error(
+        "the step at t = {time} s fell below {step:e} s ({method}); buildings in touch there: {place}"
+    )]
+    StepTooSmall {
+        /// Time (s).
+        time: f64,
+        /// Last step tried (s).
+        step: f64,
+        /// Method.
+        method: &'static str,
+        /// Gap levels in contact, or "none".
+        place: String,
+    },
+    /// The same events came back over and over at one time.
+    #[error("{count} events at t = {time} s without progress, the last at {place}")]
+    Chatter {
+        /// Time (s).
+        time: f64,
+        /// Events counted.
+        count: usize,
+        /// Gap and level of the last one.
+        place: String,
+    },
+    /// The energy ledger did not close.
+    #[error(
+        "the energy ledger does not close: residual {residual:e} of the largest input energy at t = {time} s, allowed {allowed:e} ({method})"
+    )]
+    EnergyResidual {
+        /// Residual over the largest input energy so far (-).
+        residual: f64,
+        /// Bound (-).
+        allowed: f64,
+        /// Time (s).
+        time: f64,
+        /// Method.
+        method: &'static str,
+    },
+    /// A recorder refused a step.
+    #[error("recorder: {0}")]
+    Recorder(String),
+    /// The result file could not be written.
+    #[error("cannot write {path}: {reason}")]
+    ResultFile {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the file system or HDF5 said.
+        reason: String,
+    },
+}
+
+impl TimeHistoryError {
+    /// What to try.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::StepTooSmall { .. } => {
+                "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::Chatter { .. } => {
+                "try another method, or another separation rule for that gap, and report the case"
+            }
+            Self::EnergyResidual { .. } => {
+                "use a smaller `step` or `relative_tolerance`; a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"
+            }
+            Self::ResultFile { .. } => {
+                "check that the folder exists, may be written to and has room, or name another file with -o"
+            }
+            _ => return None,
+        };
+        Some(text.to_owned())
+    }
+}

@@ -1,0 +1,227 @@
+//! Finding the first event inside a trial step.
+//!
+//! Every event is a function that starts on a known side and fires when it
+//! becomes positive. Penetrations and velocities are the step's own polynomials;
+//! forces are fitted by a polynomial of the same degree at Chebyshev points. The
+//! search is certified by Bernstein coefficients (`polynomial`), so two crossings
+//! inside one step are found as surely as one.
+
+use pounding_gap_element::{Direction, Guard};
+
+use crate::dynamics::Layout;
+use crate::methods::{Context, Method};
+use crate::polynomial::{COEFFICIENTS, Polynomial, difference, first_rise, fit, fit_nodes, value};
+
+/// What happens at a level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum EventKind {
+    /// An open gap closes.
+    Close,
+    /// A contact ends at zero penetration.
+    Open,
+    /// Transition of this number in the model's list for the present phase.
+    Transition(usize),
+}
+
+/// An event inside a trial step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Candidate {
+    pub level: usize,
+    pub kind: EventKind,
+    pub theta: f64,
+}
+
+/// Event search with its work space.
+#[derive(Debug)]
+pub(crate) struct Finder {
+    pub candidates: Vec<Candidate>,
+    nodes: [f64; COEFFICIENTS],
+    state: Vec<f64>,
+    acceleration: Vec<f64>,
+}
+
+impl Finder {
+    pub(crate) fn new(layout: Layout) -> Self {
+        Self {
+            candidates: Vec::with_capacity(2 * layout.levels),
+            nodes: fit_nodes(),
+            state: vec![0.0; 2 * layout.dofs],
+            acceleration: vec![0.0; layout.dofs],
+        }
+    }
+
+    /// Collects the first event of every level and returns the earliest.
+    /// `muted(level)`: events at the very start of the step do not count there.
+    pub(crate) fn find(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        tau: f64,
+        step: f64,
+        muted: impl Fn(usize) -> bool,
+    ) -> Option<Candidate> {
+        self.candidates.clear();
+        for level in 0..context.contacts.modes.len() {
+            let mut first: Option<Candidate> = None;
+            let kinds = kinds(context, level);
+            for kind in kinds.into_iter().flatten() {
+                let guard = self.guard(context, method, level, kind, tau, step);
+                if let Some(theta) = first_rise(&guard)
+                    && !(theta == 0.0 && muted(level))
+                    && first.is_none_or(|f| theta < f.theta)
+                {
+                    first = Some(Candidate { level, kind, theta });
+                }
+            }
+            self.candidates.extend(first);
+        }
+        self.candidates
+            .iter()
+            .copied()
+            .reduce(|a, b| if b.theta < a.theta { b } else { a })
+    }
+
+    /// The function of theta that fires the event when it becomes positive.
+    pub(crate) fn guard(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        level: usize,
+        kind: EventKind,
+        tau: f64,
+        step: f64,
+    ) -> Polynomial {
+        match kind {
+            EventKind::Close => penetration(context, method, level),
+            EventKind::Open => negated(penetration(context, method, level)),
+            EventKind::Transition(index) => {
+                let system = context.dynamics.system;
+                let Some(contact) = context.contacts.contact(level) else {
+                    return [0.0; COEFFICIENTS];
+                };
+                let transition = system.levels()[level].model.transitions(contact.phase)[index];
+                let function = match transition.guard {
+                    Guard::Velocity => velocity(context, method, level),
+                    Guard::RawForce => {
+                        let (delta, rate) = (
+                            penetration(context, method, level),
+                            velocity(context, method, level),
+                        );
+                        fit(&self.nodes.map(|x| {
+                            contact.raw_force(
+                                &system.levels()[level],
+                                value(&delta, x),
+                                value(&rate, x),
+                            )
+                        }))
+                    }
+                    Guard::StickLower | Guard::StickUpper => {
+                        let upper = transition.guard == Guard::StickUpper;
+                        fit(&self.nodes.map(|x| {
+                            self.stick_margin(context, method, level, upper, (tau, step, x))
+                        }))
+                    }
+                };
+                match transition.direction {
+                    Direction::Rising => function,
+                    Direction::Falling => negated(function),
+                }
+            }
+        }
+    }
+
+    /// Holding force above the lower, or below the upper, bound of sticking.
+    fn stick_margin(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        level: usize,
+        upper: bool,
+        place: (f64, f64, f64),
+    ) -> f64 {
+        let holding = self.force_at(context, method, level, place);
+        let system = context.dynamics.system;
+        let Some(contact) = context.contacts.contact(level) else {
+            return 0.0;
+        };
+        let delta = system.levels()[level].penetration(&self.state);
+        let (low, high) =
+            system.levels()[level]
+                .model
+                .stick_range(&contact.collision, &contact.memory, delta);
+        if upper { high - holding } else { holding - low }
+    }
+
+    /// Contact force of a level at `theta` of the step, by a full evaluation.
+    pub(crate) fn force_at(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        level: usize,
+        (tau, step, theta): (f64, f64, f64),
+    ) -> f64 {
+        let n = self.acceleration.len();
+        for (i, y) in self.state.iter_mut().enumerate() {
+            *y = value(method.polynomial(i), theta);
+        }
+        context.dynamics.accelerations(
+            context.contacts,
+            context.segment.ground(tau + theta * step),
+            &self.state[..n],
+            &self.state[n..],
+            &mut self.acceleration,
+        );
+        context.dynamics.forces[level]
+    }
+}
+
+/// The events that a level can have in its present mode.
+fn kinds(context: &Context<'_, '_>, level: usize) -> [Option<EventKind>; 4] {
+    let Some(contact) = context.contacts.contact(level) else {
+        return [Some(EventKind::Close), None, None, None];
+    };
+    let transitions = context.dynamics.system.levels()[level]
+        .model
+        .transitions(contact.phase);
+    std::array::from_fn(|i| match i {
+        0 => (!contact.is_stuck()).then_some(EventKind::Open),
+        _ => (i <= transitions.len()).then(|| EventKind::Transition(i - 1)),
+    })
+}
+
+/// Penetration of a level over the step.
+pub(crate) fn penetration(
+    context: &Context<'_, '_>,
+    method: &dyn Method,
+    level: usize,
+) -> Polynomial {
+    let mut p = relative(context, method, level, 0);
+    p[0] -= context.dynamics.system.levels()[level].width;
+    p
+}
+
+/// Relative velocity of a level over the step.
+pub(crate) fn velocity(context: &Context<'_, '_>, method: &dyn Method, level: usize) -> Polynomial {
+    relative(context, method, level, context.dynamics.layout.dofs)
+}
+
+fn relative(
+    context: &Context<'_, '_>,
+    method: &dyn Method,
+    level: usize,
+    offset: usize,
+) -> Polynomial {
+    let level = &context.dynamics.system.levels()[level];
+    match (level.left, level.right) {
+        (Some(l), Some(r)) => {
+            difference(method.polynomial(offset + l), method.polynomial(offset + r))
+        }
+        (Some(l), None) => *method.polynomial(offset + l),
+        (None, Some(r)) => negated(*method.polynomial(offset + r)),
+        (None, None) => [0.0; COEFFICIENTS],
+    }
+}
+
+fn negated(p: Polynomial) -> Polynomial {
+    p.map(|c| -c)
+}

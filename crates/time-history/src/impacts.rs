@@ -1,0 +1,162 @@
+//! The log of impacts and what they sum up to at every level.
+
+use pounding_gap_element::Collision;
+
+use crate::dynamics::Layout;
+use crate::outcome::{Impact, LevelOutcome, Peak};
+use crate::peaks::Peaks;
+use crate::system::System;
+
+/// An impact in progress.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    index: usize,
+    work: f64,
+    impulse: f64,
+}
+
+/// Impacts in order of closure.
+#[derive(Debug)]
+pub(crate) struct ImpactLog {
+    impacts: Vec<Impact>,
+    present: Vec<Option<Open>>,
+    levels: Vec<LevelOutcome>,
+    /// Sums of squared approach and separation velocities of finished impacts.
+    squares: Vec<(f64, f64)>,
+    places: Vec<(usize, usize)>,
+    constants: Vec<usize>,
+    finished: Vec<usize>,
+    handed_out: Vec<Impact>,
+}
+
+impl ImpactLog {
+    pub(crate) fn new(system: &System) -> Self {
+        let count = system.levels().len();
+        let mut places = Vec::with_capacity(count);
+        for (g, gap) in system.gaps().iter().enumerate() {
+            places.extend((0..gap.levels).map(|level| (g, level)));
+        }
+        let empty = LevelOutcome {
+            impacts: 0,
+            first_contact: None,
+            peak_force: Peak::default(),
+            peak_penetration: Peak::default(),
+            approach_velocity_max: 0.0,
+            energy_dissipated: 0.0,
+            impulse: 0.0,
+            achieved_restitution: None,
+            sticks: 0,
+        };
+        Self {
+            impacts: Vec::new(),
+            present: vec![None; count],
+            levels: vec![empty; count],
+            squares: vec![(0.0, 0.0); count],
+            places,
+            constants: system
+                .levels()
+                .iter()
+                .map(|l| l.model.descriptor().constants.len())
+                .collect(),
+            finished: Vec::new(),
+            handed_out: Vec::new(),
+        }
+    }
+
+    pub(crate) fn close(
+        &mut self,
+        l: usize,
+        time: f64,
+        collision: &Collision,
+        layout: Layout,
+        state: &[f64],
+    ) {
+        let (gap, level) = self.places[l];
+        self.present[l] = Some(Open {
+            index: self.impacts.len(),
+            work: state[layout.work(l)],
+            impulse: state[layout.impulse(l)],
+        });
+        self.impacts.push(Impact {
+            gap,
+            level,
+            time_closed: time,
+            time_opened: f64::NAN,
+            approach_velocity: collision.approach_velocity,
+            separation_velocity: f64::NAN,
+            achieved_restitution: f64::NAN,
+            peak_force: Peak::default(),
+            peak_penetration: Peak::default(),
+            impulse: 0.0,
+            energy_dissipated: 0.0,
+            constants: collision.constants[..self.constants[l]].to_vec(),
+        });
+        let outcome = &mut self.levels[l];
+        outcome.impacts += 1;
+        outcome.first_contact.get_or_insert(time);
+        outcome.approach_velocity_max = outcome
+            .approach_velocity_max
+            .max(collision.approach_velocity);
+    }
+
+    /// Ends an impact. `end` is the time (s) and the separation velocity (m/s), or
+    /// `None` if the run ends first; `stored` is what the spring still holds (J).
+    pub(crate) fn open(
+        &mut self,
+        l: usize,
+        end: Option<(f64, f64)>,
+        peaks: &Peaks,
+        layout: Layout,
+        state: &[f64],
+        stored: f64,
+    ) {
+        let Some(open) = self.present[l].take() else {
+            return;
+        };
+        let impact = &mut self.impacts[open.index];
+        impact.impulse = state[layout.impulse(l)] - open.impulse;
+        impact.energy_dissipated = state[layout.work(l)] - open.work - stored;
+        impact.peak_force = peaks.force[l];
+        impact.peak_penetration = peaks.penetration[l];
+        let outcome = &mut self.levels[l];
+        if let Some((time, separation)) = end {
+            impact.time_opened = time;
+            impact.separation_velocity = separation;
+            if impact.approach_velocity > 0.0 {
+                impact.achieved_restitution = separation / impact.approach_velocity;
+            }
+            let squares = &mut self.squares[l];
+            squares.0 += impact.approach_velocity * impact.approach_velocity;
+            squares.1 += separation * separation;
+            if squares.0 > 0.0 {
+                outcome.achieved_restitution = Some((squares.1 / squares.0).sqrt());
+            }
+        }
+        outcome.impulse += impact.impulse;
+        outcome.energy_dissipated += impact.energy_dissipated;
+        outcome
+            .peak_force
+            .raise(impact.peak_force.value, impact.peak_force.time);
+        outcome
+            .peak_penetration
+            .raise(impact.peak_penetration.value, impact.peak_penetration.time);
+        self.finished.push(open.index);
+    }
+
+    pub(crate) fn stick(&mut self, l: usize) {
+        self.levels[l].sticks += 1;
+    }
+
+    /// Impacts that ended since the last call.
+    pub(crate) fn finished(&mut self) -> &[Impact] {
+        self.handed_out.clear();
+        for index in self.finished.drain(..) {
+            self.handed_out.push(self.impacts[index].clone());
+        }
+        &self.handed_out
+    }
+
+    pub(crate) fn into_outcome(self) -> (Vec<LevelOutcome>, Vec<Impact>) {
+        (self.levels, self.impacts)
+    }
+}

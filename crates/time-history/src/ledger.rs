@@ -1,0 +1,50 @@
+//! The energy ledger, relative to the ground.
+//!
+//! `input = kinetic + strain + viscous + hysteretic + impact + residual` at all
+//! times; `impact` is the work done on the contacts less what their springs still
+//! store. Relative formulation: Uang and Bertero, Evaluation of seismic energy in
+//! structures, Earthquake Engineering and Structural Dynamics 19 (1990) 77,
+//! equation 8.
+
+use crate::contact::Contacts;
+use crate::dynamics::Layout;
+use crate::outcome::Energy;
+use crate::system::System;
+
+/// Ledger at a state.
+pub(crate) fn energy(
+    system: &System,
+    layout: Layout,
+    contacts: &Contacts,
+    state: &[f64],
+) -> Energy {
+    let n = layout.dofs;
+    let (u, v) = (&state[..n], &state[n..2 * n]);
+    let stored: f64 = contacts
+        .closed()
+        .iter()
+        .map(|&l| stored_energy(system, contacts, l, u))
+        .sum();
+    let work: f64 = (0..layout.levels).map(|l| state[layout.work(l)]).sum();
+    let mut energy = Energy {
+        input: state[layout.input()],
+        kinetic: system.kinetic_energy(v),
+        strain: system.strain_energy(u) + stored,
+        viscous: state[layout.viscous()],
+        hysteretic: 0.0,
+        impact: work - stored,
+        residual: 0.0,
+    };
+    energy.residual =
+        energy.kinetic + energy.strain + energy.viscous + energy.hysteretic + energy.impact
+            - energy.input;
+    energy
+}
+
+/// Recoverable energy of one level (J).
+pub(crate) fn stored_energy(system: &System, contacts: &Contacts, l: usize, u: &[f64]) -> f64 {
+    contacts.contact(l).map_or(0.0, |contact| {
+        let level = &system.levels()[l];
+        contact.stored_energy(level, level.penetration(u))
+    })
+}

@@ -1,0 +1,452 @@
+//! The implicit family: Newmark with any beta and gamma, and HHT-alpha.
+
+use nalgebra::{Cholesky, DMatrix, Dyn};
+use pounding_shear_building::{DampingMatrix, TridiagonalFactor};
+
+use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
+use crate::dynamics::{Dynamics, Layout, Segment, push_apart};
+use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
+use crate::small_solver::SmallSolver;
+use crate::system::System;
+
+/// Newton iterations allowed before the step is halved.
+const MAXIMUM_ITERATIONS: usize = 30;
+/// Relative change of the contact forces at which Newton has converged.
+const NEWTON_TOLERANCE: f64 = 1.0e-13;
+
+/// Newmark 1959 (beta, gamma) with the alpha weighting of Hilber, Hughes and
+/// Taylor 1977 (alpha in -1/3..0; zero is plain Newmark).
+///
+/// The unknowns of a step are the contact forces: the buildings are condensed to
+/// their flexibility at the levels in touch, and Newton's method solves
+/// `force = law(penetration, velocity)` with both partial derivatives of the law,
+/// so that its tangent is the consistent one. Stuck levels take the place of the
+/// law with `velocity = 0`.
+#[derive(Debug, Clone)]
+pub(crate) struct Newmark {
+    information: Information,
+    beta: f64,
+    gamma: f64,
+    alpha: f64,
+    fixed: f64,
+    layout: Layout,
+    step: f64,
+    factored_step: f64,
+    factors: Vec<Factor>,
+    start: Vec<f64>,
+    end: Vec<f64>,
+    start_acceleration: Option<Vec<f64>>,
+    first: Vec<f64>,
+    last: Vec<f64>,
+    predictor: Vec<f64>,
+    velocity_predictor: Vec<f64>,
+    load: Vec<f64>,
+    net: Vec<f64>,
+    scratch: Vec<f64>,
+    start_forces: Vec<f64>,
+    flexibility: Vec<f64>,
+    unknowns: Vec<f64>,
+    change: Vec<f64>,
+    matrix: Vec<f64>,
+    solver: SmallSolver,
+    dense: Vec<Polynomial>,
+    newton_iterations: u64,
+}
+
+/// Factor of one building's effective mass matrix.
+#[derive(Debug, Clone)]
+enum Factor {
+    Tridiagonal(TridiagonalFactor),
+    Dense(Option<Cholesky<f64, Dyn>>),
+}
+
+impl Newmark {
+    /// Newmark's method with a fixed step (s).
+    pub(crate) fn newmark(system: &System, fixed: f64, beta: f64, gamma: f64) -> Self {
+        let second = (gamma - 0.5).abs() < 1.0e-14;
+        let information = Information {
+            name: "newmark",
+            title: "Newmark, fixed step cut at events",
+            order: if second { 2 } else { 1 },
+            implicit: true,
+            adaptive: false,
+        };
+        Self::new(system, information, fixed, [beta, gamma, 0.0])
+    }
+
+    /// HHT-alpha with `beta = (1 - alpha)^2 / 4`, `gamma = 1/2 - alpha`.
+    pub(crate) fn hht_alpha(system: &System, fixed: f64, alpha: f64) -> Self {
+        let information = Information {
+            name: "hht_alpha",
+            title: "HHT-alpha, fixed step cut at events",
+            order: 2,
+            implicit: true,
+            adaptive: false,
+        };
+        let beta = 0.25 * (1.0 - alpha) * (1.0 - alpha);
+        Self::new(system, information, fixed, [beta, 0.5 - alpha, alpha])
+    }
+
+    fn new(system: &System, information: Information, fixed: f64, weights: [f64; 3]) -> Self {
+        let layout = Layout::of(system);
+        let zeros = || vec![0.0; layout.dofs];
+        let factors = system
+            .buildings()
+            .iter()
+            .map(|b| match b.damping_matrix() {
+                DampingMatrix::Tridiagonal(_) => {
+                    Factor::Tridiagonal(TridiagonalFactor::new(b.storeys()))
+                }
+                DampingMatrix::Dense(_) => Factor::Dense(None),
+            })
+            .collect();
+        Self {
+            information,
+            beta: weights[0],
+            gamma: weights[1],
+            alpha: weights[2],
+            fixed,
+            layout,
+            step: 0.0,
+            factored_step: 0.0,
+            factors,
+            start: vec![0.0; layout.dimension()],
+            end: vec![0.0; layout.dimension()],
+            start_acceleration: None,
+            first: zeros(),
+            last: zeros(),
+            predictor: zeros(),
+            velocity_predictor: zeros(),
+            load: zeros(),
+            net: zeros(),
+            scratch: zeros(),
+            start_forces: vec![0.0; layout.levels],
+            flexibility: Vec::new(),
+            unknowns: Vec::new(),
+            change: Vec::new(),
+            matrix: Vec::new(),
+            solver: SmallSolver::default(),
+            dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
+            newton_iterations: 0,
+        }
+    }
+
+    /// `M + (1 + alpha) (gamma h C + beta h^2 K)` of every building. Returns false
+    /// if a factor fails.
+    fn factor(&mut self, system: &System, h: f64) -> bool {
+        if self.factored_step == h {
+            return true;
+        }
+        self.factored_step = 0.0;
+        let weight = 1.0 + self.alpha;
+        let (wc, wk) = (weight * self.gamma * h, weight * self.beta * h * h);
+        for (building, factor) in system.buildings().iter().zip(&mut self.factors) {
+            let k = building.stiffness_matrix();
+            let mass = building.mass();
+            let done = match (building.damping_matrix(), factor) {
+                (DampingMatrix::Tridiagonal(c), Factor::Tridiagonal(f)) => {
+                    let n = mass.len();
+                    for i in 0..n {
+                        self.scratch[i] = mass[i] + wc * c.diagonal[i] + wk * k.diagonal[i];
+                    }
+                    for i in 0..n - 1 {
+                        self.load[i] = wc * c.off_diagonal[i] + wk * k.off_diagonal[i];
+                    }
+                    f.factor(&self.scratch[..n], &self.load[..n - 1]).is_ok()
+                }
+                (DampingMatrix::Dense(c), Factor::Dense(f)) => {
+                    let n = mass.len();
+                    let a = DMatrix::from_fn(n, n, |i, j| {
+                        let stiffness = match i.abs_diff(j) {
+                            0 => k.diagonal[i],
+                            1 => k.off_diagonal[i.min(j)],
+                            _ => 0.0,
+                        };
+                        let inertia = if i == j { mass[i] } else { 0.0 };
+                        inertia + wc * c[(i, j)] + wk * stiffness
+                    });
+                    *f = a.cholesky();
+                    f.is_some()
+                }
+                _ => false,
+            };
+            if !done {
+                return false;
+            }
+        }
+        self.factored_step = h;
+        true
+    }
+
+    /// Solves with the effective matrices in place, building by building.
+    fn solve(factors: &[Factor], offsets: &[usize], x: &mut [f64]) {
+        for (factor, range) in factors.iter().zip(offsets.windows(2)) {
+            let part = &mut x[range[0]..range[1]];
+            match factor {
+                Factor::Tridiagonal(f) => f.solve_in_place(part),
+                Factor::Dense(Some(f)) => {
+                    let mut view = nalgebra::DVectorViewMut::from_slice(part, part.len());
+                    f.solve_mut(&mut view);
+                }
+                Factor::Dense(None) => part.fill(f64::NAN),
+            }
+        }
+    }
+
+    /// Accelerations and contact forces at the start of the step.
+    fn start_up(&mut self, context: &mut Context<'_, '_>, tau: f64, state: &[f64]) {
+        let n = self.layout.dofs;
+        context.dynamics.accelerations(
+            context.contacts,
+            context.segment.ground(tau),
+            &state[..n],
+            &state[n..2 * n],
+            &mut self.first,
+        );
+        self.start_forces.copy_from_slice(&context.dynamics.forces);
+        if let Some(a) = &self.start_acceleration {
+            self.first.copy_from_slice(a);
+        }
+    }
+
+    /// Right-hand side without the contact forces at the end of the step, and the
+    /// free accelerations in `last`.
+    fn free_accelerations(&mut self, context: &mut Context<'_, '_>, tau: f64, state: &[f64]) {
+        let n = self.layout.dofs;
+        let (h, beta, gamma, weight) = (self.step, self.beta, self.gamma, 1.0 + self.alpha);
+        let system = context.dynamics.system;
+        let (u, v) = (&state[..n], &state[n..2 * n]);
+        for i in 0..n {
+            let a = self.first[i];
+            self.predictor[i] = u[i] + h * v[i] + h * h * (0.5 - beta) * a;
+            self.velocity_predictor[i] = v[i] + h * (1.0 - gamma) * a;
+        }
+        let ground =
+            weight * context.segment.ground(tau + h) - self.alpha * context.segment.ground(tau);
+        system.internal_forces(
+            &self.predictor,
+            &self.velocity_predictor,
+            &mut self.load,
+            &mut self.scratch,
+        );
+        for (load, m) in self.load.iter_mut().zip(system.mass()) {
+            *load = weight * *load - m * ground;
+        }
+        if self.alpha != 0.0 {
+            system.internal_forces(u, v, &mut self.last, &mut self.scratch);
+            self.net.fill(0.0);
+            for &l in context.contacts.closed() {
+                push_apart(&system.levels()[l], self.start_forces[l], &mut self.net);
+            }
+            for i in 0..n {
+                self.load[i] -= self.alpha * (self.last[i] + self.net[i]);
+            }
+        }
+        self.last.copy_from_slice(&self.load);
+        Self::solve(&self.factors, system.offsets(), &mut self.last);
+    }
+
+    /// Flexibility between the closed levels: relative acceleration at one caused
+    /// by a unit force that pulls the floors of another together.
+    fn condense(&mut self, dynamics: &Dynamics<'_>, closed: &[usize]) {
+        let system = dynamics.system;
+        let size = closed.len();
+        self.flexibility.resize(size * size, 0.0);
+        for (column, &m) in closed.iter().enumerate() {
+            self.net.fill(0.0);
+            push_apart(&system.levels()[m], -1.0, &mut self.net);
+            Self::solve(&self.factors, system.offsets(), &mut self.net);
+            for (row, &l) in closed.iter().enumerate() {
+                self.flexibility[row * size + column] = system.levels()[l].relative(&self.net);
+            }
+        }
+    }
+
+    /// Newton on the contact forces. Leaves them in `unknowns`.
+    fn contact_forces(&mut self, context: &mut Context<'_, '_>) -> bool {
+        let closed = context.contacts.closed();
+        let size = closed.len();
+        let system = context.dynamics.system;
+        self.condense(context.dynamics, closed);
+        self.unknowns.clear();
+        self.unknowns
+            .extend(closed.iter().map(|&l| self.start_forces[l]));
+        let (h, weight) = (self.step, 1.0 + self.alpha);
+        let (by_u, by_v) = (self.beta * h * h, self.gamma * h);
+        for _ in 0..MAXIMUM_ITERATIONS {
+            self.newton_iterations += 1;
+            self.change.clear();
+            self.matrix.clear();
+            for (row, &l) in closed.iter().enumerate() {
+                let level = &system.levels()[l];
+                let flexibility = &self.flexibility[row * size..(row + 1) * size];
+                let pull: f64 = flexibility
+                    .iter()
+                    .zip(&self.unknowns)
+                    .map(|(d, x)| d * x)
+                    .sum();
+                let a = level.relative(&self.last) - weight * pull;
+                let delta = level.relative(&self.predictor) + by_u * a - level.width;
+                let velocity = level.relative(&self.velocity_predictor) + by_v * a;
+                let Some(contact) = context.contacts.contact(l) else {
+                    return false;
+                };
+                if contact.is_stuck() {
+                    self.change.push(velocity / by_v);
+                    self.matrix.extend(flexibility.iter().map(|d| weight * d));
+                } else {
+                    let law = contact.force(level, delta, velocity);
+                    let slope = weight * (law.by_penetration * by_u + law.by_velocity * by_v);
+                    self.change.push(law.value - self.unknowns[row]);
+                    self.matrix.extend(
+                        flexibility
+                            .iter()
+                            .enumerate()
+                            .map(|(k, d)| slope * d + if k == row { 1.0 } else { 0.0 }),
+                    );
+                }
+            }
+            if !self.solver.solve(&self.matrix, &mut self.change) {
+                return false;
+            }
+            let mut largest = 0.0_f64;
+            let mut size_of_forces = 1.0_f64;
+            for (x, dx) in self.unknowns.iter_mut().zip(&self.change) {
+                *x += dx;
+                largest = largest.max(dx.abs());
+                size_of_forces = size_of_forces.max(x.abs());
+            }
+            if !largest.is_finite() {
+                return false;
+            }
+            if largest <= NEWTON_TOLERANCE * size_of_forces {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Displacements, velocities and the energy integrals at the end of the step.
+    ///
+    /// The integrals are the trapezoidal works over the step, with which the
+    /// average acceleration rule (beta 1/4, gamma 1/2) balances exactly
+    /// (Hughes, The Finite Element Method, 1987, section 9.4); what other
+    /// parameters lose or gain shows as the residual.
+    fn finish(&mut self, context: &mut Context<'_, '_>, tau: f64, state: &[f64], new: &mut [f64]) {
+        let n = self.layout.dofs;
+        let (h, layout, system) = (self.step, self.layout, context.dynamics.system);
+        for i in 0..n {
+            new[i] = self.predictor[i] + self.beta * h * h * self.last[i];
+            new[n + i] = self.velocity_predictor[i] + self.gamma * h * self.last[i];
+        }
+        new[2 * n..].copy_from_slice(&state[2 * n..]);
+        let ground = 0.5 * (context.segment.ground(tau) + context.segment.ground(tau + h));
+        for i in 0..n {
+            self.predictor[i] = 0.5 * (state[n + i] + new[n + i]);
+        }
+        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
+            let (a, b) = (range[0], range[1]);
+            building.apply_damping(&self.predictor[a..b], &mut self.scratch[a..b]);
+        }
+        let (mut input, mut viscous) = (0.0, 0.0);
+        for i in 0..n {
+            let moved = new[i] - state[i];
+            input -= system.mass()[i] * moved * ground;
+            viscous += moved * self.scratch[i];
+        }
+        new[layout.input()] += input;
+        new[layout.viscous()] += viscous;
+        for (k, &l) in context.contacts.closed().iter().enumerate() {
+            let level = &system.levels()[l];
+            let mean = 0.5 * (self.start_forces[l] + self.unknowns[k]);
+            let closed_in = level.relative(&new[..n]) - level.relative(&state[..n]);
+            new[layout.work(l)] += mean * closed_in;
+            new[layout.impulse(l)] += mean * h;
+        }
+    }
+}
+
+impl Method for Newmark {
+    fn information(&self) -> Information {
+        self.information
+    }
+
+    fn propose(&self, segment: &Segment, tau: f64) -> f64 {
+        step_to_grid(segment, tau, self.fixed)
+    }
+
+    fn trial(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        tau: f64,
+        state: &[f64],
+        step: f64,
+        new_state: &mut [f64],
+    ) -> Verdict {
+        self.step = step;
+        self.start.copy_from_slice(state);
+        let system = context.dynamics.system;
+        if !self.factor(system, step) {
+            return Verdict::Retry(0.5 * step);
+        }
+        self.start_up(context, tau, state);
+        self.free_accelerations(context, tau, state);
+        if !context.contacts.closed().is_empty() {
+            if !self.contact_forces(context) {
+                return Verdict::Retry(0.5 * step);
+            }
+            self.net.fill(0.0);
+            for (k, &l) in context.contacts.closed().iter().enumerate() {
+                push_apart(&system.levels()[l], self.unknowns[k], &mut self.net);
+            }
+            let weight = 1.0 + self.alpha;
+            for i in 0..self.layout.dofs {
+                self.last[i] = self.load[i] + weight * self.net[i];
+            }
+            Self::solve(&self.factors, system.offsets(), &mut self.last);
+        }
+        self.finish(context, tau, state, new_state);
+        self.end.copy_from_slice(new_state);
+        if new_state.iter().all(|x| x.is_finite()) {
+            Verdict::Accept
+        } else {
+            Verdict::Retry(0.5 * step)
+        }
+    }
+
+    fn prepare_interpolant(&mut self, _context: &mut Context<'_, '_>, _tau: f64) {
+        let n = self.layout.dofs;
+        let (h, y, z) = (self.step, &self.start, &self.end);
+        for i in 0..n {
+            self.dense[i] = hermite(h, y[i], z[i], y[n + i], z[n + i]);
+            self.dense[n + i] = hermite(h, y[n + i], z[n + i], self.first[i], self.last[i]);
+        }
+        for i in 2 * n..self.layout.dimension() {
+            self.dense[i] = [0.0; COEFFICIENTS];
+            self.dense[i][0] = y[i];
+            self.dense[i][1] = z[i] - y[i];
+        }
+    }
+
+    fn polynomial(&self, i: usize) -> &Polynomial {
+        &self.dense[i]
+    }
+
+    fn accept(&mut self, _cut: bool) {
+        match &mut self.start_acceleration {
+            Some(a) => a.copy_from_slice(&self.last),
+            None => self.start_acceleration = Some(self.last.clone()),
+        }
+    }
+
+    fn restart(&mut self, _smooth: bool) {
+        self.start_acceleration = None;
+    }
+
+    fn counts(&self) -> Counts {
+        Counts {
+            evaluations: 0,
+            newton_iterations: self.newton_iterations,
+        }
+    }
+}

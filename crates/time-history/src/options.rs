@@ -1,0 +1,167 @@
+//! Options of a run.
+
+use crate::dynamics::Layout;
+use crate::error::TimeHistoryError;
+use crate::methods::{Adaptive, Method, Newmark, RungeKutta4};
+use crate::system::System;
+
+/// Default relative tolerance of the adaptive pair.
+pub const DEFAULT_RELATIVE_TOLERANCE: f64 = 1.0e-10;
+
+/// The integration method with its parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MethodChoice {
+    /// Adaptive explicit Runge-Kutta 8(5,3). Errors of a step are held below
+    /// `relative_tolerance` times the value, or times 0.01 m and 0.1 m/s where
+    /// values are smaller than that.
+    Adaptive {
+        /// Relative tolerance (-).
+        relative_tolerance: f64,
+    },
+    /// Newmark with a fixed step.
+    Newmark {
+        /// Step (s).
+        step: f64,
+        /// Weight of the acceleration in the displacement.
+        beta: f64,
+        /// Weight of the acceleration in the velocity.
+        gamma: f64,
+    },
+    /// HHT-alpha with a fixed step; beta and gamma follow from alpha.
+    HhtAlpha {
+        /// Step (s).
+        step: f64,
+        /// Between -1/3 and 0.
+        alpha: f64,
+    },
+    /// Classical Runge-Kutta with a fixed step.
+    RungeKutta4 {
+        /// Step (s).
+        step: f64,
+    },
+}
+
+/// Options of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunOptions {
+    /// Integration method.
+    pub method: MethodChoice,
+    /// Duration (s); `None`: that of the ground motion.
+    pub duration: Option<f64>,
+    /// Bound of the energy residual over the largest input energy (-); `None`:
+    /// [`RunOptions::energy_tolerance`] gives the method's default.
+    pub energy_tolerance: Option<f64>,
+}
+
+impl Default for RunOptions {
+    fn default() -> Self {
+        Self {
+            method: MethodChoice::Adaptive {
+                relative_tolerance: DEFAULT_RELATIVE_TOLERANCE,
+            },
+            duration: None,
+            energy_tolerance: None,
+        }
+    }
+}
+
+impl RunOptions {
+    /// Bound of the energy residual that makes a run an error: as asked, or 1e-6
+    /// for the adaptive pair and 0.05 for fixed steps, whose residual tells how
+    /// coarse the step is and, for HHT-alpha and gamma above 1/2, how much the
+    /// method itself damps.
+    #[must_use]
+    pub fn energy_tolerance(&self) -> f64 {
+        self.energy_tolerance.unwrap_or(match self.method {
+            MethodChoice::Adaptive { .. } => 1.0e-6,
+            _ => 0.05,
+        })
+    }
+
+    /// Checks the options against a system and returns the duration (s).
+    ///
+    /// # Errors
+    /// An option out of range.
+    pub fn check(&self, system: &System) -> Result<f64, TimeHistoryError> {
+        let positive = |option, value: f64| {
+            require(
+                value.is_finite() && value > 0.0,
+                option,
+                value,
+                "it must be greater than zero",
+            )
+        };
+        match self.method {
+            MethodChoice::Adaptive { relative_tolerance } => require(
+                (1.0e-14..=1.0e-2).contains(&relative_tolerance),
+                "relative_tolerance",
+                relative_tolerance,
+                "it must lie between 1e-14 and 1e-2",
+            )?,
+            MethodChoice::Newmark { step, beta, gamma } => {
+                positive("step", step)?;
+                require(
+                    (0.0..=1.0).contains(&beta),
+                    "beta",
+                    beta,
+                    "it must lie in 0..1",
+                )?;
+                require(
+                    gamma > 0.0 && gamma <= 1.0,
+                    "gamma",
+                    gamma,
+                    "it must be greater than 0 and at most 1",
+                )?;
+            }
+            MethodChoice::HhtAlpha { step, alpha } => {
+                positive("step", step)?;
+                require(
+                    (-1.0 / 3.0 - 1.0e-12..=0.0).contains(&alpha),
+                    "alpha",
+                    alpha,
+                    "it must lie between -1/3 and 0",
+                )?;
+            }
+            MethodChoice::RungeKutta4 { step } => positive("step", step)?,
+        }
+        if let Some(tolerance) = self.energy_tolerance {
+            positive("energy_tolerance", tolerance)?;
+        }
+        let duration = self.duration.unwrap_or_else(|| system.record_duration());
+        positive("duration", duration)?;
+        Ok(duration)
+    }
+
+    pub(crate) fn build_method(&self, system: &System) -> Box<dyn Method> {
+        let layout = Layout::of(system);
+        match self.method {
+            MethodChoice::Adaptive { relative_tolerance } => {
+                Box::new(Adaptive::new(layout, relative_tolerance))
+            }
+            MethodChoice::Newmark { step, beta, gamma } => {
+                Box::new(Newmark::newmark(system, step, beta, gamma))
+            }
+            MethodChoice::HhtAlpha { step, alpha } => {
+                Box::new(Newmark::hht_alpha(system, step, alpha))
+            }
+            MethodChoice::RungeKutta4 { step } => Box::new(RungeKutta4::new(layout, step)),
+        }
+    }
+}
+
+fn require(
+    holds: bool,
+    option: &'static str,
+    value: f64,
+    reason: &'static str,
+) -> Result<(), TimeHistoryError> {
+    if holds {
+        Ok(())
+    } else {
+        Err(TimeHistoryError::Option {
+            option,
+            value,
+            reason,
+        })
+    }
+}

@@ -1,0 +1,179 @@
+//! What a run returns.
+
+use crate::methods::Information;
+
+/// A greatest absolute value and when it happened.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// Greatest absolute value, in the unit of the quantity.
+    pub value: f64,
+    /// Time (s); zero if the quantity never left zero.
+    pub time: f64,
+}
+
+impl Peak {
+    pub(crate) fn raise(&mut self, value: f64, time: f64) {
+        if value > self.value {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// Peaks of one storey. Found inside the steps, not on the output grid.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StoreyPeaks {
+    /// Floor displacement relative to the ground (m).
+    pub displacement: Peak,
+    /// Storey drift over storey height (-).
+    pub drift_ratio: Peak,
+    /// Elastic storey shear, stiffness times drift (N).
+    pub storey_shear: Peak,
+    /// Absolute floor acceleration (m/s2).
+    pub acceleration_absolute: Peak,
+}
+
+/// Peaks of one building, storeys from the bottom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BuildingOutcome {
+    /// Name in the case file.
+    pub name: String,
+    /// Storeys from the bottom.
+    pub storeys: Vec<StoreyPeaks>,
+}
+
+/// One impact: from a located closure to the located opening.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impact {
+    /// Index in [`crate::System::gaps`].
+    pub gap: usize,
+    /// Level within the gap, from the bottom, from zero.
+    pub level: usize,
+    /// Closure (s).
+    pub time_closed: f64,
+    /// Opening (s); NaN if the contact outlasts the run.
+    pub time_opened: f64,
+    /// Relative velocity at closure (m/s).
+    pub approach_velocity: f64,
+    /// Relative velocity at opening, positive apart (m/s); NaN if still closed.
+    pub separation_velocity: f64,
+    /// Separation over approach velocity (-). The storeys act during the contact,
+    /// so it differs from the restitution of a free collision; NaN if still
+    /// closed or if the gap closed at zero speed.
+    pub achieved_restitution: f64,
+    /// Greatest force (N) with its time.
+    pub peak_force: Peak,
+    /// Greatest penetration (m) with its time.
+    pub peak_penetration: Peak,
+    /// Impulse of the contact force (N s).
+    pub impulse: f64,
+    /// Work done on the contact less what its spring still stores (J).
+    pub energy_dissipated: f64,
+    /// The model's constants of this collision, in the order of its descriptor.
+    pub constants: Vec<f64>,
+}
+
+/// What happened at one contact level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LevelOutcome {
+    /// Number of impacts.
+    pub impacts: usize,
+    /// Time of the first contact (s).
+    pub first_contact: Option<f64>,
+    /// Greatest force (N).
+    pub peak_force: Peak,
+    /// Greatest penetration (m).
+    pub peak_penetration: Peak,
+    /// Greatest relative velocity at closure (m/s).
+    pub approach_velocity_max: f64,
+    /// Energy dissipated in the contact (J).
+    pub energy_dissipated: f64,
+    /// Impulse over all impacts (N s).
+    pub impulse: f64,
+    /// Restitution over all impacts: `sqrt(sum v_out^2 / sum v_in^2)` (-), `None`
+    /// without a finished impact. The square root of the part of the relative
+    /// kinetic energy that the floors kept through contact.
+    pub achieved_restitution: Option<f64>,
+    /// Number of times that the floors stuck together.
+    pub sticks: usize,
+}
+
+/// What happened in one gap, levels from the bottom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapOutcome {
+    /// Name of the gap.
+    pub name: String,
+    /// Levels from the bottom.
+    pub levels: Vec<LevelOutcome>,
+}
+
+/// The energy ledger at one time (J), relative to the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energy {
+    /// Work of the ground motion on the buildings, `-sum m int v a_g dt`.
+    pub input: f64,
+    /// Kinetic energy relative to the ground.
+    pub kinetic: f64,
+    /// Recoverable energy in storeys and closed contacts.
+    pub strain: f64,
+    /// Dissipated by viscous damping.
+    pub viscous: f64,
+    /// Dissipated by yielding storeys and links; zero for elastic buildings.
+    pub hysteretic: f64,
+    /// Dissipated in contacts.
+    pub impact: f64,
+    /// What is missing: kinetic + strain + viscous + hysteretic + impact - input.
+    pub residual: f64,
+}
+
+/// The closed ledger of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ledger {
+    /// At the end of the run.
+    pub end: Energy,
+    /// Largest input energy of the run (J).
+    pub largest_input: f64,
+    /// Largest absolute residual of the run over the largest input energy (-).
+    pub residual_ratio: f64,
+}
+
+/// Work done by the method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected trial steps.
+    pub rejected: u64,
+    /// Located events.
+    pub events: u64,
+    /// Trial steps taken to locate them.
+    pub location_steps: u64,
+    /// Evaluations of the equations of motion by explicit methods.
+    pub evaluations: u64,
+    /// Newton iterations of implicit methods.
+    pub newton_iterations: u64,
+}
+
+/// Result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The method used.
+    pub method: Information,
+    /// Time at the end (s).
+    pub end_time: f64,
+    /// Buildings from the left.
+    pub buildings: Vec<BuildingOutcome>,
+    /// Gaps in the order of the case.
+    pub gaps: Vec<GapOutcome>,
+    /// Impacts in order of closure.
+    pub impacts: Vec<Impact>,
+    /// Energy ledger.
+    pub energy: Ledger,
+    /// Floor displacements at the end (m), buildings from the left.
+    pub final_displacement: Vec<f64>,
+    /// Floor velocities at the end (m/s).
+    pub final_velocity: Vec<f64>,
+    /// Work counts.
+    pub statistics: Statistics,
+    /// Anything that the user should know.
+    pub warnings: Vec<String>,
+}

@@ -1,0 +1,176 @@
+//! Peaks, found inside every accepted step.
+
+use pounding_shear_building::ShearBuilding;
+
+use crate::dynamics::Layout;
+use crate::events::{Finder, penetration, velocity};
+use crate::methods::{Context, Method};
+use crate::outcome::{Peak, StoreyPeaks};
+use crate::polynomial::{
+    Polynomial, bound, derivative, difference, fit, fit_nodes, maximum_above, value,
+};
+
+/// Peaks of all storeys, and of the levels in contact.
+#[derive(Debug)]
+pub(crate) struct Peaks {
+    pub storeys: Vec<StoreyPeaks>,
+    /// Greatest force of each level during its present impact (N).
+    pub force: Vec<Peak>,
+    /// Greatest penetration of each level during its present impact (m).
+    pub penetration: Vec<Peak>,
+    state: Vec<f64>,
+    acceleration: Vec<f64>,
+}
+
+/// Part of the present peak below which a fitted maximum is not looked at
+/// closer: fits err by less.
+const NEAR: f64 = 1.0 - 1.0e-6;
+
+impl Peaks {
+    pub(crate) fn new(layout: Layout) -> Self {
+        Self {
+            storeys: vec![StoreyPeaks::default(); layout.dofs],
+            force: vec![Peak::default(); layout.levels],
+            penetration: vec![Peak::default(); layout.levels],
+            state: vec![0.0; 2 * layout.dofs],
+            acceleration: vec![0.0; layout.dofs],
+        }
+    }
+
+    /// Takes an accepted step in: `place` is tau and step length (s).
+    pub(crate) fn step(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        finder: &mut Finder,
+        place: (f64, f64),
+    ) {
+        let system = context.dynamics.system;
+        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
+            self.building(context, method, building, range[0], place);
+        }
+        for k in 0..context.contacts.closed().len() {
+            let level = context.contacts.closed()[k];
+            self.contact(context, method, finder, level, place);
+        }
+    }
+
+    fn building(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        building: &ShearBuilding,
+        offset: usize,
+        (tau, step): (f64, f64),
+    ) {
+        let dofs = context.dynamics.layout.dofs;
+        let start = context.segment.start + tau;
+        let mut below: Option<&Polynomial> = None;
+        for storey in 0..building.storeys() {
+            let i = offset + storey;
+            let u = method.polynomial(i);
+            let peaks = &mut self.storeys[i];
+            if let Some((theta, top)) = absolute_maximum(u, peaks.displacement.value) {
+                peaks.displacement.raise(top, start + theta * step);
+            }
+            let drift = below.map_or(*u, |b| difference(u, b));
+            let height = building.height()[storey];
+            if let Some((theta, top)) =
+                absolute_maximum(&drift, peaks.drift_ratio.value * height * NEAR)
+            {
+                let time = start + theta * step;
+                peaks.drift_ratio.raise(top / height, time);
+                peaks
+                    .storey_shear
+                    .raise(building.stiffness()[storey] * top, time);
+            }
+            below = Some(u);
+            self.absolute_acceleration(context, method, (i, dofs + i), (tau, step));
+        }
+    }
+
+    /// The interpolant's second derivative tells where to look; the equations of
+    /// motion give the value there.
+    fn absolute_acceleration(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        (i, velocity): (usize, usize),
+        (tau, step): (f64, f64),
+    ) {
+        let mut a = derivative(method.polynomial(velocity)).map(|c| c / step);
+        a[0] += context.segment.ground(tau);
+        a[1] += context.segment.slope * step;
+        let floor = self.storeys[i].acceleration_absolute.value * NEAR;
+        if let Some((theta, _)) = absolute_maximum(&a, floor) {
+            let n = self.acceleration.len();
+            for (k, y) in self.state.iter_mut().enumerate() {
+                *y = value(method.polynomial(k), theta);
+            }
+            let ground = context.segment.ground(tau + theta * step);
+            context.dynamics.accelerations(
+                context.contacts,
+                ground,
+                &self.state[..n],
+                &self.state[n..],
+                &mut self.acceleration,
+            );
+            let exact = (self.acceleration[i] + ground).abs();
+            self.storeys[i]
+                .acceleration_absolute
+                .raise(exact, context.segment.start + tau + theta * step);
+        }
+    }
+
+    fn contact(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        finder: &mut Finder,
+        l: usize,
+        (tau, step): (f64, f64),
+    ) {
+        let start = context.segment.start + tau;
+        let delta = penetration(context, method, l);
+        if let Some((theta, top)) = maximum_above(&delta, self.penetration[l].value) {
+            self.penetration[l].raise(top, start + theta * step);
+        }
+        let rate = velocity(context, method, l);
+        let stuck = context.contacts.contact(l).is_some_and(|c| c.is_stuck());
+        let mut force = |theta: f64| -> f64 {
+            if stuck {
+                return finder.force_at(context, method, l, (tau, step, theta));
+            }
+            context.contacts.contact(l).map_or(0.0, |c| {
+                c.force(
+                    &context.dynamics.system.levels()[l],
+                    value(&delta, theta),
+                    value(&rate, theta),
+                )
+                .value
+            })
+        };
+        let samples = fit_nodes().map(&mut force);
+        let fitted = fit(&samples);
+        if bound(&fitted) <= self.force[l].value * NEAR {
+            return;
+        }
+        let peak = &mut self.force[l];
+        for (theta, sample) in fit_nodes().iter().zip(samples) {
+            peak.raise(sample, start + theta * step);
+        }
+        if let Some((theta, _)) = maximum_above(&fitted, peak.value * NEAR) {
+            peak.raise(force(theta), start + theta * step);
+        }
+    }
+}
+
+/// Largest absolute value over the step, if it exceeds `floor`.
+fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
+    if bound(p) <= floor {
+        return None;
+    }
+    let up = maximum_above(p, floor);
+    let level = up.map_or(floor, |(_, top)| top);
+    maximum_above(&p.map(|c| -c), level).or(up)
+}

@@ -1,0 +1,313 @@
+//! Polynomials on the unit interval: certified signs, first crossings, extrema.
+//!
+//! Inside a step every displacement and velocity is a polynomial in
+//! `theta = offset / step`. Its Bernstein coefficients bound it rigorously (the
+//! curve lies in their convex hull), so a crossing inside the step cannot be
+//! stepped over, however short: either the coefficients exclude it, or the
+//! interval is halved until they decide. Source: G. Farin, Curves and Surfaces
+//! for CAGD, 5th edition, 2002, chapters 4 and 5 (hull property, de Casteljau).
+
+/// Number of power-basis coefficients (degree 7).
+pub(crate) const COEFFICIENTS: usize = 8;
+
+/// Power-basis coefficients, lowest first.
+pub(crate) type Polynomial = [f64; COEFFICIENTS];
+
+const DEGREE: usize = COEFFICIENTS - 1;
+
+/// Intervals shorter than this part of a step are not halved again.
+const SHORTEST: f64 = 1.0e-13;
+
+/// Relative size below which a leading coefficient is round-off.
+const ROUND_OFF: f64 = 1.0e-13;
+
+/// Value at `theta`.
+pub(crate) fn value(p: &Polynomial, theta: f64) -> f64 {
+    p.iter().rev().fold(0.0, |sum, c| sum * theta + c)
+}
+
+/// Derivative with respect to theta.
+pub(crate) fn derivative(p: &Polynomial) -> Polynomial {
+    let mut d = [0.0; COEFFICIENTS];
+    for k in 1..COEFFICIENTS {
+        d[k - 1] = k as f64 * p[k];
+    }
+    d
+}
+
+/// `a - b`, coefficient by coefficient.
+pub(crate) fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// Cheap bound of the absolute value on the unit interval.
+pub(crate) fn bound(p: &Polynomial) -> f64 {
+    p.iter().map(|c| c.abs()).sum()
+}
+
+/// The cubic through values and derivatives (with respect to time) at both ends
+/// of a step.
+pub(crate) fn hermite(step: f64, y0: f64, y1: f64, d0: f64, d1: f64) -> Polynomial {
+    let (a, b) = (step * d0, step * d1);
+    let change = y1 - y0;
+    let mut p = [0.0; COEFFICIENTS];
+    p[0] = y0;
+    p[1] = a;
+    p[2] = 3.0 * change - 2.0 * a - b;
+    p[3] = a + b - 2.0 * change;
+    p
+}
+
+/// Nodes at which [`fit`] wants a function sampled: Chebyshev points with both
+/// ends, on the unit interval.
+pub(crate) fn fit_nodes() -> [f64; COEFFICIENTS] {
+    std::array::from_fn(|i| 0.5 * (1.0 - (std::f64::consts::PI * i as f64 / DEGREE as f64).cos()))
+}
+
+/// The polynomial through samples at [`fit_nodes`] (divided differences).
+pub(crate) fn fit(samples: &[f64; COEFFICIENTS]) -> Polynomial {
+    let x = fit_nodes();
+    let mut divided = *samples;
+    for order in 1..COEFFICIENTS {
+        for i in (order..COEFFICIENTS).rev() {
+            divided[i] = (divided[i] - divided[i - 1]) / (x[i] - x[i - order]);
+        }
+    }
+    let mut p = [0.0; COEFFICIENTS];
+    for i in (0..COEFFICIENTS).rev() {
+        for k in (1..COEFFICIENTS).rev() {
+            p[k] = p[k - 1] - x[i] * p[k];
+        }
+        p[0] = divided[i] - x[i] * p[0];
+    }
+    p
+}
+
+/// Bernstein coefficients on the unit interval.
+fn bernstein(p: &Polynomial) -> Polynomial {
+    // b_i = sum_k C(i,k) / C(n,k) a_k, built by binomial sums of scaled terms.
+    let mut b = [0.0; COEFFICIENTS];
+    let mut scaled = [0.0; COEFFICIENTS];
+    let mut choose_n = 1.0;
+    for k in 0..COEFFICIENTS {
+        scaled[k] = p[k] / choose_n;
+        choose_n = choose_n * (DEGREE - k) as f64 / (k + 1) as f64;
+    }
+    for (i, out) in b.iter_mut().enumerate() {
+        let mut choose = 1.0;
+        let mut sum = 0.0;
+        for (k, s) in scaled.iter().enumerate().take(i + 1) {
+            sum += choose * s;
+            choose = choose * (i - k) as f64 / (k + 1) as f64;
+        }
+        *out = sum;
+    }
+    b
+}
+
+/// De Casteljau at the middle: coefficients of the left and right halves.
+fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
+    let mut left = [0.0; COEFFICIENTS];
+    let mut right = *b;
+    for (level, out) in left.iter_mut().enumerate() {
+        *out = right[0];
+        for i in 0..DEGREE - level {
+            right[i] = 0.5 * (right[i] + right[i + 1]);
+        }
+    }
+    (left, right)
+}
+
+/// First `theta` in `[0, 1]` at which a function that is *known* to start on the
+/// negative side becomes positive; `None` if it does not.
+///
+/// Where the constant coefficient is zero, round-off, or on the wrong side (the
+/// step starts at an event of this very function), it is taken as an exact root
+/// at `theta = 0` and divided out: the same root is not found again, while a
+/// function that truly leaves through it is reported at once.
+pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
+    let mut q = *p;
+    for level in 0..COEFFICIENTS {
+        let largest = q.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        if largest == 0.0 {
+            return None;
+        }
+        if q[0] < -ROUND_OFF * largest {
+            return search_rise(&bernstein(&q), 0.0, 1.0).map(|theta| polish(&q, theta));
+        }
+        // The deflated function decides; only its first clear sign counts.
+        if q[0] > ROUND_OFF * largest && level > 0 {
+            return Some(0.0);
+        }
+        q.copy_within(1.., 0);
+        q[DEGREE] = 0.0;
+    }
+    None
+}
+
+/// First sub-interval in which the Bernstein form changes from negative to
+/// positive, given that it is negative at its left end.
+fn search_rise(b: &Polynomial, left: f64, right: f64) -> Option<(f64, f64)> {
+    if b.iter().all(|c| *c <= 0.0) {
+        return None;
+    }
+    if right - left < SHORTEST || sign_changes(b) == 1 {
+        return (b[DEGREE] > 0.0).then_some((left, right));
+    }
+    let middle = 0.5 * (left + right);
+    let (first, second) = halves(b);
+    if first[0] <= 0.0 {
+        if let Some(found) = search_rise(&first, left, middle) {
+            return Some(found);
+        }
+    }
+    search_rise(&second, middle, right)
+}
+
+fn sign_changes(b: &Polynomial) -> usize {
+    let mut changes = 0;
+    let mut last = 0.0_f64;
+    for c in b {
+        if *c != 0.0 {
+            if last * *c < 0.0 {
+                changes += 1;
+            }
+            last = *c;
+        }
+    }
+    changes
+}
+
+/// Root in a bracket (negative left, positive right) by Newton kept inside it.
+fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
+    let (mut low, mut high) = bracket;
+    let d = derivative(q);
+    let mut x = 0.5 * (low + high);
+    for _ in 0..80 {
+        let f = value(q, x);
+        if f > 0.0 {
+            high = x;
+        } else {
+            low = x;
+        }
+        let newton = x - f / value(&d, x);
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        if (next - x).abs() <= 1.0e-16 || high - low <= 1.0e-16 {
+            return next;
+        }
+        x = next;
+    }
+    x
+}
+
+/// Largest value on the unit interval and where, if it exceeds `floor`.
+pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
+    let b = bernstein(p);
+    let mut best = None;
+    let mut level = floor;
+    search_maximum(&b, 0.0, 1.0, 0, &mut level, &mut best);
+    best.map(|theta| (theta, value(p, theta)))
+}
+
+/// Branch and bound on the Bernstein hull; `level` is the best value so far.
+fn search_maximum(
+    b: &Polynomial,
+    left: f64,
+    right: f64,
+    depth: usize,
+    level: &mut f64,
+    best: &mut Option<f64>,
+) {
+    let upper = b.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
+    if upper <= *level {
+        return;
+    }
+    for (end, theta) in [(b[0], left), (b[DEGREE], right)] {
+        if end > *level {
+            *level = end;
+            *best = Some(theta);
+        }
+    }
+    let spread = upper - *level;
+    if depth >= 40 || spread <= 1.0e-15 * upper.abs() {
+        return;
+    }
+    let middle = 0.5 * (left + right);
+    let (first, second) = halves(b);
+    search_maximum(&first, left, middle, depth + 1, level, best);
+    search_maximum(&second, middle, right, depth + 1, level, best);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn from_roots(roots: &[f64], factor: f64) -> Polynomial {
+        let mut p = [0.0; COEFFICIENTS];
+        p[0] = factor;
+        for r in roots {
+            for k in (1..COEFFICIENTS).rev() {
+                p[k] = p[k - 1] - r * p[k];
+            }
+            p[0] *= -r;
+        }
+        p
+    }
+
+    #[test]
+    fn a_touch_shorter_than_any_sampling_is_found() {
+        // Positive only between 0.5 and 0.5 + 1e-7, negative at both ends.
+        let p = from_roots(&[0.5, 0.500_000_1], -1.0);
+        let theta = first_rise(&p).expect("crossing");
+        assert!((theta - 0.5).abs() < 1e-9, "{theta}");
+    }
+
+    #[test]
+    fn a_near_miss_is_no_touch() {
+        let mut p = from_roots(&[0.5, 0.5], -1.0);
+        p[0] -= 1e-12;
+        assert_eq!(first_rise(&p), None);
+    }
+
+    #[test]
+    fn the_root_just_fired_is_not_found_again() {
+        // Just separated at theta = 0 and closing again at 0.7.
+        let p = from_roots(&[0.0, 0.7], 1.0);
+        let theta = first_rise(&p).expect("second crossing");
+        assert!((theta - 0.7).abs() < 1e-14);
+        // On the wrong side by round-off.
+        let mut q = p;
+        q[0] = 1e-18;
+        assert!((first_rise(&q).expect("second crossing") - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn leaving_through_the_start_is_reported_at_once() {
+        let p = from_roots(&[0.0], 1.0);
+        assert_eq!(first_rise(&p), Some(0.0));
+        // At rest at the root, then accelerating through it.
+        let p = from_roots(&[0.0, 0.0], 1.0);
+        assert_eq!(first_rise(&p), Some(0.0));
+    }
+
+    #[test]
+    fn interior_maximum() {
+        let p = from_roots(&[0.0, 0.6], -1.0);
+        let (theta, top) = maximum_above(&p, 0.0).expect("maximum");
+        assert!((theta - 0.3).abs() < 1e-7 && (top - 0.09).abs() < 1e-15);
+        assert!(maximum_above(&p, 0.1).is_none());
+    }
+
+    #[test]
+    fn fit_reproduces_a_polynomial() {
+        let p = [0.3, -1.0, 2.0, 0.5, -0.7, 0.2, 1.1, -0.4];
+        let fitted = fit(&fit_nodes().map(|x| value(&p, x)));
+        for (a, b) in p.iter().zip(fitted) {
+            assert!((a - b).abs() < 1e-11, "{a} {b}");
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Recorders: sinks that see every accepted step and every finished impact.
+
+use crate::dynamics::Dynamics;
+use crate::error::TimeHistoryError;
+use crate::ledger;
+use crate::methods::{Context, Method};
+use crate::outcome::{Energy, Impact};
+use crate::polynomial::value;
+use crate::system::System;
+
+/// Responses at one time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sample {
+    /// Time (s).
+    pub time: f64,
+    /// Ground acceleration (m/s2).
+    pub ground_acceleration: f64,
+    /// Floor displacements relative to the ground (m), buildings from the left.
+    pub displacement: Vec<f64>,
+    /// Floor velocities relative to the ground (m/s).
+    pub velocity: Vec<f64>,
+    /// Absolute floor accelerations (m/s2).
+    pub acceleration_absolute: Vec<f64>,
+    /// Penetration of every contact level (m), negative while open.
+    pub penetration: Vec<f64>,
+    /// Contact force of every level (N), zero while open.
+    pub force: Vec<f64>,
+    /// Energy ledger.
+    pub energy: Energy,
+}
+
+/// An accepted step, open to interpolation.
+pub struct StepView<'a, 'b, 'c> {
+    pub(crate) context: &'a mut Context<'b, 'c>,
+    pub(crate) method: &'a dyn Method,
+    pub(crate) state: &'a mut [f64],
+    pub(crate) tau: f64,
+    pub(crate) step: f64,
+    pub(crate) last: bool,
+}
+
+impl StepView<'_, '_, '_> {
+    /// Start of the step (s).
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.context.segment.start + self.tau
+    }
+
+    /// End of the step (s).
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.context.segment.start + self.tau + self.step
+    }
+
+    /// Whether the run ends with this step.
+    #[must_use]
+    pub fn is_last(&self) -> bool {
+        self.last
+    }
+
+    /// Responses at a time inside the step, by the method's interpolant;
+    /// accelerations and forces by the equations of motion there.
+    pub fn sample(&mut self, time: f64, out: &mut Sample) {
+        let offset = (time - self.start()).clamp(0.0, self.step);
+        let theta = if self.step > 0.0 {
+            offset / self.step
+        } else {
+            0.0
+        };
+        for (i, y) in self.state.iter_mut().enumerate() {
+            *y = value(self.method.polynomial(i), theta);
+        }
+        let ground = self.context.segment.ground(self.tau + offset);
+        fill_sample(self.context, time, ground, self.state, out);
+    }
+}
+
+/// Fills a sample from a full state.
+pub(crate) fn fill_sample(
+    context: &mut Context<'_, '_>,
+    time: f64,
+    ground: f64,
+    state: &[f64],
+    out: &mut Sample,
+) {
+    let Dynamics { system, layout, .. } = *context.dynamics;
+    let n = layout.dofs;
+    let (u, v) = (&state[..n], &state[n..2 * n]);
+    out.time = time;
+    out.ground_acceleration = ground;
+    out.displacement.clear();
+    out.displacement.extend_from_slice(u);
+    out.velocity.clear();
+    out.velocity.extend_from_slice(v);
+    out.acceleration_absolute.resize(n, 0.0);
+    context.dynamics.accelerations(
+        context.contacts,
+        ground,
+        u,
+        v,
+        &mut out.acceleration_absolute,
+    );
+    for a in &mut out.acceleration_absolute {
+        *a += ground;
+    }
+    out.penetration.clear();
+    out.penetration
+        .extend(system.levels().iter().map(|l| l.penetration(u)));
+    out.force.clear();
+    out.force.resize(layout.levels, 0.0);
+    for &l in context.contacts.closed() {
+        out.force[l] = context.dynamics.forces[l];
+    }
+    out.energy = ledger::energy(system, layout, context.contacts, state);
+}
+
+/// A sink for responses.
+pub trait Recorder {
+    /// Called once with the state at time zero.
+    ///
+    /// # Errors
+    /// Whatever keeps the recorder from recording; it ends the run.
+    fn begin(&mut self, system: &System, start: &Sample) -> Result<(), TimeHistoryError>;
+
+    /// Called for every accepted step, in order of time.
+    ///
+    /// # Errors
+    /// Whatever keeps the recorder from recording; it ends the run.
+    fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError>;
+
+    /// Called for every impact when it is over, or at the end of the run.
+    ///
+    /// # Errors
+    /// Whatever keeps the recorder from recording; it ends the run.
+    fn impact(&mut self, impact: &Impact) -> Result<(), TimeHistoryError> {
+        let _ = impact;
+        Ok(())
+    }
+}
+
+/// Records responses on an even grid of times, from zero to the end of the run.
+#[derive(Debug, Clone)]
+pub struct GridRecorder {
+    step: f64,
+    /// Responses in order of time.
+    pub samples: Vec<Sample>,
+}
+
+impl GridRecorder {
+    /// A recorder with this output step (s).
+    ///
+    /// # Errors
+    /// If the step is not positive and finite.
+    pub fn new(step: f64) -> Result<Self, TimeHistoryError> {
+        if step.is_finite() && step > 0.0 {
+            Ok(Self {
+                step,
+                samples: Vec::new(),
+            })
+        } else {
+            Err(TimeHistoryError::Option {
+                option: "output_step",
+                value: step,
+                reason: "it must be greater than zero",
+            })
+        }
+    }
+}
+
+impl Recorder for GridRecorder {
+    fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
+        self.samples.push(start.clone());
+        Ok(())
+    }
+
+    fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
+        // A grid time within a billionth of the grid beyond the end of the run
+        // belongs to it: duration over step is rarely a whole number in binary.
+        let slack = if step.is_last() {
+            1.0e-9 * self.step
+        } else {
+            0.0
+        };
+        loop {
+            let time = self.samples.len() as f64 * self.step;
+            if time > step.end() + slack {
+                return Ok(());
+            }
+            let mut sample = Sample::default();
+            step.sample(time, &mut sample);
+            self.samples.push(sample);
+        }
+    }
+}

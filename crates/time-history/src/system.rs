@@ -1,0 +1,284 @@
+//! What is integrated: buildings in a row, contact levels between them, ground motion.
+
+use pounding_gap_element::ImpactModel;
+use pounding_shear_building::ShearBuilding;
+use std::sync::Arc;
+
+use crate::error::TimeHistoryError;
+
+/// One pair of floors (or a floor and a rigid wall) that may touch.
+#[derive(Debug, Clone)]
+pub struct ContactLevel {
+    /// Degree of freedom of the left floor; `None` is a rigid wall that moves
+    /// with the ground.
+    pub left: Option<usize>,
+    /// Degree of freedom of the right floor; `None` is a rigid wall.
+    pub right: Option<usize>,
+    /// Storey number of the left floor, from 1; `None` for a wall.
+    pub left_storey: Option<usize>,
+    /// Storey number of the right floor, from 1; `None` for a wall.
+    pub right_storey: Option<usize>,
+    /// Width of the gap at rest (m).
+    pub width: f64,
+    /// Elevation of the left floor, or of the right one beside a wall (m).
+    pub elevation: f64,
+    /// `m1 m2 / (m1 + m2)`, the floor's mass against a wall (kg).
+    pub effective_mass: f64,
+    /// The impact model that acts here.
+    pub model: Arc<dyn ImpactModel>,
+}
+
+/// A gap: the contact levels between two neighbours.
+#[derive(Debug, Clone)]
+pub struct Gap {
+    /// Name in the case file and the result.
+    pub name: String,
+    /// Names of the left and right neighbour, `wall` for a rigid wall.
+    pub between: [String; 2],
+    /// Range of the gap's levels in [`System::levels`].
+    pub first_level: usize,
+    /// Number of levels.
+    pub levels: usize,
+}
+
+/// A ground acceleration, linear between equally spaced samples and zero after
+/// the last.
+#[derive(Debug, Clone)]
+pub struct GroundAcceleration {
+    /// Samples (m/s2), the first at time zero.
+    pub samples: Arc<[f64]>,
+    /// Time step (s).
+    pub time_step: f64,
+}
+
+/// A floor's place in a contact level, for the definition of a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Floor {
+    /// Building index in the row and storey index, both from zero.
+    Storey(usize, usize),
+    /// A rigid wall that moves with the ground.
+    Wall,
+}
+
+/// Buildings in a row with the gaps between them under one ground motion.
+///
+/// Degrees of freedom are floor displacements relative to the ground, positive
+/// to the right, one building after another from the left, bottom floor first.
+#[derive(Debug, Clone)]
+pub struct System {
+    buildings: Vec<Arc<ShearBuilding>>,
+    offsets: Vec<usize>,
+    gaps: Vec<Gap>,
+    levels: Vec<ContactLevel>,
+    ground: GroundAcceleration,
+    mass: Vec<f64>,
+}
+
+impl System {
+    /// Buildings without gaps under a ground motion.
+    #[must_use]
+    pub fn new(buildings: Vec<Arc<ShearBuilding>>, ground: GroundAcceleration) -> Self {
+        let mut offsets = vec![0];
+        let mut mass = Vec::new();
+        for building in &buildings {
+            mass.extend_from_slice(building.mass());
+            offsets.push(mass.len());
+        }
+        Self {
+            buildings,
+            offsets,
+            gaps: Vec::new(),
+            levels: Vec::new(),
+            ground,
+            mass,
+        }
+    }
+
+    /// Adds a gap. `pairs` holds left floor, right floor, width (m) and model of
+    /// each contact level.
+    ///
+    /// # Errors
+    /// A floor that does not exist, a level between two walls, or a width that is
+    /// negative or not finite.
+    pub fn add_gap(
+        &mut self,
+        name: &str,
+        between: [String; 2],
+        pairs: Vec<(Floor, Floor, f64, Arc<dyn ImpactModel>)>,
+    ) -> Result<(), TimeHistoryError> {
+        let first_level = self.levels.len();
+        let count = pairs.len();
+        for (left, right, width, model) in pairs {
+            let level = self.contact_level(name, left, right, width, model)?;
+            self.levels.push(level);
+        }
+        self.gaps.push(Gap {
+            name: name.to_owned(),
+            between,
+            first_level,
+            levels: count,
+        });
+        Ok(())
+    }
+
+    fn contact_level(
+        &self,
+        name: &str,
+        left: Floor,
+        right: Floor,
+        width: f64,
+        model: Arc<dyn ImpactModel>,
+    ) -> Result<ContactLevel, TimeHistoryError> {
+        let wrong = |reason: String| TimeHistoryError::GapDefinition {
+            gap: name.to_owned(),
+            reason,
+        };
+        if !(width.is_finite() && width >= 0.0) {
+            return Err(wrong(format!(
+                "width is {width} m; it must be zero or more"
+            )));
+        }
+        let place = |floor: Floor| -> Result<Option<(usize, usize, f64, f64)>, TimeHistoryError> {
+            let Floor::Storey(b, s) = floor else {
+                return Ok(None);
+            };
+            let building = self.buildings.get(b).filter(|x| s < x.storeys());
+            let building =
+                building.ok_or_else(|| wrong(format!("building {b} has no storey {}", s + 1)))?;
+            Ok(Some((
+                self.offsets[b] + s,
+                s + 1,
+                building.mass()[s],
+                building.elevations()[s],
+            )))
+        };
+        let (l, r) = (place(left)?, place(right)?);
+        let (effective_mass, elevation) = match (l, r) {
+            (Some(a), Some(b)) => (a.2 * b.2 / (a.2 + b.2), a.3),
+            (Some(a), None) | (None, Some(a)) => (a.2, a.3),
+            (None, None) => return Err(wrong("a level lies between two walls".to_owned())),
+        };
+        Ok(ContactLevel {
+            left: l.map(|x| x.0),
+            right: r.map(|x| x.0),
+            left_storey: l.map(|x| x.1),
+            right_storey: r.map(|x| x.1),
+            width,
+            elevation,
+            effective_mass,
+            model,
+        })
+    }
+
+    /// The same buildings and ground motion without gaps: the isolated run.
+    #[must_use]
+    pub fn isolated(&self) -> Self {
+        Self::new(self.buildings.clone(), self.ground.clone())
+    }
+
+    /// Buildings from the left.
+    #[must_use]
+    pub fn buildings(&self) -> &[Arc<ShearBuilding>] {
+        &self.buildings
+    }
+
+    /// First degree of freedom of each building, and the total at the end.
+    #[must_use]
+    pub fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// Gaps in the order of the case file.
+    #[must_use]
+    pub fn gaps(&self) -> &[Gap] {
+        &self.gaps
+    }
+
+    /// Contact levels of all gaps, gap after gap, from the bottom.
+    #[must_use]
+    pub fn levels(&self) -> &[ContactLevel] {
+        &self.levels
+    }
+
+    /// Ground acceleration.
+    #[must_use]
+    pub fn ground(&self) -> &GroundAcceleration {
+        &self.ground
+    }
+
+    /// Number of degrees of freedom.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Floor masses of all buildings (kg).
+    #[must_use]
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// Duration of the ground motion (s).
+    #[must_use]
+    pub fn record_duration(&self) -> f64 {
+        self.ground.time_step * self.ground.samples.len().saturating_sub(1) as f64
+    }
+
+    /// Storey forces, restoring and damping: `out = -(K u + C v)` (N). `scratch`
+    /// has the length of `out`. Arithmetic is per building, so a building's bits
+    /// do not depend on its neighbours.
+    pub(crate) fn internal_forces(
+        &self,
+        u: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+        scratch: &mut [f64],
+    ) {
+        for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
+            let (a, b) = (range[0], range[1]);
+            building
+                .stiffness_matrix()
+                .multiply(&u[a..b], &mut out[a..b]);
+            building.apply_damping(&v[a..b], &mut scratch[a..b]);
+        }
+        for (o, s) in out.iter_mut().zip(scratch.iter()) {
+            *o = -(*o + *s);
+        }
+    }
+
+    /// Recoverable energy in the storeys (J).
+    pub(crate) fn strain_energy(&self, u: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
+            let mut below = 0.0;
+            for (k, x) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
+                let drift = x - below;
+                sum += 0.5 * k * drift * drift;
+                below = *x;
+            }
+        }
+        sum
+    }
+
+    /// Kinetic energy relative to the ground (J).
+    pub(crate) fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
+    }
+}
+
+impl ContactLevel {
+    /// Penetration (m): positive in contact.
+    pub(crate) fn penetration(&self, u: &[f64]) -> f64 {
+        self.relative(u) - self.width
+    }
+
+    /// Left minus right of any quantity given per degree of freedom.
+    pub(crate) fn relative(&self, x: &[f64]) -> f64 {
+        match (self.left, self.right) {
+            (Some(l), Some(r)) => x[l] - x[r],
+            (Some(l), None) => x[l],
+            (None, Some(r)) => -x[r],
+            (None, None) => 0.0,
+        }
+    }
+}

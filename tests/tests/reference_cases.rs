@@ -9,7 +9,15 @@ use pounding_time_history::{Outcome, RunOptions, run};
 use verification::{ReferenceValues, reference_cases, reference_system, synthetic_motion};
 
 const MODELS: [&str; 9] = [
-    "linear", "kv", "kv_cut", "mj", "hertz", "hertzdamp", "jank", "fricl", "frich",
+    "linear",
+    "kv",
+    "kv_cut",
+    "mj",
+    "hertz",
+    "hertzdamp",
+    "jank",
+    "fricl",
+    "frich",
 ];
 
 /// Largest relative difference between two lists.
@@ -17,7 +25,11 @@ fn difference(name: &str, computed: &[f64], reference: &[f64], worst: &mut f64) 
     assert_eq!(computed.len(), reference.len(), "{name}");
     for (a, b) in computed.iter().zip(reference) {
         let scale = b.abs();
-        let error = if scale == 0.0 { a.abs() } else { (a - b).abs() / scale };
+        let error = if scale == 0.0 {
+            a.abs()
+        } else {
+            (a - b).abs() / scale
+        };
         *worst = worst.max(error);
     }
 }
@@ -28,27 +40,65 @@ fn compare(label: &str, outcome: &Outcome, reference: &ReferenceValues) -> Vec<S
     let (mut u, mut f, mut t, mut v, mut e) = (0.0, 0.0, 0.0, 0.0, 0.0);
     let list = |g: &dyn Fn(usize) -> f64, n: usize| (0..n).map(g).collect::<Vec<_>>();
     let n = levels.len();
-    difference("displacement", &list(&|i| storeys[i].displacement.value, storeys.len()), &reference.peak_u, &mut u);
-    difference("force", &list(&|i| levels[i].peak_force.value, n), &reference.peak_force, &mut f);
-    difference("first contact", &list(&|i| levels[i].first_contact.unwrap_or(-1.0), n), &reference.t_first, &mut t);
-    difference("approach velocity", &list(&|i| levels[i].approach_velocity_max, n), &reference.max_v0, &mut v);
+    difference(
+        "displacement",
+        &list(&|i| storeys[i].displacement.value, storeys.len()),
+        &reference.peak_u,
+        &mut u,
+    );
+    difference(
+        "force",
+        &list(&|i| levels[i].peak_force.value, n),
+        &reference.peak_force,
+        &mut f,
+    );
+    difference(
+        "first contact",
+        &list(&|i| levels[i].first_contact.unwrap_or(-1.0), n),
+        &reference.t_first,
+        &mut t,
+    );
+    difference(
+        "approach velocity",
+        &list(&|i| levels[i].approach_velocity_max, n),
+        &reference.max_v0,
+        &mut v,
+    );
     let end = outcome.energy.end;
-    difference("energy", &[end.input, end.viscous], &[reference.input, reference.viscous], &mut e);
+    difference(
+        "energy",
+        &[end.input, end.viscous],
+        &[reference.input, reference.viscous],
+        &mut e,
+    );
     // Elastic laws dissipate nothing: their contact work is compared with the input.
-    let scale = if reference.contact.abs() < 1e-9 * reference.input { reference.input } else { reference.contact };
+    let scale = if reference.contact.abs() < 1e-9 * reference.input {
+        reference.input
+    } else {
+        reference.contact
+    };
     e = e.max((end.impact - reference.contact).abs() / scale);
     let impacts: Vec<usize> = levels.iter().map(|l| l.impacts).collect();
     let sticks: usize = levels.iter().map(|l| l.sticks).sum();
     println!(
         "{label:16} u {u:8.1e}  F {f:8.1e}  t {t:8.1e}  v {v:8.1e}  E {e:8.1e}  residual {:8.1e}  impacts {}  steps {} rejected {} events {}",
         outcome.energy.residual_ratio,
-        if impacts == reference.n_impacts { "equal".to_owned() } else { format!("{impacts:?} for {:?}", reference.n_impacts) },
-        outcome.statistics.steps, outcome.statistics.rejected, outcome.statistics.events,
+        if impacts == reference.n_impacts {
+            "equal".to_owned()
+        } else {
+            format!("{impacts:?} for {:?}", reference.n_impacts)
+        },
+        outcome.statistics.steps,
+        outcome.statistics.rejected,
+        outcome.statistics.events,
     );
     let mut failures = Vec::new();
     for (name, error, bound) in [
-        ("displacement", u, 1e-6), ("force", f, 1e-6), ("first contact", t, 1e-6),
-        ("approach velocity", v, 1e-6), ("energy", e, 1e-6),
+        ("displacement", u, 1e-6),
+        ("force", f, 1e-6),
+        ("first contact", t, 1e-6),
+        ("approach velocity", v, 1e-6),
+        ("energy", e, 1e-6),
         ("residual", outcome.energy.residual_ratio, 1e-8),
     ] {
         if !(error <= bound) {
@@ -56,10 +106,16 @@ fn compare(label: &str, outcome: &Outcome, reference: &ReferenceValues) -> Vec<S
         }
     }
     if impacts != reference.n_impacts {
-        failures.push(format!("{label}: impacts {impacts:?} for {:?}", reference.n_impacts));
+        failures.push(format!(
+            "{label}: impacts {impacts:?} for {:?}",
+            reference.n_impacts
+        ));
     }
     if sticks != reference.n_stick {
-        failures.push(format!("{label}: stuck {sticks} times for {}", reference.n_stick));
+        failures.push(format!(
+            "{label}: stuck {sticks} times for {}",
+            reference.n_stick
+        ));
     }
     failures
 }

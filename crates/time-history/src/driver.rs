@@ -26,8 +26,10 @@ const LOCATION_STEPS: usize = 8;
 const SHORTEST_STEP: f64 = 1.0e-15;
 /// Events of one level at one instant before the level has to make progress.
 const EVENTS_AT_ONCE: usize = 4;
-/// Step (s) that it then has to make.
-const PROGRESS_STEP: f64 = 1.0e-7;
+/// Step (s) that it then has to make, and that floors make after they broke
+/// loose: relative velocity and acceleration are zero there, so that only the
+/// next higher derivative tells the direction, and round-off must not.
+const PROGRESS_STEP: f64 = 1.0e-6;
 /// Events without progress before the run is given up.
 const CHATTER: usize = 10_000;
 
@@ -90,6 +92,17 @@ fn segment(system: &System, sample: usize, duration: f64) -> Option<Segment> {
     })
 }
 
+/// What events of a level do not count in the next step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mute {
+    /// All count.
+    No,
+    /// Not those at its very start: the level has to make progress.
+    Start,
+    /// None: the floors just broke loose.
+    Step,
+}
+
 struct Driver<'a> {
     system: &'a System,
     options: &'a RunOptions,
@@ -107,6 +120,7 @@ struct Driver<'a> {
     statistics: Statistics,
     /// Events of each level at the present instant.
     at_once: Vec<usize>,
+    mute: Vec<Mute>,
     stalled: usize,
     last_ground: f64,
 }
@@ -131,6 +145,7 @@ impl<'a> Driver<'a> {
             largest_residual: 0.0,
             statistics: Statistics::default(),
             at_once: vec![0; layout.levels],
+            mute: vec![Mute::No; layout.levels],
             stalled: 0,
             last_ground: f64::NAN,
             dynamics,
@@ -173,7 +188,7 @@ impl<'a> Driver<'a> {
         let mut tau = 0.0;
         while tau < segment.length {
             let mut step = self.method.propose(segment, tau);
-            if self.at_once.iter().any(|n| *n > EVENTS_AT_ONCE) {
+            if self.mute.iter().any(|m| *m != Mute::No) {
                 step = step.min(PROGRESS_STEP);
             }
             let rest = segment.length - tau;
@@ -251,11 +266,17 @@ impl<'a> Driver<'a> {
             contacts: &self.contacts,
             segment,
         };
-        let at_once = &self.at_once;
-        self.finder
-            .find(&mut context, self.method.as_ref(), tau, step, |level| {
-                at_once[level] > EVENTS_AT_ONCE
-            })
+        let mute = &self.mute;
+        self.finder.find(
+            &mut context,
+            self.method.as_ref(),
+            (tau, step),
+            |level, theta| match mute[level] {
+                Mute::No => false,
+                Mute::Start => theta == 0.0,
+                Mute::Step => true,
+            },
+        )
     }
 
     /// Cuts the step at the event: Newton on the event function, each time with a
@@ -335,6 +356,7 @@ impl<'a> Driver<'a> {
         self.statistics.steps += 1;
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
+            self.mute.fill(Mute::No);
             self.stalled = 0;
         }
         let n = self.dynamics.layout.dofs;
@@ -371,6 +393,9 @@ impl<'a> Driver<'a> {
             self.fire(segment, tau, *other);
             self.statistics.events += 1;
             self.at_once[other.level] += 1;
+            if self.at_once[other.level] > EVENTS_AT_ONCE && self.mute[other.level] == Mute::No {
+                self.mute[other.level] = Mute::Start;
+            }
             self.stalled += 1;
             let model = &self.system.levels()[other.level].model;
             if other.kind == EventKind::Close && !model.smooth_at_closure() {
@@ -425,6 +450,8 @@ impl<'a> Driver<'a> {
                 };
                 if next == Phase::Stuck {
                     self.log.stick(l);
+                } else if phase == Phase::Stuck {
+                    self.mute[l] = Mute::Step;
                 }
                 self.contacts.set_phase(l, next);
             }

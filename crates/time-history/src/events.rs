@@ -51,14 +51,13 @@ impl Finder {
     }
 
     /// Collects the first event of every level and returns the earliest.
-    /// `muted(level)`: events at the very start of the step do not count there.
+    /// Events for which `muted(level, theta)` do not count.
     pub(crate) fn find(
         &mut self,
         context: &mut Context<'_, '_>,
         method: &dyn Method,
-        tau: f64,
-        step: f64,
-        muted: impl Fn(usize) -> bool,
+        (tau, step): (f64, f64),
+        muted: impl Fn(usize, f64) -> bool,
     ) -> Option<Candidate> {
         self.candidates.clear();
         for level in 0..context.contacts.modes.len() {
@@ -67,7 +66,7 @@ impl Finder {
             for kind in kinds.into_iter().flatten() {
                 let guard = self.guard(context, method, level, kind, tau, step);
                 if let Some(theta) = first_rise(&guard)
-                    && !(theta == 0.0 && muted(level))
+                    && !muted(level, theta)
                     && first.is_none_or(|f| theta < f.theta)
                 {
                     first = Some(Candidate { level, kind, theta });

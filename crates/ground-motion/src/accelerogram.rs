@@ -1,0 +1,207 @@
+//! An accelerogram with its origin.
+
+use crate::error::GroundMotionError;
+use crate::unit::AccelerationUnit;
+
+/// Where a record came from and how it was understood.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Origin {
+    /// File name as given.
+    pub file: String,
+    /// Name of the format.
+    pub format: &'static str,
+    /// Header text that names event, station or component.
+    pub title: String,
+    /// Unit of the values in the file, and who stated it.
+    pub unit: String,
+    /// Time step (s) and who stated it.
+    pub time_step: String,
+    /// Number of samples in the header, if it has one.
+    pub header_count: Option<usize>,
+    /// SHA-256 of the file's bytes, hexadecimal.
+    pub sha256: String,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// A greatest absolute value and its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Absolute value (m/s2).
+    pub value: f64,
+    /// Time (s).
+    pub time: f64,
+}
+
+/// Ground acceleration at even steps, the first sample at time zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Accelerogram {
+    samples: Vec<f64>,
+    time_step: f64,
+    scale: f64,
+    origin: Option<Origin>,
+}
+
+impl Accelerogram {
+    /// An accelerogram from samples in a unit and a time step (s).
+    ///
+    /// # Errors
+    /// Fewer than two samples, a sample that is not finite, or a time step that is
+    /// not positive and finite.
+    pub fn new(
+        samples: Vec<f64>,
+        unit: AccelerationUnit,
+        time_step: f64,
+    ) -> Result<Self, GroundMotionError> {
+        if !(time_step.is_finite() && time_step > 0.0) {
+            return Err(GroundMotionError::Invalid(format!(
+                "time step {time_step} s must be greater than zero"
+            )));
+        }
+        if samples.len() < 2 {
+            return Err(GroundMotionError::Invalid(format!(
+                "{} samples; at least two are needed",
+                samples.len()
+            )));
+        }
+        if let Some(i) = samples.iter().position(|a| !a.is_finite()) {
+            return Err(GroundMotionError::Invalid(format!(
+                "sample {} is {}",
+                i + 1,
+                samples[i]
+            )));
+        }
+        let factor = unit.in_si();
+        Ok(Self {
+            samples: samples.iter().map(|a| a * factor).collect(),
+            time_step,
+            scale: 1.0,
+            origin: None,
+        })
+    }
+
+    pub(crate) fn with_origin(mut self, mut origin: Origin) -> Self {
+        let peak = self.peak();
+        if peak.value > 30.0 {
+            origin.warnings.push(format!(
+                "peak acceleration {:.3} m/s2 is larger than any recorded; check the unit",
+                peak.value
+            ));
+        } else if peak.value < 1.0e-3 {
+            origin.warnings.push(format!(
+                "peak acceleration {:.3e} m/s2 is not felt; check the unit",
+                peak.value
+            ));
+        }
+        self.origin = Some(origin);
+        self
+    }
+
+    /// Samples (m/s2), scale applied.
+    #[must_use]
+    pub fn samples(&self) -> &[f64] {
+        &self.samples
+    }
+
+    /// Time step (s).
+    #[must_use]
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Time of the last sample (s).
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        (self.samples.len() - 1) as f64 * self.time_step
+    }
+
+    /// Factor applied to the recorded values.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// Where it came from; `None` if it was made in memory.
+    #[must_use]
+    pub fn origin(&self) -> Option<&Origin> {
+        self.origin.as_ref()
+    }
+
+    /// Peak ground acceleration (m/s2) and its time.
+    #[must_use]
+    pub fn peak(&self) -> Peak {
+        let mut peak = Peak {
+            value: 0.0,
+            time: 0.0,
+        };
+        for (i, a) in self.samples.iter().enumerate() {
+            if a.abs() > peak.value {
+                peak = Peak {
+                    value: a.abs(),
+                    time: i as f64 * self.time_step,
+                };
+            }
+        }
+        peak
+    }
+
+    /// The record times a factor.
+    ///
+    /// # Errors
+    /// A factor that is zero or not finite.
+    pub fn scaled_by(&self, factor: f64) -> Result<Self, GroundMotionError> {
+        if !(factor.is_finite() && factor != 0.0) {
+            return Err(GroundMotionError::Invalid(format!(
+                "scale factor {factor} must be finite and not zero"
+            )));
+        }
+        let mut scaled = self.clone();
+        scaled.scale *= factor;
+        for a in &mut scaled.samples {
+            *a *= factor;
+        }
+        Ok(scaled)
+    }
+
+    /// The record scaled to a peak ground acceleration (m/s2).
+    ///
+    /// # Errors
+    /// A target that is not positive, or a record of zeros.
+    pub fn scaled_to_peak(&self, target: f64) -> Result<Self, GroundMotionError> {
+        let peak = self.peak().value;
+        if !(target > 0.0 && peak > 0.0) {
+            return Err(GroundMotionError::Invalid(format!(
+                "a record with peak {peak} m/s2 cannot be scaled to {target} m/s2"
+            )));
+        }
+        self.scaled_by(target / peak)
+    }
+
+    /// What was read, a line each, for the user.
+    #[must_use]
+    pub fn echo(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if let Some(origin) = &self.origin {
+            lines.push(format!("{} ({})", origin.file, origin.format));
+            if !origin.title.is_empty() {
+                lines.push(origin.title.clone());
+            }
+            lines.push(format!(
+                "unit {}, time step {}",
+                origin.unit, origin.time_step
+            ));
+        }
+        let peak = self.peak();
+        lines.push(format!(
+            "{} samples at {} s, duration {} s, peak {:.5} m/s2 = {:.5} g at {:.4} s, scale {}",
+            self.samples.len(),
+            self.time_step,
+            (self.duration() * 1e9).round() / 1e9,
+            peak.value,
+            peak.value / AccelerationUnit::StandardGravity.in_si(),
+            peak.time,
+            self.scale
+        ));
+        lines
+    }
+}

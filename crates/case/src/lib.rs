@@ -1,1 +1,17 @@
-//! The case file: units, validation with source positions, JSON Schema
+//! The case file: units, validation with source positions, JSON Schema.
+//!
+//! The crate knows words, not physics: it turns a TOML text into plain SI values
+//! and keeps where each stood, so that an error anywhere above can point at file,
+//! line and column.
+
+mod error;
+mod parse;
+mod reader;
+mod schema;
+mod types;
+mod units;
+
+pub use error::CaseError;
+pub use schema::schema;
+pub use types::*;
+pub use units::{Dimension, Quantity, UnitError, parse_quantity};

@@ -1,0 +1,340 @@
+//! Walking the TOML tree with places.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::CaseError;
+use crate::schema::Key;
+use crate::types::Located;
+use crate::units::{Dimension, Quantity, parse_quantity};
+
+/// A text being read.
+#[derive(Clone, Copy)]
+pub(crate) struct Reader<'a> {
+    pub file: &'a str,
+    pub source: &'a str,
+}
+
+/// A TOML value with its place.
+pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
+
+impl<'a> Reader<'a> {
+    pub(crate) fn error(
+        &self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> CaseError {
+        CaseError::new(self.file, self.source, span, message, Some(help.into()))
+    }
+
+    /// The value as a table whose keys are all known.
+    pub(crate) fn table<'v>(
+        &self,
+        value: &'v Value<'a>,
+        name: &str,
+        keys: &[Key],
+    ) -> Result<Table<'v, 'a>, CaseError> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return Err(self.wrong_type(value, name, "a table"));
+        };
+        Table::new(*self, table, value.span(), name, keys)
+    }
+
+    pub(crate) fn wrong_type(&self, value: &Value<'_>, key: &str, wanted: &str) -> CaseError {
+        self.error(
+            value.span(),
+            format!(
+                "`{key}` must be {wanted}, not {}",
+                type_name(value.get_ref())
+            ),
+            format!("write {wanted}"),
+        )
+    }
+
+    pub(crate) fn text(&self, value: &Value<'_>, key: &str) -> Result<Located<String>, CaseError> {
+        match value.get_ref() {
+            DeValue::String(text) => Ok(Located {
+                value: text.to_string(),
+                span: value.span(),
+            }),
+            _ => Err(self.wrong_type(value, key, "a text in quotes")),
+        }
+    }
+
+    pub(crate) fn boolean(&self, value: &Value<'_>, key: &str) -> Result<bool, CaseError> {
+        value
+            .get_ref()
+            .as_bool()
+            .ok_or_else(|| self.wrong_type(value, key, "true or false"))
+    }
+
+    /// A whole number from `least` on.
+    pub(crate) fn count(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        least: usize,
+    ) -> Result<usize, CaseError> {
+        let number = match value.get_ref() {
+            DeValue::Integer(i) => usize::from_str_radix(i.as_str(), i.radix()).ok(),
+            _ => return Err(self.wrong_type(value, key, "a whole number")),
+        };
+        number
+            .filter(|n| (least..=100_000).contains(n))
+            .ok_or_else(|| {
+                self.error(
+                    value.span(),
+                    format!("`{key}` must be a whole number from {least}"),
+                    "correct the number",
+                )
+            })
+    }
+
+    /// A number or a text with unit.
+    pub(crate) fn any_quantity(&self, value: &Value<'_>, key: &str) -> Result<Quantity, CaseError> {
+        let number = |text: &str| Quantity {
+            value: text.parse().unwrap_or(f64::NAN),
+            dimension: None,
+            text: text.to_owned(),
+        };
+        let quantity = match value.get_ref() {
+            DeValue::Integer(i) if i.radix() == 10 => number(&i.as_str().replace('_', "")),
+            DeValue::Float(f) => number(&f.as_str().replace('_', "")),
+            DeValue::String(text) => parse_quantity(text)
+                .map_err(|e| self.error(value.span(), format!("`{key}`: {e}"), "write a number in SI units, or a text such as \"25 t\", \"3.46 MN/m\", \"20 mm\""))?,
+            _ => return Err(self.wrong_type(value, key, "a number, or a text with unit")),
+        };
+        if quantity.value.is_finite() {
+            Ok(quantity)
+        } else {
+            Err(self.error(
+                value.span(),
+                format!("`{key}` = {} is not a finite number", quantity.text),
+                "correct the number",
+            ))
+        }
+    }
+
+    /// A quantity of a dimension, in SI units.
+    pub(crate) fn quantity(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        wanted: Dimension,
+    ) -> Result<f64, CaseError> {
+        let quantity = self.any_quantity(value, key)?;
+        match quantity.dimension {
+            Some(found) if found != wanted => Err(self.error(
+                value.span(),
+                format!(
+                    "`{key}` must be {wanted}, but \"{}\" is {found}",
+                    quantity.text
+                ),
+                dimension_help(wanted, found),
+            )),
+            _ => Ok(quantity.value),
+        }
+    }
+
+    pub(crate) fn positive(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        wanted: Dimension,
+    ) -> Result<f64, CaseError> {
+        let number = self.quantity(value, key, wanted)?;
+        if number > 0.0 {
+            Ok(number)
+        } else {
+            Err(self.error(
+                value.span(),
+                format!("`{key}` = {number} must be greater than zero"),
+                "correct the value",
+            ))
+        }
+    }
+
+    /// A scalar or a list of quantities that must all pass `check`; each value
+    /// with its place.
+    pub(crate) fn list(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        read: impl Fn(&Value<'_>) -> Result<f64, CaseError>,
+    ) -> Result<List, CaseError> {
+        let values = match value.get_ref() {
+            DeValue::Array(items) => {
+                let values = items.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+                if values.is_empty() {
+                    return Err(self.error(
+                        value.span(),
+                        format!("`{key}` is an empty list"),
+                        "give one value a storey, or a single value for all",
+                    ));
+                }
+                Values::List(values)
+            }
+            _ => Values::Scalar(read(value)?),
+        };
+        Ok(List {
+            values,
+            span: value.span(),
+        })
+    }
+}
+
+/// A scalar that applies everywhere, or a list.
+pub(crate) enum Values {
+    Scalar(f64),
+    List(Vec<f64>),
+}
+
+/// Values with their place.
+pub(crate) struct List {
+    pub values: Values,
+    pub span: Range<usize>,
+}
+
+fn dimension_help(wanted: Dimension, found: Dimension) -> String {
+    if wanted == Dimension::MASS && found == Dimension::FORCE {
+        "a weight is a force: divide it by g, or write the mass in kg or t".to_owned()
+    } else if wanted == Dimension::STIFFNESS && found == Dimension::FORCE {
+        "a stiffness is a force over a length, such as \"3.46 MN/m\"".to_owned()
+    } else {
+        "correct the unit; plain numbers are SI".to_owned()
+    }
+}
+
+fn type_name(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+/// A table whose keys were checked.
+pub(crate) struct Table<'v, 'a> {
+    pub reader: Reader<'a>,
+    table: &'v DeTable<'a>,
+    pub span: Range<usize>,
+    pub name: String,
+}
+
+impl<'v, 'a> Table<'v, 'a> {
+    /// Checks the keys. An entry `*` in `keys` admits any.
+    pub(crate) fn new(
+        reader: Reader<'a>,
+        table: &'v DeTable<'a>,
+        span: Range<usize>,
+        name: &str,
+        keys: &[Key],
+    ) -> Result<Self, CaseError> {
+        let open = keys.iter().any(|k| k.name == "*");
+        for (key, _) in table {
+            let text: &str = key.get_ref();
+            if !open && !keys.iter().any(|k| k.name == text) {
+                let nearest = keys
+                    .iter()
+                    .map(|k| k.name)
+                    .min_by_key(|k| distance(text, k));
+                let all: Vec<_> = keys.iter().map(|k| k.name).collect();
+                let guess = nearest
+                    .filter(|k| distance(text, k) <= 1 + text.len() / 3)
+                    .map_or_else(String::new, |k| format!("did you mean `{k}`? "));
+                return Err(reader.error(
+                    key.span(),
+                    format!("unknown key `{text}` in {name}"),
+                    format!("{guess}known keys: {}", all.join(", ")),
+                ));
+            }
+        }
+        Ok(Self {
+            reader,
+            table,
+            span,
+            name: name.to_owned(),
+        })
+    }
+
+    pub(crate) fn get(&self, key: &str) -> Option<&'v Value<'a>> {
+        self.table
+            .iter()
+            .find(|(k, _)| k.get_ref() == key)
+            .map(|(_, v)| v)
+    }
+
+    pub(crate) fn required(&self, key: &str) -> Result<&'v Value<'a>, CaseError> {
+        self.get(key).ok_or_else(|| {
+            self.reader.error(
+                self.span.clone(),
+                format!("{} has no `{key}`", self.name),
+                format!("add `{key} = ...`"),
+            )
+        })
+    }
+
+    /// All entries with the places of their keys, in the order of the file.
+    pub(crate) fn entries(&self) -> Vec<(Located<String>, &'v Value<'a>)> {
+        let mut entries: Vec<_> = self
+            .table
+            .iter()
+            .map(|(k, v)| {
+                let key = Located {
+                    value: k.get_ref().to_string(),
+                    span: k.span(),
+                };
+                (key, v)
+            })
+            .collect();
+        entries.sort_by_key(|(k, _)| k.span.start);
+        entries
+    }
+
+    pub(crate) fn optional_positive(
+        &self,
+        key: &str,
+        wanted: Dimension,
+    ) -> Result<Option<f64>, CaseError> {
+        self.get(key)
+            .map(|v| self.reader.positive(v, key, wanted))
+            .transpose()
+    }
+
+    pub(crate) fn optional_number(&self, key: &str) -> Result<Option<f64>, CaseError> {
+        self.get(key)
+            .map(|v| self.reader.quantity(v, key, Dimension::NUMBER))
+            .transpose()
+    }
+
+    pub(crate) fn optional_text(&self, key: &str) -> Result<Option<Located<String>>, CaseError> {
+        self.get(key).map(|v| self.reader.text(v, key)).transpose()
+    }
+
+    pub(crate) fn flag(&self, key: &str) -> Result<bool, CaseError> {
+        self.get(key)
+            .map_or(Ok(false), |v| self.reader.boolean(v, key))
+    }
+}
+
+/// Levenshtein distance.
+pub(crate) fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

@@ -1,0 +1,328 @@
+//! The keys of a case file: one list that the reader checks against and the JSON
+//! Schema is made from.
+
+use serde_json::{Map, Value, json};
+
+/// What a key holds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kind {
+    Text,
+    Flag,
+    Count,
+    /// A number in SI units or a text with unit.
+    Quantity,
+    /// The same, or a list of them.
+    Quantities,
+    Names,
+    Levels,
+    Scale,
+    Table(&'static [Key]),
+    Tables(&'static [Key]),
+}
+
+/// A key with what it is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key {
+    pub name: &'static str,
+    pub kind: Kind,
+    pub required: bool,
+    pub explanation: &'static str,
+}
+
+const fn key(name: &'static str, kind: Kind, explanation: &'static str) -> Key {
+    Key {
+        name,
+        kind,
+        required: false,
+        explanation,
+    }
+}
+const fn needed(name: &'static str, kind: Kind, explanation: &'static str) -> Key {
+    Key {
+        name,
+        kind,
+        required: true,
+        explanation,
+    }
+}
+
+pub(crate) const CASE: &[Key] = &[
+    key("title", Kind::Text, "Title of the case"),
+    needed(
+        "building",
+        Kind::Tables(BUILDING),
+        "Buildings, from the left",
+    ),
+    key(
+        "gap",
+        Kind::Tables(GAP),
+        "Gaps between neighbours, or to a rigid wall",
+    ),
+    needed(
+        "ground_motion",
+        Kind::Table(GROUND_MOTION),
+        "The recorded motion",
+    ),
+    key(
+        "analysis",
+        Kind::Table(ANALYSIS),
+        "Method, duration, output",
+    ),
+];
+
+pub(crate) const BUILDING: &[Key] = &[
+    needed(
+        "name",
+        Kind::Text,
+        "Name, unique in the case; \"wall\" is reserved",
+    ),
+    key(
+        "storeys",
+        Kind::Count,
+        "Number of storeys, if no list tells it",
+    ),
+    needed(
+        "mass",
+        Kind::Quantities,
+        "Floor mass (kg), one for all storeys or a list, bottom first",
+    ),
+    needed(
+        "stiffness",
+        Kind::Quantities,
+        "Storey stiffness (N/m), one for all storeys or a list, bottom first",
+    ),
+    needed(
+        "height",
+        Kind::Quantities,
+        "Storey height (m), one for all storeys or a list, bottom first",
+    ),
+    needed(
+        "damping",
+        Kind::Table(DAMPING),
+        "Viscous damping, one of its kinds",
+    ),
+];
+
+pub(crate) const DAMPING: &[Key] = &[
+    key(
+        "ratio",
+        Kind::Quantity,
+        "Rayleigh: ratio in both `modes` (-)",
+    ),
+    key("modes", Kind::Quantities, "Rayleigh: the two modes, from 1"),
+    key("rayleigh", Kind::Table(RAYLEIGH), "C = alpha M + beta K"),
+    key(
+        "stiffness_proportional",
+        Kind::Quantity,
+        "Ratio in mode 1 (-)",
+    ),
+    key("mass_proportional", Kind::Quantity, "Ratio in mode 1 (-)"),
+    key(
+        "modal",
+        Kind::Quantities,
+        "Ratio of every mode (-), or one for all",
+    ),
+    key(
+        "dashpots",
+        Kind::Quantities,
+        "Coefficient of every storey (N s/m), or one for all",
+    ),
+];
+
+pub(crate) const RAYLEIGH: &[Key] = &[
+    needed("alpha", Kind::Quantity, "Mass factor (1/s)"),
+    needed("beta", Kind::Quantity, "Stiffness factor (s)"),
+];
+
+pub(crate) const GAP: &[Key] = &[
+    key("name", Kind::Text, "Name of the gap, by default left-right"),
+    needed(
+        "between",
+        Kind::Names,
+        "Left and right neighbour; \"wall\" is a rigid wall that moves with the ground",
+    ),
+    needed(
+        "width",
+        Kind::Quantities,
+        "Width at rest (m), one for all levels or a list, bottom first",
+    ),
+    key(
+        "levels",
+        Kind::Levels,
+        "Pairs of storey numbers that may touch, or \"matching\" for the floors at equal elevation only",
+    ),
+    key(
+        "elevation_tolerance",
+        Kind::Quantity,
+        "Floors this close in elevation are level (m), by default 0.01",
+    ),
+    needed("model", Kind::Text, "Impact model, author_year"),
+    key(
+        "separation",
+        Kind::Text,
+        "zero_penetration or no_tension, where the model offers both",
+    ),
+    key(
+        "*",
+        Kind::Quantity,
+        "Parameters of the model: stiffness (N/m^n), restitution, exponent, ...",
+    ),
+];
+
+pub(crate) const GROUND_MOTION: &[Key] = &[
+    needed(
+        "file",
+        Kind::Text,
+        "Record, relative to the folder of the case file",
+    ),
+    key(
+        "format",
+        Kind::Text,
+        "pounding_csv, peer_at2 or plain_columns; found from the content by default",
+    ),
+    key(
+        "time_step",
+        Kind::Quantity,
+        "Time step (s), for files that do not state it",
+    ),
+    key(
+        "unit",
+        Kind::Text,
+        "Unit of the values, for files that do not state it",
+    ),
+    key(
+        "layout",
+        Kind::Text,
+        "Plain columns: \"a\", or names such as \"t,ns,ew\"",
+    ),
+    key("component", Kind::Text, "Plain columns: the column to use"),
+    key(
+        "skip_lines",
+        Kind::Count,
+        "Plain columns: lines to skip at the start",
+    ),
+    key(
+        "prepend_zero",
+        Kind::Flag,
+        "The first value is at one time step, after a zero",
+    ),
+    key(
+        "lenient",
+        Kind::Flag,
+        "Accept fewer samples than the header says",
+    ),
+    key(
+        "scale",
+        Kind::Scale,
+        "A factor, { factor = ... } or { pga = \"0.35 g\" }",
+    ),
+];
+
+pub(crate) const SCALE: &[Key] = &[
+    key("factor", Kind::Quantity, "Factor (-)"),
+    key("pga", Kind::Quantity, "Peak ground acceleration (m/s2)"),
+];
+
+pub(crate) const ANALYSIS: &[Key] = &[
+    key(
+        "method",
+        Kind::Text,
+        "adaptive (default), newmark, hht_alpha or runge_kutta_4",
+    ),
+    key(
+        "duration",
+        Kind::Quantity,
+        "Duration (s), by default that of the record",
+    ),
+    key(
+        "output_step",
+        Kind::Quantity,
+        "Step of the responses in the result (s), by default 0.01",
+    ),
+    key("step", Kind::Quantity, "Step of fixed-step methods (s)"),
+    key("beta", Kind::Quantity, "Newmark's beta, by default 1/4"),
+    key("gamma", Kind::Quantity, "Newmark's gamma, by default 1/2"),
+    key(
+        "alpha",
+        Kind::Quantity,
+        "Alpha of HHT, -1/3 to 0, by default -0.05",
+    ),
+    key(
+        "relative_tolerance",
+        Kind::Quantity,
+        "Relative tolerance of the adaptive method, by default 1e-10",
+    ),
+    key(
+        "energy_tolerance",
+        Kind::Quantity,
+        "Allowed energy residual over the largest input energy",
+    ),
+];
+
+/// JSON Schema (2020-12) of a case file.
+#[must_use]
+pub fn schema() -> Value {
+    let mut schema = object(CASE, "A case of seismic pounding");
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("pounding case");
+    schema["$defs"] = json!({
+        "quantity": {
+            "description": "A number in SI units, or a text with a unit",
+            "anyOf": [{"type": "number"}, {"type": "string"}]
+        }
+    });
+    schema
+}
+
+fn object(keys: &[Key], description: &str) -> Value {
+    let mut properties = Map::new();
+    let mut required = Vec::new();
+    let mut additional = Value::Bool(false);
+    for key in keys {
+        let mut value = kind(key.kind, key.explanation);
+        value["description"] = json!(key.explanation);
+        if key.name == "*" {
+            additional = value;
+            continue;
+        }
+        if key.required {
+            required.push(key.name);
+        }
+        properties.insert(key.name.to_owned(), value);
+    }
+    json!({
+        "type": "object",
+        "description": description,
+        "properties": properties,
+        "required": required,
+        "additionalProperties": additional,
+    })
+}
+
+fn kind(kind: Kind, explanation: &str) -> Value {
+    let quantity = json!({"$ref": "#/$defs/quantity"});
+    match kind {
+        Kind::Text => json!({"type": "string"}),
+        Kind::Flag => json!({"type": "boolean"}),
+        Kind::Count => json!({"type": "integer", "minimum": 0}),
+        Kind::Quantity => json!({"anyOf": [quantity]}),
+        Kind::Quantities => {
+            json!({"anyOf": [quantity, {"type": "array", "minItems": 1, "items": quantity}]})
+        }
+        Kind::Names => {
+            json!({"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2})
+        }
+        Kind::Levels => json!({"anyOf": [
+            {"const": "matching"},
+            {"type": "array", "items": {"anyOf": [
+                {"type": "integer", "minimum": 1},
+                {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2}
+            ]}}
+        ]}),
+        Kind::Scale => json!({"anyOf": [{"type": "number"}, object(SCALE, "Scale")]}),
+        Kind::Table(keys) => object(keys, explanation),
+        Kind::Tables(keys) => {
+            json!({"type": "array", "minItems": 1, "items": object(keys, explanation)})
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! A case in SI units, with the place of what the layers above may refuse.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use crate::error::CaseError;
+use crate::units::Quantity;
+
+/// A value and where it stands in the source (bytes).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located<T> {
+    /// Value.
+    pub value: T,
+    /// Bytes of the source.
+    pub span: Range<usize>,
+}
+
+/// A whole case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Title, may be empty.
+    pub title: String,
+    /// Buildings from the left.
+    pub buildings: Vec<Building>,
+    /// Gaps in the order of the file.
+    pub gaps: Vec<Gap>,
+    /// Ground motion.
+    pub ground_motion: GroundMotion,
+    /// Analysis.
+    pub analysis: Analysis,
+    /// The TOML text.
+    pub source: String,
+    /// Name of the file in messages, and the base of relative paths.
+    pub file: PathBuf,
+}
+
+/// A building: one value a storey, bottom first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Building {
+    /// Name, unique in the case.
+    pub name: Located<String>,
+    /// Floor masses (kg).
+    pub mass: Vec<f64>,
+    /// Storey stiffnesses (N/m).
+    pub stiffness: Vec<f64>,
+    /// Storey heights (m).
+    pub height: Vec<f64>,
+    /// Damping.
+    pub damping: Located<Damping>,
+}
+
+/// Damping as written.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Damping {
+    /// `{ rayleigh = { alpha, beta } }` in 1/s and s.
+    Rayleigh {
+        /// Mass factor.
+        alpha: f64,
+        /// Stiffness factor.
+        beta: f64,
+    },
+    /// `{ ratio, modes }`.
+    RayleighRatio {
+        /// Ratio in both modes.
+        ratio: f64,
+        /// The two modes, from 1.
+        modes: [usize; 2],
+    },
+    /// `{ stiffness_proportional }`: ratio in mode 1.
+    StiffnessProportional {
+        /// Ratio.
+        ratio: f64,
+    },
+    /// `{ mass_proportional }`: ratio in mode 1.
+    MassProportional {
+        /// Ratio.
+        ratio: f64,
+    },
+    /// `{ modal }`: a ratio a mode.
+    Modal {
+        /// Ratios.
+        ratios: Vec<f64>,
+    },
+    /// `{ dashpots }`: a coefficient a storey (N s/m).
+    Dashpots {
+        /// Coefficients.
+        coefficients: Vec<f64>,
+    },
+}
+
+/// One end of a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Index of the building in the row.
+    Building(usize),
+    /// A rigid wall that moves with the ground.
+    Wall,
+}
+
+/// A pair of floors that may touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLevel {
+    /// Storey of the left building, from zero; `None` for a wall.
+    pub left: Option<usize>,
+    /// Storey of the right building, from zero; `None` for a wall.
+    pub right: Option<usize>,
+    /// Width (m).
+    pub width: f64,
+}
+
+/// A gap between neighbours, or to a wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap {
+    /// Name, by default `left-right`.
+    pub name: String,
+    /// Left and right.
+    pub between: [Side; 2],
+    /// Contact levels, from the bottom.
+    pub levels: Vec<ContactLevel>,
+    /// Impact model.
+    pub model: Located<String>,
+    /// Separation rule.
+    pub separation: Option<Located<String>>,
+    /// All other keys, for the model to judge.
+    pub parameters: Vec<Parameter>,
+}
+
+/// A parameter of an impact model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Key.
+    pub key: Located<String>,
+    /// Value.
+    pub value: Located<Quantity>,
+}
+
+/// The ground motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroundMotion {
+    /// Record file as written.
+    pub file: Located<PathBuf>,
+    /// Format.
+    pub format: Option<Located<String>>,
+    /// Time step (s).
+    pub time_step: Option<f64>,
+    /// Unit of the values.
+    pub unit: Option<Located<String>>,
+    /// Layout of plain columns.
+    pub layout: Option<String>,
+    /// Column to use.
+    pub component: Option<String>,
+    /// Lines to skip.
+    pub skip_lines: usize,
+    /// Puts a zero before the first value.
+    pub prepend_zero: bool,
+    /// Accepts a truncated record.
+    pub lenient: bool,
+    /// Scale.
+    pub scale: Scale,
+}
+
+/// Scale of a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scale {
+    /// As recorded.
+    None,
+    /// Times a factor.
+    Factor(f64),
+    /// To a peak ground acceleration (m/s2).
+    PeakGroundAcceleration(f64),
+}
+
+/// The analysis. Times in s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    /// Method.
+    pub method: Located<String>,
+    /// Duration; the record's by default.
+    pub duration: Option<f64>,
+    /// Step of the output; 0.01 s by default.
+    pub output_step: f64,
+    /// Step of fixed-step methods.
+    pub step: Option<f64>,
+    /// Newmark's beta.
+    pub beta: Option<f64>,
+    /// Newmark's gamma.
+    pub gamma: Option<f64>,
+    /// Alpha of HHT.
+    pub alpha: Option<f64>,
+    /// Relative tolerance of adaptive methods.
+    pub relative_tolerance: Option<f64>,
+    /// Allowed energy residual.
+    pub energy_tolerance: Option<f64>,
+}
+
+impl Case {
+    /// Reads a case from a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or the first thing wrong in it.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let source = std::fs::read_to_string(path).map_err(|e| CaseError {
+            file: path.display().to_string(),
+            line: 1,
+            column: 1,
+            span: 0..0,
+            message: format!("cannot read the case file: {e}"),
+            help: Some("check the path".to_owned()),
+        })?;
+        Self::parse(&source, path)
+    }
+
+    /// Reads a case from a text; `file` names it and is the base of its paths.
+    ///
+    /// # Errors
+    /// The first thing wrong in it, with line, column and remedy.
+    pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
+        crate::parse::case(source, file)
+    }
+
+    /// A path of the case, relative to the folder of its file.
+    #[must_use]
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// An error at a place of this case.
+    #[must_use]
+    pub fn error(
+        &self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> CaseError {
+        CaseError::new(
+            &self.file.display().to_string(),
+            &self.source,
+            span,
+            message,
+            help,
+        )
+    }
+}

@@ -32,8 +32,11 @@ impl ModelParameters {
         self
     }
 
-    /// Refuses unknown, missing and out-of-range parameters.
-    pub(crate) fn check(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
+    /// Refuses unknown and out-of-range parameters.
+    ///
+    /// # Errors
+    /// The first parameter that the model does not have or does not allow.
+    pub fn check_values(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
         for (name, value) in &self.values {
             let Some(parameter) = model.parameters.iter().find(|p| p.name == name) else {
                 return Err(GapElementError::UnknownParameter {
@@ -51,6 +54,12 @@ impl ModelParameters {
                 });
             }
         }
+        Ok(())
+    }
+
+    /// Refuses unknown, missing and out-of-range parameters.
+    pub(crate) fn check(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
+        self.check_values(model)?;
         for parameter in model.parameters.iter().filter(|p| p.required) {
             self.required(model.name, parameter.name)?;
         }

@@ -6,6 +6,12 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimeHistoryError {
+    /// The case says something that cannot be.
+    #[error(transparent)]
+    Case(#[from] pounding_case::CaseError),
+    /// The record cannot be read or used.
+    #[error(transparent)]
+    GroundMotion(#[from] pounding_ground_motion::GroundMotionError),
     /// A gap of the system is not well defined.
     #[error("gap {gap}: {reason}")]
     GapDefinition {
@@ -80,6 +86,8 @@ impl TimeHistoryError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let text = match self {
+            Self::Case(error) => return error.help.clone(),
+            Self::GroundMotion(error) => return error.help(),
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
             }

@@ -1,5 +1,6 @@
 //! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result.
 
+mod assemble;
 mod contact;
 mod driver;
 mod dynamics;
@@ -13,13 +14,16 @@ mod outcome;
 mod peaks;
 mod polynomial;
 mod recorder;
+mod result_file;
 mod small_solver;
 mod system;
 
+pub use assemble::{Assembly, assemble};
 pub use driver::run;
 pub use error::TimeHistoryError;
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, Recorder, Sample, StepView};
+pub use result_file::{RunRecord, write_result};
 pub use system::{ContactLevel, Floor, Gap, GroundAcceleration, System};

@@ -1,0 +1,295 @@
+//! From a case to a system: the place where words meet physics.
+
+use std::sync::Arc;
+
+use pounding_case::{
+    Building, Case, CaseError, Damping, Dimension, Gap, Located, Parameter, Scale, Side,
+};
+use pounding_gap_element::{
+    ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit, SeparationRule, registry,
+};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram, Format, ReadOptions};
+use pounding_shear_building::ShearBuilding;
+
+use crate::error::TimeHistoryError;
+use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
+use crate::system::{Floor, GroundAcceleration, System};
+
+/// All that a run needs, made from a case.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    /// Buildings, gaps, ground acceleration.
+    pub system: System,
+    /// Method, duration, tolerances.
+    pub options: RunOptions,
+    /// Step of recorded responses (s).
+    pub output_step: f64,
+    /// The record, scaled, with its origin.
+    pub accelerogram: Accelerogram,
+}
+
+/// Reads the record and builds the system of a case.
+///
+/// # Errors
+/// What the case says of models, methods or the record cannot be: with its place
+/// in the case file, or in the record.
+pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
+    let buildings = case
+        .buildings
+        .iter()
+        .map(|b| building(case, b).map(Arc::new))
+        .collect::<Result<Vec<_>, _>>()?;
+    let models = case
+        .gaps
+        .iter()
+        .map(|gap| model(case, gap))
+        .collect::<Result<Vec<_>, _>>()?;
+    let options = options(case)?;
+    let accelerogram = accelerogram(case)?;
+    let ground = GroundAcceleration {
+        samples: accelerogram.samples().into(),
+        time_step: accelerogram.time_step(),
+    };
+    let mut system = System::new(buildings, ground);
+    for (gap, model) in case.gaps.iter().zip(models) {
+        let floor = |side: Side, storey: Option<usize>| match (side, storey) {
+            (Side::Building(b), Some(s)) => Floor::Storey(b, s),
+            _ => Floor::Wall,
+        };
+        let pairs = gap
+            .levels
+            .iter()
+            .map(|l| {
+                let left = floor(gap.between[0], l.left);
+                let right = floor(gap.between[1], l.right);
+                (left, right, l.width, Arc::clone(&model))
+            })
+            .collect();
+        let names = gap.between.map(|side| match side {
+            Side::Building(b) => case.buildings[b].name.value.clone(),
+            Side::Wall => "wall".to_owned(),
+        });
+        system.add_gap(&gap.name, names, pairs)?;
+    }
+    options.check(&system)?;
+    Ok(Assembly {
+        system,
+        options,
+        output_step: case.analysis.output_step,
+        accelerogram,
+    })
+}
+
+fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
+    let damping = match b.damping.value.clone() {
+        Damping::Rayleigh { alpha, beta } => {
+            pounding_shear_building::Damping::Rayleigh { alpha, beta }
+        }
+        Damping::RayleighRatio { ratio, modes } => {
+            pounding_shear_building::Damping::RayleighRatio { ratio, modes }
+        }
+        Damping::StiffnessProportional { ratio } => {
+            pounding_shear_building::Damping::StiffnessProportional { ratio }
+        }
+        Damping::MassProportional { ratio } => {
+            pounding_shear_building::Damping::MassProportional { ratio }
+        }
+        Damping::Modal { ratios } => pounding_shear_building::Damping::Modal { ratios },
+        Damping::Dashpots { coefficients } => {
+            pounding_shear_building::Damping::Dashpots { coefficients }
+        }
+    };
+    ShearBuilding::new(
+        b.name.value.clone(),
+        b.mass.clone(),
+        b.stiffness.clone(),
+        b.height.clone(),
+        damping,
+    )
+    .map_err(|e| case.error(b.damping.span.clone(), e.to_string(), None))
+}
+
+fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
+    let at_model = |e: pounding_gap_element::GapElementError| {
+        case.error(gap.model.span.clone(), e.to_string(), e.help())
+    };
+    let descriptor = registry::find(&gap.model.value).map_err(at_model)?;
+    let exponent = gap
+        .parameters
+        .iter()
+        .find(|p| p.key.value == "exponent")
+        .map(|p| p.value.value.value);
+    let mut parameters = ModelParameters::default();
+    for parameter in &gap.parameters {
+        let value = model_parameter(case, descriptor, exponent, parameter)?;
+        let before = parameters.values.insert(parameter.key.value.clone(), value);
+        debug_assert!(before.is_none(), "TOML keys are unique");
+        // Each alone first, so that the error points at the one that is wrong.
+        let alone = ModelParameters {
+            values: [(parameter.key.value.clone(), value)].into(),
+            separation: None,
+        };
+        alone
+            .check_values(descriptor)
+            .map_err(|e| case.error(parameter.value.span.clone(), e.to_string(), e.help()))?;
+    }
+    if let Some(separation) = &gap.separation {
+        parameters.separation = Some(separation_rule(case, descriptor, separation)?);
+    }
+    Ok(registry::build(descriptor.name, &parameters)
+        .map_err(at_model)?
+        .into())
+}
+
+/// Checks the unit of a parameter against what the model wants.
+fn model_parameter(
+    case: &Case,
+    descriptor: &'static ModelDescriptor,
+    exponent: Option<f64>,
+    parameter: &Parameter,
+) -> Result<f64, CaseError> {
+    let key = &parameter.key.value;
+    let quantity = &parameter.value.value;
+    let Some(known) = descriptor.parameters.iter().find(|p| p.name == key) else {
+        let all: Vec<_> = descriptor.parameters.iter().map(|p| p.name).collect();
+        return Err(case.error(
+            parameter.key.span.clone(),
+            format!("model {} has no parameter `{key}`", descriptor.name),
+            Some(format!("its parameters are {}", all.join(", "))),
+        ));
+    };
+    let wanted = match known.unit {
+        ParameterUnit::One => Dimension::NUMBER,
+        ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
+        ParameterUnit::NewtonPerMetreToExponent => {
+            Dimension::stiffness_with_exponent(exponent.unwrap_or(1.5))
+        }
+        ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
+        ParameterUnit::SecondPerMetre => {
+            return Ok(quantity.value);
+        }
+    };
+    match quantity.dimension {
+        Some(found) if found != wanted => Err(case.error(
+            parameter.value.span.clone(),
+            format!(
+                "`{key}` of model {} must be {wanted}, but \"{}\" is {found}",
+                descriptor.name, quantity.text
+            ),
+            Some(
+                "correct the unit; the exponent of the law is in the unit of its stiffness"
+                    .to_owned(),
+            ),
+        )),
+        _ => Ok(quantity.value),
+    }
+}
+
+fn separation_rule(
+    case: &Case,
+    descriptor: &'static ModelDescriptor,
+    separation: &Located<String>,
+) -> Result<SeparationRule, CaseError> {
+    SeparationRule::from_name(&separation.value)
+        .filter(|rule| descriptor.separation_rules.contains(rule))
+        .ok_or_else(|| {
+            let offered: Vec<_> = descriptor
+                .separation_rules
+                .iter()
+                .map(|r| r.name())
+                .collect();
+            case.error(
+                separation.span.clone(),
+                format!(
+                    "model {} does not offer separation \"{}\"",
+                    descriptor.name, separation.value
+                ),
+                Some(format!("it offers {}", offered.join(", "))),
+            )
+        })
+}
+
+fn options(case: &Case) -> Result<RunOptions, CaseError> {
+    let analysis = &case.analysis;
+    let step = || {
+        analysis.step.ok_or_else(|| {
+            case.error(
+                analysis.method.span.clone(),
+                format!("method \"{}\" needs a step", analysis.method.value),
+                Some("add `step = \"0.1 ms\"` to [analysis]; halve it until peaks stay".to_owned()),
+            )
+        })
+    };
+    let method = match analysis.method.value.as_str() {
+        "adaptive" => MethodChoice::Adaptive {
+            relative_tolerance: analysis
+                .relative_tolerance
+                .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
+        },
+        "newmark" => MethodChoice::Newmark {
+            step: step()?,
+            beta: analysis.beta.unwrap_or(0.25),
+            gamma: analysis.gamma.unwrap_or(0.5),
+        },
+        "hht_alpha" => MethodChoice::HhtAlpha {
+            step: step()?,
+            alpha: analysis.alpha.unwrap_or(-0.05),
+        },
+        "runge_kutta_4" => MethodChoice::RungeKutta4 { step: step()? },
+        other => {
+            return Err(case.error(
+                analysis.method.span.clone(),
+                format!("unknown method \"{other}\""),
+                Some("methods are adaptive, newmark, hht_alpha, runge_kutta_4".to_owned()),
+            ));
+        }
+    };
+    Ok(RunOptions {
+        method,
+        duration: analysis.duration,
+        energy_tolerance: analysis.energy_tolerance,
+    })
+}
+
+fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
+    let motion = &case.ground_motion;
+    let unit = motion
+        .unit
+        .as_ref()
+        .map(|u| {
+            u.value
+                .parse::<AccelerationUnit>()
+                .map_err(|e| case.error(u.span.clone(), e.to_string(), e.help()))
+        })
+        .transpose()?;
+    let format = motion
+        .format
+        .as_ref()
+        .map(|f| {
+            Format::from_name(&f.value).ok_or_else(|| {
+                let known: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+                case.error(
+                    f.span.clone(),
+                    format!("unknown record format \"{}\"", f.value),
+                    Some(format!("known formats are {}", known.join(", "))),
+                )
+            })
+        })
+        .transpose()?;
+    let options = ReadOptions {
+        format,
+        time_step: motion.time_step,
+        unit,
+        layout: motion.layout.clone(),
+        component: motion.component.clone(),
+        skip_lines: motion.skip_lines,
+        prepend_zero: motion.prepend_zero,
+        lenient: motion.lenient,
+    };
+    let record = pounding_ground_motion::read(&case.resolve(&motion.file.value), &options)?;
+    Ok(match motion.scale {
+        Scale::None => record,
+        Scale::Factor(factor) => record.scaled_by(factor)?,
+        Scale::PeakGroundAcceleration(peak) => record.scaled_to_peak(peak)?,
+    })
+}

@@ -7,9 +7,11 @@ pub mod parameters;
 pub mod registry;
 
 mod classes;
+mod collision;
 
 mod models;
 
+pub use collision::{Bodies, CollisionOutcome, CollisionSample, collide};
 pub use descriptor::*;
 pub use error::GapElementError;
 pub use model::*;

@@ -1,0 +1,55 @@
+//! `pounding check`: what was understood.
+
+use std::path::Path;
+
+use pounding_time_history::assemble;
+use serde_json::json;
+
+use super::run::read_case;
+use super::{pretty, print};
+use crate::failure::Failure;
+use crate::tables;
+
+/// Validates a case, reads its record, and prints both in SI units.
+pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
+    let case = read_case(path)?;
+    let assembly = assemble(&case).map_err(|e| Failure::time_history(e, &case.source))?;
+    if !as_json {
+        return print(&tables::understood(&case, &assembly));
+    }
+    let system = &assembly.system;
+    let buildings: Vec<_> = system
+        .buildings()
+        .iter()
+        .map(|b| {
+            json!({
+                "name": b.name(), "mass": b.mass(), "stiffness": b.stiffness(), "height": b.height(),
+                "elevation": b.elevations(), "period": b.modes().period,
+                "damping_ratio": b.modes().damping_ratio, "effective_mass": b.modes().effective_mass,
+            })
+        })
+        .collect();
+    let gaps: Vec<_> = system
+        .gaps()
+        .iter()
+        .map(|g| {
+            let levels: Vec<_> = system.levels()[g.first_level..g.first_level + g.levels]
+                .iter()
+                .map(|l| json!({
+                    "left_storey": l.left_storey, "right_storey": l.right_storey, "width": l.width,
+                    "effective_mass": l.effective_mass, "model": l.model.descriptor().name,
+                }))
+                .collect();
+            json!({"name": g.name, "between": g.between, "levels": levels})
+        })
+        .collect();
+    let record = &assembly.accelerogram;
+    print(&pretty(&json!({
+        "buildings": buildings, "gaps": gaps,
+        "ground_motion": {
+            "samples": record.samples().len(), "time_step": record.time_step(),
+            "peak": record.peak().value, "scale": record.scale(), "echo": record.echo(),
+        },
+        "analysis": {"output_step": assembly.output_step, "duration": assembly.options.duration.unwrap_or(record.duration())},
+    })))
+}

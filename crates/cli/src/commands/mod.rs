@@ -1,0 +1,43 @@
+//! One command a file.
+
+mod check;
+mod impact;
+mod models;
+mod run;
+
+use std::io::Write;
+
+use clap::CommandFactory;
+
+use crate::arguments::{Arguments, Command};
+use crate::failure::Failure;
+
+/// Carries a command out.
+pub fn dispatch(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check { case, json } => check::check(&case, json),
+        Command::Models { name, json } => models::models(name.as_deref(), json),
+        Command::Impact(arguments) => impact::impact(&arguments),
+        Command::Schema => print(&pretty(&pounding_case::schema())),
+        Command::Completions { shell } => {
+            let mut bytes = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "pounding", &mut bytes);
+            print(&String::from_utf8_lossy(&bytes))
+        }
+    }
+}
+
+/// Prints to standard output. A reader that closed the pipe has seen enough.
+pub fn print(text: &str) -> Result<(), Failure> {
+    match writeln!(std::io::stdout().lock(), "{}", text.trim_end()) {
+        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        Err(e) => Err(Failure::output(&e, "to standard output")),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// JSON for machines and people; numbers at full precision.
+pub fn pretty(value: &serde_json::Value) -> String {
+    format!("{value:#}")
+}

@@ -1,0 +1,71 @@
+//! Results for machines: SI units, full precision.
+
+use pounding_time_history::{LevelOutcome, Outcome, Peak, StoreyPeaks};
+use serde_json::{Value, json};
+
+/// The object that `run --json` prints.
+pub fn outcome(outcome: &Outcome, isolated: &Outcome) -> Value {
+    let buildings: Vec<_> = outcome
+        .buildings
+        .iter()
+        .zip(&isolated.buildings)
+        .map(|(b, alone)| {
+            json!({
+                "name": b.name,
+                "storeys": b.storeys.iter().map(storey).collect::<Vec<_>>(),
+                "isolated": alone.storeys.iter().map(storey).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let gaps: Vec<_> = outcome
+        .gaps
+        .iter()
+        .map(|g| json!({"name": g.name, "levels": g.levels.iter().map(level).collect::<Vec<_>>()}))
+        .collect();
+    let (end, statistics) = (outcome.energy.end, outcome.statistics);
+    json!({
+        "status": "complete",
+        "method": outcome.method.name,
+        "end_time": outcome.end_time,
+        "buildings": buildings,
+        "gaps": gaps,
+        "energy": {
+            "input": end.input, "kinetic": end.kinetic, "strain": end.strain, "viscous": end.viscous,
+            "hysteretic": end.hysteretic, "impact": end.impact, "residual": end.residual,
+            "residual_ratio": outcome.energy.residual_ratio, "largest_input": outcome.energy.largest_input,
+        },
+        "statistics": {
+            "steps": statistics.steps, "rejected": statistics.rejected, "events": statistics.events,
+            "location_steps": statistics.location_steps, "evaluations": statistics.evaluations,
+            "newton_iterations": statistics.newton_iterations,
+        },
+        "warnings": outcome.warnings,
+    })
+}
+
+fn peak(p: Peak) -> Value {
+    json!({"peak": p.value, "time": p.time})
+}
+
+fn storey(s: &StoreyPeaks) -> Value {
+    json!({
+        "displacement": peak(s.displacement),
+        "drift_ratio": peak(s.drift_ratio),
+        "storey_shear": peak(s.storey_shear),
+        "acceleration_absolute": peak(s.acceleration_absolute),
+    })
+}
+
+fn level(l: &LevelOutcome) -> Value {
+    json!({
+        "impacts": l.impacts,
+        "first_contact": l.first_contact,
+        "peak_force": peak(l.peak_force),
+        "peak_penetration": peak(l.peak_penetration),
+        "approach_velocity_max": l.approach_velocity_max,
+        "energy_dissipated": l.energy_dissipated,
+        "impulse": l.impulse,
+        "achieved_restitution": l.achieved_restitution,
+        "sticks": l.sticks,
+    })
+}

@@ -1,0 +1,222 @@
+//! Tables that an engineer can read.
+
+use comfy_table::{CellAlignment, Table};
+use pounding_case::Case;
+use pounding_time_history::{Assembly, Peak, RunRecord};
+
+const G: f64 = 9.80665;
+
+/// The report at the end of a run.
+pub fn report(record: &RunRecord<'_>) -> String {
+    let mut text = String::new();
+    if !record.title.is_empty() {
+        text.push_str(&format!("{}\n", record.title));
+    }
+    for line in record.assembly.accelerogram.echo() {
+        text.push_str(&format!("  {line}\n"));
+    }
+    for warning in warnings(record.assembly) {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    for index in 0..record.outcome.buildings.len() {
+        text.push_str(&building(record, index));
+    }
+    for index in 0..record.outcome.gaps.len() {
+        text.push_str(&gap(record, index));
+    }
+    text.push_str(&energy(record));
+    text
+}
+
+fn warnings(assembly: &Assembly) -> Vec<String> {
+    assembly
+        .accelerogram
+        .origin()
+        .map(|o| o.warnings.clone())
+        .unwrap_or_default()
+}
+
+fn new_table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.set_header(header);
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// Value, time, and ratio to the isolated building.
+fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
+    let ratio = if alone.value > 0.0 {
+        format!("x{:.2}", p.value / alone.value)
+    } else {
+        "-".to_owned()
+    };
+    format!("{:.digits$} @{:.2} {ratio}", p.value * factor, p.time)
+}
+
+fn building(record: &RunRecord<'_>, index: usize) -> String {
+    let (with, alone) = (
+        &record.outcome.buildings[index],
+        &record.isolated.buildings[index],
+    );
+    let mut table = new_table(&[
+        "storey",
+        "displacement (mm)",
+        "drift ratio (%)",
+        "storey shear (kN)",
+        "absolute acceleration (g)",
+    ]);
+    for (i, (a, b)) in with.storeys.iter().zip(&alone.storeys).enumerate().rev() {
+        table.add_row([
+            (i + 1).to_string(),
+            cell(a.displacement, b.displacement, 1e3, 2),
+            cell(a.drift_ratio, b.drift_ratio, 1e2, 3),
+            cell(a.storey_shear, b.storey_shear, 1e-3, 1),
+            cell(a.acceleration_absolute, b.acceleration_absolute, 1.0 / G, 3),
+        ]);
+    }
+    format!(
+        "\nBuilding {}: peak @time (s), x ratio to the building without pounding\n{table}\n",
+        with.name
+    )
+}
+
+fn gap(record: &RunRecord<'_>, index: usize) -> String {
+    let outcome = &record.outcome.gaps[index];
+    let system = &record.assembly.system;
+    let gap = &system.gaps()[index];
+    let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+    let model = levels.first().map_or("", |l| l.model.descriptor().name);
+    let total: usize = outcome.levels.iter().map(|l| l.impacts).sum();
+    if total == 0 {
+        return format!("\nGap {} ({model}): the buildings do not touch\n", gap.name);
+    }
+    let mut table = new_table(&[
+        "level",
+        "gap (mm)",
+        "impacts",
+        "first contact (s)",
+        "approach velocity (m/s)",
+        "peak force (kN)",
+        "energy lost (kJ)",
+        "restitution",
+    ]);
+    let storey = |s: Option<usize>| s.map_or("wall".to_owned(), |s| s.to_string());
+    for (l, place) in outcome.levels.iter().zip(levels).rev() {
+        let or_dash = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
+        table.add_row([
+            format!(
+                "{}-{}",
+                storey(place.left_storey),
+                storey(place.right_storey)
+            ),
+            format!("{:.1}", place.width * 1e3),
+            l.impacts.to_string(),
+            or_dash(l.first_contact.map(|t| format!("{t:.4}"))),
+            format!("{:.3}", l.approach_velocity_max),
+            if l.impacts > 0 {
+                format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time)
+            } else {
+                "-".to_owned()
+            },
+            format!("{:.2}", l.energy_dissipated * 1e-3),
+            or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
+        ]);
+    }
+    format!("\nGap {} ({model}): {total} impacts\n{table}\n", gap.name)
+}
+
+fn energy(record: &RunRecord<'_>) -> String {
+    let (e, statistics) = (record.outcome.energy, record.outcome.statistics);
+    format!(
+        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + impact {:.3} + kinetic {:.3} + strain {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
+        record.outcome.end_time,
+        e.end.input * 1e-3,
+        e.end.viscous * 1e-3,
+        e.end.impact * 1e-3,
+        e.end.kinetic * 1e-3,
+        e.end.strain * 1e-3,
+        e.residual_ratio,
+        record.outcome.method.title,
+        statistics.steps,
+        statistics.rejected,
+        statistics.events,
+        record.wall_time,
+    )
+}
+
+/// What `check` prints.
+pub fn understood(case: &Case, assembly: &Assembly) -> String {
+    let mut text = format!("{}: the case is sound\n", case.file.display());
+    for line in assembly.accelerogram.echo() {
+        text.push_str(&format!("  {line}\n"));
+    }
+    for warning in warnings(assembly) {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    for b in assembly.system.buildings() {
+        let mut table = new_table(&[
+            "storey",
+            "elevation (m)",
+            "mass (kg)",
+            "stiffness (N/m)",
+            "mode",
+            "period (s)",
+            "damping (%)",
+            "effective mass (%)",
+        ]);
+        let modes = b.modes();
+        let total: f64 = b.mass().iter().sum();
+        for i in 0..b.storeys() {
+            table.add_row([
+                (i + 1).to_string(),
+                format!("{}", b.elevations()[i]),
+                format!("{}", b.mass()[i]),
+                format!("{:e}", b.stiffness()[i]),
+                (i + 1).to_string(),
+                format!("{:.5}", modes.period[i]),
+                format!("{:.3}", 100.0 * modes.damping_ratio[i]),
+                format!("{:.2}", 100.0 * modes.effective_mass[i] / total),
+            ]);
+        }
+        text.push_str(&format!("\nBuilding {}\n{table}\n", b.name()));
+    }
+    for gap in assembly.system.gaps() {
+        let mut table = new_table(&[
+            "left storey",
+            "right storey",
+            "elevation (m)",
+            "width (m)",
+            "effective mass (kg)",
+        ]);
+        let levels = &assembly.system.levels()[gap.first_level..gap.first_level + gap.levels];
+        let storey = |s: Option<usize>| s.map_or("wall".to_owned(), |s| s.to_string());
+        for l in levels {
+            table.add_row([
+                storey(l.left_storey),
+                storey(l.right_storey),
+                format!("{}", l.elevation),
+                format!("{}", l.width),
+                format!("{:.3}", l.effective_mass),
+            ]);
+        }
+        let model = levels.first().map_or(String::new(), |l| {
+            format!(
+                "{}, ends at {}",
+                l.model.descriptor().name,
+                l.model.separation().name()
+            )
+        });
+        text.push_str(&format!("\nGap {} ({model})\n{table}\n", gap.name));
+    }
+    let duration = assembly
+        .options
+        .duration
+        .unwrap_or(assembly.accelerogram.duration());
+    text.push_str(&format!(
+        "\nMethod {}, duration {duration} s, output every {} s\n",
+        case.analysis.method.value, assembly.output_step
+    ));
+    text
+}

@@ -139,7 +139,7 @@ impl RunOptions {
                 Box::new(Adaptive::new(layout, relative_tolerance))
             }
             MethodChoice::Newmark { step, beta, gamma } => {
-                Box::new(Newmark::newmark(system, step, beta, gamma))
+                Box::new(Newmark::with_beta_gamma(system, step, beta, gamma))
             }
             MethodChoice::HhtAlpha { step, alpha } => {
                 Box::new(Newmark::hht_alpha(system, step, alpha))

@@ -156,10 +156,10 @@ fn search_rise(b: &Polynomial, left: f64, right: f64) -> Option<(f64, f64)> {
     }
     let middle = 0.5 * (left + right);
     let (first, second) = halves(b);
-    if first[0] <= 0.0 {
-        if let Some(found) = search_rise(&first, left, middle) {
-            return Some(found);
-        }
+    if first[0] <= 0.0
+        && let Some(found) = search_rise(&first, left, middle)
+    {
+        return Some(found);
     }
     search_rise(&second, middle, right)
 }
@@ -244,6 +244,7 @@ fn search_maximum(
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn from_roots(roots: &[f64], factor: f64) -> Polynomial {

@@ -62,7 +62,7 @@ enum Factor {
 
 impl Newmark {
     /// Newmark's method with a fixed step (s).
-    pub(crate) fn newmark(system: &System, fixed: f64, beta: f64, gamma: f64) -> Self {
+    pub(crate) fn with_beta_gamma(system: &System, fixed: f64, beta: f64, gamma: f64) -> Self {
         let second = (gamma - 0.5).abs() < 1.0e-14;
         let information = Information {
             name: "newmark",

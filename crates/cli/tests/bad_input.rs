@@ -1,0 +1,388 @@
+//! Bad input: exit code, place, remedy; and nothing half-written.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const CASE: &str = r#"
+title = "pair"
+[[building]]
+name = "a"
+storeys = 2
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 2
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { ratio = 0.05, modes = [1, 2] }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+[ground_motion]
+file = "record.csv"
+[analysis]
+duration = "2 s"
+"#;
+
+fn record() -> String {
+    let mut text = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+    for i in 0..120 {
+        let t = f64::from(i) * 0.02;
+        text.push_str(&format!("{t:.2},{:.5}\n", 0.4 * (7.0 * t).sin()));
+    }
+    text
+}
+
+fn run_in(folder: &Path, case: &str, record: &str, arguments: &[&str]) -> Output {
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    std::fs::write(folder.join("record.csv"), record).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// The message on one line, as the terminal breaks lines where it likes.
+fn message(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn refused(case: &str, record: &str, wanted: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        case,
+        record,
+        &["run", "case.toml", "-o", "out.h5"],
+    );
+    let text = message(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    for part in wanted {
+        assert!(text.contains(part), "\"{part}\" is not in: {text}");
+    }
+    assert!(!folder.path().join("out.h5").exists());
+    assert!(!folder.path().join("out.h5.part").exists());
+}
+
+#[test]
+fn the_case_itself_is_sound() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        CASE,
+        &record(),
+        &["run", "case.toml", "-o", "out.h5"],
+    );
+    assert!(output.status.success(), "{}", message(&output));
+    assert!(folder.path().join("out.h5").exists());
+    assert!(!folder.path().join("out.h5.part").exists());
+}
+
+#[test]
+fn unknown_key() {
+    refused(
+        &CASE.replace("height = \"3 m\"", "hieght = \"3 m\""),
+        &record(),
+        &[
+            "case.toml:8:1",
+            "unknown key `hieght`",
+            "did you mean `height`?",
+        ],
+    );
+}
+
+#[test]
+fn unknown_model_parameter() {
+    refused(
+        &CASE.replace("restitution = 0.65", "restitutoin = 0.65"),
+        &record(),
+        &["case.toml:22:1", "restitutoin", "restitution"],
+    );
+}
+
+#[test]
+fn wrong_dimension() {
+    refused(
+        &CASE.replace("mass = \"25 t\"", "mass = \"25 kN\""),
+        &record(),
+        &["case.toml:6:8", "must be a mass", "a weight is a force"],
+    );
+    refused(
+        &CASE.replace("\"93.5 MN/m\"", "\"93.5 MN/m^1.5\""),
+        &record(),
+        &[
+            "case.toml:21:13",
+            "must be a stiffness (N/m)",
+            "correct the unit",
+        ],
+    );
+}
+
+#[test]
+fn negative_or_zero_mass() {
+    refused(
+        &CASE.replace("mass = \"25 t\"", "mass = [\"25 t\", \"-1 t\"]"),
+        &record(),
+        &[
+            "case.toml:6:17",
+            "must be greater than zero",
+            "correct the value",
+        ],
+    );
+    refused(
+        &CASE.replace("mass = \"25 t\"", "mass = 0"),
+        &record(),
+        &["case.toml:6:8", "must be greater than zero"],
+    );
+    refused(
+        &CASE.replace("mass = \"25 t\"", "mass = nan"),
+        &record(),
+        &["case.toml:6:8", "not a finite number"],
+    );
+}
+
+#[test]
+fn lists_of_unequal_length() {
+    refused(
+        &CASE.replace("mass = \"25 t\"", "mass = [1e3, 1e3, 1e3]"),
+        &record(),
+        &[
+            "case.toml:6:8",
+            "`mass` has 3 values",
+            "2 storeys",
+            "one value a storey",
+        ],
+    );
+}
+
+#[test]
+fn unknown_model() {
+    refused(
+        &CASE.replace("anagnostopoulos_2004", "anagnostopoulos_2014"),
+        &record(),
+        &[
+            "case.toml:20:9",
+            "unknown impact model",
+            "did you mean \"anagnostopoulos_2004\"",
+        ],
+    );
+}
+
+#[test]
+fn restitution_out_of_range() {
+    for value in ["0", "1.2", "-0.5"] {
+        refused(
+            &CASE.replace("restitution = 0.65", &format!("restitution = {value}")),
+            &record(),
+            &[
+                "case.toml:22:15",
+                "outside (0, 1]",
+                "separation to approach velocity",
+            ],
+        );
+    }
+}
+
+#[test]
+fn gap_given_twice() {
+    let gap = CASE
+        .split("[[gap]]")
+        .nth(1)
+        .unwrap()
+        .split("[ground_motion]")
+        .next()
+        .unwrap();
+    refused(
+        &CASE.replace("[ground_motion]", &format!("[[gap]]{gap}[ground_motion]")),
+        &record(),
+        &[
+            "case.toml:24:11",
+            "gap given twice",
+            "line 18",
+            "remove one",
+        ],
+    );
+}
+
+#[test]
+fn floors_at_unequal_elevation() {
+    let case = CASE.replacen("height = \"3 m\"", "height = \"3.5 m\"", 1);
+    refused(
+        &case,
+        &record(),
+        &[
+            "case.toml:18:11",
+            "floor 1 of \"a\" at 3.5 m",
+            "levels = [[1, 1], ...]",
+        ],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let said = case.replace("width = ", "levels = [[1, 1], [2, 2]]\nwidth = ");
+    let output = run_in(folder.path(), &said, &record(), &["check", "case.toml"]);
+    assert!(output.status.success(), "{}", message(&output));
+}
+
+#[test]
+fn neighbours_in_the_wrong_order_and_overlap() {
+    refused(
+        &CASE.replace("[\"a\", \"b\"]", "[\"b\", \"a\"]"),
+        &record(),
+        &["case.toml:18:11", "wrong order"],
+    );
+    refused(
+        &CASE.replace("\"20 mm\"", "\"-20 mm\""),
+        &record(),
+        &["case.toml:19:9", "zero or more"],
+    );
+}
+
+#[test]
+fn record_without_time_step() {
+    let plain: String = (0..100)
+        .map(|i| format!("{}\n", f64::from(i % 7) * 0.1))
+        .collect();
+    refused(
+        &CASE.replace("file = ", "unit = \"g\"\nfile = "),
+        &plain,
+        &[
+            "record.csv:1",
+            "does not state its time step",
+            "time_step = ",
+        ],
+    );
+    refused(
+        &CASE.replace("file = ", "time_step = 0.01\nfile = "),
+        &plain,
+        &["record.csv:1", "does not state the unit", "unit = "],
+    );
+    refused(
+        CASE,
+        &record().replace("# dt: 0.02 s\n", ""),
+        &[
+            "record.csv:2",
+            "does not state its time step",
+            "time_step = ",
+        ],
+    );
+}
+
+#[test]
+fn record_shorter_than_its_header_says() {
+    let at2 = "PEER\nevent\nACCELERATION TIME HISTORY IN UNITS OF G\nNPTS=  12, DT= .0100 SEC\n .1 .2 .3 .4 .5\n .6 .7 .8 .9 1.0\n";
+    refused(
+        CASE,
+        at2,
+        &["record.csv", "12 samples", "after 10", "lenient = true"],
+    );
+}
+
+#[test]
+fn damaged_record() {
+    refused(
+        CASE,
+        &record().replacen("0.40,", "0.40,NaN", 1),
+        &["record.csv:24:6", "is not a number", "get the record again"],
+    );
+    refused(
+        CASE,
+        &record().replacen("0.40,", "0.40,****", 1),
+        &["record.csv:24:6", "overflow"],
+    );
+    refused(
+        CASE,
+        "",
+        &["record.csv", "format of this record is not known"],
+    );
+}
+
+#[test]
+fn missing_files() {
+    refused(
+        &CASE.replace("record.csv", "absent.csv"),
+        &record(),
+        &[
+            "absent.csv",
+            "cannot read the record",
+            "relative to the folder of the case",
+        ],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(folder.path(), CASE, &record(), &["run", "absent.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message(&output).contains("absent.toml"));
+}
+
+#[test]
+fn output_that_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        CASE,
+        &record(),
+        &["run", "case.toml", "-o", "no/such/folder/out.h5"],
+    );
+    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+    assert!(message(&output).contains("out.h5"), "{}", message(&output));
+    let output = run_in(
+        folder.path(),
+        CASE,
+        &record(),
+        &["run", "case.toml", "-o", "."],
+    );
+    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+}
+
+/// The old result stays until the new one is complete.
+#[test]
+fn an_interrupted_run_leaves_no_half_written_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = CASE.replace("duration = \"2 s\"", "duration = \"4000 s\"");
+    std::fs::write(folder.path().join("case.toml"), long).unwrap();
+    std::fs::write(folder.path().join("record.csv"), record()).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .current_dir(folder.path())
+        .args(["run", "case.toml", "-o", "out.h5"])
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(150));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!folder.path().join("out.h5").exists());
+}
+
+#[test]
+fn a_coarse_step_fails_with_a_diagnosis() {
+    let coarse = CASE.replace(
+        "duration = \"2 s\"",
+        "method = \"runge_kutta_4\"\nstep = \"20 ms\"\nenergy_tolerance = 1e-9",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        &coarse,
+        &record(),
+        &["run", "case.toml", "--no-output"],
+    );
+    assert_eq!(output.status.code(), Some(3), "{}", message(&output));
+    assert!(
+        message(&output).contains("energy ledger does not close"),
+        "{}",
+        message(&output)
+    );
+    assert!(
+        message(&output).contains("smaller `step`"),
+        "{}",
+        message(&output)
+    );
+}

@@ -1,0 +1,47 @@
+"""Opens a result file as a user would: h5py, then xarray with named dimensions."""
+
+import sys
+
+import h5py
+import numpy as np
+import xarray as xr
+
+path = sys.argv[1]
+
+with h5py.File(path) as f:
+    assert f.attrs["program"] == "pounding" and f.attrs["status"] == "complete"
+    assert "[[building]]" in f.attrs["case"] and len(f.attrs["record_sha256"]) == 64
+    time = f["time"]
+    assert time.attrs["units"] == "s"
+    light = f["building/light"]
+    u = light["displacement"]
+    assert u.attrs["units"] == "m" and u.attrs["long_name"]
+    assert u.shape == (len(time), 3)
+    assert [u.dims[i][0].name for i in (0, 1)] == ["/time", "/building/light/storey"]
+    # Peaks come from inside the steps: never below the output grid's.
+    grid = np.abs(u[:]).max(axis=0)
+    peak = light["peak/displacement"][:]
+    assert np.all(peak >= grid * (1 - 1e-12)) and np.all(peak <= grid * 1.01)
+    assert abs(peak[2] - 0.10528) < 2e-5
+    impacts = f["gap/light-heavy/impacts"][:]
+    assert len(impacts) == 45
+    assert np.all(impacts["t_open"] > impacts["t_close"])
+    assert abs(impacts["peak_force"].max() - 1.2711e6) < 1e3
+    energy = f["energy"]
+    total = sum(energy[k][-1] for k in ("kinetic", "strain", "viscous", "impact"))
+    assert abs(total - energy["input"][-1]) < 1e-8 * energy["input"][:].max()
+    assert abs(impacts["energy_dissipated"].sum() - energy["impact"][-1]) < 1e-6 * energy["impact"][-1]
+
+with xr.open_dataset(path, engine="h5netcdf", group="/building/light") as ds:
+    # Coordinates of the root group have to be merged by hand in xarray.
+    assert ds.displacement.dims == ("time", "storey"), ds.displacement.dims
+    np.testing.assert_allclose(ds.storey.values, [3.0, 6.0, 9.0])
+    assert ds.displacement.attrs["units"] == "m"
+    assert ds.storey.attrs["units"] == "m"
+with xr.open_dataset(path, engine="h5netcdf") as root:
+    assert root.time.dims == ("time",) and root.time.attrs["units"] == "s"
+    assert abs(float(root.time[1]) - 0.01) < 1e-12
+
+tree = xr.open_datatree(path, engine="h5netcdf")
+assert "time" in tree["building/light"].coords or "time" in tree["/"].coords
+print("opened in h5py", h5py.__version__, "and xarray", xr.__version__)

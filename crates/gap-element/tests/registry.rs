@@ -1,0 +1,198 @@
+//! Every registered model: tangents, regularity, invariance, its card.
+#![allow(clippy::unwrap_used)]
+
+use pounding_gap_element::{
+    Bodies, GapElementError, ImpactModel, Memory, ModelDescriptor, ModelParameters, ParameterUnit,
+    Phase, collide, registry,
+};
+use proptest::prelude::*;
+
+/// A model with plausible parameters, whatever it asks for.
+fn sample(d: &ModelDescriptor, restitution: f64, stiffness: f64) -> Box<dyn ImpactModel> {
+    let mut parameters = ModelParameters::default();
+    for p in d.parameters {
+        match p.unit {
+            ParameterUnit::NewtonPerMetre | ParameterUnit::NewtonPerMetreToExponent => {
+                parameters.values.insert(p.name.to_owned(), stiffness);
+            }
+            _ if p.name == "restitution" => {
+                parameters.values.insert(p.name.to_owned(), restitution);
+            }
+            _ => {}
+        }
+    }
+    registry::build(d.name, &parameters).unwrap()
+}
+
+/// Finite-difference tangents of every registered model, one test for each so that
+/// a failure names it. `every_model_has_a_tangent_test` keeps the list complete.
+macro_rules! tangents {
+    ($($name:ident),* $(,)?) => {
+        const TESTED: &[&str] = &[$(stringify!($name)),*];
+        mod tangent {
+            use super::*;
+            $(
+                proptest! {
+                    #[test]
+                    fn $name(delta in 1e-5..2e-2_f64, v in -1.0..1.0_f64, v0 in 1e-2..1.5_f64, e in 0.2..1.0_f64) {
+                        let d = registry::find(stringify!($name)).unwrap();
+                        check_tangent(sample(d, e, 1e9).as_ref(), delta, v, v0);
+                    }
+                }
+            )*
+        }
+    };
+}
+
+tangents!(
+    linear_elastic,
+    hertz_1882,
+    anagnostopoulos_2004,
+    mahmoud_jankowski_2011,
+    jankowski_2005,
+    muthukumar_desroches_2006,
+    borovin_2014,
+);
+
+#[test]
+fn every_model_has_a_tangent_test() {
+    let registered: Vec<_> = registry::descriptors().iter().map(|d| d.name).collect();
+    assert_eq!(registered, TESTED);
+}
+
+fn check_tangent(model: &dyn ImpactModel, delta: f64, v: f64, v0: f64) {
+    let collision = model.begin(v0, 2.0e4);
+    let memory = Memory::default();
+    for phase in [
+        Phase::Approach,
+        Phase::Restitution,
+        Phase::Stuck,
+        Phase::Released,
+    ] {
+        let f = |d: f64, v: f64| model.force(&collision, &memory, phase, d, v);
+        let at = f(delta, v);
+        let (hd, hv) = (1e-5 * delta, 1e-5);
+        let by_delta = (f(delta + hd, v).value - f(delta - hd, v).value) / (2.0 * hd);
+        let by_velocity = (f(delta, v + hv).value - f(delta, v - hv).value) / (2.0 * hv);
+        // Central differences of a value of size F err by eps F / h and h^2.
+        let noise = 1e-10 * (at.value.abs() + at.by_velocity.abs());
+        let close = |a: f64, b: f64, h: f64| (a - b).abs() <= 1e-7 * a.abs() + noise / h;
+        assert!(
+            close(at.by_penetration, by_delta, hd),
+            "{phase:?} by penetration: {} {by_delta}",
+            at.by_penetration
+        );
+        assert!(
+            close(at.by_velocity, by_velocity, hv),
+            "{phase:?} by velocity: {} {by_velocity}",
+            at.by_velocity
+        );
+    }
+}
+
+#[test]
+fn zero_approach_velocity_is_regular() {
+    for d in registry::descriptors() {
+        for e in [0.1, 0.65, 1.0] {
+            let model = sample(d, e, 1e9);
+            let collision = model.begin(0.0, 2.0e4);
+            for phase in [Phase::Approach, Phase::Restitution] {
+                for (delta, v) in [(0.0, 0.0), (1e-6, 1e-3), (1e-3, -1e-2), (-1e-9, 0.1)] {
+                    let f = model.force(&collision, &Memory::default(), phase, delta, v);
+                    assert!(
+                        f.value.is_finite()
+                            && f.by_penetration.is_finite()
+                            && f.by_velocity.is_finite(),
+                        "{} {f:?}",
+                        d.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn cards_are_complete_and_names_unique() {
+    let mut names = Vec::new();
+    for d in registry::descriptors() {
+        for text in [d.title, d.formula, d.citation, d.class] {
+            assert!(!text.is_empty(), "{}", d.name);
+        }
+        assert!(!d.traps.is_empty() && !d.separation_rules.is_empty() && !d.constants.is_empty());
+        names.push(d.name);
+        names.extend(d.aliases);
+        for alias in d.aliases {
+            assert_eq!(registry::find(alias).unwrap().name, d.name);
+        }
+    }
+    let count = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), count);
+    let Err(GapElementError::UnknownModel { nearest, .. }) = registry::find("jankowsky_2005")
+    else {
+        panic!("an unknown name was accepted");
+    };
+    assert_eq!(nearest, "jankowski_2005");
+}
+
+#[test]
+fn wrong_parameters_are_refused() {
+    let build = |pairs: &[(&str, f64)]| {
+        registry::build("jankowski_2005", &ModelParameters::from_pairs(pairs)).map(|_| ())
+    };
+    assert!(matches!(
+        build(&[("restitution", 0.6)]),
+        Err(GapElementError::MissingParameter { .. })
+    ));
+    assert!(matches!(
+        build(&[("stiffness", 1e9)]),
+        Err(GapElementError::MissingParameter { .. })
+    ));
+    assert!(matches!(
+        build(&[("stiffness", 1e9), ("restitution", 0.0)]),
+        Err(GapElementError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        build(&[("stiffness", f64::NAN), ("restitution", 0.5)]),
+        Err(GapElementError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        build(&[
+            ("stiffness", 1e9),
+            ("restitution", 0.5),
+            ("damping_ratio", 0.3)
+        ]),
+        Err(GapElementError::Conflict { .. })
+    ));
+    assert!(matches!(
+        build(&[("stiffness", 1e9), ("restitution", 0.5), ("colour", 1.0)]),
+        Err(GapElementError::UnknownParameter { .. })
+    ));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Theory: restitution of these laws depends on mass, stiffness and speed not at
+    /// all; momentum is conserved, and the loss is (1/2) m v0^2 (1 - e^2).
+    #[test]
+    fn restitution_is_invariant_and_the_balances_hold(
+        e in 0.15..1.0_f64, m1 in 1e3..1e6_f64, m2 in 1e3..1e6_f64, v in 0.05..2.0_f64, k in 1e8..1e10_f64,
+    ) {
+        for d in registry::descriptors() {
+            let bodies = Bodies { mass_left: m1, mass_right: Some(m2), velocity_left: 0.7 * v, velocity_right: -0.3 * v };
+            let out = collide(sample(d, e, k).as_ref(), &bodies).unwrap();
+            let standard = Bodies { mass_left: 1e4, mass_right: None, velocity_left: 0.5, velocity_right: 0.0 };
+            let other = collide(sample(d, e, 1e9).as_ref(), &standard).unwrap();
+            prop_assert!((out.restitution - other.restitution).abs() < 1e-9, "{}: {} {}", d.name, out.restitution, other.restitution);
+            let before = m1 * bodies.velocity_left + m2 * bodies.velocity_right;
+            let after = m1 * out.velocity_left + m2 * out.velocity_right;
+            prop_assert!((before - after).abs() <= 1e-12 * (m1 + m2) * v);
+            let kinetic = |a: f64, b: f64| 0.5 * m1 * a * a + 0.5 * m2 * b * b;
+            let lost = kinetic(bodies.velocity_left, bodies.velocity_right) - kinetic(out.velocity_left, out.velocity_right);
+            prop_assert!((lost - out.energy_dissipated).abs() <= 1e-9 * kinetic(bodies.velocity_left, bodies.velocity_right));
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Modes and damping against closed forms and definitions.
+#![allow(clippy::unwrap_used)]
+
+use pounding_shear_building::{
+    Damping, DampingMatrix, ShearBuilding, ShearBuildingError, SymmetricTridiagonal,
+    TridiagonalFactor,
+};
+use proptest::prelude::*;
+
+fn uniform(n: usize, damping: Damping) -> ShearBuilding {
+    ShearBuilding::new(
+        "b".into(),
+        vec![2.5e4; n],
+        vec![3.46e6; n],
+        vec![3.0; n],
+        damping,
+    )
+    .unwrap()
+}
+
+/// Closed form of the uniform chain: `2 sqrt(k/m) sin((2j-1) pi / (2 (2n+1)))`.
+#[test]
+fn frequencies_of_uniform_buildings() {
+    for n in [1, 3, 10, 40, 80] {
+        let b = uniform(n, Damping::StiffnessProportional { ratio: 0.05 });
+        let modes = b.modes();
+        for (j, w) in modes.circular_frequency.iter().enumerate() {
+            let angle = (2 * j + 1) as f64 * std::f64::consts::PI / (2 * (2 * n + 1)) as f64;
+            let exact = 2.0 * (3.46e6_f64 / 2.5e4).sqrt() * angle.sin();
+            assert!((w / exact - 1.0).abs() < 1e-11, "{n} {j}: {w} {exact}");
+        }
+        let mass: f64 = modes.effective_mass.iter().sum();
+        assert!((mass / (2.5e4 * n as f64) - 1.0).abs() < 1e-10);
+        let identity = modes.shape.transpose() * 2.5e4 * &modes.shape;
+        assert!((identity - nalgebra::DMatrix::identity(n, n)).amax() < 1e-10);
+    }
+}
+
+#[test]
+fn damping_ratios_are_those_asked_for() {
+    let ratios = |d| uniform(5, d).modes().damping_ratio.clone();
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
+    close(
+        ratios(Damping::StiffnessProportional { ratio: 0.05 })[0],
+        0.05,
+    );
+    close(ratios(Damping::MassProportional { ratio: 0.05 })[0], 0.05);
+    let rayleigh = ratios(Damping::RayleighRatio {
+        ratio: 0.05,
+        modes: [1, 3],
+    });
+    close(rayleigh[0], 0.05);
+    close(rayleigh[2], 0.05);
+    assert!(rayleigh[1] < 0.05 && rayleigh[4] > 0.05);
+    let modal = vec![0.01, 0.02, 0.03, 0.04, 0.05];
+    for (a, b) in ratios(Damping::Modal {
+        ratios: modal.clone(),
+    })
+    .iter()
+    .zip(&modal)
+    {
+        close(*a, *b);
+    }
+    let k = uniform(
+        5,
+        Damping::Dashpots {
+            coefficients: vec![3.46e6 * 0.01; 5],
+        },
+    );
+    let proportional = uniform(
+        5,
+        Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.01,
+        },
+    );
+    assert_eq!(k.damping_matrix(), proportional.damping_matrix());
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let new = |m: Vec<f64>, k: Vec<f64>, d| {
+        ShearBuilding::new("b".into(), m, k, vec![3.0; 2], d).map(|_| ())
+    };
+    let sound = || Damping::MassProportional { ratio: 0.05 };
+    assert!(matches!(
+        new(vec![1.0, -1.0], vec![1.0; 2], sound()),
+        Err(ShearBuildingError::Value { storey: 2, .. })
+    ));
+    assert!(matches!(
+        new(vec![1.0; 2], vec![0.0, 1.0], sound()),
+        Err(ShearBuildingError::Value { storey: 1, .. })
+    ));
+    assert!(matches!(
+        new(vec![1.0; 2], vec![1.0; 3], sound()),
+        Err(ShearBuildingError::Length { .. })
+    ));
+    assert!(matches!(
+        new(vec![1.0, f64::NAN], vec![1.0; 2], sound()),
+        Err(ShearBuildingError::Value { .. })
+    ));
+    for d in [
+        Damping::RayleighRatio {
+            ratio: 0.05,
+            modes: [1, 1],
+        },
+        Damping::RayleighRatio {
+            ratio: 0.05,
+            modes: [1, 3],
+        },
+        Damping::StiffnessProportional { ratio: 5.0 },
+        Damping::Modal {
+            ratios: vec![0.05; 3],
+        },
+        Damping::Dashpots {
+            coefficients: vec![-1.0, 1.0],
+        },
+    ] {
+        assert!(matches!(
+            new(vec![1.0; 2], vec![1.0; 2], d),
+            Err(ShearBuildingError::Damping { .. })
+        ));
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_factor_solves(storeys in prop::collection::vec(1e5..1e9_f64, 1..20), seed in prop::collection::vec(-1.0..1.0_f64, 20)) {
+        let a = SymmetricTridiagonal::chain(&storeys);
+        let mut factor = TridiagonalFactor::new(storeys.len());
+        factor.factor(&a.diagonal, &a.off_diagonal).unwrap();
+        let b = &seed[..storeys.len()];
+        let mut x = b.to_vec();
+        factor.solve_in_place(&mut x);
+        let mut product = vec![0.0; b.len()];
+        a.multiply(&x, &mut product);
+        for (p, b) in product.iter().zip(b) {
+            prop_assert!((p - b).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn damping_takes_energy_and_is_odd(v in prop::collection::vec(-1.0..1.0_f64, 4), ratio in 0.001..0.5_f64) {
+        for d in [
+            Damping::StiffnessProportional { ratio },
+            Damping::RayleighRatio { ratio, modes: [1, 2] },
+            Damping::Modal { ratios: vec![ratio] },
+            Damping::Dashpots { coefficients: vec![ratio * 1e5; 4] },
+        ] {
+            let b = uniform(4, d);
+            let mut force = vec![0.0; 4];
+            b.apply_damping(&v, &mut force);
+            let power: f64 = v.iter().zip(&force).map(|(a, b)| a * b).sum();
+            prop_assert!(power >= 0.0);
+            let negative: Vec<f64> = v.iter().map(|x| -x).collect();
+            let mut mirrored = vec![0.0; 4];
+            b.apply_damping(&negative, &mut mirrored);
+            prop_assert!(force.iter().zip(&mirrored).all(|(a, b)| *a == -b));
+            prop_assert!(matches!(b.damping_matrix(), DampingMatrix::Dense(_) | DampingMatrix::Tridiagonal(_)));
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Rung 4 of the ladder: the order of each method, fitted from runs with impacts.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use pounding_time_history::{MethodChoice, RunOptions, run};
+use verification::{reference_cases, reference_system, synthetic_motion};
+
+/// Least-squares slope of log(error) over log(step).
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (mut sx, mut sy, mut sxx, mut sxy) = (0.0, 0.0, 0.0, 0.0);
+    for (h, e) in points {
+        let (x, y) = (h.ln(), e.ln());
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        sxy += x * y;
+    }
+    (n * sxy - sx * sy) / (n * sxx - sx * sx)
+}
+
+/// Errors of all floor displacements at the end (30 s, after all impacts) against
+/// the 113-bit reference, relative to the peak displacement.
+fn errors(
+    case: &str,
+    model: &str,
+    steps: &[f64],
+    method: impl Fn(f64) -> MethodChoice,
+) -> Vec<(f64, f64)> {
+    let cases = reference_cases().unwrap();
+    let case = &cases.cases[case];
+    let reference = &case.models[model];
+    let scale = reference.peak_u.iter().fold(0.0_f64, |m, u| m.max(*u));
+    steps
+        .iter()
+        .map(|h| {
+            let system = reference_system(case, model, synthetic_motion().unwrap(), 1.0).unwrap();
+            let options = RunOptions {
+                method: method(*h),
+                duration: None,
+                energy_tolerance: None,
+            };
+            let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+            let worst = outcome
+                .final_displacement
+                .iter()
+                .zip(&reference.final_u)
+                .map(|(a, b)| (a - b).abs() / scale)
+                .fold(0.0, f64::max);
+            (*h, worst)
+        })
+        .collect()
+}
+
+fn check(label: &str, order: f64, points: &[(f64, f64)]) {
+    let fitted = slope(points);
+    println!("{label}: order {fitted:.2}, errors {points:?}");
+    assert!(
+        (fitted - order).abs() < 0.35,
+        "{label}: fitted order {fitted}, errors {points:?}"
+    );
+}
+
+#[test]
+fn runge_kutta_4_is_of_order_4_between_events() {
+    let steps = [5e-4, 2.5e-4, 1.25e-4, 6.25e-5];
+    for model in ["linear", "kv", "mj", "fricl"] {
+        check(
+            &format!("C2 {model} RK4"),
+            4.0,
+            &errors("C2", model, &steps, |step| MethodChoice::RungeKutta4 {
+                step,
+            }),
+        );
+    }
+}
+
+#[test]
+fn newmark_and_hht_are_of_order_2_between_events() {
+    let steps = [2.5e-4, 1.25e-4, 6.25e-5, 3.125e-5];
+    for model in ["linear", "kv", "mj", "hertzdamp", "fricl"] {
+        let newmark = |step| MethodChoice::Newmark {
+            step,
+            beta: 0.25,
+            gamma: 0.5,
+        };
+        check(
+            &format!("C2 {model} Newmark"),
+            2.0,
+            &errors("C2", model, &steps, newmark),
+        );
+    }
+    check(
+        "C2 kv HHT-alpha",
+        2.0,
+        &errors("C2", "kv", &steps, |step| MethodChoice::HhtAlpha {
+            step,
+            alpha: -0.1,
+        }),
+    );
+    check(
+        "C2 kv linear acceleration",
+        2.0,
+        &errors("C2", "kv", &steps, |step| MethodChoice::Newmark {
+            step,
+            beta: 1.0 / 6.0,
+            gamma: 0.5,
+        }),
+    );
+}
+
+/// Laws that start like a power of time lower the order of any method whose steps
+/// do not shrink there: `delta^1.5` starts like `t^1.5`, so that one step errs by
+/// `h^2.5` in velocity; Jankowski's dashpot starts like `t^0.25` and leaves `h^1.25`.
+#[test]
+fn singular_starts_lower_the_order_as_they_must() {
+    let steps = [2.5e-4, 1.25e-4, 6.25e-5, 3.125e-5];
+    let newmark = |step| MethodChoice::Newmark {
+        step,
+        beta: 0.25,
+        gamma: 0.5,
+    };
+    let rk4 = |step| MethodChoice::RungeKutta4 { step };
+    check(
+        "C2 jank Newmark",
+        1.25,
+        &errors("C2", "jank", &steps, newmark),
+    );
+    check("C2 jank RK4", 1.25, &errors("C2", "jank", &steps, rk4));
+    check(
+        "C2 hertzdamp RK4",
+        2.5,
+        &errors("C2", "hertzdamp", &steps, rk4),
+    );
+}

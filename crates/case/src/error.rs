@@ -31,6 +31,8 @@ impl CaseError {
         help: Option<String>,
     ) -> Self {
         let before = source.get(..span.start).unwrap_or(source);
+        // A byte order mark is no column that an editor would show.
+        let before = before.strip_prefix('\u{feff}').unwrap_or(before);
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         Self {
             file: file.to_owned(),

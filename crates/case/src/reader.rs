@@ -17,6 +17,10 @@ pub(crate) struct Reader<'a> {
     pub source: &'a str,
 }
 
+/// Largest number of storeys, lines to skip and the like: far above any use, and
+/// small enough that a slip of the pen does not fill the memory.
+const LARGEST_COUNT: usize = 100_000;
+
 /// A TOML value with its place.
 pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -50,7 +54,10 @@ impl<'a> Reader<'a> {
                 "`{key}` must be {wanted}, not {}",
                 type_name(value.get_ref())
             ),
-            format!("write {wanted}"),
+            match key {
+                "damping" => "for example { stiffness_proportional = 0.05 }, the ratio in the first mode".to_owned(),
+                _ => format!("write {wanted}"),
+            },
         )
     }
 
@@ -83,11 +90,11 @@ impl<'a> Reader<'a> {
             _ => return Err(self.wrong_type(value, key, "a whole number")),
         };
         number
-            .filter(|n| (least..=100_000).contains(n))
+            .filter(|n| (least..=LARGEST_COUNT).contains(n))
             .ok_or_else(|| {
                 self.error(
                     value.span(),
-                    format!("`{key}` must be a whole number from {least}"),
+                    format!("`{key}` must be a whole number from {least} to {LARGEST_COUNT}"),
                     "correct the number",
                 )
             })
@@ -95,16 +102,21 @@ impl<'a> Reader<'a> {
 
     /// A number or a text with unit.
     pub(crate) fn any_quantity(&self, value: &Value<'_>, key: &str) -> Result<Quantity, CaseError> {
-        let number = |text: &str| Quantity {
-            value: text.parse().unwrap_or(f64::NAN),
+        // What is no number here is refused below as not finite.
+        let number = |text: &str, value: Option<f64>| Quantity {
+            value: value.unwrap_or(f64::NAN),
             dimension: None,
             text: text.to_owned(),
         };
         let quantity = match value.get_ref() {
-            DeValue::Integer(i) if i.radix() == 10 => number(&i.as_str().replace('_', "")),
-            DeValue::Float(f) => number(&f.as_str().replace('_', "")),
+            DeValue::Integer(i) if i.radix() == 10 => number(i.as_str(), i.as_str().parse().ok()),
+            DeValue::Integer(i) => {
+                let whole = u64::from_str_radix(i.as_str(), i.radix());
+                number(i.as_str(), whole.ok().map(|n| n as f64))
+            }
+            DeValue::Float(f) => number(f.as_str(), f.as_str().parse().ok()),
             DeValue::String(text) => parse_quantity(text)
-                .map_err(|e| self.error(value.span(), format!("`{key}`: {e}"), "write a number in SI units, or a text such as \"25 t\", \"3.46 MN/m\", \"20 mm\""))?,
+                .map_err(|e| self.error(value.span(), format!("`{key}`: {e}"), e.help()))?,
             _ => return Err(self.wrong_type(value, key, "a number, or a text with unit")),
         };
         if quantity.value.is_finite() {
@@ -203,6 +215,10 @@ fn dimension_help(wanted: Dimension, found: Dimension) -> String {
         "a weight is a force: divide it by g, or write the mass in kg or t".to_owned()
     } else if wanted == Dimension::STIFFNESS && found == Dimension::FORCE {
         "a stiffness is a force over a length, such as \"3.46 MN/m\"".to_owned()
+    } else if found == Dimension::ACCELERATION && wanted == Dimension::MASS {
+        "\"g\" is the acceleration of gravity; write the mass in kg or t".to_owned()
+    } else if wanted == Dimension::FORCE && found == Dimension::MASS {
+        "a mass is no force: write N, kN, MN, lbf or kip".to_owned()
     } else {
         "correct the unit; plain numbers are SI".to_owned()
     }
@@ -236,9 +252,15 @@ impl<'v, 'a> Table<'v, 'a> {
         name: &str,
         keys: &[Key],
     ) -> Result<Self, CaseError> {
+        let checked = Self {
+            reader,
+            table,
+            span,
+            name: name.to_owned(),
+        };
         let open = keys.iter().any(|k| k.name == "*");
-        for (key, _) in table {
-            let text: &str = key.get_ref();
+        for (key, _) in checked.entries() {
+            let text = key.value.as_str();
             if !open && !keys.iter().any(|k| k.name == text) {
                 let nearest = keys
                     .iter()
@@ -249,18 +271,13 @@ impl<'v, 'a> Table<'v, 'a> {
                     .filter(|k| distance(text, k) <= 1 + text.len() / 3)
                     .map_or_else(String::new, |k| format!("did you mean `{k}`? "));
                 return Err(reader.error(
-                    key.span(),
+                    key.span.clone(),
                     format!("unknown key `{text}` in {name}"),
                     format!("{guess}known keys: {}", all.join(", ")),
                 ));
             }
         }
-        Ok(Self {
-            reader,
-            table,
-            span,
-            name: name.to_owned(),
-        })
+        Ok(checked)
     }
 
     pub(crate) fn get(&self, key: &str) -> Option<&'v Value<'a>> {

@@ -8,16 +8,22 @@ use serde_json::{Map, Value, json};
 pub(crate) enum Kind {
     Text,
     Flag,
-    Count,
+    /// A whole number from this on.
+    Count(usize),
     /// A number in SI units or a text with unit.
     Quantity,
     /// The same, or a list of them.
     Quantities,
     Names,
+    /// Two different modes, from 1.
+    Modes,
     Levels,
+    /// A factor, or a table.
     Scale,
     Table(&'static [Key]),
     Tables(&'static [Key]),
+    /// A table that holds one of these sets of keys.
+    Choice(&'static [Key], &'static [&'static [&'static str]]),
 }
 
 /// A key with what it is.
@@ -78,7 +84,7 @@ pub(crate) const BUILDING: &[Key] = &[
     ),
     key(
         "storeys",
-        Kind::Count,
+        Kind::Count(1),
         "Number of storeys, if no list tells it",
     ),
     needed(
@@ -98,7 +104,7 @@ pub(crate) const BUILDING: &[Key] = &[
     ),
     needed(
         "damping",
-        Kind::Table(DAMPING),
+        Kind::Choice(DAMPING, DAMPING_KINDS),
         "Viscous damping, one of its kinds",
     ),
 ];
@@ -109,7 +115,7 @@ pub(crate) const DAMPING: &[Key] = &[
         Kind::Quantity,
         "Rayleigh: ratio in both `modes` (-)",
     ),
-    key("modes", Kind::Quantities, "Rayleigh: the two modes, from 1"),
+    key("modes", Kind::Modes, "Rayleigh: the two modes, from 1"),
     key("rayleigh", Kind::Table(RAYLEIGH), "C = alpha M + beta K"),
     key(
         "stiffness_proportional",
@@ -127,6 +133,16 @@ pub(crate) const DAMPING: &[Key] = &[
         Kind::Quantities,
         "Coefficient of every storey (N s/m), or one for all",
     ),
+];
+
+/// The keys of each kind of damping, the first of which names it.
+pub(crate) const DAMPING_KINDS: &[&[&str]] = &[
+    &["ratio", "modes"],
+    &["rayleigh"],
+    &["stiffness_proportional"],
+    &["mass_proportional"],
+    &["modal"],
+    &["dashpots"],
 ];
 
 pub(crate) const RAYLEIGH: &[Key] = &[
@@ -198,7 +214,7 @@ pub(crate) const GROUND_MOTION: &[Key] = &[
     key("component", Kind::Text, "Plain columns: the column to use"),
     key(
         "skip_lines",
-        Kind::Count,
+        Kind::Count(0),
         "Plain columns: lines to skip at the start",
     ),
     key(
@@ -222,6 +238,9 @@ pub(crate) const SCALE: &[Key] = &[
     key("factor", Kind::Quantity, "Factor (-)"),
     key("pga", Kind::Quantity, "Peak ground acceleration (m/s2)"),
 ];
+
+/// The two ways to scale a record.
+const SCALE_KINDS: &[&[&str]] = &[&["factor"], &["pga"]];
 
 pub(crate) const ANALYSIS: &[Key] = &[
     key(
@@ -259,7 +278,8 @@ pub(crate) const ANALYSIS: &[Key] = &[
     ),
 ];
 
-/// JSON Schema (2020-12) of a case file.
+/// JSON Schema (2020-12) of a case file: the keys that the reader accepts, with
+/// what they are and their units.
 #[must_use]
 pub fn schema() -> Value {
     let mut schema = object(CASE, "A case of seismic pounding");
@@ -304,25 +324,36 @@ fn kind(kind: Kind, explanation: &str) -> Value {
     match kind {
         Kind::Text => json!({"type": "string"}),
         Kind::Flag => json!({"type": "boolean"}),
-        Kind::Count => json!({"type": "integer", "minimum": 0}),
-        Kind::Quantity => json!({"anyOf": [quantity]}),
+        Kind::Count(least) => json!({"type": "integer", "minimum": least}),
+        Kind::Quantity => quantity,
         Kind::Quantities => {
             json!({"anyOf": [quantity, {"type": "array", "minItems": 1, "items": quantity}]})
         }
         Kind::Names => {
             json!({"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2})
         }
+        Kind::Modes => json!({
+            "type": "array", "items": {"type": "integer", "minimum": 1},
+            "minItems": 2, "maxItems": 2, "uniqueItems": true
+        }),
         Kind::Levels => json!({"anyOf": [
             {"const": "matching"},
-            {"type": "array", "items": {"anyOf": [
+            {"type": "array", "minItems": 1, "items": {"anyOf": [
                 {"type": "integer", "minimum": 1},
                 {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2}
             ]}}
         ]}),
-        Kind::Scale => json!({"anyOf": [{"type": "number"}, object(SCALE, "Scale")]}),
+        Kind::Scale => json!({"anyOf": [quantity, choice(SCALE, SCALE_KINDS, "Scale")]}),
         Kind::Table(keys) => object(keys, explanation),
-        Kind::Tables(keys) => {
-            json!({"type": "array", "minItems": 1, "items": object(keys, explanation)})
-        }
+        Kind::Tables(keys) => json!({"type": "array", "items": object(keys, explanation)}),
+        Kind::Choice(keys, sets) => choice(keys, sets, explanation),
     }
+}
+
+/// An object that holds one of some sets of keys.
+fn choice(keys: &[Key], sets: &[&[&str]], description: &str) -> Value {
+    let mut value = object(keys, description);
+    let sets: Vec<Value> = sets.iter().map(|set| json!({"required": set})).collect();
+    value["oneOf"] = json!(sets);
+    value
 }

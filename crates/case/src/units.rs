@@ -3,7 +3,8 @@
 use std::fmt;
 
 /// Powers of kilogram, metre and second. Powers of a length may be fractions, as
-/// in the contact stiffness N/m^1.5.
+/// in the contact stiffness N/m^1.5. Two dimensions are equal if their powers
+/// agree to 1e-9.
 #[derive(Debug, Clone, Copy)]
 pub struct Dimension {
     /// Power of mass.
@@ -35,6 +36,10 @@ impl Dimension {
     pub const STIFFNESS: Self = Self::new(1.0, 0.0, -2.0);
     /// Dashpot coefficient, N s/m.
     pub const DASHPOT: Self = Self::new(1.0, 0.0, -1.0);
+    /// Energy, J.
+    pub const ENERGY: Self = Self::new(1.0, 2.0, -2.0);
+    /// Pressure, Pa.
+    pub const PRESSURE: Self = Self::new(1.0, -1.0, -2.0);
 
     const fn new(mass: f64, length: f64, time: f64) -> Self {
         Self { mass, length, time }
@@ -76,14 +81,27 @@ impl fmt::Display for Dimension {
             (Self::FORCE, "a force (N)"),
             (Self::STIFFNESS, "a stiffness (N/m)"),
             (Self::DASHPOT, "a dashpot coefficient (N s/m)"),
+            (Self::ENERGY, "an energy (J)"),
+            // Also the contact stiffness of a law with exponent 2.
+            (Self::PRESSURE, "a pressure (Pa = N/m^2)"),
         ];
+        // Sums of decimal powers carry noise that no reader wants to see.
+        let shown = |power: f64| (power * 1e6).round() / 1e6;
         if let Some((_, name)) = named.iter().find(|(d, _)| d == self) {
-            f.write_str(name)
-        } else if (self.mass - 1.0).abs() < 1e-9 && (self.time + 2.0).abs() < 1e-9 {
-            write!(f, "a contact stiffness (N/m^{})", 1.0 - self.length)
-        } else {
-            write!(f, "kg^{} m^{} s^{}", self.mass, self.length, self.time)
+            return f.write_str(name);
         }
+        if self.length < 0.0 && *self == Self::stiffness_with_exponent(1.0 - self.length) {
+            return write!(f, "a contact stiffness (N/m^{})", shown(1.0 - self.length));
+        }
+        f.write_str("a quantity in")?;
+        for (symbol, power) in [("kg", self.mass), ("m", self.length), ("s", self.time)] {
+            match shown(power) {
+                0.0 => {}
+                1.0 => write!(f, " {symbol}")?,
+                power => write!(f, " {symbol}^{power}")?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -98,118 +116,269 @@ pub struct Quantity {
     pub text: String,
 }
 
-/// A text that is not a quantity.
+/// Why a text is not a quantity.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{0}")]
-pub struct UnitError(pub String);
-
-const INCH: f64 = 0.0254;
-const POUND: f64 = 0.453_592_37;
-const GRAVITY: f64 = 9.80665;
-
-/// Value in SI and dimension of a unit symbol.
-fn unit(symbol: &str) -> Option<(f64, Dimension)> {
-    let d = |factor, dimension| Some((factor, dimension));
-    match symbol {
-        "%" => d(0.01, Dimension::NUMBER),
-        "kg" => d(1.0, Dimension::MASS),
-        "t" | "Mg" => d(1.0e3, Dimension::MASS),
-        "kt" | "Gg" => d(1.0e6, Dimension::MASS),
-        "lb" => d(POUND, Dimension::MASS),
-        "m" => d(1.0, Dimension::LENGTH),
-        "cm" => d(1.0e-2, Dimension::LENGTH),
-        "mm" => d(1.0e-3, Dimension::LENGTH),
-        "in" => d(INCH, Dimension::LENGTH),
-        "ft" => d(12.0 * INCH, Dimension::LENGTH),
-        "s" | "sec" => d(1.0, Dimension::TIME),
-        "ms" => d(1.0e-3, Dimension::TIME),
-        "us" => d(1.0e-6, Dimension::TIME),
-        "Hz" => d(1.0, Dimension::FREQUENCY),
-        "rad" => d(1.0, Dimension::NUMBER),
-        "g" => d(GRAVITY, Dimension::ACCELERATION),
-        "gal" => d(0.01, Dimension::ACCELERATION),
-        "N" => d(1.0, Dimension::FORCE),
-        "kN" => d(1.0e3, Dimension::FORCE),
-        "MN" => d(1.0e6, Dimension::FORCE),
-        "GN" => d(1.0e9, Dimension::FORCE),
-        "lbf" => d(POUND * GRAVITY, Dimension::FORCE),
-        "kip" => d(1.0e3 * POUND * GRAVITY, Dimension::FORCE),
-        "Pa" => d(1.0, Dimension::new(1.0, -1.0, -2.0)),
-        "kPa" => d(1.0e3, Dimension::new(1.0, -1.0, -2.0)),
-        "MPa" => d(1.0e6, Dimension::new(1.0, -1.0, -2.0)),
-        "GPa" => d(1.0e9, Dimension::new(1.0, -1.0, -2.0)),
-        "1" => d(1.0, Dimension::NUMBER),
-        _ => None,
-    }
+pub enum UnitError {
+    /// The text does not start with a number.
+    #[error("\"{text}\" does not start with a number")]
+    NoNumber {
+        /// The text.
+        text: String,
+    },
+    /// A decimal comma, or a comma between thousands.
+    #[error("\"{text}\" has a comma in its number")]
+    Comma {
+        /// The text.
+        text: String,
+    },
+    /// The number, or its value in SI units, is too large.
+    #[error("\"{text}\" is not a finite number")]
+    NotFinite {
+        /// The text.
+        text: String,
+    },
+    /// A unit that is not known.
+    #[error("\"{symbol}\" in \"{text}\" is not a known unit")]
+    UnknownUnit {
+        /// The text.
+        text: String,
+        /// The unit.
+        symbol: String,
+    },
+    /// A power that is not a number from -9 to 9.
+    #[error("\"{term}\" in \"{text}\" has no readable power")]
+    Power {
+        /// The text.
+        text: String,
+        /// The unit with its power.
+        term: String,
+    },
+    /// `/` or `*` with nothing on one side.
+    #[error("the unit of \"{text}\" is incomplete")]
+    Incomplete {
+        /// The text.
+        text: String,
+    },
+    /// A product after `/`, which can be read in two ways.
+    #[error("the unit of \"{text}\" has a product after `/` and can be read in two ways")]
+    Ambiguous {
+        /// The text.
+        text: String,
+    },
 }
 
-/// Parses `"25 t"`, `"2.75e9 N/m^1.5"`, `"0.35 g"`, `"kN s/m"` style units: factors
-/// separated by blank, `*` or `·`, divisors after `/`, powers after `^` or as a
-/// final digit. `g` is standard gravity, never gram.
-///
-/// # Errors
-/// A text without a number, a number that is not finite, or an unknown unit.
-pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
-    let plain = text.trim();
-    // The number is the longest prefix that parses: "1e3" wins over "1".
-    let end = (1..=plain.len())
-        .rev()
-        .filter(|i| plain.is_char_boundary(*i))
-        .find(|i| {
-            let head = &plain[..*i];
-            !head.ends_with(char::is_alphabetic) && head.trim_end().parse::<f64>().is_ok()
-        })
-        .ok_or_else(|| UnitError(format!("\"{text}\" does not start with a number")))?;
-    let value: f64 = plain[..end]
-        .trim_end()
-        .parse()
-        .map_err(|_| UnitError(format!("\"{text}\" does not start with a number")))?;
-    let symbols = plain[end..].trim();
-    if !value.is_finite() {
-        return Err(UnitError(format!("\"{text}\" is not finite")));
-    }
-    if symbols.is_empty() {
-        return Ok(Quantity {
-            value,
-            dimension: None,
-            text: text.to_owned(),
-        });
-    }
-    let (factor, dimension) = parse_unit(symbols)?;
-    Ok(Quantity {
-        value: value * factor,
-        dimension: Some(dimension),
-        text: text.to_owned(),
-    })
-}
-
-fn parse_unit(symbols: &str) -> Result<(f64, Dimension), UnitError> {
-    let (mut factor, mut dimension) = (1.0, Dimension::NUMBER);
-    let normal = symbols.replace('²', "^2").replace('·', "*");
-    for (i, part) in normal.split('/').enumerate() {
-        let sign = if i == 0 { 1.0 } else { -1.0 };
-        for term in part.split([' ', '*']).filter(|t| !t.is_empty()) {
-            let (symbol, power) = split_power(term)?;
-            let (size, unit_dimension) = unit(symbol).ok_or_else(|| {
-                UnitError(format!("\"{symbol}\" in \"{symbols}\" is not a known unit"))
-            })?;
-            factor *= size.powf(sign * power);
-            dimension = dimension.plus(unit_dimension, sign * power);
+impl UnitError {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::Comma { .. } => {
+                "write a decimal point, and nothing between thousands: 3.46, 25000".to_owned()
+            }
+            Self::NotFinite { .. } => "correct the number".to_owned(),
+            Self::UnknownUnit { symbol, .. } => {
+                let known: Vec<&str> = UNITS.iter().map(|u| u.symbol).collect();
+                let guess = known
+                    .iter()
+                    .find(|k| k.eq_ignore_ascii_case(symbol))
+                    .map_or_else(String::new, |k| format!("did you mean \"{k}\"? "));
+                format!("{guess}known units: {}", known.join(", "))
+            }
+            Self::Power { .. } => "write powers as in m/s^2, N/m^1.5".to_owned(),
+            Self::Incomplete { .. } => {
+                "write units as in \"kN s/m\", \"N/m^1.5\", \"1/s\"".to_owned()
+            }
+            Self::Ambiguous { .. } => {
+                "write all factors before `/` and one `/` for each divisor: \"kN s/m\", \"m/s/s\""
+                    .to_owned()
+            }
+            Self::NoNumber { .. } => {
+                "write a number in SI units, or a text such as \"25 t\", \"3.46 MN/m\", \"20 mm\""
+                    .to_owned()
+            }
         }
     }
-    Ok((factor, dimension))
 }
 
-fn split_power(term: &str) -> Result<(&str, f64), UnitError> {
-    if term == "1" {
-        return Ok((term, 1.0));
+/// A unit. Its size in SI units is `up / down`, both exact, so that a decimal
+/// value comes out as the nearest double to what it says wherever possible.
+struct Unit {
+    symbol: &'static str,
+    up: f64,
+    down: f64,
+    dimension: Dimension,
+}
+
+const fn unit(symbol: &'static str, up: f64, down: f64, dimension: Dimension) -> Unit {
+    Unit {
+        symbol,
+        up,
+        down,
+        dimension,
     }
-    let wrong = || UnitError(format!("\"{term}\" has no readable power"));
-    if let Some((symbol, power)) = term.split_once('^') {
-        return Ok((symbol, power.parse().map_err(|_| wrong())?));
+}
+
+/// Inch, foot and pound are those of 1959 (exact); standard gravity is that of the
+/// third General Conference on Weights and Measures (1901), 9.80665 m/s2.
+const UNITS: &[Unit] = &[
+    unit("%", 1.0, 100.0, Dimension::NUMBER),
+    unit("rad", 1.0, 1.0, Dimension::NUMBER),
+    unit("kg", 1.0, 1.0, Dimension::MASS),
+    unit("t", 1e3, 1.0, Dimension::MASS),
+    unit("Mg", 1e3, 1.0, Dimension::MASS),
+    unit("kt", 1e6, 1.0, Dimension::MASS),
+    unit("Gg", 1e6, 1.0, Dimension::MASS),
+    unit("lb", 45_359_237.0, 1e8, Dimension::MASS),
+    unit("m", 1.0, 1.0, Dimension::LENGTH),
+    unit("cm", 1.0, 100.0, Dimension::LENGTH),
+    unit("mm", 1.0, 1e3, Dimension::LENGTH),
+    unit("in", 254.0, 1e4, Dimension::LENGTH),
+    unit("ft", 3048.0, 1e4, Dimension::LENGTH),
+    unit("s", 1.0, 1.0, Dimension::TIME),
+    unit("sec", 1.0, 1.0, Dimension::TIME),
+    unit("ms", 1.0, 1e3, Dimension::TIME),
+    unit("us", 1.0, 1e6, Dimension::TIME),
+    unit("Hz", 1.0, 1.0, Dimension::FREQUENCY),
+    unit("g", 980_665.0, 1e5, Dimension::ACCELERATION),
+    unit("gal", 1.0, 100.0, Dimension::ACCELERATION),
+    unit("Gal", 1.0, 100.0, Dimension::ACCELERATION),
+    unit("N", 1.0, 1.0, Dimension::FORCE),
+    unit("kN", 1e3, 1.0, Dimension::FORCE),
+    unit("MN", 1e6, 1.0, Dimension::FORCE),
+    unit("GN", 1e9, 1.0, Dimension::FORCE),
+    unit("lbf", 44_482_216_152_605.0, 1e13, Dimension::FORCE),
+    unit("kip", 44_482_216_152_605.0, 1e10, Dimension::FORCE),
+    unit("Pa", 1.0, 1.0, Dimension::PRESSURE),
+    unit("kPa", 1e3, 1.0, Dimension::PRESSURE),
+    unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
+    unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
+];
+
+/// Largest power of a unit; larger ones are slips of the pen.
+const LARGEST_POWER: f64 = 9.0;
+
+/// Parses `"25 t"`, `"2.75e9 N/m^1.5"`, `"0.35 g"`, `"kN s/m"` style units: factors
+/// separated by blank, `*` or `·`, one divisor after each `/`, powers after `^` or
+/// as final digits. `g` is standard gravity, never gram. A text that is only a
+/// number has no dimension.
+///
+/// # Errors
+/// A text without a number, a value that is not finite, or a unit that is unknown
+/// or can be read in two ways.
+pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
+    let quantity = |value: f64, dimension| Quantity {
+        value,
+        dimension,
+        text: text.to_owned(),
+    };
+    let owned = || text.to_owned();
+    let plain = text.trim();
+    let (number, symbols) = plain.split_at(number_length(plain));
+    let value: f64 = number
+        .parse()
+        .map_err(|_| UnitError::NoNumber { text: owned() })?;
+    let symbols = symbols.trim();
+    if symbols.starts_with(',') {
+        return Err(UnitError::Comma { text: owned() });
     }
-    match term.find(|c: char| c.is_ascii_digit()) {
-        Some(at) if at > 0 => Ok((&term[..at], term[at..].parse().map_err(|_| wrong())?)),
-        _ => Ok((term, 1.0)),
+    let result = if symbols.is_empty() {
+        quantity(value, None)
+    } else {
+        let (up, down, dimension) = parse_unit(symbols, text)?;
+        quantity(value * up / down, Some(dimension))
+    };
+    if result.value.is_finite() {
+        Ok(result)
+    } else {
+        Err(UnitError::NotFinite { text: owned() })
     }
+}
+
+/// Length of the decimal number at the start of a text, zero if there is none.
+/// An `e` counts only with the digits of an exponent after it.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| {
+        bytes[from..]
+            .iter()
+            .take_while(|b| b.is_ascii_digit())
+            .count()
+    };
+    let sign = |at: usize| usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+    let mut at = sign(0);
+    let whole = digits(at);
+    at += whole;
+    let mut fraction = 0;
+    if bytes.get(at) == Some(&b'.') {
+        fraction = digits(at + 1);
+        at += 1 + fraction;
+    }
+    if whole + fraction == 0 {
+        return 0;
+    }
+    if matches!(bytes.get(at), Some(b'e' | b'E')) {
+        let start = at + 1 + sign(at + 1);
+        let exponent = digits(start);
+        if exponent > 0 {
+            at = start + exponent;
+        }
+    }
+    at
+}
+
+/// Size (as a fraction) and dimension of a compound unit.
+fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitError> {
+    let text = || text.to_owned();
+    let (mut up, mut down, mut dimension) = (1.0, 1.0, Dimension::NUMBER);
+    let normal = symbols
+        .replace('²', "^2")
+        .replace('³', "^3")
+        .replace('·', "*");
+    for (i, part) in normal.split('/').enumerate() {
+        // "1/s": a one stands for an absent numerator, and for nothing else.
+        if i == 0 && part.trim() == "1" && normal.contains('/') {
+            continue;
+        }
+        if part.split('*').any(|p| p.trim().is_empty()) {
+            return Err(UnitError::Incomplete { text: text() });
+        }
+        let terms = || part.split(|c: char| c == '*' || c.is_whitespace());
+        if i > 0 && terms().filter(|t| !t.is_empty()).count() > 1 {
+            return Err(UnitError::Ambiguous { text: text() });
+        }
+        for term in terms().filter(|t| !t.is_empty()) {
+            let (symbol, power) =
+                split_power(term).ok_or_else(|| UnitError::Power {
+                    text: text(),
+                    term: term.to_owned(),
+                })?;
+            let unit = UNITS.iter().find(|u| u.symbol == symbol).ok_or_else(|| {
+                UnitError::UnknownUnit {
+                    text: text(),
+                    symbol: symbol.to_owned(),
+                }
+            })?;
+            let power = if i == 0 { power } else { -power };
+            let (rise, fall) = if power < 0.0 {
+                (unit.down, unit.up)
+            } else {
+                (unit.up, unit.down)
+            };
+            up *= rise.powf(power.abs());
+            down *= fall.powf(power.abs());
+            dimension = dimension.plus(unit.dimension, power);
+        }
+    }
+    Ok((up, down, dimension))
+}
+
+/// `m^1.5` and `s2` into symbol and power; `None` for a power that is none.
+fn split_power(term: &str) -> Option<(&str, f64)> {
+    let (symbol, power) = match (term.split_once('^'), term.find(|c: char| c.is_ascii_digit())) {
+        (Some(parts), _) => parts,
+        (None, Some(at)) if at > 0 => term.split_at(at),
+        (None, _) => return Some((term, 1.0)),
+    };
+    let power: f64 = power.parse().ok()?;
+    (power.abs() <= LARGEST_POWER).then_some((symbol, power))
 }

@@ -45,7 +45,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
             .collect::<Result<Vec<_>, _>>()?;
         rows.push((i, row));
     }
-    let Some((first, first_row)) = rows.first() else {
+    let Some((first, _)) = rows.first() else {
         return Err(source.error(
             0,
             0,
@@ -54,15 +54,11 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
         ));
     };
     let first = *first;
-    let width = first_row.len();
-    let layout = source.options.layout.clone().unwrap_or_else(|| {
-        if width == 2 && is_time(&rows) {
-            "t,a"
-        } else {
-            "a"
-        }
-        .to_owned()
-    });
+    let layout = source
+        .options
+        .layout
+        .clone()
+        .unwrap_or_else(|| if is_time(&rows) { "t,a" } else { "a" }.to_owned());
     let names: Vec<&str> = layout.split(',').map(str::trim).collect();
     let mut warnings = Vec::new();
     let (samples, stated) = if names == ["a"] {
@@ -90,12 +86,15 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
     })
 }
 
+/// Whether the rows are pairs whose first values increase, as times do.
 fn is_time(rows: &[(usize, Vec<f64>)]) -> bool {
-    rows.windows(2)
-        .all(|w| match (w[0].1.first(), w[1].1.first()) {
-            (Some(a), Some(b)) => b > a,
-            _ => false,
-        })
+    rows.iter().all(|(_, r)| r.len() == 2)
+        && rows
+            .windows(2)
+            .all(|w| match (w[0].1.first(), w[1].1.first()) {
+                (Some(a), Some(b)) => b > a,
+                _ => false,
+            })
 }
 
 /// The chosen column, and the time step if there is a time column.

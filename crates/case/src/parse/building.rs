@@ -1,0 +1,182 @@
+//! Buildings: storeys and damping.
+
+use toml::de::DeValue;
+
+use super::{check_name, not_negative, spread};
+use crate::error::CaseError;
+use crate::reader::{List, Reader, Table, Value, Values};
+use crate::schema;
+use crate::types::{Building, Damping, Located};
+use crate::units::Dimension;
+
+fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Building, CaseError> {
+    let table = reader.table(value, "[[building]]", schema::BUILDING)?;
+    let name = reader.text(table.required("name")?, "name")?;
+    if name.value == "wall" || name.value.trim().is_empty() || name.value.contains('/') {
+        return Err(reader.error(
+            name.span,
+            format!("\"{}\" cannot name a building", name.value),
+            "\"wall\" is the rigid wall; a name is not empty and has no slash",
+        ));
+    }
+    let read = |key: &str, dimension| {
+        let value = table.required(key)?;
+        reader.list(value, key, |v| reader.positive(v, key, dimension))
+    };
+    let mass = read("mass", Dimension::MASS)?;
+    let stiffness = read("stiffness", Dimension::STIFFNESS)?;
+    let height = read("height", Dimension::LENGTH)?;
+    let stated = table
+        .get("storeys")
+        .map(|v| reader.count(v, "storeys", 1))
+        .transpose()?;
+    let storeys = storeys(
+        &table,
+        stated,
+        [
+            ("mass", &mass),
+            ("stiffness", &stiffness),
+            ("height", &height),
+        ],
+    )?;
+    let all = |list: List| match list.values {
+        Values::Scalar(x) => vec![x; storeys],
+        Values::List(values) => values,
+    };
+    let value = table.required("damping")?;
+    Ok(Building {
+        name,
+        mass: all(mass),
+        stiffness: all(stiffness),
+        height: all(height),
+        damping: Located {
+            value: damping(reader, value, storeys)?,
+            span: value.span(),
+        },
+    })
+}
+
+/// The number of storeys, on which `storeys` and all lists must agree.
+fn storeys(
+    table: &Table<'_, '_>,
+    stated: Option<usize>,
+    lists: [(&str, &List); 3],
+) -> Result<usize, CaseError> {
+    let mut known = stated.map(|n| ("storeys", n));
+    for (key, list) in lists {
+        let Values::List(values) = &list.values else {
+            continue;
+        };
+        match known {
+            None => known = Some((key, values.len())),
+            Some((other, n)) if n != values.len() => {
+                return Err(table.reader.error(
+                    list.span.clone(),
+                    format!(
+                        "`{key}` has {} values, but `{other}` says {n} storeys",
+                        values.len()
+                    ),
+                    "give one value a storey, or a single value for all",
+                ));
+            }
+            Some(_) => {}
+        }
+    }
+    known.map(|(_, n)| n).ok_or_else(|| {
+        table.reader.error(
+            table.span.clone(),
+            "the building does not say how many storeys it has",
+            "add `storeys = ...`",
+        )
+    })
+}
+
+fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Damping, CaseError> {
+    let table = reader.table(value, "damping", schema::DAMPING)?;
+    let kinds: Vec<&str> = [
+        "ratio",
+        "rayleigh",
+        "stiffness_proportional",
+        "mass_proportional",
+        "modal",
+        "dashpots",
+    ]
+    .into_iter()
+    .filter(|k| table.get(k).is_some())
+    .collect();
+    let [kind] = kinds.as_slice() else {
+        return Err(reader.error(
+            value.span(),
+            format!("damping must be of one kind, not {}", kinds.len()),
+            "for example { stiffness_proportional = 0.05 } or { ratio = 0.05, modes = [1, 3] }",
+        ));
+    };
+    let value = table.required(kind)?;
+    let ratio = |v: &Value<'_>| {
+        let ratio = reader.quantity(v, kind, Dimension::NUMBER)?;
+        if (0.0..1.0).contains(&ratio) {
+            Ok(ratio)
+        } else {
+            Err(reader.error(
+                v.span(),
+                format!("damping ratio {ratio} is not in 0..1"),
+                "5 % of critical is 0.05 or \"5 %\"",
+            ))
+        }
+    };
+    Ok(match *kind {
+        "ratio" => Damping::RayleighRatio {
+            ratio: ratio(value)?,
+            modes: two_modes(reader, table.required("modes")?, storeys)?,
+        },
+        "rayleigh" => {
+            let table = reader.table(value, "rayleigh", schema::RAYLEIGH)?;
+            Damping::Rayleigh {
+                alpha: not_negative(
+                    reader,
+                    table.required("alpha")?,
+                    "alpha",
+                    Dimension::FREQUENCY,
+                )?,
+                beta: not_negative(reader, table.required("beta")?, "beta", Dimension::TIME)?,
+            }
+        }
+        "stiffness_proportional" => Damping::StiffnessProportional {
+            ratio: ratio(value)?,
+        },
+        "mass_proportional" => Damping::MassProportional {
+            ratio: ratio(value)?,
+        },
+        "modal" => Damping::Modal {
+            ratios: spread(reader, reader.list(value, kind, ratio)?, storeys, "mode")?,
+        },
+        _ => {
+            let read = |v: &Value<'_>| not_negative(reader, v, kind, Dimension::DASHPOT);
+            Damping::Dashpots {
+                coefficients: spread(reader, reader.list(value, kind, read)?, storeys, "storey")?,
+            }
+        }
+    })
+}
+
+fn two_modes(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+    storeys: usize,
+) -> Result<[usize; 2], CaseError> {
+    let DeValue::Array(items) = value.get_ref() else {
+        return Err(reader.wrong_type(value, "modes", "a list of two modes"));
+    };
+    let modes = items
+        .iter()
+        .map(|v| reader.count(v, "modes", 1))
+        .collect::<Result<Vec<_>, _>>()?;
+    match modes.as_slice() {
+        [a, b] if a != b && *a <= storeys && *b <= storeys => Ok([*a, *b]),
+        _ => Err(reader.error(
+            value.span(),
+            format!("`modes` must be two different modes from 1 to {storeys}"),
+            "for a single storey use { mass_proportional = ... }",
+        )),
+    }
+}

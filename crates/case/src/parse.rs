@@ -1,15 +1,14 @@
 //! From the TOML tree to a case.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
 use crate::error::CaseError;
-use crate::reader::{List, Reader, Table, Value, Values, distance};
+use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{
-    Analysis, Building, Case, Damping, Gap, GroundMotion, Located, Parameter, Scale, Side,
-};
+use crate::types::{Analysis, Building, Case, Gap, GroundMotion, Located, Scale};
 use crate::units::Dimension;
 
 mod building;
@@ -32,19 +31,36 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let title = root
         .optional_text("title")?
         .map_or(String::new(), |t| t.value);
+    let buildings = buildings(&reader, &root)?;
+    let gaps = gaps(&reader, &root, &buildings)?;
+    let ground_motion = ground_motion(&reader, root.required("ground_motion")?)?;
+    let analysis = match root.get("analysis") {
+        Some(value) => analysis(&reader, value)?,
+        None => default_analysis(),
+    };
+    Ok(Case {
+        title,
+        buildings,
+        gaps,
+        ground_motion,
+        analysis,
+        source: source.to_owned(),
+        file: file.to_owned(),
+    })
+}
+
+fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Result<Vec<Building>, CaseError> {
     let mut buildings: Vec<Building> = Vec::new();
-    for value in tables(&root, "building")? {
-        let building = building(&reader, value)?;
-        if let Some(other) = buildings
-            .iter()
-            .find(|b| b.name.value == building.name.value)
-        {
-            let first = CaseError::new(&name, source, other.name.span.clone(), "", None);
+    for value in tables(root, "building")? {
+        let building = building::building(reader, value)?;
+        let name = &building.name;
+        if let Some(first) = buildings.iter().find(|b| b.name.value == name.value) {
             return Err(reader.error(
-                building.name.span,
+                name.span.clone(),
                 format!(
                     "building \"{}\" is given twice, first in line {}",
-                    building.name.value, first.line
+                    name.value,
+                    reader.line(&first.name.span)
                 ),
                 "give every building its own name",
             ));
@@ -54,33 +70,61 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     if buildings.is_empty() {
         return Err(reader.error(0..0, "the case has no building", "add a [[building]]"));
     }
-    let mut gaps: Vec<(Gap, std::ops::Range<usize>)> = Vec::new();
-    for value in tables(&root, "gap")? {
-        let (gap, span) = gap::gap(&reader, value, &buildings)?;
+    Ok(buildings)
+}
+
+fn gaps(
+    reader: &Reader<'_>,
+    root: &Table<'_, '_>,
+    buildings: &[Building],
+) -> Result<Vec<Gap>, CaseError> {
+    let mut gaps: Vec<(Gap, Range<usize>)> = Vec::new();
+    for value in tables(root, "gap")? {
+        let (gap, span) = gap::gap(reader, value, buildings)?;
         if let Some((_, first)) = gaps.iter().find(|(g, _)| g.between == gap.between) {
-            let first = CaseError::new(&name, source, first.clone(), "", None);
             return Err(reader.error(
                 span,
-                format!("gap given twice: the first is in line {}", first.line),
+                format!(
+                    "gap given twice: the first is in line {}",
+                    reader.line(first)
+                ),
                 "remove one; several levels of one gap go into its `levels` and `width`",
+            ));
+        }
+        if let Some((_, first)) = gaps.iter().find(|(g, _)| g.name == gap.name) {
+            return Err(reader.error(
+                span,
+                format!(
+                    "two gaps have the name \"{}\", the first in line {}",
+                    gap.name,
+                    reader.line(first)
+                ),
+                "give every gap its own `name`",
             ));
         }
         gaps.push((gap, span));
     }
-    let ground_motion = ground_motion(&reader, root.required("ground_motion")?)?;
-    let analysis = match root.get("analysis") {
-        Some(value) => analysis(&reader, value)?,
-        None => default_analysis(),
-    };
-    Ok(Case {
-        title,
-        buildings,
-        gaps: gaps.into_iter().map(|(g, _)| g).collect(),
-        ground_motion,
-        analysis,
-        source: source.to_owned(),
-        file: file.to_owned(),
-    })
+    Ok(gaps.into_iter().map(|(gap, _)| gap).collect())
+}
+
+/// Refuses names that cannot stand in messages or as a group of the result file.
+fn check_name(
+    reader: &Reader<'_>,
+    name: Located<String>,
+    what: &str,
+) -> Result<Located<String>, CaseError> {
+    let text = &name.value;
+    let bad = text.trim() != text
+        || matches!(text.as_str(), "" | "." | "..")
+        || text.contains(|c: char| c == '/' || c.is_control());
+    if !bad {
+        return Ok(name);
+    }
+    Err(reader.error(
+        name.span,
+        format!("{text:?} cannot name a {what}"),
+        "a name is not empty, not \".\" or \"..\", and has no slash, no control characters and no blanks at its ends",
+    ))
 }
 
 /// The tables of an array of tables; none if the key is absent.
@@ -137,6 +181,13 @@ fn spread(
 fn ground_motion(reader: &Reader<'_>, value: &Value<'_>) -> Result<GroundMotion, CaseError> {
     let table = reader.table(value, "[ground_motion]", schema::GROUND_MOTION)?;
     let file = reader.text(table.required("file")?, "file")?;
+    if file.value.is_empty() {
+        return Err(reader.error(
+            file.span,
+            "`file` is empty",
+            "name the record, relative to the folder of the case file",
+        ));
+    }
     let plain = |key: &str| Ok::<_, CaseError>(table.optional_text(key)?.map(|t| t.value));
     Ok(GroundMotion {
         file: Located {
@@ -181,7 +232,7 @@ fn scale(reader: &Reader<'_>, value: &Value<'_>) -> Result<Scale, CaseError> {
         )?)),
         _ => Err(reader.error(
             value.span(),
-            "scale needs `factor` or `pga`, and not both",
+            "`scale` needs `factor` or `pga`, and not both",
             "for example { pga = \"0.35 g\" }",
         )),
     }

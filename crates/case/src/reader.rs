@@ -34,6 +34,11 @@ impl<'a> Reader<'a> {
         CaseError::new(self.file, self.source, span, message, Some(help.into()))
     }
 
+    /// Line of a place, from 1.
+    pub(crate) fn line(&self, span: &Range<usize>) -> usize {
+        self.error(span.clone(), "", "").line
+    }
+
     /// The value as a table whose keys are all known.
     pub(crate) fn table<'v>(
         &self,
@@ -55,7 +60,10 @@ impl<'a> Reader<'a> {
                 type_name(value.get_ref())
             ),
             match key {
-                "damping" => "for example { stiffness_proportional = 0.05 }, the ratio in the first mode".to_owned(),
+                "damping" => {
+                    "for example { stiffness_proportional = 0.05 }, the ratio in the first mode"
+                        .to_owned()
+                }
                 _ => format!("write {wanted}"),
             },
         )

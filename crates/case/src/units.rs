@@ -347,11 +347,10 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
             return Err(UnitError::Ambiguous { text: text() });
         }
         for term in terms().filter(|t| !t.is_empty()) {
-            let (symbol, power) =
-                split_power(term).ok_or_else(|| UnitError::Power {
-                    text: text(),
-                    term: term.to_owned(),
-                })?;
+            let (symbol, power) = split_power(term).ok_or_else(|| UnitError::Power {
+                text: text(),
+                term: term.to_owned(),
+            })?;
             let unit = UNITS.iter().find(|u| u.symbol == symbol).ok_or_else(|| {
                 UnitError::UnknownUnit {
                     text: text(),
@@ -374,7 +373,10 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
 
 /// `m^1.5` and `s2` into symbol and power; `None` for a power that is none.
 fn split_power(term: &str) -> Option<(&str, f64)> {
-    let (symbol, power) = match (term.split_once('^'), term.find(|c: char| c.is_ascii_digit())) {
+    let (symbol, power) = match (
+        term.split_once('^'),
+        term.find(|c: char| c.is_ascii_digit()),
+    ) {
         (Some(parts), _) => parts,
         (None, Some(at)) if at > 0 => term.split_at(at),
         (None, _) => return Some((term, 1.0)),

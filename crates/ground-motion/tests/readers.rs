@@ -148,6 +148,8 @@ fn records_of_the_repository() {
     assert!((el_centro.peak().time - 2.02).abs() < 1e-12);
     let kobe = repository("kobe_1995_jma_ns.csv");
     assert_eq!((kobe.samples().len(), kobe.time_step()), (2000, 0.02));
+    assert!((kobe.peak().value / 9.80665 - 0.837316326531).abs() < 1e-9);
+    assert!((kobe.peak().time - 5.52).abs() < 1e-12);
     let scaled = el_centro.scaled_to_peak(1.0).unwrap();
     assert!((scaled.peak().value - 1.0).abs() < 1e-15);
 }

@@ -25,7 +25,8 @@ impl ShearBuilding {
     ///
     /// # Errors
     /// No storeys, lists of unequal length, a value that is not positive and
-    /// finite, or damping out of range.
+    /// finite, values so far apart that the modes cannot be resolved, or damping out
+    /// of range.
     pub fn new(
         name: String,
         mass: Vec<f64>,
@@ -44,7 +45,18 @@ impl ShearBuilding {
             check(&name, quantity, values, mass.len())?;
         }
         let stiffness_matrix = SymmetricTridiagonal::chain(&stiffness);
-        let undamped = undamped(&mass, &stiffness_matrix);
+        let undamped = undamped(&mass, &stiffness, &stiffness_matrix);
+        if let Some(j) = undamped
+            .circular_frequency
+            .iter()
+            .position(|w| !(w.is_finite() && *w > 0.0))
+        {
+            return Err(ShearBuildingError::Modes {
+                building: name,
+                mode: j + 1,
+                frequency: undamped.circular_frequency[j],
+            });
+        }
         let damping_matrix = damping
             .matrix(&mass, &stiffness_matrix, &undamped)
             .map_err(|reason| ShearBuildingError::Damping {

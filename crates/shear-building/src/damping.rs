@@ -149,7 +149,8 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
         (0..n)
             .map(|j| {
                 let weight = 2.0 * ratio(j) * modes.circular_frequency[j];
-                weight * (mass[p] * modes.shape[(p, j)]) * (mass[q] * modes.shape[(q, j)])
+                // The product of the two first, so that the matrix is exactly symmetric.
+                weight * ((mass[p] * modes.shape[(p, j)]) * (mass[q] * modes.shape[(q, j)]))
             })
             .sum()
     })))

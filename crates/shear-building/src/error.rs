@@ -44,6 +44,18 @@ pub enum ShearBuildingError {
         /// What is wrong.
         reason: String,
     },
+    /// Masses or stiffnesses so far apart that double precision cannot resolve a mode.
+    #[error(
+        "building {building}: mode {mode} has the circular frequency {frequency} rad/s; masses or stiffnesses are too far apart"
+    )]
+    Modes {
+        /// Name of the building.
+        building: String,
+        /// Mode, from 1.
+        mode: usize,
+        /// Circular frequency found (rad/s).
+        frequency: f64,
+    },
     /// A matrix that is not positive definite.
     #[error("the matrix is not positive definite: pivot {pivot:e} in row {row}")]
     NotPositiveDefinite {

@@ -27,7 +27,7 @@ fn frequencies_of_uniform_buildings() {
         for (j, w) in modes.circular_frequency.iter().enumerate() {
             let angle = (2 * j + 1) as f64 * std::f64::consts::PI / (2 * (2 * n + 1)) as f64;
             let exact = 2.0 * (3.46e6_f64 / 2.5e4).sqrt() * angle.sin();
-            assert!((w / exact - 1.0).abs() < 1e-11, "{n} {j}: {w} {exact}");
+            assert!((w / exact - 1.0).abs() < 1e-12, "{n} {j}: {w} {exact}");
         }
         let mass: f64 = modes.effective_mass.iter().sum();
         assert!((mass / (2.5e4 * n as f64) - 1.0).abs() < 1e-10);
@@ -159,4 +159,48 @@ proptest! {
             prop_assert!(matches!(b.damping_matrix(), DampingMatrix::Dense(_) | DampingMatrix::Tridiagonal(_)));
         }
     }
+}
+
+/// Values too far apart for double precision are an error, never a zero frequency.
+#[test]
+fn unresolvable_modes_are_refused_or_right() {
+    for (m, k) in [
+        ([1e-200, 1.0], [1e200, 1e200]),
+        ([1e200, 1e200], [1e-200, 1e-200]),
+        ([1e3, 1e3], [1.0, 1e18]),
+    ] {
+        let b = ShearBuilding::new(
+            "b".into(),
+            m.to_vec(),
+            k.to_vec(),
+            vec![3.0; 2],
+            Damping::MassProportional { ratio: 0.05 },
+        );
+        match b {
+            Err(error) => assert!(matches!(error, ShearBuildingError::Modes { .. }), "{error}"),
+            Ok(b) => assert!(b.modes().damping_ratio.iter().all(|z| z.is_finite())),
+        }
+    }
+}
+
+#[test]
+fn modal_damping_is_exactly_symmetric() {
+    let n = 12;
+    let values = |base: f64| {
+        (0..n)
+            .map(|i| base * (1.0 + 0.37 * f64::from(i * i % 7)))
+            .collect::<Vec<_>>()
+    };
+    let b = ShearBuilding::new(
+        "b".into(),
+        values(2e5),
+        values(3e8),
+        vec![3.0; 12],
+        Damping::Modal { ratios: vec![0.05] },
+    )
+    .unwrap();
+    let DampingMatrix::Dense(c) = b.damping_matrix() else {
+        panic!("modal damping is dense");
+    };
+    assert_eq!(*c, c.transpose());
 }

@@ -9,14 +9,18 @@ use crate::schema;
 use crate::types::{Building, Damping, Located};
 use crate::units::Dimension;
 
-fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Building, CaseError> {
+pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Building, CaseError> {
     let table = reader.table(value, "[[building]]", schema::BUILDING)?;
-    let name = reader.text(table.required("name")?, "name")?;
-    if name.value == "wall" || name.value.trim().is_empty() || name.value.contains('/') {
+    let name = check_name(
+        reader,
+        reader.text(table.required("name")?, "name")?,
+        "building",
+    )?;
+    if name.value == "wall" {
         return Err(reader.error(
             name.span,
-            format!("\"{}\" cannot name a building", name.value),
-            "\"wall\" is the rigid wall; a name is not empty and has no slash",
+            "a building cannot be called \"wall\"",
+            "in `between`, \"wall\" is the rigid wall; give the building another name",
         ));
     }
     let read = |key: &str, dimension| {
@@ -93,24 +97,7 @@ fn storeys(
 
 fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Damping, CaseError> {
     let table = reader.table(value, "damping", schema::DAMPING)?;
-    let kinds: Vec<&str> = [
-        "ratio",
-        "rayleigh",
-        "stiffness_proportional",
-        "mass_proportional",
-        "modal",
-        "dashpots",
-    ]
-    .into_iter()
-    .filter(|k| table.get(k).is_some())
-    .collect();
-    let [kind] = kinds.as_slice() else {
-        return Err(reader.error(
-            value.span(),
-            format!("damping must be of one kind, not {}", kinds.len()),
-            "for example { stiffness_proportional = 0.05 } or { ratio = 0.05, modes = [1, 3] }",
-        ));
-    };
+    let kind = kind(&table)?;
     let value = table.required(kind)?;
     let ratio = |v: &Value<'_>| {
         let ratio = reader.quantity(v, kind, Dimension::NUMBER)?;
@@ -124,7 +111,7 @@ fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Dam
             ))
         }
     };
-    Ok(match *kind {
+    Ok(match kind {
         "ratio" => Damping::RayleighRatio {
             ratio: ratio(value)?,
             modes: two_modes(reader, table.required("modes")?, storeys)?,
@@ -157,6 +144,44 @@ fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Dam
             }
         }
     })
+}
+
+/// The one kind of damping that the keys of its table say.
+fn kind(table: &Table<'_, '_>) -> Result<&'static str, CaseError> {
+    let error = |message: String| {
+        let kinds: Vec<String> = schema::DAMPING_KINDS
+            .iter()
+            .map(|keys| format!("{{ {} }}", keys.join(", ")))
+            .collect();
+        table.reader.error(
+            table.span.clone(),
+            message,
+            format!("write one of {}", kinds.join(", ")),
+        )
+    };
+    let found: Vec<&[&'static str]> = schema::DAMPING_KINDS
+        .iter()
+        .filter(|keys| keys.first().is_some_and(|k| table.get(k).is_some()))
+        .copied()
+        .collect();
+    let [keys] = found.as_slice() else {
+        return Err(error(format!(
+            "`damping` must be of one kind, not {}",
+            found.len()
+        )));
+    };
+    let stray = table
+        .entries()
+        .into_iter()
+        .find(|(key, _)| !keys.contains(&key.value.as_str()));
+    match (stray, keys.first()) {
+        (None, Some(kind)) => Ok(kind),
+        (Some((key, _)), _) => Err(error(format!(
+            "`{}` has no meaning beside `{}`",
+            key.value, keys[0]
+        ))),
+        (None, None) => Err(error("`damping` is empty".to_owned())),
+    }
 }
 
 fn two_modes(

@@ -1,15 +1,16 @@
 //! Gaps: neighbours, contact levels, and the model's parameters.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{
-    Building, CaseError, Gap, Located, Parameter, Reader, Side, Value, distance, not_negative,
-    schema, spread,
-};
-use crate::reader::Table;
-use crate::types::ContactLevel;
+use super::{check_name, not_negative, spread};
+use crate::error::CaseError;
+use crate::reader::{Reader, Table, Value, distance};
+use crate::schema;
+use crate::types::{Building, ContactLevel, Gap, Located, Parameter, Side};
 use crate::units::Dimension;
 
 /// Reads a gap; also returns where its `between` stands.
@@ -22,14 +23,7 @@ pub(super) fn gap(
     let place = table.required("between")?;
     let (between, names) = between(reader, place, buildings)?;
     let name = match table.optional_text("name")? {
-        Some(name) if !name.value.trim().is_empty() && !name.value.contains('/') => name.value,
-        Some(name) => {
-            return Err(reader.error(
-                name.span,
-                format!("\"{}\" cannot name a gap", name.value),
-                "a name is not empty and has no slash",
-            ));
-        }
+        Some(name) => check_name(reader, name, "gap")?.value,
         None => names.join("-"),
     };
     let pairs = levels(&table, between, buildings, place.span())?;
@@ -41,11 +35,27 @@ pub(super) fn gap(
         pairs.len(),
         "contact level",
     )?;
-    let levels = pairs
+    let mut levels: Vec<ContactLevel> = pairs
         .into_iter()
         .zip(widths)
         .map(|((left, right), width)| ContactLevel { left, right, width })
         .collect();
+    levels.sort_by_key(|level| (level.left, level.right));
+    let parameters = parameters(&table)?;
+    let gap = Gap {
+        name,
+        between,
+        levels,
+        model: reader.text(table.required("model")?, "model")?,
+        separation: table.optional_text("separation")?,
+        parameters,
+    };
+    Ok((gap, place.span()))
+}
+
+/// All keys but those of the gap itself.
+fn parameters(table: &Table<'_, '_>) -> Result<Vec<Parameter>, CaseError> {
+    let reader = &table.reader;
     let mut parameters = Vec::new();
     for (key, value) in table.entries() {
         if schema::GAP.iter().any(|k| k.name == key.value) {
@@ -71,15 +81,7 @@ pub(super) fn gap(
             },
         });
     }
-    let gap = Gap {
-        name,
-        between,
-        levels,
-        model: reader.text(table.required("model")?, "model")?,
-        separation: table.optional_text("separation")?,
-        parameters,
-    };
-    Ok((gap, place.span()))
+    Ok(parameters)
 }
 
 fn between(
@@ -108,28 +110,13 @@ fn between(
             "name the left and the right neighbour",
         ));
     };
-    let (first, last) = (0, buildings.len() - 1);
-    let problem = match (*left, *right) {
-        (Side::Wall, Side::Wall) => Some("a gap cannot lie between two walls"),
-        (Side::Wall, Side::Building(i)) if i != first => {
-            Some("a wall on the left can only stand beside the first building")
-        }
-        (Side::Building(i), Side::Wall) if i != last => {
-            Some("a wall on the right can only stand beside the last building")
-        }
-        (Side::Building(i), Side::Building(j)) if i == j => {
-            Some("a gap needs two different neighbours")
-        }
-        (Side::Building(i), Side::Building(j)) if i == j + 1 => {
-            Some("the neighbours are in the wrong order: the left one comes first")
-        }
-        (Side::Building(i), Side::Building(j)) if j != i + 1 => {
-            Some("these buildings are not neighbours in the order of the file")
-        }
-        _ => None,
-    };
-    match problem {
-        Some(problem) => Err(reader.error(
+    match row_problem(*left, *right, buildings.len() - 1) {
+        Some((problem, true)) => Err(reader.error(
+            value.span(),
+            problem,
+            format!("write between = [{b:?}, {a:?}]"),
+        )),
+        Some((problem, false)) => Err(reader.error(
             value.span(),
             problem,
             "buildings stand in a row in the order of the file; name left and right neighbour",
@@ -138,28 +125,63 @@ fn between(
     }
 }
 
+/// What keeps two sides from facing each other in the row, and whether the other
+/// order would do.
+fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
+    match (left, right) {
+        (Side::Wall, Side::Wall) => Some(("a gap cannot lie between two walls", false)),
+        (Side::Wall, Side::Building(i)) if i != 0 => Some((
+            "a wall on the left can only stand beside the first building",
+            i == last,
+        )),
+        (Side::Building(i), Side::Wall) if i != last => Some((
+            "a wall on the right can only stand beside the last building",
+            i == 0,
+        )),
+        (Side::Building(i), Side::Building(j)) if i == j => {
+            Some(("a gap needs two different neighbours", false))
+        }
+        (Side::Building(i), Side::Building(j)) if i == j + 1 => Some((
+            "the neighbours are in the wrong order: the left one comes first",
+            true,
+        )),
+        (Side::Building(i), Side::Building(j)) if j != i + 1 => Some((
+            "these buildings are not neighbours in the order of the file",
+            false,
+        )),
+        _ => None,
+    }
+}
+
 fn unknown_building(
     reader: &Reader<'_>,
     name: &Located<String>,
     buildings: &[Building],
 ) -> CaseError {
-    let nearest = buildings
+    let names: Vec<&str> = buildings.iter().map(|b| b.name.value.as_str()).collect();
+    let guess = names
         .iter()
-        .map(|b| b.name.value.as_str())
-        .min_by_key(|b| distance(b, &name.value));
+        .min_by_key(|n| distance(n, &name.value))
+        .filter(|n| distance(n, &name.value) <= 1 + name.value.chars().count() / 3)
+        .map_or_else(String::new, |n| format!("did you mean \"{n}\"? "));
     reader.error(
         name.span.clone(),
         format!("there is no building \"{}\"", name.value),
         format!(
-            "did you mean \"{}\"? A rigid wall is \"wall\"",
-            nearest.unwrap_or("wall")
+            "{guess}buildings: {}; a rigid wall is \"wall\"",
+            names.join(", ")
         ),
     )
 }
 
+/// Floors this close in elevation are level unless the case says otherwise (m).
+const ELEVATION_TOLERANCE: f64 = 0.01;
+
+/// Storeys from zero of the left and the right building, `None` for a wall.
 type Pair = (Option<usize>, Option<usize>);
 
-/// The pairs of floors that may touch, from the bottom.
+/// The pairs of floors that may touch; `place` is where an error of the default
+/// rule points.
 fn levels(
     table: &Table<'_, '_>,
     between: [Side; 2],
@@ -167,14 +189,11 @@ fn levels(
     place: Range<usize>,
 ) -> Result<Vec<Pair>, CaseError> {
     let reader = &table.reader;
-    let tolerance = table
-        .optional_positive("elevation_tolerance", Dimension::LENGTH)?
-        .unwrap_or(0.01);
     let (mut matching_only, mut listed) = (false, None);
     if let Some(value) = table.get("levels") {
         match value.get_ref() {
             DeValue::String(word) if word == "matching" => matching_only = true,
-            DeValue::Array(items) => listed = Some((items, value.span())),
+            DeValue::Array(_) => listed = Some(listed_levels(reader, value, between, buildings)?),
             _ => {
                 return Err(reader.wrong_type(
                     value,
@@ -184,53 +203,93 @@ fn levels(
             }
         }
     }
-    match (between, listed) {
-        ([left, right], Some((items, span))) => {
-            let mut pairs = Vec::new();
-            for item in items.iter() {
-                let pair = pair(reader, item, [left, right], buildings)?;
-                if pairs.contains(&pair) {
-                    return Err(reader.error(
-                        item.span(),
-                        "this level is given twice",
-                        "remove one",
-                    ));
-                }
-                pairs.push(pair);
-            }
-            if pairs.is_empty() {
-                return Err(reader.error(
-                    span,
-                    "`levels` is empty",
-                    "name at least one pair of storeys",
-                ));
-            }
-            Ok(pairs)
+    if let (Some(value), true) = (
+        table.get("elevation_tolerance"),
+        listed.is_some() || between.contains(&Side::Wall),
+    ) {
+        return Err(reader.error(
+            value.span(),
+            "`elevation_tolerance` has no meaning beside a wall or listed `levels`",
+            "remove it",
+        ));
+    }
+    match (listed, between) {
+        (Some(pairs), _) => Ok(pairs),
+        (None, [Side::Building(i), Side::Building(j)]) => {
+            let pair = [&buildings[i], &buildings[j]];
+            levels_at_equal_elevation(table, pair, matching_only, place)
         }
-        ([Side::Building(i), Side::Building(j)], None) => {
-            let (a, b) = (elevations(&buildings[i]), elevations(&buildings[j]));
-            let names = (&buildings[i].name.value, &buildings[j].name.value);
-            equal_elevation(&a, &b, tolerance, matching_only)
-                .map_err(|unmatched| {
-                    let (name, storey, elevation) = match unmatched {
-                        Unmatched::Left(s) => (names.0, s, a[s]),
-                        Unmatched::Right(s) => (names.1, s, b[s]),
-                    };
-                    reader.error(
-                        place,
-                        format!("floor {} of \"{name}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1),
-                        "name the pairs of storeys that may touch with `levels = [[1, 1], ...]`, or write `levels = \"matching\"` to let only floors at equal elevation touch",
-                    )
-                })
-        }
-        ([Side::Building(i), Side::Wall], None) => Ok((0..buildings[i].mass.len())
+        (None, [Side::Building(i), Side::Wall]) => Ok((0..buildings[i].mass.len())
             .map(|s| (Some(s), None))
             .collect()),
-        ([_, Side::Building(j)], None) => Ok((0..buildings[j].mass.len())
+        (None, [Side::Wall, Side::Building(j)]) => Ok((0..buildings[j].mass.len())
             .map(|s| (None, Some(s)))
             .collect()),
-        (_, None) => Ok(Vec::new()),
+        (None, [Side::Wall, Side::Wall]) => Ok(Vec::new()),
     }
+}
+
+/// `levels` as a list.
+fn listed_levels(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+    between: [Side; 2],
+    buildings: &[Building],
+) -> Result<Vec<Pair>, CaseError> {
+    let mut seen = HashSet::new();
+    let mut pairs = Vec::new();
+    for item in value.get_ref().as_array().into_iter().flatten() {
+        let pair = pair(reader, item, between, buildings)?;
+        if !seen.insert(pair) {
+            return Err(reader.error(item.span(), "this level is given twice", "remove one"));
+        }
+        pairs.push(pair);
+    }
+    if pairs.is_empty() {
+        return Err(reader.error(
+            value.span(),
+            "`levels` is empty",
+            "name at least one pair of storeys, or one storey beside a wall",
+        ));
+    }
+    Ok(pairs)
+}
+
+fn levels_at_equal_elevation(
+    table: &Table<'_, '_>,
+    buildings: [&Building; 2],
+    matching_only: bool,
+    place: Range<usize>,
+) -> Result<Vec<Pair>, CaseError> {
+    let reader = &table.reader;
+    let stated = table.get("elevation_tolerance");
+    let tolerance = table
+        .optional_positive("elevation_tolerance", Dimension::LENGTH)?
+        .unwrap_or(ELEVATION_TOLERANCE);
+    let lowest = buildings
+        .iter()
+        .flat_map(|b| &b.height)
+        .fold(f64::INFINITY, |least, h| least.min(*h));
+    // With less than half a storey, no floor can have two partners.
+    if tolerance >= 0.5 * lowest {
+        return Err(reader.error(
+            stated.map_or(place, Spanned::span),
+            format!("the elevation tolerance {tolerance} m is not less than half of the lowest storey, {lowest} m"),
+            "state a smaller `elevation_tolerance`",
+        ));
+    }
+    let [a, b] = buildings.map(elevations);
+    equal_elevation(&a, &b, tolerance, matching_only).map_err(|unmatched| {
+        let (building, storey, elevation) = match unmatched {
+            Unmatched::Left(s) => (buildings[0], s, a[s]),
+            Unmatched::Right(s) => (buildings[1], s, b[s]),
+        };
+        reader.error(
+            place,
+            format!("floor {} of \"{}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1, building.name.value),
+            "name the pairs of storeys that may touch with `levels = [[1, 1], ...]`, or write `levels = \"matching\"` to let only floors at equal elevation touch",
+        )
+    })
 }
 
 /// One entry of `levels`: a pair, or a storey beside a wall.
@@ -294,7 +353,14 @@ fn equal_elevation(
     tolerance: f64,
     matching_only: bool,
 ) -> Result<Vec<Pair>, Unmatched> {
-    let near = |x: f64, others: &[f64]| others.iter().position(|y| (x - y).abs() <= tolerance);
+    // Elevations rise, so the first that is not below the band is the only candidate.
+    let near = |x: f64, others: &[f64]| {
+        let at = others.partition_point(|y| *y < x - tolerance);
+        others
+            .get(at)
+            .is_some_and(|y| *y <= x + tolerance)
+            .then_some(at)
+    };
     let roof = |x: &[f64]| x.last().copied().unwrap_or(0.0);
     let top = roof(a).min(roof(b)) + tolerance;
     let pairs: Vec<Pair> = a

@@ -32,7 +32,10 @@ fn sine() -> GroundAcceleration {
     }
 }
 
-fn pair(model: Option<(&str, &[(&str, f64)], Option<SeparationRule>)>) -> System {
+/// Name, parameters and separation rule of a model.
+type Law<'a> = (&'a str, &'a [(&'a str, f64)], Option<SeparationRule>);
+
+fn pair(model: Option<Law<'_>>) -> System {
     let building = |name: &str, m: f64, k: f64, c: f64| {
         let damping = Damping::Dashpots {
             coefficients: vec![c; 3],
@@ -86,7 +89,7 @@ struct Row {
     first_at_1: (f64, f64),
 }
 
-fn check(label: &str, model: (&str, &[(&str, f64)], Option<SeparationRule>), row: &Row) {
+fn check(label: &str, model: Law<'_>, row: &Row) {
     let outcome = run(
         &pair(Some(model)),
         &RunOptions::default(),

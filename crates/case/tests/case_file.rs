@@ -1,0 +1,198 @@
+//! The example of the design, units against their definitions, hostile input.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_case::{Case, Damping, Dimension, Scale, Side, parse_quantity, schema};
+use proptest::prelude::*;
+
+const EXAMPLE: &str = r#"
+title = "Three-storey pair, El Centro 1940 NS"
+[[building]]
+name = "light"
+storeys = 3
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "heavy"
+storeys = 3
+mass = "1000 t"
+stiffness = "2215 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = "5 %" }
+[[gap]]
+between = ["light", "heavy"]
+width = "20 mm"
+model = "jankowski_2005"
+stiffness = "2.75e9 N/m^1.5"
+restitution = 0.65
+[ground_motion]
+file = "../../ground_motions/el_centro_1940_ns.csv"
+scale = { pga = "0.35 g" }
+[analysis]
+method = "adaptive"
+duration = "40 s"
+output_step = "10 ms"
+"#;
+
+fn parse(text: &str) -> Result<Case, pounding_case::CaseError> {
+    Case::parse(text, Path::new("folder/case.toml"))
+}
+
+#[test]
+fn the_example_means_what_it_says() {
+    let case = parse(EXAMPLE).unwrap();
+    assert_eq!(case.buildings[0].mass, [25e3; 3]);
+    assert_eq!(case.buildings[1].stiffness, [2.215e9; 3]);
+    assert_eq!(
+        case.buildings[1].damping.value,
+        Damping::StiffnessProportional { ratio: 0.05 }
+    );
+    let gap = &case.gaps[0];
+    assert_eq!(gap.between, [Side::Building(0), Side::Building(1)]);
+    assert_eq!(gap.name, "light-heavy");
+    assert_eq!(gap.levels.len(), 3);
+    assert!(
+        gap.levels
+            .iter()
+            .all(|l| l.width == 0.02 && l.left == l.right)
+    );
+    let stiffness = &gap.parameters[0];
+    assert_eq!(
+        (stiffness.key.value.as_str(), stiffness.value.value.value),
+        ("stiffness", 2.75e9)
+    );
+    assert_eq!(
+        stiffness.value.value.dimension,
+        Some(Dimension::stiffness_with_exponent(1.5))
+    );
+    let Scale::PeakGroundAcceleration(peak) = case.ground_motion.scale else {
+        panic!("{:?}", case.ground_motion.scale);
+    };
+    assert!((peak - 0.35 * 9.80665).abs() < 1e-15);
+    assert_eq!(
+        (case.analysis.duration, case.analysis.output_step),
+        (Some(40.0), 0.01)
+    );
+    assert_eq!(case.resolve(Path::new("a.csv")), Path::new("folder/a.csv"));
+}
+
+/// Definitions: pound 0.45359237 kg and inch 0.0254 m (1959), standard gravity
+/// 9.80665 m/s2 (1901); 25000 kip/in^1.5 = 2.747108735e10 N/m^1.5.
+#[test]
+fn units_by_definition() {
+    for (text, value, dimension) in [
+        ("1 kip", 4_448.221_615_260_5, Dimension::FORCE),
+        ("1 in", 0.0254, Dimension::LENGTH),
+        ("25000 kip/in", 4.378_170_881e9, Dimension::STIFFNESS),
+        (
+            "25000 kip/in^1.5",
+            2.747_108_735e10,
+            Dimension::stiffness_with_exponent(1.5),
+        ),
+        ("3.5 kN s/m", 3500.0, Dimension::DASHPOT),
+        ("3.5 kN*s/m", 3500.0, Dimension::DASHPOT),
+        ("0.3 1/s", 0.3, Dimension::FREQUENCY),
+        ("981 cm/s2", 9.81, Dimension::ACCELERATION),
+        ("9.81 m/s²", 9.81, Dimension::ACCELERATION),
+        ("0.5 m/s", 0.5, Dimension::VELOCITY),
+        ("10 ms", 0.01, Dimension::TIME),
+        ("5 %", 0.05, Dimension::NUMBER),
+    ] {
+        let quantity = parse_quantity(text).unwrap();
+        assert!(
+            (quantity.value / value - 1.0).abs() < 2e-10,
+            "{text}: {}",
+            quantity.value
+        );
+        assert_eq!(quantity.dimension, Some(dimension), "{text}");
+    }
+    for text in ["", "t", "25 tons", "1e999 m", "1 m^x", "nan m", "inf"] {
+        assert!(parse_quantity(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn a_wall_and_named_levels() {
+    let wall = EXAMPLE.replace(
+        "between = [\"light\", \"heavy\"]",
+        "between = [\"heavy\", \"wall\"]\nlevels = [2, 3]\n",
+    );
+    let case = parse(&wall).unwrap();
+    assert_eq!(case.gaps[0].between, [Side::Building(1), Side::Wall]);
+    let levels: Vec<_> = case.gaps[0]
+        .levels
+        .iter()
+        .map(|l| (l.left, l.right))
+        .collect();
+    assert_eq!(levels, [(Some(1), None), (Some(2), None)]);
+    let inside = EXAMPLE.replace("[\"light\", \"heavy\"]", "[\"light\", \"wall\"]");
+    assert!(parse(&inside).is_err());
+}
+
+/// Every property of the schema is a key that the parser knows, and the other way
+/// round: the parser's complaint about an unknown key lists them.
+#[test]
+fn schema_and_parser_know_the_same_keys() {
+    let schema = schema();
+    let keys = |value: &serde_json::Value| -> Vec<String> {
+        value["properties"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .cloned()
+            .collect()
+    };
+    let building = &schema["properties"]["building"]["items"];
+    let motion = &schema["properties"]["ground_motion"];
+    let analysis = &schema["properties"]["analysis"];
+    for (place, listed) in [
+        ("title = ", keys(&schema)),
+        ("name = \"light\"", keys(building)),
+        ("file = ", keys(motion)),
+        ("method = ", keys(analysis)),
+    ] {
+        let text = EXAMPLE.replace(place, &format!("zzzz = 1\n{place}"));
+        let help = parse(&text).unwrap_err().help.unwrap();
+        let known = help.split("known keys: ").nth(1).unwrap();
+        let mut known: Vec<String> = known.split(", ").map(str::to_owned).collect();
+        let mut listed = listed;
+        known.sort();
+        listed.sort();
+        assert_eq!(known, listed);
+    }
+}
+
+#[test]
+fn hostile_texts_are_refused_with_a_place() {
+    for text in [
+        "",
+        "[[building]]",
+        "building = 3",
+        "title = \"\\",
+        "[[gap]]\nbetween = []",
+    ] {
+        let error = parse(text).unwrap_err();
+        assert!(error.line >= 1 && error.column >= 1 && !error.message.is_empty());
+        assert!(error.help.is_some(), "{error}");
+    }
+    assert!(parse(&EXAMPLE.replace('\n', "\r\n")).is_ok());
+    assert!(parse(&EXAMPLE.replace("\"25 t\"", "1e400")).is_err());
+}
+
+proptest! {
+    #[test]
+    fn arbitrary_text_never_panics(text in ".{0,200}") {
+        let _ = parse(&text);
+        let _ = parse_quantity(&text);
+    }
+
+    #[test]
+    fn damaged_examples_never_panic(at in 0usize..900, with in ".{0,3}") {
+        let cut = EXAMPLE.char_indices().map(|(i, _)| i).rfind(|i| *i <= at).unwrap();
+        let _ = parse(&format!("{}{with}{}", &EXAMPLE[..cut], &EXAMPLE[cut..]));
+        let _ = parse(&EXAMPLE[..cut]);
+    }
+}

@@ -14,29 +14,17 @@ use pounding_time_history::{GridRecorder, Recorder, RunRecord, assemble, run, wr
 #[test]
 fn a_result_opens_in_python() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let case = Case::read(&root.join("../examples/three_storey_pair/case.toml")).unwrap();
-    let assembly = assemble(&case).unwrap();
-    let mut recorder = GridRecorder::new(assembly.output_step).unwrap();
-    let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
-    let outcome = run(
-        &assembly.system,
-        &assembly.options,
-        &mut recorders,
-        &mut |_| {},
-    )
-    .unwrap();
-    let isolated = run(
-        &assembly.system.isolated(),
-        &assembly.options,
-        &mut [],
-        &mut |_| {},
-    )
-    .unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("result.h5");
-    write_result(
-        &path,
-        &RunRecord {
+    // A whole run each time, so that two files are two runs.
+    let write = |path: &Path| {
+        let case = Case::read(&root.join("../examples/three_storey_pair/case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let mut recorder = GridRecorder::new(assembly.output_step).unwrap();
+        let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
+        let options = &assembly.options;
+        let outcome = run(&assembly.system, options, &mut recorders, &mut |_| {}).unwrap();
+        let isolated = run(&assembly.system.isolated(), options, &mut [], &mut |_| {}).unwrap();
+        assert_eq!(recorder.samples.len(), 3101);
+        let record = RunRecord {
             title: &case.title,
             case: &case.source,
             version: "test",
@@ -45,15 +33,37 @@ fn a_result_opens_in_python() {
             isolated: &isolated,
             samples: &recorder.samples,
             wall_time: 0.0,
-        },
-    )
-    .unwrap();
-    assert_eq!(recorder.samples.len(), 3101);
+        };
+        write_result(path, &record).unwrap();
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path);
     assert_eq!(
         std::fs::read_dir(folder.path()).unwrap().count(),
         1,
         "only the result is left"
     );
+    let read = |path: &Path, name: &str| -> Vec<u64> {
+        let file = hdf5::File::open(path).unwrap();
+        let data = file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+        data.iter().map(|x| x.to_bits()).collect()
+    };
+    let again = folder.path().join("again.h5");
+    write(&again);
+    for name in [
+        "time",
+        "building/light/displacement",
+        "building/heavy/acceleration_absolute",
+        "building/light/peak/storey_shear_time",
+        "gap/light-heavy/force",
+        "energy/residual",
+    ] {
+        assert!(
+            read(&path, name) == read(&again, name),
+            "{name} differs between two runs"
+        );
+    }
     let Some(python) = std::env::var_os("POUNDING_PYTHON") else {
         return;
     };

@@ -1,18 +1,17 @@
 //! The run: steps, events, peaks, ledger.
 
-use pounding_gap_element::{Memory, Phase, Target};
+mod event_handling;
 
-use crate::contact::{Contact, Contacts};
+use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
 use crate::error::TimeHistoryError;
-use crate::events::{Candidate, EventKind, Finder};
+use crate::events::{Candidate, Finder};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
 use crate::options::RunOptions;
 use crate::outcome::{BuildingOutcome, GapOutcome, Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
-use crate::polynomial::{derivative, value};
 use crate::recorder::{Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
 
@@ -279,49 +278,6 @@ impl<'a> Driver<'a> {
         )
     }
 
-    /// Cuts the step at the event: Newton on the event function, each time with a
-    /// fresh trial step of the corrected length. Returns the final length, and
-    /// false if a trial was rejected before the event was reached.
-    fn locate(
-        &mut self,
-        segment: &Segment,
-        tau: f64,
-        whole: f64,
-        event: Candidate,
-    ) -> Result<(f64, bool), TimeHistoryError> {
-        let mut step = event.theta * whole;
-        for _ in 0..LOCATION_STEPS {
-            let taken = self.trial(segment, tau, step)?;
-            self.statistics.location_steps += 1;
-            if taken < step {
-                return Ok((taken, false));
-            }
-            let correction = self.correction(segment, tau, step, event);
-            let limit = EVENT_TOLERANCE.max(4.0 * f64::EPSILON * step);
-            let corrected = (step + correction).clamp(0.5 * step, whole.min(1.5 * step));
-            if !correction.is_finite() || correction.abs() <= limit || corrected == step {
-                return Ok((step, true));
-            }
-            step = corrected;
-        }
-        let taken = self.trial(segment, tau, step)?;
-        Ok((taken, taken >= step))
-    }
-
-    /// Newton correction of the length of a step that should end at the event.
-    fn correction(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> f64 {
-        let mut context = Context {
-            dynamics: &mut self.dynamics,
-            contacts: &self.contacts,
-            segment,
-        };
-        let method = self.method.as_ref();
-        let guard = self
-            .finder
-            .guard(&mut context, method, event.level, event.kind, tau, step);
-        -value(&guard, 1.0) * step / value(&derivative(&guard), 1.0)
-    }
-
     fn accept(
         &mut self,
         segment: &Segment,
@@ -372,120 +328,6 @@ impl<'a> Driver<'a> {
         self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
         self.largest_residual = self.largest_residual.max(energy.residual.abs());
         Ok(())
-    }
-
-    /// Processes the event and all others within tolerance of it, in the order
-    /// of their levels.
-    fn process(
-        &mut self,
-        segment: &Segment,
-        tau: f64,
-        event: Candidate,
-        step: f64,
-    ) -> Result<(), TimeHistoryError> {
-        let mut smooth = true;
-        let candidates = std::mem::take(&mut self.finder.candidates);
-        for other in &candidates {
-            let together = (other.theta - event.theta).abs() * step <= SIMULTANEOUS;
-            if other.level != event.level && !together {
-                continue;
-            }
-            self.fire(segment, tau, *other);
-            self.statistics.events += 1;
-            self.at_once[other.level] += 1;
-            if self.at_once[other.level] > EVENTS_AT_ONCE && self.mute[other.level] == Mute::No {
-                self.mute[other.level] = Mute::Start;
-            }
-            self.stalled += 1;
-            let model = &self.system.levels()[other.level].model;
-            if other.kind == EventKind::Close && !model.smooth_at_closure() {
-                smooth = false;
-            }
-        }
-        self.finder.candidates = candidates;
-        self.method.restart(smooth);
-        if self.stalled > CHATTER {
-            return Err(TimeHistoryError::Chatter {
-                time: segment.start + tau,
-                count: self.stalled,
-                place: self.place(event.level),
-            });
-        }
-        Ok(())
-    }
-
-    fn fire(&mut self, segment: &Segment, tau: f64, event: Candidate) {
-        let n = self.dynamics.layout.dofs;
-        let l = event.level;
-        let level = &self.system.levels()[l];
-        let time = segment.start + tau;
-        let rate = level.relative(&self.state[n..2 * n]);
-        match event.kind {
-            EventKind::Close => {
-                let collision = level.model.begin(rate, level.effective_mass);
-                let contact = Contact {
-                    phase: Phase::Approach,
-                    collision,
-                    memory: Memory::default(),
-                };
-                self.contacts.close(l, contact);
-                self.log
-                    .close(l, time, &collision, self.dynamics.layout, &self.state);
-                self.peaks.force[l] = crate::outcome::Peak { value: 0.0, time };
-                self.peaks.penetration[l] = crate::outcome::Peak { value: 0.0, time };
-            }
-            EventKind::Open => {
-                self.contacts.open(l);
-                let end = Some((time, -rate));
-                self.log
-                    .open(l, end, &self.peaks, self.dynamics.layout, &self.state, 0.0);
-            }
-            EventKind::Transition(index) => {
-                let Some(phase) = self.contacts.contact(l).map(|c| c.phase) else {
-                    return;
-                };
-                let next = match level.model.transitions(phase)[index].target {
-                    Target::Phase(phase) => phase,
-                    Target::StickOrSlip => self.stick_or_slip(segment, tau, l),
-                };
-                if next == Phase::Stuck {
-                    self.log.stick(l);
-                } else if phase == Phase::Stuck {
-                    self.mute[l] = Mute::Step;
-                }
-                self.contacts.set_phase(l, next);
-            }
-        }
-    }
-
-    /// Coulomb's choice at zero relative velocity: hold if the contact can.
-    fn stick_or_slip(&mut self, segment: &Segment, tau: f64, l: usize) -> Phase {
-        let n = self.dynamics.layout.dofs;
-        let level = &self.system.levels()[l];
-        self.contacts.set_phase(l, Phase::Stuck);
-        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
-        self.dynamics.accelerations(
-            &self.contacts,
-            segment.ground(tau),
-            u,
-            v,
-            &mut self.interpolated[..n],
-        );
-        let holding = self.dynamics.forces[l];
-        let Some(contact) = self.contacts.contact(l) else {
-            return Phase::Restitution;
-        };
-        let (low, high) =
-            level
-                .model
-                .stick_range(&contact.collision, &contact.memory, level.penetration(u));
-        if holding > high {
-            Phase::Approach
-        } else if holding < low {
-            Phase::Restitution
-        } else {
-            Phase::Stuck
-        }
     }
 
     fn place(&self, level: usize) -> String {

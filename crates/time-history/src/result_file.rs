@@ -335,6 +335,10 @@ fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()>
             .create("impacts")?;
         if !rows.is_empty() {
             impacts.write_raw(&rows)?;
+            let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
+            let number = series(&group, "impact", "1", "number of the impact", &numbers)?;
+            dimension_scales::make_scale(&number, "impact")?;
+            dimension_scales::attach(&impacts, &number, 0)?;
         }
         text(
             &impacts,

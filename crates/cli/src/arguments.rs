@@ -78,7 +78,7 @@ pub struct ImpactArguments {
     #[arg(long, default_value = "40 t")]
     pub mass_right: String,
     /// Approach velocity, such as "0.8 m/s"
-    #[arg(long, default_value = "0.8 m/s")]
+    #[arg(long, default_value = "0.8 m/s", allow_hyphen_values = true)]
     pub velocity: String,
     /// Parameter of the model as key=value, such as stiffness="93.5 MN/m"; may be repeated
     #[arg(short, long = "parameter", value_name = "KEY=VALUE")]

@@ -343,6 +343,25 @@ fn output_that_cannot_be_written() {
     assert_eq!(output.status.code(), Some(4), "{}", message(&output));
 }
 
+/// A device must not be replaced by a file.
+#[test]
+#[cfg(unix)]
+fn an_output_that_is_no_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        CASE,
+        &record(),
+        &["run", "case.toml", "-o", "/dev/null"],
+    );
+    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+    assert!(
+        message(&output).contains("not a regular file"),
+        "{}",
+        message(&output)
+    );
+}
+
 /// The old result stays until the new one is complete.
 #[test]
 fn an_interrupted_run_leaves_no_half_written_file() {

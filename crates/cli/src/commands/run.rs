@@ -87,8 +87,9 @@ fn writable(path: &Path) -> Result<(), Failure> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     let part = path.with_file_name(name);
-    if path.is_dir() {
-        let e = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+    // A result replaces what has its name: never a folder or a device.
+    if path.exists() && !path.is_file() {
+        let e = std::io::Error::other("it is not a regular file");
         return Err(Failure::output(&e, &path.display().to_string()));
     }
     std::fs::File::create(&part)

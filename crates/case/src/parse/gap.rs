@@ -20,6 +20,8 @@ pub(super) fn gap(
     buildings: &[Building],
 ) -> Result<(Gap, Range<usize>), CaseError> {
     let table = reader.table(value, "[[gap]]", schema::GAP)?;
+    // First, as a misspelt key says more than the absence of the right one.
+    let parameters = parameters(&table)?;
     let place = table.required("between")?;
     let (between, names) = between(reader, place, buildings)?;
     let name = match table.optional_text("name")? {
@@ -41,7 +43,6 @@ pub(super) fn gap(
         .map(|((left, right), width)| ContactLevel { left, right, width })
         .collect();
     levels.sort_by_key(|level| (level.left, level.right));
-    let parameters = parameters(&table)?;
     let gap = Gap {
         name,
         between,

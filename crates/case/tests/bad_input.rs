@@ -1,0 +1,281 @@
+//! Bad input: each error points at its place and says what to do.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_case::{Case, parse_quantity, schema};
+use proptest::prelude::*;
+
+const CASE: &str = r#"title = "pair"
+[[building]]
+name = "a"
+storeys = 2
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 2
+mass = "100 t"
+stiffness = "30 MN/m"
+height = 3.0
+damping = { ratio = 0.05, modes = [1, 2] }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+[ground_motion]
+file = "record.csv"
+[analysis]
+duration = "2 s"
+"#;
+
+/// Replaced text, its replacement, line, column, what message or help must say.
+type Row = (&'static str, &'static str, usize, usize, &'static str);
+
+const ROWS: &[Row] = &[
+    ("mass = \"25 t\"", "mass = 25 t", 5, 8, "this is not TOML"),
+    ("title", "titel", 1, 1, "did you mean `title`?"),
+    ("height", "hieght", 7, 1, "did you mean `height`?"),
+    ("width", "wdith", 18, 1, "did you mean `width`?"),
+    ("height", "zz = 1\naa = 1\nheight", 7, 1, "unknown key `zz`"),
+    ("name = \"a\"\n", "", 2, 1, "[[building]] has no `name`"),
+    ("storeys = 2\n", "", 2, 1, "how many storeys"),
+    ("\"25 t\"", "[[1, 2]]", 5, 9, "not a list"),
+    ("\"25 t\"", "[]", 5, 8, "empty list"),
+    ("storeys = 2", "storeys = 0", 4, 11, "whole number from 1"),
+    (
+        "{ stiffness_proportional = 0.05 }",
+        "0.05",
+        8,
+        11,
+        "stiffness_proportional = 0.05",
+    ),
+    ("\"record.csv\"", "\"\"", 22, 8, "`file` is empty"),
+    (
+        "\"25 t\"",
+        "[\"25 t\", \"-1 t\"]",
+        5,
+        17,
+        "greater than zero",
+    ),
+    ("\"25 t\"", "nan", 5, 8, "not a finite number"),
+    ("\"25 t\"", "1e400", 5, 8, "not a finite number"),
+    ("\"25 t\"", "\"1e400 t\"", 5, 8, "not a finite number"),
+    ("\"20 mm\"", "[0.02, nan]", 18, 16, "not a finite number"),
+    ("\"20 mm\"", "\"-20 mm\"", 18, 9, "zero or more"),
+    (
+        "duration = \"2 s\"",
+        "step = -1",
+        24,
+        8,
+        "greater than zero",
+    ),
+    (
+        "\"25 t\"",
+        "\"25 kN\"",
+        5,
+        8,
+        "a weight is a force: divide it by g",
+    ),
+    ("\"25 t\"", "\"25 g\"", 5, 8, "write the mass in kg or t"),
+    ("\"25 t\"", "\"25 T\"", 5, 8, "did you mean \"t\"?"),
+    ("\"25 t\"", "\"2,5 t\"", 5, 8, "decimal point"),
+    ("\"25 t\"", "[1, 1, 1]", 5, 8, "`storeys` says 2 storeys"),
+    ("\"20 mm\"", "[0.1, 0.2, 0.3]", 18, 9, "2 contact levels"),
+    (
+        "{ stiffness_proportional = 0.05 }",
+        "{}",
+        8,
+        11,
+        "one kind, not 0",
+    ),
+    (
+        "0.05 }",
+        "0.05, modes = [1, 2] }",
+        8,
+        11,
+        "no meaning beside",
+    ),
+    (
+        "[1, 2]",
+        "[1, 3]",
+        15,
+        35,
+        "two different modes from 1 to 2",
+    ),
+    ("\"b\"", "\"a\"", 10, 8, "given twice, first in line 3"),
+    ("\"a\"", "\"wall\"", 3, 8, "rigid wall"),
+    ("\"a\"", "\"a/b\"", 3, 8, "cannot name a building"),
+    ("\"a\"", "\"..\"", 3, 8, "cannot name a building"),
+    (
+        "[\"a\", \"b\"]",
+        "[\"a\", \"bb\"]",
+        17,
+        17,
+        "did you mean \"b\"?",
+    ),
+    (
+        "[\"a\", \"b\"]",
+        "[\"b\", \"a\"]",
+        17,
+        11,
+        "write between = [\"a\", \"b\"]",
+    ),
+    (
+        "[\"a\", \"b\"]",
+        "[\"a\", \"a\"]",
+        17,
+        11,
+        "two different neighbours",
+    ),
+    (
+        "[\"a\", \"b\"]",
+        "[\"wall\", \"b\"]",
+        17,
+        11,
+        "write between = [\"b\", \"wall\"]",
+    ),
+    (
+        "[\"a\", \"b\"]",
+        "[\"ä\", \"bb\"]",
+        17,
+        12,
+        "no building \"ä\"",
+    ),
+    ("\"3 m\"", "\"3.5 m\"", 17, 11, "floor 1 of \"a\" at 3.5 m"),
+    (
+        "width",
+        "levels = [[1, 3]]\nwidth",
+        18,
+        15,
+        "\"b\" has no storey 3",
+    ),
+    (
+        "width",
+        "levels = [[1, 1], [1, 1]]\nwidth",
+        18,
+        19,
+        "given twice",
+    ),
+    (
+        "width",
+        "levels = [1, 2]\nwidth",
+        18,
+        11,
+        "pairs of storeys",
+    ),
+    (
+        "width",
+        "elevation_tolerance = 1.5\nwidth",
+        18,
+        23,
+        "half of the lowest storey",
+    ),
+    (
+        "width",
+        "elevation_tolerance = 0.1\nlevels = [[1, 1]]\nwidth",
+        18,
+        23,
+        "no meaning",
+    ),
+    (
+        "\"record.csv\"",
+        "\"r\"\nscale = { factor = 2, pga = 1 }",
+        23,
+        9,
+        "`factor` or `pga`",
+    ),
+];
+
+#[test]
+fn each_error_points_at_its_place() {
+    Case::parse(CASE, Path::new("case.toml")).unwrap();
+    let mut wrong = Vec::new();
+    for (from, to, line, column, says) in ROWS {
+        let source = CASE.replacen(from, to, 1);
+        let found = Case::parse(&source, Path::new("case.toml"));
+        let Err(error) = found else {
+            wrong.push(format!("{to}: accepted"));
+            continue;
+        };
+        let text = format!("{error} | {}", error.help.clone().unwrap_or_default());
+        if (error.line, error.column) != (*line, *column) || !text.contains(says) {
+            wrong.push(format!("{to} at {line}:{column} \"{says}\": {text}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn numbers_in_all_forms() {
+    for text in ["25_000", "2.5e4", "+25000", "0x61A8", "'25000'", "'25Mg'"] {
+        let source = CASE.replacen("\"25 t\"", text, 1);
+        let case = Case::parse(&source, Path::new("c")).unwrap();
+        assert_eq!(case.buildings[0].mass, [25e3; 2], "{text}");
+    }
+    // 1 in = 0.0254 m, 1 kip = 4448.2216152605 N (1959 pound, standard gravity).
+    for (text, value) in [
+        ("1 kip", 4_448.221_615_260_5),
+        ("25000 kip/in^1.5", 2.747_108_735e10),
+        ("25000 kip/in", 4.378_170_881e9),
+        ("35 cm", 0.35),
+        ("2 m/s/s", 2.0),
+    ] {
+        let found = parse_quantity(text).unwrap().value;
+        assert!((found / value - 1.0).abs() < 5e-10, "{text}: {found}");
+    }
+    for text in [
+        "5 kN/m s", "5 N/", "5 1", "5 m^nan", "1e308 t", "3,4 m", "- 5 m", "inf kg",
+    ] {
+        assert!(parse_quantity(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn marks_ends_and_depth() {
+    for source in [CASE.replace('\n', "\r\n"), format!("\u{feff}{CASE}")] {
+        let case = Case::parse(&source, Path::new("c")).unwrap();
+        assert_eq!(
+            &source[case.gaps[0].model.span.clone()],
+            "\"anagnostopoulos_2004\""
+        );
+    }
+    let marked = format!("\u{feff}{}", CASE.replacen("title", "titel", 1));
+    let error = Case::parse(&marked, Path::new("c")).unwrap_err();
+    assert_eq!((error.line, error.column), (1, 1), "{error}");
+    for deep in [
+        format!("title = {}{}", "[".repeat(100_000), "]".repeat(100_000)),
+        format!("{}a = 1", "a.".repeat(10_000)),
+        format!("title = {}1{}", "{a = ".repeat(10_000), "}".repeat(10_000)),
+    ] {
+        Case::parse(&deep, Path::new("c")).unwrap_err();
+    }
+    assert!(schema()["properties"]["gap"].is_object());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn damaged_cases_are_answered(
+        start in 0..CASE.len(),
+        length in 0..40_usize,
+        piece in prop::sample::select(vec!["", "\n", "'", "[", "]", "{", "=", "nan", "-1", "1e400",
+            "'5 m'", "'5 ^'", "[[1, 2]]", "2020-01-01", "é", "\u{feff}", "[[gap]]\n", "0x"]),
+    ) {
+        let end = (start + length).min(CASE.len());
+        let source = format!("{}{piece}{}", &CASE[..start], &CASE[end..]);
+        match Case::parse(&source, Path::new("c")) {
+            Err(error) => {
+                prop_assert!(error.line >= 1 && error.column >= 1);
+                prop_assert!(error.span.end <= source.len() && error.span.start <= error.span.end);
+            }
+            Ok(case) => for level in case.gaps.iter().flat_map(|g| &g.levels) {
+                prop_assert!(level.width >= 0.0 && level.width.is_finite());
+            }
+        }
+    }
+}

@@ -28,6 +28,8 @@ impl Dimension {
     pub const FREQUENCY: Self = Self::new(0.0, 0.0, -1.0);
     /// Velocity, m/s.
     pub const VELOCITY: Self = Self::new(0.0, 1.0, -1.0);
+    /// Slowness, s/m.
+    pub const SLOWNESS: Self = Self::new(0.0, -1.0, 1.0);
     /// Acceleration, m/s2.
     pub const ACCELERATION: Self = Self::new(0.0, 1.0, -2.0);
     /// Force, N.

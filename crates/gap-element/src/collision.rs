@@ -1,20 +1,15 @@
 //! The two-body collision: what a model really does, by integration.
 //!
-//! Two bodies without external force: `m delta'' = -F(delta, v)` with the reduced
-//! mass, `delta(0) = 0`, `v(0) = v0`. Integrated with the pair of order 8(5,3) at
-//! a tolerance near round-off, every change of phase located.
+//! Two bodies: `m delta'' = -F(delta, v) + m a` with the reduced mass `m`,
+//! `delta(0) = 0`, `v(0) = v0`, and `a` zero for a free collision. Integrated with
+//! the pair of order 8(5,3) at a tolerance near round-off, every change of phase
+//! located.
 
-use pounding_runge_kutta::{DENSE_COEFFICIENTS, Dop853};
+mod flight;
 
 use crate::error::GapElementError;
-use crate::model::{Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, Target};
-
-/// Relative error of a step.
-const TOLERANCE: f64 = 1.0e-13;
-/// First step as a part of the unknown contact time: small enough for any start
-/// like a power of time, since later steps may grow sixfold.
-const FIRST_STEP: f64 = 1.0e-10;
-const MAXIMUM_STEPS: usize = 100_000;
+use crate::model::{Collision, ImpactModel};
+use flight::{End, Flight};
 
 /// Two bodies on a line, velocities positive to the right.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,18 +37,33 @@ pub struct CollisionSample {
     pub force: f64,
 }
 
+/// What acts beside the contact, and what is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CollisionOptions {
+    /// Constant acceleration (m/s2) that presses the left body towards the right
+    /// one: gravity for a body dropped on a slab, zero for a free collision.
+    pub pressing_acceleration: f64,
+    /// Time after closure (s) at which the state is wanted, as a sensor reads it.
+    pub read_at: Option<f64>,
+}
+
 /// Result of a collision.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollisionOutcome {
     /// Constants that the model fixed at closure.
     pub collision: Collision,
-    /// Separation over approach velocity (-).
+    /// Separation over approach velocity (-); zero if the bodies stay in contact.
     pub restitution: f64,
+    /// Whether the bodies stay in contact: pressed together, they have too little
+    /// energy left to part.
+    pub stays_in_contact: bool,
+    /// State at the time asked for: in contact, or in free flight after it.
+    pub reading: Option<CollisionSample>,
     /// Velocity of the left body after (m/s).
     pub velocity_left: f64,
     /// Velocity of the right body after (m/s).
     pub velocity_right: f64,
-    /// Greatest force (N).
+    /// Greatest force (N); NaN for a rigid impact, which has none.
     pub peak_force: f64,
     /// Its time after closure (s).
     pub peak_force_time: f64,
@@ -67,11 +77,11 @@ pub struct CollisionOutcome {
     pub impulse: f64,
     /// Kinetic energy lost (J).
     pub energy_dissipated: f64,
-    /// The history, at least every accepted step.
+    /// The history: every accepted step and eight places in each.
     pub history: Vec<CollisionSample>,
 }
 
-/// Lets two bodies collide.
+/// Lets two bodies collide freely.
 ///
 /// # Errors
 /// Masses that are not positive, bodies that do not approach one another, or a
@@ -80,28 +90,131 @@ pub fn collide(
     model: &dyn ImpactModel,
     bodies: &Bodies,
 ) -> Result<CollisionOutcome, GapElementError> {
+    collide_with(model, bodies, &CollisionOptions::default())
+}
+
+/// Lets two bodies collide while a constant acceleration presses them together.
+///
+/// # Errors
+/// As [`collide`], and options that are negative or not finite.
+pub fn collide_with(
+    model: &dyn ImpactModel,
+    bodies: &Bodies,
+    options: &CollisionOptions,
+) -> Result<CollisionOutcome, GapElementError> {
     let (mass, approach) = check(bodies)?;
-    let mut flight = Flight::new(model, model.begin(approach, mass));
-    flight.integrate()?;
-    let separation = -flight.state[1];
+    let pressing = options.pressing_acceleration;
+    let allowed = |x: f64| x.is_finite() && x >= 0.0;
+    if !allowed(pressing) || !options.read_at.is_none_or(allowed) {
+        return Err(GapElementError::Bodies(
+            "pressing acceleration and reading time must be zero or more".to_owned(),
+        ));
+    }
+    let collision = model.begin(approach, mass);
+    if let Some(restitution) = model.rigid_restitution() {
+        return Ok(rigid(collision, restitution, bodies, options));
+    }
+    let mut flight = Flight::new(model, collision, options);
+    let end = flight.integrate()?;
+    Ok(outcome(flight, end, bodies, options))
+}
+
+fn outcome(
+    flight: Flight<'_>,
+    end: End,
+    bodies: &Bodies,
+    options: &CollisionOptions,
+) -> CollisionOutcome {
+    let approach = flight.collision.approach_velocity;
+    let stays_in_contact = end == End::AtRest;
+    let separation = if stays_in_contact {
+        0.0
+    } else {
+        -flight.state[1]
+    };
     let impulse = flight.state[2];
+    let pressed = options.pressing_acceleration * flight.time;
     let velocity_right = bodies
         .mass_right
         .map_or(0.0, |m| bodies.velocity_right + impulse / m);
-    Ok(CollisionOutcome {
+    let reading = flight.reading.or_else(|| {
+        options
+            .read_at
+            .filter(|_| !stays_in_contact)
+            .and_then(|time| fly_on(&flight, time, options.pressing_acceleration))
+    });
+    CollisionOutcome {
         restitution: separation / approach,
-        velocity_left: bodies.velocity_left - impulse / bodies.mass_left,
+        stays_in_contact,
+        reading,
+        velocity_left: bodies.velocity_left + pressed - impulse / bodies.mass_left,
         velocity_right,
         peak_force: flight.peak_force.0,
         peak_force_time: flight.peak_force.1,
         peak_penetration: flight.peak_penetration.0,
         peak_penetration_time: flight.peak_penetration.1,
-        duration: flight.time,
+        duration: flight.released_at.unwrap_or(flight.time),
         impulse,
-        energy_dissipated: 0.5 * mass * (approach * approach - separation * separation),
+        energy_dissipated: 0.5
+            * flight.collision.effective_mass
+            * (approach * approach - separation * separation),
         collision: flight.collision,
         history: flight.history,
+    }
+}
+
+/// Free flight after the contact, until the bodies meet again.
+fn fly_on(flight: &Flight<'_>, time: f64, pressing: f64) -> Option<CollisionSample> {
+    let after = time - flight.time;
+    let penetration = flight.state[0] + (flight.state[1] + 0.5 * pressing * after) * after;
+    let meets_again = after > 0.0 && penetration > 0.0;
+    (!meets_again).then_some(CollisionSample {
+        time,
+        penetration,
+        velocity: flight.state[1] + pressing * after,
+        force: 0.0,
     })
+}
+
+/// The velocities jump; there is no force to speak of.
+fn rigid(
+    collision: Collision,
+    restitution: f64,
+    bodies: &Bodies,
+    options: &CollisionOptions,
+) -> CollisionOutcome {
+    let (mass, approach) = (collision.effective_mass, collision.approach_velocity);
+    let impulse = mass * approach * (1.0 + restitution);
+    let sample = |velocity: f64| CollisionSample {
+        time: 0.0,
+        penetration: 0.0,
+        velocity,
+        force: 0.0,
+    };
+    CollisionOutcome {
+        collision,
+        restitution,
+        stays_in_contact: restitution == 0.0 && options.pressing_acceleration > 0.0,
+        reading: options.read_at.map(|time| CollisionSample {
+            time,
+            penetration: -restitution * approach * time
+                + 0.5 * options.pressing_acceleration * time * time,
+            velocity: -restitution * approach + options.pressing_acceleration * time,
+            force: 0.0,
+        }),
+        velocity_left: bodies.velocity_left - impulse / bodies.mass_left,
+        velocity_right: bodies
+            .mass_right
+            .map_or(0.0, |m| bodies.velocity_right + impulse / m),
+        peak_force: f64::NAN,
+        peak_force_time: 0.0,
+        peak_penetration: 0.0,
+        peak_penetration_time: 0.0,
+        duration: 0.0,
+        impulse,
+        energy_dissipated: 0.5 * mass * approach * approach * (1.0 - restitution * restitution),
+        history: vec![sample(approach), sample(-restitution * approach)],
+    }
 }
 
 fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
@@ -126,296 +239,4 @@ fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
         bodies.mass_left * m / (bodies.mass_left + m)
     });
     Ok((mass, approach))
-}
-
-/// What ends a step of the flight.
-#[derive(Clone, Copy)]
-enum Event {
-    Separation,
-    Transition(usize),
-}
-
-struct Flight<'a> {
-    model: &'a dyn ImpactModel,
-    collision: Collision,
-    memory: Memory,
-    phase: Phase,
-    pair: Dop853,
-    /// Penetration, velocity, impulse.
-    state: [f64; 3],
-    time: f64,
-    step: f64,
-    peak_force: (f64, f64),
-    peak_penetration: (f64, f64),
-    history: Vec<CollisionSample>,
-}
-
-impl<'a> Flight<'a> {
-    fn new(model: &'a dyn ImpactModel, collision: Collision) -> Self {
-        Self {
-            model,
-            collision,
-            memory: Memory::default(),
-            phase: Phase::Approach,
-            pair: Dop853::new(3),
-            state: [0.0, collision.approach_velocity, 0.0],
-            time: 0.0,
-            step: FIRST_STEP,
-            peak_force: (0.0, 0.0),
-            peak_penetration: (0.0, 0.0),
-            history: Vec::new(),
-        }
-    }
-
-    fn force(&self, delta: f64, velocity: f64) -> Force {
-        self.model
-            .force(&self.collision, &self.memory, self.phase, delta, velocity)
-    }
-
-    fn integrate(&mut self) -> Result<(), GapElementError> {
-        self.record();
-        for _ in 0..MAXIMUM_STEPS {
-            let mut new = self.accurate_step();
-            let event = self.event(&new);
-            if let Some(event) = event {
-                new = self.locate(event);
-            }
-            self.peaks();
-            let grown = Dop853::step_factor(self.pair_error(&new)) * self.step;
-            self.time += self.step;
-            self.pair.advance();
-            self.state = new;
-            self.model
-                .commit(&mut self.memory, self.phase, new[0], new[1]);
-            let ended = match event {
-                Some(Event::Separation) => true,
-                Some(Event::Transition(index)) => self.change_phase(index),
-                None => false,
-            };
-            self.record();
-            if ended {
-                return Ok(());
-            }
-            self.step = if event.is_some() {
-                self.step.max(grown)
-            } else {
-                grown
-            };
-        }
-        Err(GapElementError::Unfinished {
-            steps: MAXIMUM_STEPS,
-            time: self.time,
-        })
-    }
-
-    /// Changes the phase at a located transition; true if the bodies are free then.
-    fn change_phase(&mut self, index: usize) -> bool {
-        let target = self.model.transitions(self.phase)[index].target;
-        self.phase = match target {
-            Target::Phase(phase) => phase,
-            // No external force holds free bodies together.
-            Target::StickOrSlip => Phase::Restitution,
-        };
-        self.pair.invalidate();
-        self.phase == Phase::Released
-    }
-
-    fn trial(&mut self, step: f64) -> [f64; 3] {
-        let (model, collision, memory, phase) =
-            (self.model, self.collision, self.memory, self.phase);
-        let mut derivative = |_: f64, y: &[f64], dy: &mut [f64]| {
-            let force = model.force(&collision, &memory, phase, y[0], y[1]).value;
-            dy[0] = y[1];
-            dy[1] = -force / collision.effective_mass;
-            dy[2] = force;
-        };
-        let mut new = [0.0; 3];
-        self.step = step;
-        self.pair.step(&mut derivative, &self.state, step, &mut new);
-        self.pair.prepare_dense(&mut derivative);
-        new
-    }
-
-    fn pair_error(&self, new: &[f64; 3]) -> f64 {
-        let v0 = self.collision.approach_velocity;
-        let size = self
-            .peak_penetration
-            .0
-            .max(new[0].abs())
-            .max(f64::MIN_POSITIVE);
-        self.pair.error_norm(|i| match i {
-            0 => TOLERANCE * size,
-            1 => TOLERANCE * v0,
-            _ => f64::INFINITY,
-        })
-    }
-
-    fn accurate_step(&mut self) -> [f64; 3] {
-        loop {
-            let new = self.trial(self.step);
-            let error = self.pair_error(&new);
-            if error <= 1.0 || self.step < 1.0e-18 {
-                return new;
-            }
-            self.step *= Dop853::step_factor(error).min(0.9);
-        }
-    }
-
-    /// Value of an event function: it fires when it becomes positive.
-    fn guard(&self, event: Event, state: &[f64; 3]) -> f64 {
-        match event {
-            Event::Separation => -state[0],
-            Event::Transition(index) => {
-                let transition = self.model.transitions(self.phase)[index];
-                let value = match transition.guard {
-                    Guard::Velocity => state[1],
-                    Guard::RawForce => self.model.raw_force(
-                        &self.collision,
-                        &self.memory,
-                        self.phase,
-                        state[0],
-                        state[1],
-                    ),
-                    // Free bodies never stick.
-                    Guard::StickLower | Guard::StickUpper => 0.0,
-                };
-                if transition.direction == Direction::Rising {
-                    value
-                } else {
-                    -value
-                }
-            }
-        }
-    }
-
-    /// The first event in the last step, by the sign at its end: the free motion
-    /// is so simple that no event comes and goes within an accurate step.
-    fn event(&self, new: &[f64; 3]) -> Option<Event> {
-        let transitions = self.model.transitions(self.phase).len();
-        (0..transitions)
-            .map(Event::Transition)
-            .chain([Event::Separation])
-            .find(|event| {
-                self.guard(*event, new) > 0.0 && self.guard(*event, &self.state) < 0.0
-                    || (matches!(event, Event::Separation) && new[0] < 0.0)
-            })
-    }
-
-    /// Cuts the step at the event by the secant method on re-taken steps.
-    fn locate(&mut self, event: Event) -> [f64; 3] {
-        let (mut low, mut high) = (0.0, self.step);
-        let mut step = 0.5 * high;
-        let mut new = self.trial(step);
-        for _ in 0..200 {
-            let value = self.guard(event, &new);
-            if value > 0.0 {
-                high = step;
-            } else {
-                low = step;
-            }
-            let slope = self.guard_rate(event, &new);
-            let newton = step - value / slope;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            if value == 0.0 || (next - step).abs() <= 1.0e-16 * step || high - low <= 1.0e-16 * high
-            {
-                break;
-            }
-            step = next;
-            new = self.trial(step);
-        }
-        new
-    }
-
-    fn guard_rate(&self, event: Event, state: &[f64; 3]) -> f64 {
-        let force = self.force(state[0], state[1]);
-        let acceleration = -force.value / self.collision.effective_mass;
-        match event {
-            Event::Separation => -state[1],
-            Event::Transition(index) => {
-                let transition = self.model.transitions(self.phase)[index];
-                let rate = match transition.guard {
-                    Guard::Velocity => acceleration,
-                    _ => force.by_penetration * state[1] + force.by_velocity * acceleration,
-                };
-                if transition.direction == Direction::Rising {
-                    rate
-                } else {
-                    -rate
-                }
-            }
-        }
-    }
-
-    fn record(&mut self) {
-        let [delta, velocity, _] = self.state;
-        let force = self.force(delta.max(0.0), velocity).value;
-        if force > self.peak_force.0 {
-            self.peak_force = (force, self.time);
-        }
-        self.history.push(CollisionSample {
-            time: self.time,
-            penetration: delta,
-            velocity,
-            force,
-        });
-    }
-
-    /// Interior maxima of penetration and force over the last step.
-    fn peaks(&mut self) {
-        let (delta, velocity) = (*self.pair.polynomial(0), *self.pair.polynomial(1));
-        let state = |theta: f64| (value(&delta, theta), value(&velocity, theta));
-        if let Some(theta) = falling_root(|theta| state(theta).1) {
-            let (top, time) = (state(theta).0, self.time + theta * self.step);
-            if top > self.peak_penetration.0 {
-                self.peak_penetration = (top, time);
-            }
-        }
-        let rate = |theta: f64| {
-            let (d, v) = state(theta);
-            let force = self.force(d, v);
-            force.by_penetration * v
-                - force.by_velocity * force.value / self.collision.effective_mass
-        };
-        if let Some(theta) = falling_root(rate) {
-            let (d, v) = state(theta);
-            let top = self.force(d, v).value;
-            if top > self.peak_force.0 {
-                self.peak_force = (top, self.time + theta * self.step);
-            }
-        }
-        // The near side of a jump at the end of the step.
-        let (d, v) = state(1.0);
-        let end = self.force(d, v).value;
-        if end > self.peak_force.0 {
-            self.peak_force = (end, self.time + self.step);
-        }
-        if d > self.peak_penetration.0 {
-            self.peak_penetration = (d, self.time + self.step);
-        }
-    }
-}
-
-fn value(p: &[f64; DENSE_COEFFICIENTS], theta: f64) -> f64 {
-    p.iter().rev().fold(0.0, |sum, c| sum * theta + c)
-}
-
-/// Root in (0, 1) at which a function falls through zero, by bisection.
-fn falling_root(f: impl Fn(f64) -> f64) -> Option<f64> {
-    let (mut low, mut high) = (0.0, 1.0);
-    if !(f(low) > 0.0 && f(high) < 0.0) {
-        return None;
-    }
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if f(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(0.5 * (low + high))
 }

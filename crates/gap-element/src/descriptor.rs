@@ -17,6 +17,47 @@ pub enum ParameterUnit {
     NewtonSecondPerMetre,
     /// s/m.
     SecondPerMetre,
+    /// m.
+    Metre,
+    /// s.
+    Second,
+}
+
+impl ParameterUnit {
+    /// The unit in characters, `n` standing for the exponent of the law.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::One => "-",
+            Self::NewtonPerMetre => "N/m",
+            Self::NewtonPerMetreToExponent => "N/m^n",
+            Self::NewtonSecondPerMetre => "N s/m",
+            Self::SecondPerMetre => "s/m",
+            Self::Metre => "m",
+            Self::Second => "s",
+        }
+    }
+}
+
+/// Another name of the identical law, with the paper that gave it.
+#[derive(Debug, Clone, Copy)]
+pub struct Alias {
+    /// Name, accepted wherever the model's own is.
+    pub name: &'static str,
+    /// Author, year, journal; or why the name is common.
+    pub citation: &'static str,
+}
+
+/// What the restitution of a free collision depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AchievedRestitution {
+    /// Always 1.
+    Elastic,
+    /// The parameters without a unit alone: the same for every mass, stiffness
+    /// and speed.
+    Constant,
+    /// Also mass, stiffness or speed.
+    Varies,
 }
 
 /// One parameter that a user may give.
@@ -63,7 +104,7 @@ pub struct ModelDescriptor {
     /// Name in the case file, `author_year`.
     pub name: &'static str,
     /// Other names of the identical law.
-    pub aliases: &'static [&'static str],
+    pub aliases: &'static [Alias],
     /// A title for people.
     pub title: &'static str,
     /// The force law in plain characters.
@@ -83,10 +124,37 @@ pub struct ModelDescriptor {
     pub needs_approach_velocity: bool,
     /// Whether the law needs the effective mass.
     pub needs_effective_mass: bool,
+    /// What the achieved restitution depends on.
+    pub achieved_restitution: AchievedRestitution,
+    /// Whether we recommend it: it returns the restitution asked for.
+    pub recommended: bool,
     /// How far it has been checked.
     pub verification: Verification,
+    /// Plausible values (SI) of what must be given beside the restitution: the
+    /// concrete floors of the documentation's examples.
+    pub example: &'static [(&'static str, f64)],
     /// Known traps and what the law does not deliver.
     pub traps: &'static [&'static str],
     /// Builds the model from checked parameters.
     pub build: fn(&ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError>,
+}
+
+impl ModelDescriptor {
+    /// The example's parameters, with this restitution where the model takes one.
+    #[must_use]
+    pub fn example_parameters(&self, restitution: f64) -> ModelParameters {
+        let mut parameters = ModelParameters::from_pairs(self.example);
+        if self.takes_restitution() {
+            parameters
+                .values
+                .insert("restitution".to_owned(), restitution);
+        }
+        parameters
+    }
+
+    /// Whether users may ask for a restitution.
+    #[must_use]
+    pub fn takes_restitution(&self) -> bool {
+        self.parameters.iter().any(|p| p.name == "restitution")
+    }
 }

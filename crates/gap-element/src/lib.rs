@@ -11,7 +11,9 @@ mod collision;
 
 mod models;
 
-pub use collision::{Bodies, CollisionOutcome, CollisionSample, collide};
+pub use collision::{
+    Bodies, CollisionOptions, CollisionOutcome, CollisionSample, collide, collide_with,
+};
 pub use descriptor::*;
 pub use error::GapElementError;
 pub use model::*;

@@ -34,6 +34,9 @@ pub struct Collision {
 pub struct Memory {
     /// Greatest penetration of this collision so far (m).
     pub maximum_penetration: f64,
+    /// Penetration at which the elastic branch of a yielding law has no force
+    /// (m); set by [`ImpactModel::enter`].
+    pub plastic_penetration: f64,
 }
 
 /// The part of a contact that the force law is evaluated in. It changes only
@@ -50,6 +53,8 @@ pub enum Phase {
     /// The law would pull, and the separation rule forbids it: no force while
     /// the floors still overlap.
     Released,
+    /// A further branch of a piecewise law, numbered by the model.
+    Branch(u8),
 }
 
 /// Force of the contact and its partial derivatives.
@@ -68,12 +73,15 @@ pub struct Force {
 pub enum Guard {
     /// Relative velocity `v` (m/s): the turning point.
     Velocity,
-    /// The law's force before any cut of tension, [`ImpactModel::raw_force`] (N).
+    /// The sign of the law's force before any cut of tension,
+    /// [`ImpactModel::raw_force`].
     RawForce,
     /// Holding force minus the lower bound of [`ImpactModel::stick_range`] (N).
     StickLower,
     /// Upper bound of [`ImpactModel::stick_range`] minus holding force (N).
     StickUpper,
+    /// A function of the model's own, [`ImpactModel::guard`], by its number.
+    Model(u8),
 }
 
 /// Direction of the sign change that counts.
@@ -94,6 +102,8 @@ pub enum Target {
     /// [`ImpactModel::stick_range`] the contact sticks; above it, it goes on in
     /// approach; below it, in restitution.
     StickOrSlip,
+    /// The contact is over, though the floors overlap.
+    Open,
 }
 
 /// One way out of a phase.
@@ -113,8 +123,23 @@ pub enum SeparationRule {
     /// At zero penetration; the law may pull shortly before.
     ZeroPenetration,
     /// `max(0, F)`: at zero force the floors stop acting on one another
-    /// ([`Phase::Released`]); the contact is over at zero penetration.
+    /// ([`Phase::Released`]), and act again as soon as the law would push; the
+    /// contact is over at zero penetration.
     NoTension,
+    /// At zero force the floors stop acting on one another and stay so until
+    /// they approach once more or part at zero penetration.
+    NoTensionLatched,
+    /// At zero force the contact is over, and the penetration left then widens
+    /// the gap for all later impacts, as a plastic deformation would.
+    GapShift,
+}
+
+impl SeparationRule {
+    /// Whether the contact stops acting at zero force.
+    #[must_use]
+    pub fn forbids_tension(self) -> bool {
+        self != Self::ZeroPenetration
+    }
 }
 
 /// What is known of a free two-body collision without integration.
@@ -163,8 +188,8 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
         velocity: f64,
     ) -> Force;
 
-    /// The law's force (N) before any cut of tension. The same as
-    /// [`ImpactModel::force`] where nothing is cut.
+    /// A smooth function with the sign of the law's force before any cut of
+    /// tension; the force itself (N) unless the law has a simpler factor.
     fn raw_force(
         &self,
         collision: &Collision,
@@ -189,6 +214,39 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     /// The ways out of `phase` other than the end of the contact at zero
     /// penetration, which every model shares.
     fn transitions(&self, phase: Phase) -> &'static [Transition];
+
+    /// Value of guard number `index` of the model's own ([`Guard::Model`]), in any
+    /// unit: only its sign and its smoothness matter.
+    fn guard(
+        &self,
+        index: u8,
+        collision: &Collision,
+        memory: &Memory,
+        delta: f64,
+        velocity: f64,
+    ) -> f64 {
+        let _ = (index, collision, memory, delta, velocity);
+        0.0
+    }
+
+    /// Prepares the memory for the phase `to`, which follows `from` at this
+    /// penetration (m); after [`ImpactModel::commit`] of the same state.
+    fn enter(
+        &self,
+        collision: &Collision,
+        memory: &mut Memory,
+        (from, to): (Phase, Phase),
+        delta: f64,
+    ) {
+        let _ = (collision, memory, from, to, delta);
+    }
+
+    /// Restitution of a law without compliance: the driver then lets velocities
+    /// jump at located closure, and neither [`ImpactModel::force`] nor a phase
+    /// other than [`Phase::Stuck`] (lasting contact) is ever asked for.
+    fn rigid_restitution(&self) -> Option<f64> {
+        None
+    }
 
     /// Least and greatest force (N) with which the contact can hold the floors
     /// together at penetration `delta` (m). Equal bounds: it cannot stick.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::descriptor::{ModelDescriptor, ParameterDescriptor};
+use crate::descriptor::{ModelDescriptor, ParameterDescriptor, ParameterUnit};
 use crate::error::GapElementError;
 use crate::model::SeparationRule;
 
@@ -82,6 +82,14 @@ impl ModelParameters {
             .unwrap_or(SeparationRule::ZeroPenetration)
     }
 
+    /// Exponent of the spring: as given, or the default of the model's parameter.
+    pub(crate) fn exponent(&self, model: &ModelDescriptor) -> f64 {
+        self.get("exponent").unwrap_or_else(|| {
+            let known = model.parameters.iter().find(|p| p.name == "exponent");
+            known.and_then(|p| p.default).unwrap_or(1.0)
+        })
+    }
+
     pub(crate) fn get(&self, name: &str) -> Option<f64> {
         self.values.get(name).copied()
     }
@@ -145,64 +153,144 @@ impl ParameterDescriptor {
 }
 
 impl SeparationRule {
+    /// All rules.
+    pub const ALL: [Self; 4] = [
+        Self::ZeroPenetration,
+        Self::NoTension,
+        Self::NoTensionLatched,
+        Self::GapShift,
+    ];
+
     /// Name in the case file.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::ZeroPenetration => "zero_penetration",
             Self::NoTension => "no_tension",
+            Self::NoTensionLatched => "no_tension_latched",
+            Self::GapShift => "gap_shift",
         }
     }
 
     /// The rule of this name in the case file.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        [Self::ZeroPenetration, Self::NoTension]
-            .into_iter()
-            .find(|rule| rule.name() == name)
+        Self::ALL.into_iter().find(|rule| rule.name() == name)
+    }
+}
+
+/// A parameter that is positive.
+const fn positive(
+    name: &'static str,
+    unit: ParameterUnit,
+    explanation: &'static str,
+) -> ParameterDescriptor {
+    ParameterDescriptor {
+        name,
+        unit,
+        minimum: (0.0, false),
+        maximum: (f64::INFINITY, false),
+        default: None,
+        required: false,
+        explanation,
+    }
+}
+
+/// A parameter that is positive and must be given.
+pub(crate) const fn required_positive(
+    name: &'static str,
+    unit: ParameterUnit,
+    explanation: &'static str,
+) -> ParameterDescriptor {
+    ParameterDescriptor {
+        required: true,
+        ..positive(name, unit, explanation)
+    }
+}
+
+/// A parameter that is positive and may be left out.
+pub(crate) const fn optional_positive(
+    name: &'static str,
+    unit: ParameterUnit,
+    explanation: &'static str,
+) -> ParameterDescriptor {
+    positive(name, unit, explanation)
+}
+
+/// A parameter that is zero or more and may be left out.
+pub(crate) const fn optional(
+    name: &'static str,
+    unit: ParameterUnit,
+    explanation: &'static str,
+) -> ParameterDescriptor {
+    ParameterDescriptor {
+        minimum: (0.0, true),
+        ..positive(name, unit, explanation)
     }
 }
 
 /// `restitution` of a dissipative model, in (0, 1].
 pub(crate) const RESTITUTION: ParameterDescriptor = ParameterDescriptor {
-    name: "restitution",
-    unit: crate::descriptor::ParameterUnit::One,
-    minimum: (0.0, false),
     maximum: (1.0, true),
-    default: None,
-    required: false,
-    explanation: "Ratio of separation to approach velocity asked for",
+    ..positive(
+        "restitution",
+        ParameterUnit::One,
+        "Ratio of separation to approach velocity asked for",
+    )
 };
 
 /// Linear contact stiffness.
-pub(crate) const LINEAR_STIFFNESS: ParameterDescriptor = ParameterDescriptor {
-    name: "stiffness",
-    unit: crate::descriptor::ParameterUnit::NewtonPerMetre,
-    minimum: (0.0, false),
-    maximum: (f64::INFINITY, false),
-    default: None,
-    required: true,
-    explanation: "Contact stiffness",
-};
+pub(crate) const LINEAR_STIFFNESS: ParameterDescriptor = required_positive(
+    "stiffness",
+    ParameterUnit::NewtonPerMetre,
+    "Contact stiffness",
+);
 
 /// Contact stiffness of a law with the exponent 3/2.
-pub(crate) const HERTZ_STIFFNESS: ParameterDescriptor = ParameterDescriptor {
-    name: "stiffness",
-    unit: crate::descriptor::ParameterUnit::NewtonPerMetreToExponent,
-    minimum: (0.0, false),
-    maximum: (f64::INFINITY, false),
-    default: None,
-    required: true,
-    explanation: "Contact stiffness, N/m^1.5",
+pub(crate) const HERTZ_STIFFNESS: ParameterDescriptor = required_positive(
+    "stiffness",
+    ParameterUnit::NewtonPerMetreToExponent,
+    "Contact stiffness, N/m^1.5",
+);
+
+/// Contact stiffness of a law with a free exponent.
+pub(crate) const POWER_STIFFNESS: ParameterDescriptor = required_positive(
+    "stiffness",
+    ParameterUnit::NewtonPerMetreToExponent,
+    "Contact stiffness, N/m^n with the exponent n",
+);
+
+/// Exponent of the spring.
+pub(crate) const EXPONENT: ParameterDescriptor = ParameterDescriptor {
+    name: "exponent",
+    unit: ParameterUnit::One,
+    minimum: (1.0, true),
+    maximum: (5.0, true),
+    default: Some(1.5),
+    required: false,
+    explanation: "Exponent n of the spring",
 };
 
 /// Damping ratio of a model of the linear class.
-pub(crate) const DAMPING_RATIO: ParameterDescriptor = ParameterDescriptor {
-    name: "damping_ratio",
-    unit: crate::descriptor::ParameterUnit::One,
-    minimum: (0.0, true),
-    maximum: (f64::INFINITY, false),
-    default: None,
-    required: false,
-    explanation: "Damping ratio of the contact, instead of restitution",
+pub(crate) const DAMPING_RATIO: ParameterDescriptor = optional(
+    "damping_ratio",
+    ParameterUnit::One,
+    "Damping ratio of the contact, instead of restitution",
+);
+
+/// Damping factor of a model of the Hunt-Crossley class.
+pub(crate) const DAMPING_FACTOR: ParameterDescriptor = optional(
+    "damping_factor",
+    ParameterUnit::One,
+    "Dimensionless damping factor y, instead of restitution",
+);
+
+/// Friction factor of a model with dry friction.
+pub(crate) const FRICTION: ParameterDescriptor = ParameterDescriptor {
+    maximum: (1.0, false),
+    ..optional(
+        "friction",
+        ParameterUnit::One,
+        "Friction factor D, instead of restitution",
+    )
 };

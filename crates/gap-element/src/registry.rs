@@ -6,21 +6,10 @@ use crate::model::ImpactModel;
 use crate::models;
 use crate::parameters::ModelParameters;
 
-/// Every model, in the order in which they are listed to users.
-static MODELS: &[&ModelDescriptor] = &[
-    &models::linear_elastic::DESCRIPTOR,
-    &models::hertz_1882::DESCRIPTOR,
-    &models::anagnostopoulos_2004::DESCRIPTOR,
-    &models::mahmoud_jankowski_2011::DESCRIPTOR,
-    &models::jankowski_2005::DESCRIPTOR,
-    &models::muthukumar_desroches_2006::DESCRIPTOR,
-    &models::borovin_2014::DESCRIPTOR,
-];
-
 /// Cards of all models.
 #[must_use]
 pub fn descriptors() -> &'static [&'static ModelDescriptor] {
-    MODELS
+    models::ALL
 }
 
 /// The model of this name or alias.
@@ -28,9 +17,9 @@ pub fn descriptors() -> &'static [&'static ModelDescriptor] {
 /// # Errors
 /// [`GapElementError::UnknownModel`] with the nearest known name.
 pub fn find(name: &str) -> Result<&'static ModelDescriptor, GapElementError> {
-    MODELS
+    models::ALL
         .iter()
-        .find(|d| d.name == name || d.aliases.contains(&name))
+        .find(|d| d.name == name || d.aliases.iter().any(|a| a.name == name))
         .copied()
         .ok_or_else(|| GapElementError::UnknownModel {
             name: name.to_owned(),
@@ -52,9 +41,9 @@ pub fn build(
 }
 
 fn nearest(name: &str) -> &'static str {
-    MODELS
+    models::ALL
         .iter()
-        .flat_map(|d| std::iter::once(d.name).chain(d.aliases.iter().copied()))
+        .flat_map(|d| std::iter::once(d.name).chain(d.aliases.iter().map(|a| a.name)))
         .min_by_key(|known| edit_distance(name, known))
         .unwrap_or("hertz_1882")
 }

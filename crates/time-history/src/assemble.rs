@@ -162,12 +162,14 @@ fn model_parameter(
         ParameterUnit::One => Dimension::NUMBER,
         ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
         ParameterUnit::NewtonPerMetreToExponent => {
-            Dimension::stiffness_with_exponent(exponent.unwrap_or(1.5))
+            let known = descriptor.parameters.iter().find(|p| p.name == "exponent");
+            let default = known.and_then(|p| p.default).unwrap_or(1.5);
+            Dimension::stiffness_with_exponent(exponent.unwrap_or(default))
         }
         ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
-        ParameterUnit::SecondPerMetre => {
-            return Ok(quantity.value);
-        }
+        ParameterUnit::SecondPerMetre => Dimension::SLOWNESS,
+        ParameterUnit::Metre => Dimension::LENGTH,
+        ParameterUnit::Second => Dimension::TIME,
     };
     match quantity.dimension {
         Some(found) if found != wanted => Err(case.error(

@@ -26,14 +26,34 @@ pub(crate) struct Contact {
 pub(crate) struct Contacts {
     pub modes: Vec<Mode>,
     closed: Vec<usize>,
+    /// Present width of every gap (m): wider than at rest where impacts left a
+    /// plastic deformation.
+    widths: Vec<f64>,
 }
 
 impl Contacts {
-    pub(crate) fn all_open(levels: usize) -> Self {
+    pub(crate) fn all_open(system: &System) -> Self {
+        let levels = system.levels().len();
         Self {
             modes: vec![Mode::Open; levels],
             closed: Vec::with_capacity(levels),
+            widths: system.levels().iter().map(|l| l.width).collect(),
         }
+    }
+
+    /// Present width of a gap (m).
+    pub(crate) fn width(&self, level: usize) -> f64 {
+        self.widths[level]
+    }
+
+    /// Penetration (m), positive in contact.
+    pub(crate) fn penetration(&self, system: &System, level: usize, u: &[f64]) -> f64 {
+        system.levels()[level].relative(u) - self.widths[level]
+    }
+
+    /// Widens a gap by a plastic deformation (m).
+    pub(crate) fn widen(&mut self, level: usize, deformation: f64) {
+        self.widths[level] += deformation;
     }
 
     /// Closed levels in index order.
@@ -65,17 +85,31 @@ impl Contacts {
         }
     }
 
+    /// Changes the phase and lets the model prepare its memory for it.
+    pub(crate) fn enter(&mut self, system: &System, level: usize, phase: Phase, u: &[f64]) {
+        let delta = self.penetration(system, level, u);
+        if let Mode::Closed(contact) = &mut self.modes[level] {
+            let change = (contact.phase, phase);
+            system.levels()[level].model.enter(
+                &contact.collision,
+                &mut contact.memory,
+                change,
+                delta,
+            );
+            contact.phase = phase;
+        }
+    }
+
     /// Lets every model take the accepted state into its memory.
     pub(crate) fn commit(&mut self, system: &System, u: &[f64], v: &[f64]) {
         for &l in &self.closed {
             let level = &system.levels()[l];
+            let delta = level.relative(u) - self.widths[l];
             if let Mode::Closed(contact) = &mut self.modes[l] {
-                level.model.commit(
-                    &mut contact.memory,
-                    contact.phase,
-                    level.penetration(u),
-                    level.relative(v),
-                );
+                let velocity = level.relative(v);
+                level
+                    .model
+                    .commit(&mut contact.memory, contact.phase, delta, velocity);
             }
         }
     }
@@ -93,6 +127,12 @@ impl Contact {
         level
             .model
             .raw_force(&self.collision, &self.memory, self.phase, delta, velocity)
+    }
+
+    pub(crate) fn guard(&self, level: &ContactLevel, index: u8, delta: f64, velocity: f64) -> f64 {
+        level
+            .model
+            .guard(index, &self.collision, &self.memory, delta, velocity)
     }
 
     /// Recoverable energy in the contact (J).

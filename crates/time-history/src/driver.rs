@@ -1,6 +1,7 @@
 //! The run: steps, events, peaks, ledger.
 
 mod event_handling;
+mod rigid_impacts;
 
 use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
@@ -14,6 +15,7 @@ use crate::outcome::{BuildingOutcome, GapOutcome, Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
+use rigid_impacts::RigidImpacts;
 
 /// Events closer together than this (s) are one event.
 const SIMULTANEOUS: f64 = 1.0e-12;
@@ -122,6 +124,7 @@ struct Driver<'a> {
     mute: Vec<Mute>,
     stalled: usize,
     last_ground: f64,
+    rigid: RigidImpacts,
 }
 
 impl<'a> Driver<'a> {
@@ -133,7 +136,7 @@ impl<'a> Driver<'a> {
             system,
             options,
             method: options.build_method(system),
-            contacts: Contacts::all_open(layout.levels),
+            contacts: Contacts::all_open(system),
             finder: Finder::new(layout),
             peaks: Peaks::new(layout),
             log: ImpactLog::new(system),
@@ -147,6 +150,7 @@ impl<'a> Driver<'a> {
             mute: vec![Mute::No; layout.levels],
             stalled: 0,
             last_ground: f64::NAN,
+            rigid: RigidImpacts::default(),
             dynamics,
         }
     }

@@ -140,7 +140,11 @@ impl<'a> Dynamics<'a> {
             }
             let level = &self.system.levels()[l];
             let force = contact
-                .force(level, level.penetration(u), level.relative(v))
+                .force(
+                    level,
+                    contacts.penetration(self.system, l, u),
+                    level.relative(v),
+                )
                 .value;
             self.forces[l] = force;
             push_apart(level, force, &mut self.net);
@@ -198,7 +202,7 @@ pub(crate) fn push_apart(level: &ContactLevel, force: f64, net: &mut [f64]) {
 
 /// Relative acceleration at level `a` caused by a unit force that pulls the
 /// floors of level `b` together: `g_a' M^-1 g_b`.
-fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 {
+pub(crate) fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 {
     let term = |x: Option<usize>, y: Option<usize>, sign: f64| match (x, y) {
         (Some(i), Some(j)) if i == j => sign / mass[i],
         _ => 0.0,

@@ -114,6 +114,18 @@ impl Finder {
                             )
                         }))
                     }
+                    Guard::Model(index) => {
+                        let delta = penetration(context, method, level);
+                        let rate = velocity(context, method, level);
+                        fit(&self.nodes.map(|x| {
+                            contact.guard(
+                                &system.levels()[level],
+                                index,
+                                value(&delta, x),
+                                value(&rate, x),
+                            )
+                        }))
+                    }
                     Guard::StickLower | Guard::StickUpper => {
                         let upper = transition.guard == Guard::StickUpper;
                         fit(&self.nodes.map(|x| {
@@ -143,7 +155,7 @@ impl Finder {
         let Some(contact) = context.contacts.contact(level) else {
             return 0.0;
         };
-        let delta = system.levels()[level].penetration(&self.state);
+        let delta = context.contacts.penetration(system, level, &self.state);
         let (low, high) =
             system.levels()[level]
                 .model
@@ -195,7 +207,7 @@ pub(crate) fn penetration(
     level: usize,
 ) -> Polynomial {
     let mut p = relative(context, method, level, 0);
-    p[0] -= context.dynamics.system.levels()[level].width;
+    p[0] -= context.contacts.width(level);
     p
 }
 

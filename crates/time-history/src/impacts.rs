@@ -13,6 +13,7 @@ struct Open {
     index: usize,
     work: f64,
     impulse: f64,
+    lasting: bool,
 }
 
 /// Impacts in order of closure.
@@ -46,6 +47,7 @@ impl ImpactLog {
             impulse: 0.0,
             achieved_restitution: None,
             sticks: 0,
+            gap_widening: 0.0,
         };
         Self {
             impacts: Vec::new(),
@@ -76,6 +78,7 @@ impl ImpactLog {
             index: self.impacts.len(),
             work: state[layout.work(l)],
             impulse: state[layout.impulse(l)],
+            lasting: false,
         });
         self.impacts.push(Impact {
             gap,
@@ -141,6 +144,31 @@ impl ImpactLog {
             .peak_penetration
             .raise(impact.peak_penetration.value, impact.peak_penetration.time);
         self.finished.push(open.index);
+    }
+
+    /// A plastic deformation (m) widened the gap.
+    pub(crate) fn widen(&mut self, l: usize, deformation: f64) {
+        self.levels[l].gap_widening += deformation;
+    }
+
+    /// Whether the impact in progress is a lasting contact of rigid floors.
+    pub(crate) fn is_lasting(&self, l: usize) -> bool {
+        self.present[l].is_some_and(|open| open.lasting)
+    }
+
+    /// The rigid floors of the impact in progress do not part.
+    pub(crate) fn begin_lasting(&mut self, l: usize) {
+        if let Some(open) = &mut self.present[l] {
+            open.lasting = true;
+            self.levels[l].sticks += 1;
+        }
+    }
+
+    /// Moves the closure of the impact in progress.
+    pub(crate) fn closed_at(&mut self, l: usize, time: f64) {
+        if let Some(open) = &self.present[l] {
+            self.impacts[open.index].time_closed = time;
+        }
     }
 
     pub(crate) fn stick(&mut self, l: usize) {

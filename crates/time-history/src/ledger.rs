@@ -45,6 +45,6 @@ pub(crate) fn energy(
 pub(crate) fn stored_energy(system: &System, contacts: &Contacts, l: usize, u: &[f64]) -> f64 {
     contacts.contact(l).map_or(0.0, |contact| {
         let level = &system.levels()[l];
-        contact.stored_energy(level, level.penetration(u))
+        contact.stored_energy(level, contacts.penetration(system, l, u))
     })
 }

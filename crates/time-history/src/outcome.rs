@@ -48,7 +48,8 @@ pub struct Impact {
     pub gap: usize,
     /// Level within the gap, from the bottom, from zero.
     pub level: usize,
-    /// Closure (s).
+    /// Closure (s). For the lasting contact that ends an infinite sequence of rigid
+    /// impacts: the end of that sequence.
     pub time_closed: f64,
     /// Opening (s); NaN if the contact outlasts the run.
     pub time_opened: f64,
@@ -60,7 +61,7 @@ pub struct Impact {
     /// so it differs from the restitution of a free collision; NaN if still
     /// closed or if the gap closed at zero speed.
     pub achieved_restitution: f64,
-    /// Greatest force (N) with its time.
+    /// Greatest force (N) with its time; NaN for a velocity jump, which has none.
     pub peak_force: Peak,
     /// Greatest penetration (m) with its time.
     pub peak_penetration: Peak,
@@ -93,8 +94,12 @@ pub struct LevelOutcome {
     /// without a finished impact. The square root of the part of the relative
     /// kinetic energy that the floors kept through contact.
     pub achieved_restitution: Option<f64>,
-    /// Number of times that the floors stuck together.
+    /// Number of times that the floors stuck together; for a rigid law, of lasting
+    /// contacts.
     pub sticks: usize,
+    /// By how much plastic deformation widened the gap (m), where the separation
+    /// rule has it.
+    pub gap_widening: f64,
 }
 
 /// What happened in one gap, levels from the bottom.

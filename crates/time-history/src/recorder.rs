@@ -104,8 +104,8 @@ pub(crate) fn fill_sample(
         *a += ground;
     }
     out.penetration.clear();
-    out.penetration
-        .extend(system.levels().iter().map(|l| l.penetration(u)));
+    let penetration = |l| context.contacts.penetration(system, l, u);
+    out.penetration.extend((0..layout.levels).map(penetration));
     out.force.clear();
     out.force.resize(layout.levels, 0.0);
     for &l in context.contacts.closed() {

@@ -267,11 +267,6 @@ impl System {
 }
 
 impl ContactLevel {
-    /// Penetration (m): positive in contact.
-    pub(crate) fn penetration(&self, u: &[f64]) -> f64 {
-        self.relative(u) - self.width
-    }
-
     /// Left minus right of any quantity given per degree of freedom.
     pub(crate) fn relative(&self, x: &[f64]) -> f64 {
         match (self.left, self.right) {

@@ -1,7 +1,7 @@
 //! `pounding models`: the cards of the impact models.
 
 use comfy_table::Table;
-use pounding_gap_element::{ModelDescriptor, ParameterUnit, Verification, registry};
+use pounding_gap_element::{ModelDescriptor, Verification, registry};
 use serde_json::json;
 
 use super::{pretty, print};
@@ -27,21 +27,16 @@ pub fn models(name: Option<&str>, as_json: bool) -> Result<(), Failure> {
             Verification::Verified(_) => "verified",
             Verification::SecondarySources(_) => "secondary sources",
         };
-        table.add_row([d.name, d.title, d.class, checked]);
+        let name = if d.recommended {
+            format!("{} *", d.name)
+        } else {
+            d.name.to_owned()
+        };
+        table.add_row([name.as_str(), d.title, d.class, checked]);
     }
     print(&format!(
-        "{table}\n\n`pounding models NAME` shows formula, parameters, source and traps."
+        "{table}\n* recommended: returns the restitution asked for\n\n`pounding models NAME` shows formula, parameters, source and traps."
     ))
-}
-
-fn unit(unit: ParameterUnit) -> &'static str {
-    match unit {
-        ParameterUnit::One => "-",
-        ParameterUnit::NewtonPerMetre => "N/m",
-        ParameterUnit::NewtonPerMetreToExponent => "N/m^n",
-        ParameterUnit::NewtonSecondPerMetre => "N s/m",
-        ParameterUnit::SecondPerMetre => "s/m",
-    }
 }
 
 fn verification(d: &ModelDescriptor) -> String {
@@ -62,7 +57,12 @@ fn card(d: &ModelDescriptor) -> String {
         verification(d)
     );
     if !d.aliases.is_empty() {
-        text.push_str(&format!("also called   {}\n", d.aliases.join(", ")));
+        for alias in d.aliases {
+            text.push_str(&format!(
+                "also called   {}: {}\n",
+                alias.name, alias.citation
+            ));
+        }
     }
     let rules: Vec<_> = d.separation_rules.iter().map(|r| r.name()).collect();
     text.push_str(&format!(
@@ -77,7 +77,7 @@ fn card(d: &ModelDescriptor) -> String {
         text.push_str(&format!(
             "  {:14} {:6} {}  in {}{default}{required}\n",
             p.name,
-            unit(p.unit),
+            p.unit.symbol(),
             p.explanation,
             p.range()
         ));
@@ -93,10 +93,11 @@ fn card_json(d: &ModelDescriptor) -> serde_json::Value {
     let parameters: Vec<_> = d
         .parameters
         .iter()
-        .map(|p| json!({"name": p.name, "unit": unit(p.unit), "range": p.range(), "default": p.default, "required": p.required, "explanation": p.explanation}))
+        .map(|p| json!({"name": p.name, "unit": p.unit.symbol(), "range": p.range(), "default": p.default, "required": p.required, "explanation": p.explanation}))
         .collect();
     json!({
-        "name": d.name, "aliases": d.aliases, "title": d.title, "formula": d.formula,
+        "name": d.name, "recommended": d.recommended,
+        "aliases": d.aliases.iter().map(|a| json!({"name": a.name, "citation": a.citation})).collect::<Vec<_>>(), "title": d.title, "formula": d.formula,
         "citation": d.citation, "class": d.class, "parameters": parameters,
         "separation_rules": d.separation_rules.iter().map(|r| r.name()).collect::<Vec<_>>(),
         "verification": verification(d), "traps": d.traps,

@@ -3,10 +3,16 @@
 //! With `s` such that `ds = delta^((n-1)/2) dt` it is a linear oscillator in
 //! `delta^((n+1)/2)` for any exponent; `zeta = c / sqrt(2 (n+1) k m)`.
 
-use std::f64::consts::PI;
+mod closed_forms;
+mod law;
+
+pub(crate) use closed_forms::{
+    damping_ratio_approach_only, damping_ratio_no_tension, damping_ratio_zero_penetration,
+};
+pub(crate) use law::{CARD, LINEAR_CARD, LinearClass};
 
 use super::hunt_crossley::elastic;
-use crate::model::{ClosedForm, Force};
+use crate::model::Force;
 
 /// Force with dashpot coefficient `dashpot` (N s/m^((n+1)/2)).
 ///
@@ -40,65 +46,5 @@ pub(crate) fn force(
         value: spring + coefficient * velocity,
         by_penetration: slope + half * coefficient * velocity / delta,
         by_velocity: coefficient,
-    }
-}
-
-/// `zeta acos(zeta) / sqrt(1 - zeta^2)` and its continuation beyond one.
-pub(crate) fn decrement(zeta: f64) -> f64 {
-    let distance = 1.0 - zeta * zeta;
-    if distance.abs() < 1.0e-8 {
-        1.0 - 2.0 / 3.0 * (1.0 - zeta)
-    } else if distance > 0.0 {
-        zeta * zeta.acos() / distance.sqrt()
-    } else {
-        zeta * zeta.acosh() / (-distance).sqrt()
-    }
-}
-
-/// Restitution with damping in both phases, contact ending at zero penetration.
-pub(crate) fn restitution_zero_penetration(zeta: f64) -> f64 {
-    if zeta >= 1.0 {
-        return 0.0;
-    }
-    (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp()
-}
-
-/// Restitution with damping in both phases, contact ending at zero force.
-pub(crate) fn restitution_no_tension(zeta: f64) -> f64 {
-    (-2.0 * decrement(zeta)).exp()
-}
-
-/// Restitution with damping in approach only.
-pub(crate) fn restitution_approach_only(zeta: f64) -> f64 {
-    (-decrement(zeta)).exp()
-}
-
-/// Greatest penetration (m): the oscillator's first peak, which damping in
-/// restitution does not change.
-pub(crate) fn peak_penetration(
-    stiffness: f64,
-    exponent: f64,
-    zeta: f64,
-    velocity: f64,
-    mass: f64,
-) -> f64 {
-    let power = exponent + 1.0;
-    let elastic_peak = (power * mass * velocity * velocity / (2.0 * stiffness)).powf(1.0 / power);
-    elastic_peak * (-decrement(zeta) * 2.0 / power).exp()
-}
-
-/// Closed forms with damping in approach only.
-pub(crate) fn closed_form_approach_only(
-    stiffness: f64,
-    exponent: f64,
-    zeta: f64,
-    velocity: f64,
-    mass: f64,
-) -> ClosedForm {
-    ClosedForm {
-        restitution: restitution_approach_only(zeta),
-        peak_penetration: Some(peak_penetration(stiffness, exponent, zeta, velocity, mass)),
-        peak_force: None,
-        duration: None,
     }
 }

@@ -1,7 +1,117 @@
-//! The two universal classes that carry most published laws.
+//! The classes that carry most published laws, each with its closed forms.
 
+pub(crate) mod dry_friction;
 pub(crate) mod hunt_crossley;
 pub(crate) mod linear;
+
+use crate::error::GapElementError;
+use crate::model::{Direction, Guard, ImpactModel, Phase, Target, Transition};
+use crate::parameters::ModelParameters;
+
+/// In which phases a law damps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DampingPhases {
+    /// In approach and restitution.
+    Both,
+    /// In approach only.
+    ApproachOnly,
+}
+
+/// Stands in the shared cards of the classes, where no model is built.
+pub(crate) fn unbuilt(_: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
+    Err(GapElementError::UnknownModel {
+        name: "a class without a model".to_owned(),
+        nearest: "exact_hunt_crossley",
+    })
+}
+
+/// Approach-only damping: it goes off at the turning point and on again if the
+/// floors approach once more within the same contact.
+pub(crate) fn approach_only(phase: Phase) -> &'static [Transition] {
+    const APPROACH: [Transition; 1] = [Transition {
+        guard: Guard::Velocity,
+        direction: Direction::Falling,
+        target: Target::Phase(Phase::Restitution),
+    }];
+    const RESTITUTION: [Transition; 1] = [Transition {
+        guard: Guard::Velocity,
+        direction: Direction::Rising,
+        target: Target::Phase(Phase::Approach),
+    }];
+    match phase {
+        Phase::Approach => &APPROACH,
+        Phase::Restitution => &RESTITUTION,
+        _ => &[],
+    }
+}
+
+/// `max(0, F)` without memory: off at zero force, on again as soon as the law
+/// would push.
+pub(crate) fn no_tension(phase: Phase) -> &'static [Transition] {
+    const APPROACH: [Transition; 1] = [Transition {
+        guard: Guard::RawForce,
+        direction: Direction::Falling,
+        target: Target::Phase(Phase::Released),
+    }];
+    const RELEASED: [Transition; 1] = [Transition {
+        guard: Guard::RawForce,
+        direction: Direction::Rising,
+        target: Target::Phase(Phase::Approach),
+    }];
+    match phase {
+        Phase::Approach => &APPROACH,
+        Phase::Released => &RELEASED,
+        _ => &[],
+    }
+}
+
+/// Off at zero force, on again when the floors approach once more.
+pub(crate) fn no_tension_latched(phase: Phase) -> &'static [Transition] {
+    const RELEASED: [Transition; 1] = [Transition {
+        guard: Guard::Velocity,
+        direction: Direction::Rising,
+        target: Target::Phase(Phase::Approach),
+    }];
+    match phase {
+        Phase::Released => &RELEASED,
+        other => no_tension(other),
+    }
+}
+
+/// Over at zero force.
+pub(crate) fn gap_shift(phase: Phase) -> &'static [Transition] {
+    const APPROACH: [Transition; 1] = [Transition {
+        guard: Guard::RawForce,
+        direction: Direction::Falling,
+        target: Target::Open,
+    }];
+    match phase {
+        Phase::Approach => &APPROACH,
+        _ => &[],
+    }
+}
+
+/// Root of an increasing function by bisection of its positive argument in the
+/// logarithm, down to neighbouring doubles. Runs once when a model is built.
+pub(crate) fn solve_increasing(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let (mut low, mut high) = (low, high);
+    for _ in 0..400 {
+        let middle = if high > 2.0 * low {
+            (low * high).sqrt()
+        } else {
+            0.5 * (low + high)
+        };
+        if middle <= low || middle >= high {
+            break;
+        }
+        if f(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
 
 /// `I_n` of the elastic power law: half the contact time is `I_n delta_max / v0`.
 /// `I_n = integral_0^1 dx / sqrt(1 - x^(n+1))`, a Beta function; evaluated with

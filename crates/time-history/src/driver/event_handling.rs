@@ -1,6 +1,6 @@
 //! What the driver does at an event: cut the step there, process it, change modes.
 
-use pounding_gap_element::{Memory, Phase, Target};
+use pounding_gap_element::{Memory, Phase, SeparationRule, Target};
 
 use super::{CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, SIMULTANEOUS};
 use super::{Driver, Mute};
@@ -67,12 +67,18 @@ impl Driver<'_> {
     ) -> Result<(), TimeHistoryError> {
         let mut smooth = true;
         let candidates = std::mem::take(&mut self.finder.candidates);
+        self.rigid.closing.clear();
         for other in &candidates {
             let together = (other.theta - event.theta).abs() * step <= SIMULTANEOUS;
             if other.level != event.level && !together {
                 continue;
             }
-            self.fire(segment, tau, *other);
+            let rigid = self.is_rigid(other.level);
+            if rigid && other.kind == EventKind::Close {
+                self.rigid.closing.push(other.level);
+            } else {
+                self.fire(segment, tau, *other);
+            }
             self.statistics.events += 1;
             self.at_once[other.level] += 1;
             if self.at_once[other.level] > EVENTS_AT_ONCE && self.mute[other.level] == Mute::No {
@@ -85,6 +91,9 @@ impl Driver<'_> {
             }
         }
         self.finder.candidates = candidates;
+        if !self.rigid.closing.is_empty() {
+            self.rigid_impacts(segment, tau);
+        }
         self.method.restart(smooth);
         if self.stalled > CHATTER {
             return Err(TimeHistoryError::Chatter {
@@ -116,17 +125,22 @@ impl Driver<'_> {
                 self.peaks.force[l] = Peak { value: 0.0, time };
                 self.peaks.penetration[l] = Peak { value: 0.0, time };
             }
-            EventKind::Open => {
-                self.contacts.open(l);
-                let end = Some((time, -rate));
-                self.log
-                    .open(l, end, &self.peaks, self.dynamics.layout, &self.state, 0.0);
-            }
+            EventKind::Open => self.open(l, time),
             EventKind::Transition(index) => {
                 let Some(phase) = self.contacts.contact(l).map(|c| c.phase) else {
                     return;
                 };
                 let next = match level.model.transitions(phase)[index].target {
+                    Target::Open => {
+                        if level.model.separation() == SeparationRule::GapShift {
+                            let left = self.contacts.penetration(self.system, l, &self.state[..n]);
+                            self.contacts.widen(l, left);
+                            self.log.widen(l, left);
+                        }
+                        self.open(l, time);
+                        self.mute[l] = Mute::Start;
+                        return;
+                    }
                     Target::Phase(phase) => phase,
                     Target::StickOrSlip => self.stick_or_slip(segment, tau, l),
                 };
@@ -135,9 +149,19 @@ impl Driver<'_> {
                 } else if phase == Phase::Stuck {
                     self.mute[l] = Mute::Step;
                 }
-                self.contacts.set_phase(l, next);
+                self.contacts.enter(self.system, l, next, &self.state[..n]);
             }
         }
+    }
+
+    /// Ends the contact of a level.
+    pub(super) fn open(&mut self, l: usize, time: f64) {
+        let n = self.dynamics.layout.dofs;
+        let rate = self.system.levels()[l].relative(&self.state[n..2 * n]);
+        self.contacts.open(l);
+        let end = Some((time, -rate));
+        self.log
+            .open(l, end, &self.peaks, self.dynamics.layout, &self.state, 0.0);
     }
 
     /// Coulomb's choice at zero relative velocity: hold if the contact can.
@@ -157,10 +181,10 @@ impl Driver<'_> {
         let Some(contact) = self.contacts.contact(l) else {
             return Phase::Restitution;
         };
-        let (low, high) =
-            level
-                .model
-                .stick_range(&contact.collision, &contact.memory, level.penetration(u));
+        let delta = self.contacts.penetration(self.system, l, u);
+        let (low, high) = level
+            .model
+            .stick_range(&contact.collision, &contact.memory, delta);
         if holding > high {
             Phase::Approach
         } else if holding < low {

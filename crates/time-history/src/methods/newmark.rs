@@ -286,7 +286,7 @@ impl Newmark {
                     .map(|(d, x)| d * x)
                     .sum();
                 let a = level.relative(&self.last) - weight * pull;
-                let delta = level.relative(&self.predictor) + by_u * a - level.width;
+                let delta = level.relative(&self.predictor) + by_u * a - context.contacts.width(l);
                 let velocity = level.relative(&self.velocity_predictor) + by_v * a;
                 let Some(contact) = context.contacts.contact(l) else {
                     return false;

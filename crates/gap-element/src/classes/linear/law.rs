@@ -1,0 +1,181 @@
+//! The class as an impact model: a published law is a relation `zeta(e)`, an
+//! exponent, a phase rule and a separation rule.
+
+use super::closed_forms;
+use crate::classes::{
+    DampingPhases, approach_only, gap_shift, hunt_crossley, no_tension, no_tension_latched, unbuilt,
+};
+use crate::descriptor::{
+    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+};
+use crate::error::GapElementError;
+use crate::model::{
+    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, SeparationRule, Transition,
+};
+use crate::parameters::{
+    DAMPING_RATIO, EXPONENT, LINEAR_STIFFNESS, ModelParameters, POWER_STIFFNESS, RESTITUTION,
+};
+
+/// What all cards of the class share; the exponent is free, 3/2 by default.
+pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
+    name: "",
+    aliases: &[],
+    title: "",
+    formula: "",
+    citation: "",
+    class: "linear class, damping in both phases",
+    parameters: &[POWER_STIFFNESS, RESTITUTION, DAMPING_RATIO, EXPONENT],
+    constants: &[
+        ConstantDescriptor {
+            name: "stiffness",
+            unit: ParameterUnit::NewtonPerMetreToExponent,
+        },
+        ConstantDescriptor {
+            name: "class_damping_ratio",
+            unit: ParameterUnit::One,
+        },
+    ],
+    separation_rules: &[SeparationRule::ZeroPenetration],
+    needs_approach_velocity: false,
+    needs_effective_mass: true,
+    achieved_restitution: AchievedRestitution::Constant,
+    recommended: false,
+    verification: Verification::Verified("closed form of the damped oscillator"),
+    example: &[("stiffness", 2.75e9)],
+    traps: &[],
+    build: unbuilt,
+};
+
+/// The same with the exponent 1.
+pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
+    class: "linear, damping in both phases",
+    parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_RATIO],
+    constants: &[
+        ConstantDescriptor {
+            name: "stiffness",
+            unit: ParameterUnit::NewtonPerMetre,
+        },
+        ConstantDescriptor {
+            name: "dashpot",
+            unit: ParameterUnit::NewtonSecondPerMetre,
+        },
+    ],
+    example: &[("stiffness", 9.35e7)],
+    ..CARD
+};
+
+/// `F = k delta^n + c delta^((n-1)/2) v` with one relation `zeta(e)`.
+#[derive(Debug)]
+pub(crate) struct LinearClass {
+    pub(crate) descriptor: &'static ModelDescriptor,
+    pub(crate) stiffness: f64,
+    pub(crate) exponent: f64,
+    /// `c / sqrt(2 (n + 1) k m)`.
+    pub(crate) zeta: f64,
+    pub(crate) phases: DampingPhases,
+    pub(crate) separation: SeparationRule,
+}
+
+impl LinearClass {
+    /// A law with the exponent 1 from its card, the parameters and the paper's
+    /// relation `zeta(e)`.
+    pub(crate) fn build(
+        descriptor: &'static ModelDescriptor,
+        parameters: &ModelParameters,
+        phases: DampingPhases,
+        relation: impl Fn(f64) -> f64,
+    ) -> Result<Box<dyn ImpactModel>, GapElementError> {
+        Ok(Box::new(Self {
+            descriptor,
+            stiffness: parameters.required(descriptor.name, "stiffness")?,
+            exponent: parameters.exponent(descriptor),
+            zeta: parameters.damping(descriptor.name, "damping_ratio", relation)?,
+            phases,
+            separation: parameters.separation(descriptor),
+        }))
+    }
+
+    fn dashpot(&self, effective_mass: f64) -> f64 {
+        self.zeta * (2.0 * (self.exponent + 1.0) * self.stiffness * effective_mass).sqrt()
+    }
+
+    fn law(&self, collision: &Collision, phase: Phase, delta: f64, velocity: f64) -> Force {
+        let damped = self.phases == DampingPhases::Both || phase == Phase::Approach;
+        let dashpot = match (damped, self.exponent == 1.0) {
+            (false, _) => 0.0,
+            (true, true) => collision.constants[1],
+            (true, false) => self.dashpot(collision.effective_mass),
+        };
+        super::force(self.stiffness, self.exponent, dashpot, delta, velocity)
+    }
+}
+
+impl ImpactModel for LinearClass {
+    fn descriptor(&self) -> &'static ModelDescriptor {
+        self.descriptor
+    }
+    fn separation(&self) -> SeparationRule {
+        self.separation
+    }
+    fn begin(&self, approach_velocity: f64, effective_mass: f64) -> Collision {
+        let constant = if self.exponent == 1.0 {
+            self.dashpot(effective_mass)
+        } else {
+            self.zeta
+        };
+        Collision {
+            approach_velocity,
+            effective_mass,
+            constants: [self.stiffness, constant, 0.0, 0.0],
+        }
+    }
+    fn force(
+        &self,
+        collision: &Collision,
+        _: &Memory,
+        phase: Phase,
+        delta: f64,
+        velocity: f64,
+    ) -> Force {
+        if phase == Phase::Released {
+            return Force::default();
+        }
+        self.law(collision, phase, delta, velocity)
+    }
+    fn raw_force(
+        &self,
+        collision: &Collision,
+        _: &Memory,
+        _: Phase,
+        delta: f64,
+        velocity: f64,
+    ) -> f64 {
+        self.law(collision, Phase::Approach, delta, velocity).value
+    }
+    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
+        if phase == Phase::Released {
+            return 0.0;
+        }
+        hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
+    }
+    fn transitions(&self, phase: Phase) -> &'static [Transition] {
+        match (self.phases, self.separation) {
+            (DampingPhases::ApproachOnly, _) => approach_only(phase),
+            (_, SeparationRule::ZeroPenetration) => &[],
+            (_, SeparationRule::NoTension) => no_tension(phase),
+            (_, SeparationRule::NoTensionLatched) => no_tension_latched(phase),
+            (_, SeparationRule::GapShift) => gap_shift(phase),
+        }
+    }
+    fn closed_form(&self, approach_velocity: f64, effective_mass: f64) -> Option<ClosedForm> {
+        Some(closed_forms::closed_form(
+            (self.phases, self.separation),
+            (self.stiffness, self.exponent, self.zeta),
+            approach_velocity,
+            effective_mass,
+        ))
+    }
+    fn smooth_at_closure(&self) -> bool {
+        self.exponent == 1.0
+    }
+}

@@ -1,0 +1,385 @@
+//! Integration of one contact.
+
+use pounding_runge_kutta::{DENSE_COEFFICIENTS, Dop853};
+
+use super::{CollisionOptions, CollisionSample};
+use crate::error::GapElementError;
+use crate::model::{Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, Target};
+
+/// Relative error of a step.
+const TOLERANCE: f64 = 1.0e-13;
+/// First step as a part of the unknown contact time: small enough for any start
+/// like a power of time, since later steps may grow sixfold.
+const FIRST_STEP: f64 = 1.0e-10;
+/// Shortest step that error control may ask for.
+const SHORTEST_STEP: f64 = 1.0e-18;
+const MAXIMUM_STEPS: usize = 100_000;
+/// Places of the history inside a step.
+const PLACES: usize = 8;
+
+/// How a contact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// The bodies part.
+    Separation,
+    /// They never will: the energy left is less than parting takes.
+    AtRest,
+}
+
+/// What ends a step of the flight.
+#[derive(Clone, Copy)]
+enum Event {
+    Separation,
+    Transition(usize),
+}
+
+pub(super) struct Flight<'a> {
+    model: &'a dyn ImpactModel,
+    pub(super) collision: Collision,
+    memory: Memory,
+    phase: Phase,
+    pressing: f64,
+    read_at: Option<f64>,
+    pub(super) reading: Option<CollisionSample>,
+    pair: Dop853,
+    /// Penetration, velocity, impulse.
+    pub(super) state: [f64; 3],
+    pub(super) time: f64,
+    step: f64,
+    /// When the bodies last stopped acting on one another, if they do not act now.
+    pub(super) released_at: Option<f64>,
+    pub(super) peak_force: (f64, f64),
+    pub(super) peak_penetration: (f64, f64),
+    pub(super) history: Vec<CollisionSample>,
+}
+
+impl<'a> Flight<'a> {
+    pub(super) fn new(
+        model: &'a dyn ImpactModel,
+        collision: Collision,
+        options: &CollisionOptions,
+    ) -> Self {
+        Self {
+            model,
+            collision,
+            memory: Memory::default(),
+            phase: Phase::Approach,
+            pressing: options.pressing_acceleration,
+            read_at: options.read_at,
+            reading: None,
+            pair: Dop853::new(3),
+            state: [0.0, collision.approach_velocity, 0.0],
+            time: 0.0,
+            step: FIRST_STEP,
+            released_at: None,
+            peak_force: (0.0, 0.0),
+            peak_penetration: (0.0, 0.0),
+            history: Vec::new(),
+        }
+    }
+
+    fn force(&self, delta: f64, velocity: f64) -> Force {
+        self.model
+            .force(&self.collision, &self.memory, self.phase, delta, velocity)
+    }
+
+    pub(super) fn integrate(&mut self) -> Result<End, GapElementError> {
+        self.record();
+        for _ in 0..MAXIMUM_STEPS {
+            let to_reading = self.read_at.map(|t| t - self.time).filter(|t| *t > 0.0);
+            let (wanted, reads) = match to_reading {
+                Some(rest) if self.step >= rest => (rest, true),
+                _ => (self.step, false),
+            };
+            let mut new = self.accurate_step(wanted);
+            let reads = reads && self.step == wanted;
+            let event = self.event(&new);
+            if let Some(event) = event {
+                new = self.locate(event);
+            }
+            self.peaks();
+            let grown = Dop853::step_factor(self.pair_error(&new)) * self.step;
+            self.time += self.step;
+            self.pair.advance();
+            self.state = new;
+            self.model
+                .commit(&mut self.memory, self.phase, new[0], new[1]);
+            let end = match event {
+                Some(Event::Separation) => Some(End::Separation),
+                Some(Event::Transition(index)) => self.change_phase(index),
+                None => self.rests().then_some(End::AtRest),
+            };
+            self.record();
+            if reads && event.is_none() {
+                self.reading = self.history.last().copied();
+            }
+            if let Some(end) = end {
+                return Ok(end);
+            }
+            self.step = if event.is_some() || reads {
+                self.step.max(grown)
+            } else {
+                grown
+            };
+        }
+        Err(GapElementError::Unfinished {
+            steps: MAXIMUM_STEPS,
+            time: self.time,
+        })
+    }
+
+    /// Parting takes a kinetic energy at zero penetration; less than nothing is
+    /// left for it, and no law here gives energy back that it did not store.
+    fn rests(&self) -> bool {
+        let [delta, velocity, _] = self.state;
+        let (mass, pressing) = (self.collision.effective_mass, self.pressing);
+        let stored = self
+            .model
+            .stored_energy(&self.collision, &self.memory, self.phase, delta);
+        pressing > 0.0 && 0.5 * mass * velocity * velocity + stored - mass * pressing * delta < 0.0
+    }
+
+    /// Changes the phase at a located transition; tells if that ends the contact.
+    fn change_phase(&mut self, index: usize) -> Option<End> {
+        let target = self.model.transitions(self.phase)[index].target;
+        let next = match target {
+            Target::Phase(phase) => phase,
+            Target::Open => return Some(End::Separation),
+            Target::StickOrSlip => {
+                let holding = self.collision.effective_mass * self.pressing;
+                let (low, high) =
+                    self.model
+                        .stick_range(&self.collision, &self.memory, self.state[0]);
+                if holding >= low && holding <= high {
+                    return Some(End::AtRest);
+                }
+                if holding > high {
+                    Phase::Approach
+                } else {
+                    Phase::Restitution
+                }
+            }
+        };
+        self.model.enter(
+            &self.collision,
+            &mut self.memory,
+            (self.phase, next),
+            self.state[0],
+        );
+        self.released_at = (next == Phase::Released).then_some(self.time);
+        self.phase = next;
+        self.pair.invalidate();
+        None
+    }
+
+    fn trial(&mut self, step: f64) -> [f64; 3] {
+        let (model, collision, memory, phase, pressing) = (
+            self.model,
+            self.collision,
+            self.memory,
+            self.phase,
+            self.pressing,
+        );
+        let mut derivative = |_: f64, y: &[f64], dy: &mut [f64]| {
+            let force = model.force(&collision, &memory, phase, y[0], y[1]).value;
+            dy[0] = y[1];
+            dy[1] = pressing - force / collision.effective_mass;
+            dy[2] = force;
+        };
+        let mut new = [0.0; 3];
+        self.step = step;
+        self.pair.step(&mut derivative, &self.state, step, &mut new);
+        self.pair.prepare_dense(&mut derivative);
+        new
+    }
+
+    fn pair_error(&self, new: &[f64; 3]) -> f64 {
+        let v0 = self.collision.approach_velocity;
+        let size = self
+            .peak_penetration
+            .0
+            .max(new[0].abs())
+            .max(f64::MIN_POSITIVE);
+        self.pair.error_norm(|i| match i {
+            0 => TOLERANCE * size,
+            1 => TOLERANCE * v0,
+            _ => f64::INFINITY,
+        })
+    }
+
+    fn accurate_step(&mut self, first: f64) -> [f64; 3] {
+        self.step = first;
+        loop {
+            let new = self.trial(self.step);
+            let error = self.pair_error(&new);
+            if error <= 1.0 || self.step < SHORTEST_STEP {
+                return new;
+            }
+            self.step *= Dop853::step_factor(error).min(0.9);
+        }
+    }
+
+    /// Value of an event function: it fires when it becomes positive.
+    fn guard(&self, event: Event, state: &[f64; 3]) -> f64 {
+        let Event::Transition(index) = event else {
+            return -state[0];
+        };
+        let (model, collision, memory) = (self.model, &self.collision, &self.memory);
+        let transition = model.transitions(self.phase)[index];
+        let value = match transition.guard {
+            Guard::Velocity => state[1],
+            Guard::RawForce => model.raw_force(collision, memory, self.phase, state[0], state[1]),
+            Guard::Model(number) => model.guard(number, collision, memory, state[0], state[1]),
+            // Bodies that stick have ended their flight.
+            Guard::StickLower | Guard::StickUpper => 0.0,
+        };
+        if transition.direction == Direction::Rising {
+            value
+        } else {
+            -value
+        }
+    }
+
+    /// The first event in the last step, by the sign at its end: the motion of two
+    /// bodies is so simple that no event comes and goes within an accurate step.
+    fn event(&self, new: &[f64; 3]) -> Option<Event> {
+        let transitions = self.model.transitions(self.phase).len();
+        (0..transitions)
+            .map(Event::Transition)
+            .chain([Event::Separation])
+            .find(|event| {
+                self.guard(*event, new) > 0.0 && self.guard(*event, &self.state) < 0.0
+                    || (matches!(event, Event::Separation) && new[0] < 0.0)
+            })
+    }
+
+    /// Cuts the step at the event by regula falsi (Illinois) on re-taken steps.
+    fn locate(&mut self, event: Event) -> [f64; 3] {
+        let (mut low, mut high) = (0.0, self.step);
+        let (mut at_low, mut at_high) = (self.guard(event, &self.state), 0.0);
+        let mut new = self.trial(high);
+        at_high += self.guard(event, &new);
+        let mut last_side = 0;
+        for _ in 0..200 {
+            if at_high == 0.0 || high - low <= 1.0e-16 * high {
+                break;
+            }
+            let chord = high - (high - low) * at_high / (at_high - at_low);
+            let middle = 0.5 * (low + high);
+            let step = if chord > low && chord < high && at_low < 0.0 {
+                chord
+            } else {
+                middle
+            };
+            if step <= low || step >= high {
+                break;
+            }
+            new = self.trial(step);
+            let value = self.guard(event, &new);
+            if value > 0.0 {
+                (high, at_high) = (step, value);
+                if last_side == 1 {
+                    at_low *= 0.5;
+                }
+                last_side = 1;
+            } else {
+                (low, at_low) = (step, value);
+                if last_side == -1 {
+                    at_high *= 0.5;
+                }
+                last_side = -1;
+                if value == 0.0 {
+                    return new;
+                }
+            }
+        }
+        if self.step != high {
+            new = self.trial(high);
+        }
+        new
+    }
+
+    fn record(&mut self) {
+        let [delta, velocity, _] = self.state;
+        let force = self.force(delta.max(0.0), velocity).value;
+        if force > self.peak_force.0 {
+            self.peak_force = (force, self.time);
+        }
+        let sample = CollisionSample {
+            time: self.time,
+            penetration: delta,
+            velocity,
+            force,
+        };
+        // The near side of a jump is there already; the far side may equal it.
+        if self.history.last() != Some(&sample) {
+            self.history.push(sample);
+        }
+    }
+
+    /// Interior maxima of penetration and force over the last step, and the
+    /// history inside it.
+    fn peaks(&mut self) {
+        let (delta, velocity) = (*self.pair.polynomial(0), *self.pair.polynomial(1));
+        let state = |theta: f64| (value(&delta, theta), value(&velocity, theta));
+        if let Some(theta) = falling_root(|theta| state(theta).1) {
+            let (top, time) = (state(theta).0, self.time + theta * self.step);
+            if top > self.peak_penetration.0 {
+                self.peak_penetration = (top, time);
+            }
+        }
+        let rate = |theta: f64| {
+            let (d, v) = state(theta);
+            let force = self.force(d, v);
+            let acceleration = self.pressing - force.value / self.collision.effective_mass;
+            force.by_penetration * v + force.by_velocity * acceleration
+        };
+        if let Some(theta) = falling_root(rate) {
+            let (d, v) = state(theta);
+            self.raise_force(self.force(d, v).value, theta);
+        }
+        for place in 1..=PLACES {
+            let theta = place as f64 / PLACES as f64;
+            let (penetration, velocity) = state(theta);
+            let force = self.force(penetration, velocity).value;
+            // The last place is the near side of a jump at the end of the step.
+            self.raise_force(force, theta);
+            if penetration > self.peak_penetration.0 {
+                self.peak_penetration = (penetration, self.time + theta * self.step);
+            }
+            self.history.push(CollisionSample {
+                time: self.time + theta * self.step,
+                penetration,
+                velocity,
+                force,
+            });
+        }
+    }
+
+    fn raise_force(&mut self, force: f64, theta: f64) {
+        if force > self.peak_force.0 {
+            self.peak_force = (force, self.time + theta * self.step);
+        }
+    }
+}
+
+fn value(p: &[f64; DENSE_COEFFICIENTS], theta: f64) -> f64 {
+    p.iter().rev().fold(0.0, |sum, c| sum * theta + c)
+}
+
+/// Root in (0, 1) at which a function falls through zero, by bisection.
+fn falling_root(f: impl Fn(f64) -> f64) -> Option<f64> {
+    let (mut low, mut high) = (0.0, 1.0);
+    if !(f(low) > 0.0 && f(high) < 0.0) {
+        return None;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}

@@ -1,0 +1,130 @@
+//! The linear complementarity problem of simultaneous rigid impacts:
+//! `w = A z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
+//!
+//! `A` is positive definite (it is `G M^-1 G'` of independent contacts), so that the
+//! solution exists and is unique. Solved by principal pivoting with the least index
+//! (Murty, Linear Complementarity, 1988, section 4.1), which ends for every such
+//! matrix.
+
+use crate::small_solver::SmallSolver;
+
+/// Work space.
+#[derive(Debug, Default)]
+pub(crate) struct Complementarity {
+    active: Vec<bool>,
+    indices: Vec<usize>,
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+    solution: Vec<f64>,
+    solver: SmallSolver,
+}
+
+/// Signs smaller than this part of the right-hand side are round-off.
+const ROUND_OFF: f64 = 1.0e-14;
+
+impl Complementarity {
+    /// Solves for `z`; `a` row by row.
+    pub(crate) fn solve(&mut self, a: &[f64], q: &[f64]) -> &[f64] {
+        let n = q.len();
+        let scale = q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        self.active.clear();
+        self.active.resize(n, false);
+        // 2^n pivots suffice in theory, a few in practice.
+        for _ in 0..(1_usize << n.min(16)) {
+            self.solve_active(a, q);
+            let violated = (0..n).find(|&i| {
+                if self.active[i] {
+                    self.solution[i] < 0.0
+                } else {
+                    let w: f64 = (0..n).map(|j| a[i * n + j] * self.solution[j]).sum();
+                    w + q[i] < -ROUND_OFF * scale
+                }
+            });
+            let Some(i) = violated else {
+                break;
+            };
+            self.active[i] = !self.active[i];
+        }
+        &self.solution
+    }
+
+    fn solve_active(&mut self, a: &[f64], q: &[f64]) {
+        let n = q.len();
+        self.indices.clear();
+        self.indices.extend((0..n).filter(|i| self.active[*i]));
+        self.matrix.clear();
+        self.right.clear();
+        for &i in &self.indices {
+            self.right.push(-q[i]);
+            for &j in &self.indices {
+                self.matrix.push(a[i * n + j]);
+            }
+        }
+        self.solution.clear();
+        self.solution.resize(n, 0.0);
+        if !self.right.is_empty() && !self.solver.solve(&self.matrix, &mut self.right) {
+            return;
+        }
+        for (&i, x) in self.indices.iter().zip(&self.right) {
+            self.solution[i] = *x;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Brute force over all index sets: the unique solution of a positive definite
+    /// problem.
+    fn enumerate(a: &[f64], q: &[f64]) -> Vec<f64> {
+        let n = q.len();
+        for set in 0..1_usize << n {
+            let mut problem = Complementarity {
+                active: (0..n).map(|i| set >> i & 1 == 1).collect(),
+                ..Complementarity::default()
+            };
+            problem.solve_active(a, q);
+            let z = &problem.solution;
+            let fits = (0..n).all(|i| {
+                let w: f64 = (0..n).map(|j| a[i * n + j] * z[j]).sum::<f64>() + q[i];
+                z[i] >= 0.0 && w >= -1e-12
+            });
+            if fits {
+                return z.clone();
+            }
+        }
+        panic!("no solution");
+    }
+
+    #[test]
+    fn agrees_with_enumeration() {
+        // Chains of floors of random mass: a tridiagonal positive definite matrix.
+        let mut seed = 12345_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for n in 1..=6 {
+            for _ in 0..200 {
+                let inverse: Vec<f64> = (0..=n).map(|_| 0.1 + random()).collect();
+                let mut a = vec![0.0; n * n];
+                for i in 0..n {
+                    a[i * n + i] = inverse[i] + inverse[i + 1];
+                    if i + 1 < n {
+                        a[i * n + i + 1] = -inverse[i + 1];
+                        a[(i + 1) * n + i] = -inverse[i + 1];
+                    }
+                }
+                let q: Vec<f64> = (0..n).map(|_| random() - 0.6).collect();
+                let mut problem = Complementarity::default();
+                let z = problem.solve(&a, &q).to_vec();
+                for (x, y) in z.iter().zip(enumerate(&a, &q)) {
+                    assert!((x - y).abs() < 1e-11, "{z:?}");
+                }
+            }
+        }
+    }
+}

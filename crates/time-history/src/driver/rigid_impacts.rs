@@ -1,0 +1,244 @@
+//! Rigid impacts: velocities jump at a located instant.
+//!
+//! All rigid levels that close, or are closed, at one instant are solved together
+//! as a linear complementarity problem: impulses `P >= 0`, and every pair of floors
+//! that an impulse acts on parts with `e` times its approach velocity (Newton's
+//! restitution in every contact; Jean and Moreau 1992, Brogliato, Nonsmooth
+//! Mechanics, 3rd edition 2016, section 5.3).
+
+use pounding_gap_element::{Memory, Phase};
+
+use super::Driver;
+use crate::complementarity::Complementarity;
+use crate::contact::Contact;
+use crate::dynamics::{Segment, coupling};
+use crate::outcome::Peak;
+
+/// Height (m) of a hop below which impacts that follow one another ever faster are
+/// taken as accomplished: the floors then stay in contact. Positions carry their
+/// own round-off of about 1e-17 m, in which lower hops would drown.
+const LOWEST_HOP: f64 = 1.0e-12;
+
+/// Open floors closer than this (m) take part in an impact of their neighbours.
+const TOUCHING: f64 = 1.0e-12;
+
+/// Work space of the jumps.
+#[derive(Debug, Default)]
+pub(super) struct RigidImpacts {
+    /// Levels that close at this instant.
+    pub closing: Vec<usize>,
+    active: Vec<usize>,
+    /// Approach velocity of every active level before the jump (m/s).
+    before: Vec<f64>,
+    /// Restitution in force: zero where the impacts accumulate.
+    restitution: Vec<f64>,
+    /// Time until the accumulation ends (s); NaN where there is none.
+    accumulation: Vec<f64>,
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+    problem: Complementarity,
+}
+
+impl Driver<'_> {
+    pub(super) fn is_rigid(&self, level: usize) -> bool {
+        let model = &self.system.levels()[level].model;
+        model.rigid_restitution().is_some()
+    }
+
+    /// Applies the jumps of all rigid levels in touch at this instant.
+    pub(super) fn rigid_impacts(&mut self, segment: &Segment, tau: f64) {
+        let mut work = std::mem::take(&mut self.rigid);
+        let time = segment.start + tau;
+        self.gather(&mut work, segment, tau);
+        self.begin_impacts(&work, time);
+        self.jump(&mut work);
+        for k in 0..work.active.len() {
+            self.settle(&work, k, time);
+        }
+        self.release_pulling(segment, tau, time);
+        self.rigid = work;
+    }
+
+    /// Levels that take part, with their approach velocities and restitutions.
+    fn gather(&mut self, work: &mut RigidImpacts, segment: &Segment, tau: f64) {
+        let n = self.dynamics.layout.dofs;
+        work.active.clear();
+        work.before.clear();
+        work.restitution.clear();
+        work.accumulation.clear();
+        for l in 0..self.dynamics.layout.levels {
+            let in_touch = self.contacts.contact(l).is_some()
+                || self.contacts.penetration(self.system, l, &self.state[..n]) > -TOUCHING;
+            if self.is_rigid(l) && in_touch {
+                work.active.push(l);
+                let level = &self.system.levels()[l];
+                work.before.push(level.relative(&self.state[n..2 * n]));
+            }
+        }
+        for k in 0..work.active.len() {
+            let l = work.active[k];
+            let asked = self.system.levels()[l].model.rigid_restitution();
+            let restitution = asked.unwrap_or(0.0);
+            let new = self.contacts.contact(l).is_none() && work.before[k] >= 0.0;
+            let left = if new {
+                self.accumulation(segment, tau, l, work.before[k], restitution)
+            } else {
+                f64::NAN
+            };
+            work.accumulation.push(left);
+            let plastic = left.is_finite();
+            work.restitution
+                .push(if plastic { 0.0 } else { restitution });
+        }
+    }
+
+    /// Time (s) that the infinite sequence of impacts still takes, if the next hop
+    /// is too low to be followed; NaN otherwise. The relative acceleration is taken
+    /// as constant over that time.
+    fn accumulation(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+        l: usize,
+        approach: f64,
+        restitution: f64,
+    ) -> f64 {
+        let level = &self.system.levels()[l];
+        self.contacts.close(
+            l,
+            lasting(level.model.begin(approach, level.effective_mass)),
+        );
+        let holding = self.holding_force(segment, tau, l);
+        self.contacts.open(l);
+        let pressing = holding / level.effective_mass;
+        let rebound = restitution * approach;
+        let low = rebound * rebound <= 2.0 * pressing * LOWEST_HOP;
+        if !(pressing > 0.0 && low) {
+            return f64::NAN;
+        }
+        if rebound == 0.0 {
+            return 0.0;
+        }
+        2.0 * rebound / (pressing * (1.0 - restitution))
+    }
+
+    /// Force (N) that would hold the floors of a level together now.
+    fn holding_force(&mut self, segment: &Segment, tau: f64, l: usize) -> f64 {
+        let n = self.dynamics.layout.dofs;
+        self.dynamics.accelerations(
+            &self.contacts,
+            segment.ground(tau),
+            &self.state[..n],
+            &self.state[n..2 * n],
+            &mut self.interpolated[..n],
+        );
+        self.dynamics.forces[l]
+    }
+
+    /// Opens the log of every impact that begins here.
+    fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
+        for (k, &l) in work.active.iter().enumerate() {
+            let closing = work.closing.contains(&l) || work.before[k] > 0.0;
+            if self.contacts.contact(l).is_some() || !closing {
+                continue;
+            }
+            let level = &self.system.levels()[l];
+            let collision = level.model.begin(work.before[k], level.effective_mass);
+            self.contacts.close(l, lasting(collision));
+            self.log
+                .close(l, time, &collision, self.dynamics.layout, &self.state);
+            let value = f64::NAN;
+            self.peaks.force[l] = Peak { value, time };
+            self.peaks.penetration[l] = Peak { value: 0.0, time };
+        }
+    }
+
+    /// Solves for the impulses and applies them. The work of an impulse is its mean
+    /// velocity times itself, which is the kinetic energy lost to the last bit of
+    /// theory.
+    fn jump(&mut self, work: &mut RigidImpacts) {
+        let (levels, mass) = (self.system.levels(), self.system.mass());
+        work.matrix.clear();
+        work.right.clear();
+        for (k, &a) in work.active.iter().enumerate() {
+            for &b in &work.active {
+                work.matrix.push(coupling(&levels[a], &levels[b], mass));
+            }
+            work.right
+                .push(-(1.0 + work.restitution[k]) * work.before[k]);
+        }
+        let impulses = work.problem.solve(&work.matrix, &work.right);
+        let n = self.dynamics.layout.dofs;
+        let velocity = &mut self.state[n..2 * n];
+        for (&l, impulse) in work.active.iter().zip(impulses) {
+            if let Some(left) = levels[l].left {
+                velocity[left] -= impulse / mass[left];
+            }
+            if let Some(right) = levels[l].right {
+                velocity[right] += impulse / mass[right];
+            }
+        }
+        let layout = self.dynamics.layout;
+        for (k, (&l, impulse)) in work.active.iter().zip(impulses).enumerate() {
+            let after = levels[l].relative(&self.state[n..2 * n]);
+            self.state[layout.work(l)] += 0.5 * impulse * (work.before[k] + after);
+            self.state[layout.impulse(l)] += impulse;
+        }
+    }
+
+    /// Ends the impact of a level whose floors part; leaves the others in lasting
+    /// contact.
+    fn settle(&mut self, work: &RigidImpacts, k: usize, time: f64) {
+        let l = work.active[k];
+        if self.contacts.contact(l).is_none() {
+            return;
+        }
+        let n = self.dynamics.layout.dofs;
+        let after = self.system.levels()[l].relative(&self.state[n..2 * n]);
+        let remains = work.accumulation[k].is_finite() || work.restitution[k] == 0.0;
+        // Round-off of a plastic impact must not count as parting.
+        let round_off = 1.0e-12 * (work.before[k].abs() + 1.0e-6);
+        if after < -round_off || (after < 0.0 && !remains) {
+            self.open(l, time);
+            return;
+        }
+        if !self.log.is_lasting(l) {
+            self.log.begin_lasting(l);
+            self.peaks.force[l] = Peak { value: 0.0, time };
+            if work.accumulation[k].is_finite() {
+                self.log.closed_at(l, time + work.accumulation[k]);
+            }
+        }
+    }
+
+    /// Lasting contact cannot pull: opens the level that would pull most, and looks
+    /// again.
+    fn release_pulling(&mut self, segment: &Segment, tau: f64, time: f64) {
+        loop {
+            let mut worst: Option<(usize, f64)> = None;
+            for k in 0..self.contacts.closed().len() {
+                let l = self.contacts.closed()[k];
+                if !self.is_rigid(l) {
+                    continue;
+                }
+                let holding = self.holding_force(segment, tau, l);
+                if holding < 0.0 && worst.is_none_or(|(_, w)| holding < w) {
+                    worst = Some((l, holding));
+                }
+            }
+            let Some((l, _)) = worst else {
+                return;
+            };
+            self.open(l, time);
+        }
+    }
+}
+
+/// A contact that holds.
+fn lasting(collision: pounding_gap_element::Collision) -> Contact {
+    Contact {
+        phase: Phase::Stuck,
+        collision,
+        memory: Memory::default(),
+    }
+}

@@ -1,5 +1,6 @@
 //! Impact models for the gaps between buildings: trait, models, registry, two-body collision.
 
+pub mod contact_stiffness;
 pub mod descriptor;
 pub mod error;
 pub mod model;

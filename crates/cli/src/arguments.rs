@@ -38,6 +38,8 @@ pub enum Command {
     },
     /// Let two bodies collide: what a model really returns
     Impact(ImpactArguments),
+    /// Find a contact stiffness, with its source and limits
+    Stiffness(StiffnessArguments),
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions
@@ -92,4 +94,164 @@ pub struct ImpactArguments {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `stiffness`.
+#[derive(Debug, clap::Args)]
+pub struct StiffnessArguments {
+    /// Where the stiffness comes from
+    #[command(subcommand)]
+    pub method: StiffnessMethod,
+    /// Print one JSON object
+    #[arg(long, global = true)]
+    pub json: bool,
+}
+
+/// Where a contact stiffness comes from.
+#[derive(Debug, Subcommand)]
+pub enum StiffnessMethod {
+    /// Two elastic spheres, N/m^1.5 (Hertz 1882)
+    Hertz(HertzArguments),
+    /// Axial stiffness EA/L of two floor slabs in series, N/m
+    Slab(SlabArguments),
+    /// Stiffness that gives a wanted contact time
+    Duration(DurationArguments),
+    /// Stiffness that gives a wanted greatest penetration
+    Penetration(PenetrationArguments),
+    /// Multiple of the storey stiffness of the stiffer building, N/m
+    Multiple(MultipleArguments),
+}
+
+/// Arguments of `stiffness hertz`. The right body is made like the left one
+/// unless said otherwise.
+#[derive(Debug, clap::Args)]
+pub struct HertzArguments {
+    /// Radius of the left body, such as "25 mm", or "flat"
+    #[arg(long, allow_hyphen_values = true)]
+    pub radius_left: String,
+    /// Radius of the right body, or "flat"
+    #[arg(long, allow_hyphen_values = true)]
+    pub radius_right: String,
+    /// Young's modulus of the left body, such as "206 GPa"
+    #[arg(long, allow_hyphen_values = true)]
+    pub elastic_modulus_left: String,
+    /// Young's modulus of the right body [default: as left]
+    #[arg(long, allow_hyphen_values = true)]
+    pub elastic_modulus_right: Option<String>,
+    /// Poisson's ratio of the left body
+    #[arg(long, allow_hyphen_values = true)]
+    pub poisson_ratio_left: String,
+    /// Poisson's ratio of the right body [default: as left]
+    #[arg(long, allow_hyphen_values = true)]
+    pub poisson_ratio_right: Option<String>,
+    /// Density of the left body, such as "7850 kg/m^3", for the check of waves
+    #[arg(long, requires = "velocity", allow_hyphen_values = true)]
+    pub density_left: Option<String>,
+    /// Density of the right body [default: as left, if its modulus is not given]
+    #[arg(long, requires = "velocity", allow_hyphen_values = true)]
+    pub density_right: Option<String>,
+    /// Approach velocity, for the checks of contact time and radius
+    #[arg(long, requires_all = ["mass_left", "mass_right"], allow_hyphen_values = true)]
+    pub velocity: Option<String>,
+    /// Mass of the left body
+    #[arg(long, requires = "velocity", allow_hyphen_values = true)]
+    pub mass_left: Option<String>,
+    /// Mass of the right body, or "wall"
+    #[arg(long, requires = "velocity", allow_hyphen_values = true)]
+    pub mass_right: Option<String>,
+}
+
+/// Arguments of `stiffness slab`. The right slab is like the left one unless said
+/// otherwise.
+#[derive(Debug, clap::Args)]
+pub struct SlabArguments {
+    /// Young's modulus of the left slab, such as "30 GPa"
+    #[arg(long, allow_hyphen_values = true)]
+    pub elastic_modulus_left: String,
+    /// Young's modulus of the right slab [default: as left]
+    #[arg(long, allow_hyphen_values = true)]
+    pub elastic_modulus_right: Option<String>,
+    /// Cross-section of the left slab, such as "1.8 m^2"
+    #[arg(long, conflicts_with_all = ["width_left", "thickness_left"], allow_hyphen_values = true)]
+    pub area_left: Option<String>,
+    /// Width of the left slab across the impact, instead of its area
+    #[arg(long, allow_hyphen_values = true)]
+    pub width_left: Option<String>,
+    /// Thickness of the left slab, instead of its area
+    #[arg(long, allow_hyphen_values = true)]
+    pub thickness_left: Option<String>,
+    /// Cross-section of the right slab, such as "1.8 m^2" [default: as left]
+    #[arg(long, conflicts_with_all = ["width_right", "thickness_right"], allow_hyphen_values = true)]
+    pub area_right: Option<String>,
+    /// Width of the right slab across the impact, instead of its area
+    #[arg(long, allow_hyphen_values = true)]
+    pub width_right: Option<String>,
+    /// Thickness of the right slab, instead of its area
+    #[arg(long, allow_hyphen_values = true)]
+    pub thickness_right: Option<String>,
+    /// Length of the left slab in the direction of impact
+    #[arg(long, allow_hyphen_values = true)]
+    pub length_left: String,
+    /// Length of the right slab [default: as left]
+    #[arg(long, allow_hyphen_values = true)]
+    pub length_right: Option<String>,
+    /// Lateral storey stiffness of the stiffer building, to compare with
+    #[arg(long, allow_hyphen_values = true)]
+    pub storey_stiffness: Option<String>,
+}
+
+/// The collision that a wanted contact time or penetration belongs to.
+#[derive(Debug, clap::Args)]
+pub struct ApproachArguments {
+    /// Exponent n of the force law: 1 linear, 1.5 Hertz
+    #[arg(long, allow_hyphen_values = true)]
+    pub exponent: String,
+    /// Approach velocity, such as "0.8 m/s"
+    #[arg(long, allow_hyphen_values = true)]
+    pub velocity: String,
+    /// Mass of the left floor, such as "25 t"
+    #[arg(long, allow_hyphen_values = true)]
+    pub mass_left: String,
+    /// Mass of the right floor, or "wall"
+    #[arg(long, allow_hyphen_values = true)]
+    pub mass_right: String,
+    /// Restitution of the law; below 1 it is damped
+    #[arg(long, allow_hyphen_values = true)]
+    pub restitution: Option<String>,
+}
+
+/// Arguments of `stiffness duration`.
+#[derive(Debug, clap::Args)]
+pub struct DurationArguments {
+    /// Wanted contact time, such as "20 ms"
+    #[arg(long, allow_hyphen_values = true)]
+    pub duration: String,
+    /// The collision
+    #[command(flatten)]
+    pub approach: ApproachArguments,
+}
+
+/// Arguments of `stiffness penetration`.
+#[derive(Debug, clap::Args)]
+pub struct PenetrationArguments {
+    /// Wanted greatest penetration, such as "5 mm"
+    #[arg(long, allow_hyphen_values = true)]
+    pub penetration: String,
+    /// Width of the gap, to compare with
+    #[arg(long, allow_hyphen_values = true)]
+    pub gap_width: Option<String>,
+    /// The collision
+    #[command(flatten)]
+    pub approach: ApproachArguments,
+}
+
+/// Arguments of `stiffness multiple`.
+#[derive(Debug, clap::Args)]
+pub struct MultipleArguments {
+    /// Lateral storey stiffness of the stiffer building, such as "3.46 MN/m"
+    #[arg(long, allow_hyphen_values = true)]
+    pub storey_stiffness: String,
+    /// How many times that; 10 to 100 are in use
+    #[arg(long, default_value = "20", allow_hyphen_values = true)]
+    pub factor: String,
 }

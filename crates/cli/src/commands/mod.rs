@@ -4,6 +4,7 @@ mod check;
 mod impact;
 mod models;
 mod run;
+mod stiffness;
 
 use std::io::Write;
 
@@ -19,6 +20,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Check { case, json } => check::check(&case, json),
         Command::Models { name, json } => models::models(name.as_deref(), json),
         Command::Impact(arguments) => impact::impact(&arguments),
+        Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -1,4 +1,4 @@
-//! A picture of a result: roof displacements and contact forces over time.
+//! Pictures: panels of curves below one another, as SVG.
 
 use std::path::Path;
 
@@ -8,92 +8,133 @@ use pounding_time_history::{RunRecord, Sample};
 use crate::failure::Failure;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
-type Curve = (String, Vec<(f64, f64)>);
 
-/// Draws roof displacements above, contact forces of the highest levels below.
-pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
+/// One curve: its name and its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Name in the legend.
+    pub name: String,
+    /// Points in the units of the panel's axes.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// One set of axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Heading: the quantity and unit of the vertical axis.
+    pub caption: String,
+    /// Quantity and unit of the horizontal axis.
+    pub horizontal: String,
+    /// Curves; a legend appears if there are several.
+    pub curves: Vec<Curve>,
+}
+
+/// Width of a picture (pixels).
+const WIDTH: u32 = 960;
+/// Height of a panel (pixels).
+const HEIGHT: u32 = 320;
+
+/// Draws panels below one another as SVG.
+pub fn figure(panels: &[Panel]) -> Result<String, Failure> {
     let mut svg = String::new();
-    let drawn = draw(&mut svg, record).map_err(|e| e.to_string());
+    let drawn = draw(&mut svg, panels).map_err(|e| e.to_string());
     drawn
         .map_err(std::io::Error::other)
-        .and_then(|()| {
-            let mut name = path.file_name().unwrap_or_default().to_owned();
-            name.push(".part");
-            let part = path.with_file_name(name);
-            std::fs::write(&part, svg)?;
-            std::fs::rename(&part, path)
-        })
+        .map_err(|e| Failure::output(&e, "the picture"))?;
+    Ok(svg)
+}
+
+/// Writes a text file beside its place and renames it: a reader never sees half.
+pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let part = path.with_file_name(name);
+    std::fs::write(&part, text)
+        .and_then(|()| std::fs::rename(&part, path))
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
 }
 
-fn draw(svg: &mut String, record: &RunRecord<'_>) -> Outcome {
-    let root = SVGBackend::with_string(svg, (960, 640)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (upper, lower) = root.split_vertically(340);
+/// Draws roof displacements above, contact forces of the highest levels below.
+pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
     let system = &record.assembly.system;
-    let curve =
-        |pick: &dyn Fn(&Sample) -> f64| record.samples.iter().map(|s| (s.time, pick(s))).collect();
-    let roofs: Vec<Curve> = system
+    let curve = |name: &str, pick: &dyn Fn(&Sample) -> f64| Curve {
+        name: name.to_owned(),
+        points: record.samples.iter().map(|s| (s.time, pick(s))).collect(),
+    };
+    let roofs = system
         .buildings()
         .iter()
         .zip(system.offsets().windows(2))
-        .map(|(b, range)| {
-            (
-                b.name().to_owned(),
-                curve(&|s| s.displacement[range[1] - 1] * 1e3),
-            )
-        })
+        .map(|(b, range)| curve(b.name(), &|s| s.displacement[range[1] - 1] * 1e3))
         .collect();
-    panel(&upper, "Roof displacement (mm)", &roofs)?;
-    let forces: Vec<Curve> = system
+    let forces = system
         .gaps()
         .iter()
         .filter(|g| g.levels > 0)
-        .map(|g| {
-            (
-                g.name.clone(),
-                curve(&|s| s.force[g.first_level + g.levels - 1] * 1e-3),
-            )
-        })
+        .map(|g| curve(&g.name, &|s| s.force[g.first_level + g.levels - 1] * 1e-3))
         .collect();
-    panel(
-        &lower,
-        "Contact force at the highest level (kN), sampled on the output grid",
-        &forces,
-    )?;
+    let panel = |caption: &str, curves| Panel {
+        caption: caption.to_owned(),
+        horizontal: "time (s)".to_owned(),
+        curves,
+    };
+    let panels = [
+        panel("Roof displacement (mm)", roofs),
+        panel(
+            "Contact force at the highest level (kN), sampled on the output grid",
+            forces,
+        ),
+    ];
+    write(path, &figure(&panels)?)
+}
+
+fn draw(svg: &mut String, panels: &[Panel]) -> Outcome {
+    let height = HEIGHT * u32::try_from(panels.len())?;
+    let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
+    root.fill(&WHITE)?;
+    for (panel, area) in panels.iter().zip(root.split_evenly((panels.len(), 1))) {
+        draw_panel(&area, panel)?;
+    }
     root.present()?;
     Ok(())
 }
 
-fn panel(
+/// Range of a coordinate with a margin, and never empty.
+fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
+    let (low, high) = values
+        .filter(|x| x.is_finite())
+        .fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
+    let width = if high > low { high - low } else { 1.0e-9 };
+    low - if low < 0.0 { margin * width } else { 0.0 }..high + margin * width
+}
+
+fn draw_panel(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
-    caption: &str,
-    curves: &[Curve],
+    panel: &Panel,
 ) -> Outcome {
-    let points = || curves.iter().flat_map(|(_, c)| c.iter());
-    let end = points().fold(0.0_f64, |m, p| m.max(p.0)).max(1e-9);
-    let low = points().fold(0.0_f64, |m, p| m.min(p.1));
-    let high = points().fold(0.0_f64, |m, p| m.max(p.1));
-    let margin = 0.05 * (high - low).max(1e-9);
+    let points = || panel.curves.iter().flat_map(|c| c.points.iter());
     let mut chart = ChartBuilder::on(area)
-        .caption(caption, ("sans-serif", 18))
+        .caption(&panel.caption, ("sans-serif", 18))
         .margin(10)
         .x_label_area_size(32)
         .y_label_area_size(64)
-        .build_cartesian_2d(0.0..end, low - margin..high + margin)?;
+        .build_cartesian_2d(
+            range(points().map(|p| p.0), 0.0),
+            range(points().map(|p| p.1), 0.05),
+        )?;
     chart
         .configure_mesh()
-        .x_desc("time (s)")
+        .x_desc(&panel.horizontal)
         .light_line_style(WHITE)
         .draw()?;
-    for (i, (name, curve)) in curves.iter().enumerate() {
+    for (i, curve) in panel.curves.iter().enumerate() {
         let colour = Palette99::pick(i).to_rgba();
         chart
-            .draw_series(LineSeries::new(curve.iter().copied(), &colour))?
-            .label(name.as_str())
+            .draw_series(LineSeries::new(curve.points.iter().copied(), &colour))?
+            .label(curve.name.as_str())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour));
     }
-    if curves.len() > 1 {
+    if panel.curves.len() > 1 {
         chart
             .configure_series_labels()
             .background_style(WHITE.mix(0.8))

@@ -94,8 +94,8 @@ impl<'a> Flight<'a> {
             let mut new = self.accurate_step(wanted);
             let reads = reads && self.step == wanted;
             let event = self.event(&new);
-            if let Some(event) = event {
-                new = self.locate(event);
+            if let Some((event, theta)) = event {
+                new = self.locate(event, theta);
             }
             self.peaks();
             let grown = Dop853::step_factor(self.pair_error(&new)) * self.step;
@@ -104,7 +104,7 @@ impl<'a> Flight<'a> {
             self.state = new;
             self.model
                 .commit(&mut self.memory, self.phase, new[0], new[1]);
-            let end = match event {
+            let end = match event.map(|(event, _)| event) {
                 Some(Event::Separation) => Some(End::Separation),
                 Some(Event::Transition(index)) => self.change_phase(index),
                 None => self.rests().then_some(End::AtRest),
@@ -116,11 +116,12 @@ impl<'a> Flight<'a> {
             if let Some(end) = end {
                 return Ok(end);
             }
-            self.step = if event.is_some() || reads {
+            let next = if event.is_some() || reads {
                 self.step.max(grown)
             } else {
                 grown
             };
+            self.step = next.min((0.5 * self.time).max(FIRST_STEP));
         }
         Err(GapElementError::Unfinished {
             steps: MAXIMUM_STEPS,
@@ -240,25 +241,45 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// The first event in the last step, by the sign at its end: the motion of two
-    /// bodies is so simple that no event comes and goes within an accurate step.
-    fn event(&self, new: &[f64; 3]) -> Option<Event> {
+    /// The first event in the last step, by signs at places inside it: steps are
+    /// shorter than half the time since closure, so that no event of a motion as
+    /// simple as that of two bodies comes and goes between places. Of several
+    /// between two places, the interpolant tells which comes first.
+    fn event(&self, new: &[f64; 3]) -> Option<(Event, f64)> {
+        let (delta, velocity) = (*self.pair.polynomial(0), *self.pair.polynomial(1));
+        let inside = |theta: f64| [value(&delta, theta), value(&velocity, theta), 0.0];
         let transitions = self.model.transitions(self.phase).len();
-        (0..transitions)
-            .map(Event::Transition)
-            .chain([Event::Separation])
-            .find(|event| {
-                self.guard(*event, new) > 0.0 && self.guard(*event, &self.state) < 0.0
-                    || (matches!(event, Event::Separation) && new[0] < 0.0)
-            })
+        for place in 1..=PLACES {
+            let theta = place as f64 / PLACES as f64;
+            let state = if place == PLACES { *new } else { inside(theta) };
+            let first = (0..transitions)
+                .map(Event::Transition)
+                .chain([Event::Separation])
+                .filter(|event| {
+                    let started = matches!(event, Event::Separation)
+                        || self.guard(*event, &self.state) <= 0.0;
+                    started && self.guard(*event, &state) > 0.0
+                })
+                .map(|event| (event, rising_root(theta, |t| self.guard(event, &inside(t)))))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((event, _)) = first {
+                return Some((event, theta));
+            }
+        }
+        None
     }
 
-    /// Cuts the step at the event by regula falsi (Illinois) on re-taken steps.
-    fn locate(&mut self, event: Event) -> [f64; 3] {
-        let (mut low, mut high) = (0.0, self.step);
+    /// Cuts the step at an event before `theta` by regula falsi (Illinois) on re-taken
+    /// steps.
+    fn locate(&mut self, event: Event, theta: f64) -> [f64; 3] {
+        let (mut low, mut high) = (0.0, theta * self.step);
         let (mut at_low, mut at_high) = (self.guard(event, &self.state), 0.0);
         let mut new = self.trial(high);
         at_high += self.guard(event, &new);
+        if at_high <= 0.0 {
+            // The interpolant saw by round-off what the step does not: it is here.
+            return new;
+        }
         let mut last_side = 0;
         for _ in 0..200 {
             if at_high == 0.0 || high - low <= 1.0e-16 * high {
@@ -365,6 +386,21 @@ impl<'a> Flight<'a> {
 
 fn value(p: &[f64; DENSE_COEFFICIENTS], theta: f64) -> f64 {
     p.iter().rev().fold(0.0, |sum, c| sum * theta + c)
+}
+
+/// Root in (0, `end`) at which a function that is positive at the end rises through
+/// zero, by bisection.
+fn rising_root(end: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
 }
 
 /// Root in (0, 1) at which a function falls through zero, by bisection.

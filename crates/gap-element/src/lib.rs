@@ -9,8 +9,8 @@ pub mod registry;
 
 mod classes;
 mod collision;
-
 mod models;
+mod restitution_table;
 
 pub use collision::{
     Bodies, CollisionOptions, CollisionOutcome, CollisionSample, collide, collide_with,
@@ -19,3 +19,4 @@ pub use descriptor::*;
 pub use error::GapElementError;
 pub use model::*;
 pub use parameters::ModelParameters;
+pub use restitution_table::*;

@@ -1,0 +1,76 @@
+//! Requested against achieved restitution: what a model is worth, in a table.
+
+use crate::collision::{Bodies, CollisionOptions, CollisionOutcome, collide_with};
+use crate::descriptor::ModelDescriptor;
+use crate::error::GapElementError;
+use crate::parameters::ModelParameters;
+
+/// The restitutions of the tables in the literature: 0.1, 0.2, ... 1.0.
+pub const REQUESTED: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+
+/// One line of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestitutionRow {
+    /// Restitution asked for (-).
+    pub requested: f64,
+    /// The collision that came of it.
+    pub outcome: CollisionOutcome,
+}
+
+impl RestitutionRow {
+    /// `100 |achieved - requested| / requested` (%).
+    #[must_use]
+    pub fn error_percent(&self) -> f64 {
+        100.0 * (self.outcome.restitution - self.requested).abs() / self.requested
+    }
+}
+
+/// Collisions of one model over [`REQUESTED`].
+#[derive(Debug, Clone)]
+pub struct RestitutionTable {
+    /// The model's card.
+    pub descriptor: &'static ModelDescriptor,
+    /// One row for each requested restitution.
+    pub rows: Vec<RestitutionRow>,
+}
+
+impl RestitutionTable {
+    /// Mean of [`RestitutionRow::error_percent`] over the rows from `least` to
+    /// `greatest` requested restitution (%). The literature quotes 0.1 to 1.0, and
+    /// 0.5 to 0.8 where building materials are (Papi and Toopchi-Nezhad 2022).
+    #[must_use]
+    pub fn mean_error_percent(&self, least: f64, greatest: f64) -> f64 {
+        let errors: Vec<f64> = self
+            .rows
+            .iter()
+            .filter(|row| row.requested > least - 1e-9 && row.requested < greatest + 1e-9)
+            .map(RestitutionRow::error_percent)
+            .collect();
+        errors.iter().sum::<f64>() / errors.len() as f64
+    }
+}
+
+/// Runs one model over [`REQUESTED`] with otherwise the same parameters.
+///
+/// # Errors
+/// A model that takes no restitution, wrong parameters, or a collision that fails.
+pub fn restitution_table(
+    descriptor: &'static ModelDescriptor,
+    parameters: &ModelParameters,
+    bodies: &Bodies,
+    options: &CollisionOptions,
+) -> Result<RestitutionTable, GapElementError> {
+    let rows = REQUESTED
+        .iter()
+        .map(|&requested| {
+            let mut parameters = parameters.clone();
+            parameters
+                .values
+                .insert("restitution".to_owned(), requested);
+            let model = crate::registry::build(descriptor.name, &parameters)?;
+            let outcome = collide_with(model.as_ref(), bodies, options)?;
+            Ok(RestitutionRow { requested, outcome })
+        })
+        .collect::<Result<_, GapElementError>>()?;
+    Ok(RestitutionTable { descriptor, rows })
+}

@@ -95,6 +95,23 @@ pub struct ReferenceValues {
     pub contact_levels: Vec<f64>,
 }
 
+/// Short names of the models in the reference data.
+pub const REFERENCE_MODELS: [&str; 13] = [
+    "linear",
+    "kv",
+    "kv_cut",
+    "mj",
+    "yeli",
+    "papi",
+    "hertz",
+    "hertzdamp",
+    "jank",
+    "hunt",
+    "flores",
+    "fricl",
+    "frich",
+];
+
 /// Reads the reference cases.
 ///
 /// # Errors
@@ -182,6 +199,10 @@ fn reference_model(
         "hertz" => ("hertz_1882", vec![hertz]),
         "hertzdamp" => ("muthukumar_desroches_2006", vec![hertz, e]),
         "jank" => ("jankowski_2005", vec![hertz, e]),
+        "yeli" => ("ye_li_2009", vec![linear, e]),
+        "papi" => ("papi_toopchi_2022", vec![linear, e]),
+        "hunt" => ("hunt_crossley_1975", vec![hertz, e]),
+        "flores" => ("flores_2011", vec![hertz, e]),
         "fricl" => ("borovin_2014", vec![linear, e, ("exponent", 1.0)]),
         "frich" => ("borovin_2014", vec![hertz, e, ("exponent", 1.5)]),
         other => return Err(format!("no model {other} in the reference data").into()),

@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use pounding_time_history::{GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run};
-use verification::{ReferenceCase, reference_cases, reference_system, synthetic_motion};
+use verification::{
+    REFERENCE_MODELS, ReferenceCase, reference_cases, reference_system, synthetic_motion,
+};
 
 const ADAPTIVE: MethodChoice = MethodChoice::Adaptive {
     relative_tolerance: 1e-10,
@@ -188,17 +190,7 @@ fn two_runs_give_the_same_bits() {
 #[test]
 fn the_log_of_impacts_sums_up_to_the_ledger() {
     let cases = reference_cases().unwrap();
-    for model in [
-        "linear",
-        "kv",
-        "kv_cut",
-        "mj",
-        "hertz",
-        "hertzdamp",
-        "jank",
-        "fricl",
-        "frich",
-    ] {
+    for model in REFERENCE_MODELS {
         let system =
             reference_system(&cases.cases["C3a"], model, synthetic_motion().unwrap(), 1.0).unwrap();
         let outcome = solve(&system, ADAPTIVE);
@@ -229,17 +221,7 @@ fn the_log_of_impacts_sums_up_to_the_ledger() {
 #[test]
 fn touching_buildings_run() {
     let cases = reference_cases().unwrap();
-    for model in [
-        "linear",
-        "kv",
-        "kv_cut",
-        "mj",
-        "hertz",
-        "hertzdamp",
-        "jank",
-        "fricl",
-        "frich",
-    ] {
+    for model in REFERENCE_MODELS {
         let system =
             reference_system(&cases.cases["C2"], model, synthetic_motion().unwrap(), 0.0).unwrap();
         let outcome = solve(&system, ADAPTIVE);

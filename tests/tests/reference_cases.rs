@@ -6,19 +6,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use pounding_time_history::{Outcome, RunOptions, run};
-use verification::{ReferenceValues, reference_cases, reference_system, synthetic_motion};
-
-const MODELS: [&str; 9] = [
-    "linear",
-    "kv",
-    "kv_cut",
-    "mj",
-    "hertz",
-    "hertzdamp",
-    "jank",
-    "fricl",
-    "frich",
-];
+use verification::{
+    REFERENCE_MODELS, ReferenceValues, reference_cases, reference_system, synthetic_motion,
+};
 
 /// Largest relative difference between two lists.
 fn difference(name: &str, computed: &[f64], reference: &[f64], worst: &mut f64) {
@@ -124,7 +114,7 @@ fn check_case(name: &str) {
     let cases = reference_cases().unwrap();
     let case = &cases.cases[name];
     let mut failures = Vec::new();
-    for model in MODELS {
+    for model in REFERENCE_MODELS {
         let system = reference_system(case, model, synthetic_motion().unwrap(), 1.0).unwrap();
         let label = format!("{name} {model}");
         match run(&system, &RunOptions::default(), &mut [], &mut |_| {}) {

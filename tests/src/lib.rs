@@ -137,6 +137,33 @@ pub fn synthetic_motion() -> Result<GroundAcceleration, Failure> {
     })
 }
 
+/// A ground acceleration (m/s2) that does not change over a duration (s).
+#[must_use]
+pub fn constant_ground(acceleration: f64, duration: f64) -> GroundAcceleration {
+    let samples = 101;
+    GroundAcceleration {
+        samples: vec![acceleration; samples].into(),
+        time_step: duration / (samples - 1) as f64,
+    }
+}
+
+/// An undamped single storey of this mass (kg) and stiffness (N/m).
+///
+/// # Panics
+/// If they are not positive.
+#[must_use]
+pub fn single_storey(name: &str, mass: f64, stiffness: f64) -> Arc<ShearBuilding> {
+    let none = Damping::Rayleigh {
+        alpha: 0.0,
+        beta: 0.0,
+    };
+    let (mass, stiffness) = (vec![mass], vec![stiffness]);
+    match ShearBuilding::new(name.to_owned(), mass, stiffness, vec![3.0], none) {
+        Ok(building) => Arc::new(building),
+        Err(error) => panic!("{error}"),
+    }
+}
+
 /// The system of a reference case with one of the short-named models; `scale`
 /// multiplies all gaps.
 ///

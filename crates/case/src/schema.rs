@@ -102,6 +102,16 @@ pub(crate) const BUILDING: &[Key] = &[
         Kind::Quantities,
         "Storey height (m), one for all storeys or a list, bottom first",
     ),
+    key(
+        "initial_displacement",
+        Kind::Quantities,
+        "Floor displacement relative to the ground at time zero (m), one for all floors or a list; by default at rest",
+    ),
+    key(
+        "initial_velocity",
+        Kind::Quantities,
+        "Floor velocity relative to the ground at time zero (m/s), one for all floors or a list; by default at rest",
+    ),
     needed(
         "damping",
         Kind::Choice(DAMPING, DAMPING_KINDS),
@@ -176,7 +186,7 @@ pub(crate) const GAP: &[Key] = &[
     key(
         "separation",
         Kind::Text,
-        "zero_penetration or no_tension, where the model offers both",
+        "zero_penetration, no_tension, no_tension_latched or gap_shift, where the model offers more than one",
     ),
     key(
         "*",

@@ -45,6 +45,10 @@ pub struct Building {
     pub stiffness: Vec<f64>,
     /// Storey heights (m).
     pub height: Vec<f64>,
+    /// Floor displacements relative to the ground at time zero (m).
+    pub initial_displacement: Located<Vec<f64>>,
+    /// Floor velocities relative to the ground at time zero (m/s).
+    pub initial_velocity: Vec<f64>,
     /// Damping.
     pub damping: Located<Damping>,
 }

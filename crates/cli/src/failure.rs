@@ -70,9 +70,9 @@ impl Failure {
         match error {
             TimeHistoryError::Case(error) => Self::case(error, source),
             TimeHistoryError::GroundMotion(error) => Self::input(error.to_string(), help),
-            error @ (TimeHistoryError::GapDefinition { .. } | TimeHistoryError::Option { .. }) => {
-                Self::input(error.to_string(), help)
-            }
+            error @ (TimeHistoryError::GapDefinition { .. }
+            | TimeHistoryError::InitialState { .. }
+            | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error @ TimeHistoryError::ResultFile { .. } => {
                 Self::Output(plain(error.to_string(), help))
             }

@@ -71,6 +71,7 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
         });
         system.add_gap(&gap.name, names, pairs)?;
     }
+    let system = released(case, system)?;
     options.check(&system)?;
     Ok(Assembly {
         system,
@@ -78,6 +79,27 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
         output_step: case.analysis.output_step,
         accelerogram,
     })
+}
+
+/// Puts the buildings where the case lets them go.
+fn released(case: &Case, system: System) -> Result<System, CaseError> {
+    let all = |pick: fn(&Building) -> &[f64]| -> Vec<f64> {
+        case.buildings.iter().flat_map(pick).copied().collect()
+    };
+    let displacement = all(|b| &b.initial_displacement.value);
+    let velocity = all(|b| &b.initial_velocity);
+    let moved = case.buildings.iter().find(|b| {
+        let away = |x: &f64| *x != 0.0;
+        b.initial_displacement.value.iter().any(away)
+    });
+    let place = moved.or(case.buildings.first());
+    let span = place.map_or(0..0, |b| b.initial_displacement.span.clone());
+    system
+        .with_initial_state(&displacement, &velocity)
+        .map_err(|e| {
+            let help = "choose initial displacements that leave every gap open".to_owned();
+            case.error(span, e.to_string(), Some(help))
+        })
 }
 
 fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {

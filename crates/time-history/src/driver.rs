@@ -132,18 +132,27 @@ impl<'a> Driver<'a> {
         let dynamics = Dynamics::new(system);
         let layout = dynamics.layout;
         let zeros = || vec![0.0; layout.dimension()];
+        let mut state = zeros();
+        state[..2 * layout.dofs].copy_from_slice(system.initial_state());
+        let contacts = Contacts::all_open(system);
+        // What the buildings bring along counts as put in.
+        let brought = ledger::energy(system, layout, &contacts, &state);
+        state[layout.input()] = brought.kinetic + brought.strain;
         Self {
             system,
             options,
             method: options.build_method(system),
-            contacts: Contacts::all_open(system),
+            contacts,
             finder: Finder::new(layout),
             peaks: Peaks::new(layout),
             log: ImpactLog::new(system),
-            state: zeros(),
+            ledger: Ledger {
+                largest_input: state[layout.input()],
+                ..Ledger::default()
+            },
+            state,
             new_state: zeros(),
             interpolated: zeros(),
-            ledger: Ledger::default(),
             largest_residual: 0.0,
             statistics: Statistics::default(),
             at_once: vec![0; layout.levels],

@@ -20,6 +20,12 @@ pub enum TimeHistoryError {
         /// What is wrong.
         reason: String,
     },
+    /// The buildings cannot start from where they were put.
+    #[error("initial state: {reason}")]
+    InitialState {
+        /// What is wrong.
+        reason: String,
+    },
     /// An option of the analysis is out of range.
     #[error("analysis: {option} = {value} is out of range: {reason}")]
     Option {

@@ -114,7 +114,8 @@ pub struct GapOutcome {
 /// The energy ledger at one time (J), relative to the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Energy {
-    /// Work of the ground motion on the buildings, `-sum m int v a_g dt`.
+    /// Work of the ground motion on the buildings, `-sum m int v a_g dt`, and the
+    /// energy that they had at time zero.
     pub input: f64,
     /// Kinetic energy relative to the ground.
     pub kinetic: f64,

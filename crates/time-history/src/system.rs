@@ -72,6 +72,8 @@ pub struct System {
     levels: Vec<ContactLevel>,
     ground: GroundAcceleration,
     mass: Vec<f64>,
+    /// Displacements, then velocities at time zero.
+    initial: Vec<f64>,
 }
 
 impl System {
@@ -90,8 +92,55 @@ impl System {
             gaps: Vec::new(),
             levels: Vec::new(),
             ground,
+            initial: vec![0.0; 2 * mass.len()],
             mass,
         }
+    }
+
+    /// The same system, let go at time zero from these floor displacements (m) and
+    /// velocities (m/s) relative to the ground, buildings from the left.
+    ///
+    /// # Errors
+    /// Lists of the wrong length or with a value that is not finite, or floors that
+    /// overlap across a gap.
+    pub fn with_initial_state(
+        mut self,
+        displacement: &[f64],
+        velocity: &[f64],
+    ) -> Result<Self, TimeHistoryError> {
+        let n = self.mass.len();
+        let initial: Vec<f64> = displacement.iter().chain(velocity).copied().collect();
+        let wrong = displacement.len() != n || velocity.len() != n;
+        if wrong || !initial.iter().all(|x| x.is_finite()) {
+            return Err(TimeHistoryError::InitialState {
+                reason: format!("it takes {n} finite displacements and as many velocities"),
+            });
+        }
+        for gap in &self.gaps {
+            for (k, level) in self.levels[gap.first_level..gap.first_level + gap.levels]
+                .iter()
+                .enumerate()
+            {
+                let overlap = level.relative(displacement) - level.width;
+                if overlap > 0.0 {
+                    return Err(TimeHistoryError::InitialState {
+                        reason: format!(
+                            "gap {} overlaps by {overlap} m at its level {}",
+                            gap.name,
+                            k + 1
+                        ),
+                    });
+                }
+            }
+        }
+        self.initial = initial;
+        Ok(self)
+    }
+
+    /// Displacements (m), then velocities (m/s) of all floors at time zero.
+    #[must_use]
+    pub fn initial_state(&self) -> &[f64] {
+        &self.initial
     }
 
     /// Adds a gap. `pairs` holds left floor, right floor, width (m) and model of
@@ -173,7 +222,10 @@ impl System {
     /// The same buildings and ground motion without gaps: the isolated run.
     #[must_use]
     pub fn isolated(&self) -> Self {
-        Self::new(self.buildings.clone(), self.ground.clone())
+        Self {
+            initial: self.initial.clone(),
+            ..Self::new(self.buildings.clone(), self.ground.clone())
+        }
     }
 
     /// Buildings from the left.

@@ -30,25 +30,40 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
     let mass = read("mass", Dimension::MASS)?;
     let stiffness = read("stiffness", Dimension::STIFFNESS)?;
     let height = read("height", Dimension::LENGTH)?;
+    let start = |key: &'static str, dimension| {
+        let value = table.get(key);
+        value
+            .map(|value| reader.list(value, key, |v| reader.quantity(v, key, dimension)))
+            .transpose()
+    };
+    let displacement = start("initial_displacement", Dimension::LENGTH)?;
+    let velocity = start("initial_velocity", Dimension::VELOCITY)?;
     let stated = table
         .get("storeys")
         .map(|v| reader.count(v, "storeys", 1))
         .transpose()?;
-    let storeys = storeys(
-        &table,
-        stated,
-        [
-            ("mass", &mass),
-            ("stiffness", &stiffness),
-            ("height", &height),
-        ],
-    )?;
+    let mut lists = vec![
+        ("mass", &mass),
+        ("stiffness", &stiffness),
+        ("height", &height),
+    ];
+    lists.extend(displacement.iter().map(|l| ("initial_displacement", l)));
+    lists.extend(velocity.iter().map(|l| ("initial_velocity", l)));
+    let storeys = storeys(&table, stated, &lists)?;
     let all = |list: List| match list.values {
         Values::Scalar(x) => vec![x; storeys],
         Values::List(values) => values,
     };
+    let at_start = |list: Option<List>| list.map_or_else(|| vec![0.0; storeys], all);
     let value = table.required("damping")?;
     Ok(Building {
+        initial_displacement: Located {
+            span: displacement
+                .as_ref()
+                .map_or_else(|| name.span.clone(), |l| l.span.clone()),
+            value: at_start(displacement),
+        },
+        initial_velocity: at_start(velocity),
         name,
         mass: all(mass),
         stiffness: all(stiffness),
@@ -64,10 +79,10 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
 fn storeys(
     table: &Table<'_, '_>,
     stated: Option<usize>,
-    lists: [(&str, &List); 3],
+    lists: &[(&str, &List)],
 ) -> Result<usize, CaseError> {
     let mut known = stated.map(|n| ("storeys", n));
-    for (key, list) in lists {
+    for &(key, list) in lists {
         let Values::List(values) = &list.values else {
             continue;
         };

@@ -175,6 +175,23 @@ pub fn reference_system(
     ground: GroundAcceleration,
     scale: f64,
 ) -> Result<System, Failure> {
+    reference_system_with(case, &|link| reference_model(link, model), ground, scale)
+}
+
+/// Any impact model.
+pub type AnyModel = Arc<dyn pounding_gap_element::ImpactModel>;
+
+/// The system of a reference case with the impact model that `model` gives each
+/// level; `scale` multiplies all gaps.
+///
+/// # Errors
+/// If the case is not well defined.
+pub fn reference_system_with(
+    case: &ReferenceCase,
+    model: &dyn Fn(&ReferenceLink) -> Result<AnyModel, Failure>,
+    ground: GroundAcceleration,
+    scale: f64,
+) -> Result<System, Failure> {
     let mut buildings = Vec::new();
     let mut place = Vec::new();
     for (index, b) in case.buildings.iter().enumerate() {
@@ -199,7 +216,7 @@ pub fn reference_system(
                 Floor::Storey(a.0, a.1),
                 Floor::Storey(b.0, b.1),
                 link.gap * scale,
-                reference_model(link, model)?,
+                model(link)?,
             ));
         }
         let between = [
@@ -212,10 +229,7 @@ pub fn reference_system(
 }
 
 /// The model of a level by its short name in the reference data.
-fn reference_model(
-    link: &ReferenceLink,
-    model: &str,
-) -> Result<Arc<dyn pounding_gap_element::ImpactModel>, Failure> {
+fn reference_model(link: &ReferenceLink, model: &str) -> Result<AnyModel, Failure> {
     let linear = ("stiffness", link.k_lin);
     let hertz = ("stiffness", link.k_hertz);
     let e = ("restitution", link.e);

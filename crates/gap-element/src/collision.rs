@@ -138,10 +138,17 @@ fn outcome(
         .mass_right
         .map_or(0.0, |m| bodies.velocity_right + impulse / m);
     let reading = flight.reading.or_else(|| {
-        options
-            .read_at
-            .filter(|_| !stays_in_contact)
-            .and_then(|time| fly_on(&flight, time, options.pressing_acceleration))
+        let time = options.read_at?;
+        if stays_in_contact {
+            // Bodies that end together before their reading stick.
+            return Some(CollisionSample {
+                time,
+                penetration: flight.state[0],
+                velocity: 0.0,
+                force: flight.collision.effective_mass * options.pressing_acceleration,
+            });
+        }
+        fly_on(&flight, time, options.pressing_acceleration)
     });
     CollisionOutcome {
         restitution: separation / approach,

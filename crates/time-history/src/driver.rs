@@ -122,6 +122,8 @@ struct Driver<'a> {
     /// Events of each level at the present instant.
     at_once: Vec<usize>,
     mute: Vec<Mute>,
+    /// Step (s) that a muted level makes.
+    quiet: Vec<f64>,
     stalled: usize,
     last_ground: f64,
     rigid: RigidImpacts,
@@ -157,6 +159,7 @@ impl<'a> Driver<'a> {
             statistics: Statistics::default(),
             at_once: vec![0; layout.levels],
             mute: vec![Mute::No; layout.levels],
+            quiet: vec![PROGRESS_STEP; layout.levels],
             stalled: 0,
             last_ground: f64::NAN,
             rigid: RigidImpacts::default(),
@@ -200,8 +203,10 @@ impl<'a> Driver<'a> {
         let mut tau = 0.0;
         while tau < segment.length {
             let mut step = self.method.propose(segment, tau);
-            if self.mute.iter().any(|m| *m != Mute::No) {
-                step = step.min(PROGRESS_STEP);
+            for (mute, quiet) in self.mute.iter().zip(&self.quiet) {
+                if *mute != Mute::No {
+                    step = step.min(*quiet);
+                }
             }
             let rest = segment.length - tau;
             step = self.trial(segment, tau, step)?;

@@ -130,14 +130,18 @@ impl<'a> Flight<'a> {
     }
 
     /// Parting takes a kinetic energy at zero penetration; less than nothing is
-    /// left for it, and no law here gives energy back that it did not store.
+    /// left for it, and no law here gives energy back that it did not store. The
+    /// motion goes on as long as a reading is wanted.
     fn rests(&self) -> bool {
         let [delta, velocity, _] = self.state;
         let (mass, pressing) = (self.collision.effective_mass, self.pressing);
         let stored = self
             .model
             .stored_energy(&self.collision, &self.memory, self.phase, delta);
-        pressing > 0.0 && 0.5 * mass * velocity * velocity + stored - mass * pressing * delta < 0.0
+        let unread = self.read_at.is_some_and(|t| t > self.time);
+        pressing > 0.0
+            && !unread
+            && 0.5 * mass * velocity * velocity + stored - mass * pressing * delta < 0.0
     }
 
     /// Changes the phase at a located transition; tells if that ends the contact.

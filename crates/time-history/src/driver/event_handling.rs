@@ -2,7 +2,9 @@
 
 use pounding_gap_element::{Memory, Phase, SeparationRule, Target};
 
-use super::{CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, SIMULTANEOUS};
+use super::{
+    CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, PROGRESS_STEP, SIMULTANEOUS,
+};
 use super::{Driver, Mute};
 use crate::contact::Contact;
 use crate::dynamics::Segment;
@@ -75,7 +77,12 @@ impl Driver<'_> {
             }
             let rigid = self.is_rigid(other.level);
             if rigid && other.kind == EventKind::Close {
-                self.rigid.closing.push(other.level);
+                if self.only_touches(segment, tau, other.level) {
+                    self.keep_quiet(other.level);
+                } else {
+                    self.rigid.closing.push(other.level);
+                    self.quiet[other.level] = PROGRESS_STEP;
+                }
             } else {
                 self.fire(segment, tau, *other);
             }
@@ -138,7 +145,11 @@ impl Driver<'_> {
                             self.log.widen(l, left);
                         }
                         self.open(l, time);
-                        self.mute[l] = Mute::Start;
+                        if self.is_rigid(l) {
+                            self.keep_quiet(l);
+                        } else {
+                            self.mute[l] = Mute::Start;
+                        }
                         return;
                     }
                     Target::Phase(phase) => phase,

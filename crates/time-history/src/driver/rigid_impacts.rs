@@ -8,7 +8,7 @@
 
 use pounding_gap_element::{Memory, Phase};
 
-use super::Driver;
+use super::{Driver, Mute};
 use crate::complementarity::Complementarity;
 use crate::contact::Contact;
 use crate::dynamics::{Segment, coupling};
@@ -18,6 +18,12 @@ use crate::outcome::Peak;
 /// taken as accomplished: the floors then stay in contact. Positions carry their
 /// own round-off of about 1e-17 m, in which lower hops would drown.
 const LOWEST_HOP: f64 = 1.0e-12;
+
+/// Round-off of a relative velocity, as a part of the velocities.
+const ROUND_OFF: f64 = 1.0e-14;
+
+/// Longest time (s) for which a level is let be.
+const LONGEST_QUIET: f64 = 1.0e-4;
 
 /// Open floors closer than this (m) take part in an impact of their neighbours.
 const TOUCHING: f64 = 1.0e-12;
@@ -43,6 +49,40 @@ impl Driver<'_> {
     pub(super) fn is_rigid(&self, level: usize) -> bool {
         let model = &self.system.levels()[level].model;
         model.rigid_restitution().is_some()
+    }
+
+    /// Whether floors that meet neither approach nor are pressed together: after a
+    /// lasting contact the gap opens like the cube of time, and until then its sign
+    /// is round-off.
+    pub(super) fn only_touches(&mut self, segment: &Segment, tau: f64, l: usize) -> bool {
+        let n = self.dynamics.layout.dofs;
+        let level = &self.system.levels()[l];
+        let round_off = self.velocity_round_off(l);
+        let approach = level.relative(&self.state[n..2 * n]);
+        if approach > round_off {
+            return false;
+        }
+        let collision = level.model.begin(0.0, level.effective_mass);
+        self.contacts.close(l, lasting(collision));
+        let holding = self.holding_force(segment, tau, l);
+        self.contacts.open(l);
+        approach < -round_off || holding <= 0.0
+    }
+
+    /// Round-off of the relative velocity of a level (m/s).
+    fn velocity_round_off(&self, l: usize) -> f64 {
+        let n = self.dynamics.layout.dofs;
+        let level = &self.system.levels()[l];
+        let speed = |floor: Option<usize>| floor.map_or(0.0, |i| self.state[n + i].abs());
+        ROUND_OFF * (speed(level.left) + speed(level.right))
+    }
+
+    /// Lets a level be for a while, ever longer if it does not come to rest.
+    pub(super) fn keep_quiet(&mut self, l: usize) {
+        if self.mute[l] != Mute::Step {
+            self.mute[l] = Mute::Step;
+            self.quiet[l] = (2.0 * self.quiet[l]).min(LONGEST_QUIET);
+        }
     }
 
     /// Applies the jumps of all rigid levels in touch at this instant.
@@ -79,9 +119,10 @@ impl Driver<'_> {
             let l = work.active[k];
             let asked = self.system.levels()[l].model.rigid_restitution();
             let restitution = asked.unwrap_or(0.0);
-            let new = self.contacts.contact(l).is_none() && work.before[k] >= 0.0;
-            let left = if new {
-                self.accumulation(segment, tau, l, work.before[k], restitution)
+            let approaches = work.before[k] >= -self.velocity_round_off(l);
+            let left = if self.contacts.contact(l).is_none() && approaches {
+                let approach = work.before[k].max(0.0);
+                self.accumulation(segment, tau, l, approach, restitution)
             } else {
                 f64::NAN
             };
@@ -197,7 +238,7 @@ impl Driver<'_> {
         let after = self.system.levels()[l].relative(&self.state[n..2 * n]);
         let remains = work.accumulation[k].is_finite() || work.restitution[k] == 0.0;
         // Round-off of a plastic impact must not count as parting.
-        let round_off = 1.0e-12 * (work.before[k].abs() + 1.0e-6);
+        let round_off = self.velocity_round_off(l);
         if after < -round_off || (after < 0.0 && !remains) {
             self.open(l, time);
             return;
@@ -230,6 +271,7 @@ impl Driver<'_> {
                 return;
             };
             self.open(l, time);
+            self.keep_quiet(l);
         }
     }
 }

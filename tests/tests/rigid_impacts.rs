@@ -1,0 +1,272 @@
+//! Impacts without compliance: velocity jumps, several at once, lasting contact.
+//!
+//! Checked against Newton's law of impact by hand, and against contact that is made
+//! ever stiffer.
+#![allow(clippy::unwrap_used)]
+
+use std::sync::Arc;
+
+use pounding_gap_element::{ImpactModel, ModelParameters, registry};
+use pounding_time_history::{
+    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
+};
+use verification::{
+    constant_ground, reference_cases, reference_system_with, single_storey, synthetic_motion,
+};
+
+fn rigid(restitution: f64) -> Arc<dyn ImpactModel> {
+    let parameters = ModelParameters::from_pairs(&[("restitution", restitution)]);
+    registry::build("stereomechanical", &parameters)
+        .unwrap()
+        .into()
+}
+
+fn go(system: &System, duration: f64) -> Outcome {
+    let options = RunOptions {
+        duration: Some(duration),
+        ..RunOptions::default()
+    };
+    run(system, &options, &mut [], &mut |_| {}).unwrap()
+}
+
+/// Free bodies (kg) in a row with gaps (m) between them, and a wall at the right if
+/// there is a gap for it.
+fn row(masses: &[f64], gaps: &[f64], e: f64, ground: GroundAcceleration) -> System {
+    let name = |i: usize| format!("body{i}");
+    let bodies = masses.iter().enumerate();
+    let bodies = bodies.map(|(i, m)| single_storey(&name(i), *m, 1.0e-12 * m));
+    let mut system = System::new(bodies.collect(), ground);
+    for (i, gap) in gaps.iter().enumerate() {
+        let wall = i + 1 == masses.len();
+        let (right, next) = if wall {
+            (Floor::Wall, "wall".to_owned())
+        } else {
+            (Floor::Storey(i + 1, 0), name(i + 1))
+        };
+        let pair = (Floor::Storey(i, 0), right, *gap, rigid(e));
+        let gap_name = format!("gap{i}");
+        system
+            .add_gap(&gap_name, [name(i), next], vec![pair])
+            .unwrap();
+    }
+    system
+}
+
+fn near(what: &str, computed: &[f64], expected: &[f64]) {
+    assert_eq!(computed.len(), expected.len(), "{what}");
+    for (a, b) in computed.iter().zip(expected) {
+        assert!(
+            (a - b).abs() < 1e-9,
+            "{what}: {computed:?}, not {expected:?}"
+        );
+    }
+}
+
+/// Bodies of 1 and 2 kg at 1 and -0.5 m/s, e = 0.6: -0.6 and 0.3 m/s, 1.6 N s.
+#[test]
+fn newtons_law_for_two_bodies() {
+    let system = row(&[1.0, 2.0], &[0.3], 0.6, constant_ground(0.0, 1.0));
+    let system = system
+        .with_initial_state(&[0.0, 0.0], &[1.0, -0.5])
+        .unwrap();
+    let outcome = go(&system, 0.5);
+    near("velocities", &outcome.final_velocity, &[-0.6, 0.3]);
+    let impact = &outcome.impacts[0];
+    near(
+        "impact",
+        &[impact.impulse, impact.time_closed, impact.time_opened],
+        &[1.6, 0.2, 0.2],
+    );
+    near("loss", &[impact.energy_dissipated], &[0.75 - 0.27]);
+    assert!(impact.peak_force.value.is_nan(), "a jump has no force");
+}
+
+/// A body runs into two that touch: Newton's law in both contacts at once gives
+/// -1/3, 2/3, 2/3 at e = 1, not what two impacts after one another would.
+#[test]
+fn a_chain_in_contact_is_solved_as_one() {
+    let masses = [1.0, 1.0, 1.0];
+    let system = row(&masses, &[0.25, 0.0], 1.0, constant_ground(0.0, 1.0));
+    let system = system
+        .with_initial_state(&[0.0; 3], &[1.0, 0.0, 0.0])
+        .unwrap();
+    let outcome = go(&system, 1.0);
+    let third = 1.0 / 3.0;
+    near(
+        "velocities",
+        &outcome.final_velocity,
+        &[-third, 2.0 * third, 2.0 * third],
+    );
+    assert!(outcome.energy.end.impact.abs() < 1e-12);
+    // A body that did not move parts from one that jumps without an impulse.
+    let system = row(&masses, &[0.25, 0.0], 0.5, constant_ground(0.0, 1.0));
+    let system = system
+        .with_initial_state(&[0.0; 3], &[0.0, 0.0, 1.0])
+        .unwrap();
+    near(
+        "untouched",
+        &go(&system, 1.0).final_velocity,
+        &[0.0, 0.0, 1.0],
+    );
+}
+
+/// Two bodies meet a third from both sides at one instant: it stays where it is.
+#[test]
+fn simultaneous_impacts_from_both_sides() {
+    for e in [0.0, 0.5, 1.0] {
+        let system = row(
+            &[2.0, 1.0, 2.0],
+            &[0.25, 0.25],
+            e,
+            constant_ground(0.0, 1.0),
+        );
+        let system = system
+            .with_initial_state(&[0.0; 3], &[1.0, 0.0, -1.0])
+            .unwrap();
+        let outcome = go(&system, 0.5);
+        near("velocities", &outcome.final_velocity, &[-e, 0.0, e]);
+        let closed: Vec<f64> = outcome.impacts.iter().map(|i| i.time_closed).collect();
+        near("closures", &closed, &[0.25, 0.25]);
+    }
+}
+
+/// Pressed to the wall by the ground, the body stays there after ever shorter hops
+/// and leaves when the ground turns: at 1.05 s by the record's own straight line.
+#[test]
+fn lasting_contact_ends_when_the_ground_turns() {
+    let mut samples = vec![-1.0; 11];
+    samples.extend([1.0; 20]);
+    let ground = GroundAcceleration {
+        samples: samples.into(),
+        time_step: 0.1,
+    };
+    let system = row(&[3.0], &[0.02], 0.3, ground);
+    let outcome = go(&system, 1.5);
+    let first = (2.0 * 0.02_f64).sqrt();
+    let last = outcome.impacts.last().unwrap();
+    near(
+        "accumulation and release",
+        &[last.time_closed, last.time_opened],
+        &[first * 1.3 / 0.7, 1.05],
+    );
+    near("weight", &[last.peak_force.value], &[3.0]);
+    // From 1.05 s the ground pulls: a = 20 t for 0.05 s, then 1 m/s2.
+    let speed = 0.5 * 20.0 * 0.05_f64.powi(2) + 0.4;
+    near("after", &outcome.final_velocity, &[-speed]);
+    assert_eq!(outcome.gaps[0].levels[0].sticks, 1);
+    assert!(outcome.energy.residual_ratio < 1e-12);
+}
+
+/// Plastic impact: both go on as one, and each lets go when it should pull.
+#[test]
+fn plastic_impact_holds_without_pulling() {
+    let system = row(&[1.0, 3.0], &[0.1], 0.0, constant_ground(0.0, 1.0));
+    let system = system.with_initial_state(&[0.0; 2], &[2.0, 0.0]).unwrap();
+    let outcome = go(&system, 1.0);
+    near("velocities", &outcome.final_velocity, &[0.5, 0.5]);
+    near("loss", &[outcome.energy.end.impact], &[2.0 - 0.5]);
+}
+
+/// Isolated buildings of case C1 with rigid impacts are the limit of contact that is
+/// made ever stiffer: the difference falls like the contact time.
+#[test]
+fn rigid_is_the_limit_of_stiff() {
+    let cases = reference_cases().unwrap();
+    let case = &cases.cases["C1"];
+    let end = |law: Arc<dyn ImpactModel>| {
+        let ground = synthetic_motion().unwrap();
+        let system = reference_system_with(case, &|_| Ok(Arc::clone(&law)), ground, 1.0).unwrap();
+        let outcome = go(&system, 12.0);
+        assert!(outcome.impacts.len() > 5, "{}", outcome.impacts.len());
+        (outcome.impacts.len(), outcome.final_displacement)
+    };
+    let (count, limit) = end(rigid(0.65));
+    let distance = |stiffness: f64| {
+        let parameters =
+            ModelParameters::from_pairs(&[("stiffness", stiffness), ("restitution", 0.65)]);
+        let law = registry::build("exact_kelvin_voigt", &parameters).unwrap();
+        let (impacts, u) = end(law.into());
+        assert_eq!(impacts, count);
+        let squares = u.iter().zip(&limit).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    };
+    let distances = [1.0e11, 1.6e12, 2.56e13].map(distance);
+    // Sixteen times as stiff, a quarter of the contact time.
+    for pair in distances.windows(2) {
+        let ratio = pair[0] / pair[1];
+        assert!((3.6..4.4).contains(&ratio), "{distances:?}");
+    }
+    assert!(distances[2] < 1e-4, "{distances:?}");
+}
+
+#[test]
+fn energy_and_momentum_over_many_rigid_impacts() {
+    let cases = reference_cases().unwrap();
+    for (name, e) in [("C2", 1.0), ("C2", 0.0), ("C3a", 0.4), ("C4", 0.65)] {
+        let ground = synthetic_motion().unwrap();
+        let case = &cases.cases[name];
+        let system = reference_system_with(case, &|_| Ok(rigid(e)), ground, 1.0).unwrap();
+        let outcome = go(&system, 30.0);
+        let energy = &outcome.energy;
+        assert!(energy.residual_ratio < 1e-10, "{name}: {energy:?}");
+        let logged: f64 = outcome.impacts.iter().map(|i| i.energy_dissipated).sum();
+        assert!((logged - energy.end.impact).abs() < 1e-10 * energy.largest_input);
+        if e == 1.0 {
+            assert!(energy.end.impact.abs() < 1e-10 * energy.largest_input);
+        } else {
+            assert!(energy.end.impact > 1e-3 * energy.largest_input);
+        }
+        // Floors must not pass through one another.
+        for gap in &outcome.gaps {
+            for level in &gap.levels {
+                assert!(level.peak_penetration.value < 1e-9, "{name}: {level:?}");
+                assert_eq!(level.impacts > 0, level.first_contact.is_some());
+            }
+        }
+    }
+}
+
+/// Every method treats the jumps alike, from plastic to elastic, and on a row of five
+/// buildings whose floors are hit from both sides.
+#[test]
+fn all_methods_take_jumps() {
+    let cases = reference_cases().unwrap();
+    let fixed = 1.0e-3;
+    let methods = [
+        MethodChoice::Newmark {
+            step: fixed,
+            beta: 0.25,
+            gamma: 0.5,
+        },
+        MethodChoice::HhtAlpha {
+            step: fixed,
+            alpha: -0.05,
+        },
+        MethodChoice::RungeKutta4 { step: fixed },
+    ];
+    for name in ["C1", "C2", "C3a", "C4"] {
+        let case = &cases.cases[name];
+        for e in [0.0, 0.3, 0.65, 0.95, 1.0] {
+            let ground = synthetic_motion().unwrap();
+            let system = reference_system_with(case, &|_| Ok(rigid(e)), ground, 1.0).unwrap();
+            let adaptive = go(&system, 10.0);
+            for method in methods {
+                let options = RunOptions {
+                    method,
+                    duration: Some(10.0),
+                    energy_tolerance: None,
+                };
+                let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+                let peak = |o: &Outcome| {
+                    let storeys = o.buildings.iter().flat_map(|b| &b.storeys);
+                    storeys.map(|s| s.displacement.value).fold(0.0, f64::max)
+                };
+                let ratio = peak(&outcome) / peak(&adaptive);
+                assert!(
+                    (0.9..1.1).contains(&ratio),
+                    "{name} {e} {method:?}: {ratio}"
+                );
+            }
+        }
+    }
+}

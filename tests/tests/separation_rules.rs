@@ -1,0 +1,125 @@
+//! How contacts end inside the driver: the widening gap, and the latch.
+//!
+//! A free body between two walls moves on straight lines, so that all times follow by
+//! hand from one two-body collision.
+#![allow(clippy::unwrap_used)]
+
+use std::sync::Arc;
+
+use pounding_gap_element::{
+    Bodies, CollisionOptions, ImpactModel, ModelParameters, SeparationRule, collide, collide_with,
+    registry,
+};
+use pounding_time_history::{Floor, Outcome, RunOptions, System, run};
+use verification::{constant_ground, single_storey};
+
+const MASS: f64 = 2.0e4;
+const STIFFNESS: f64 = 9.35e7;
+
+fn kelvin_voigt(rule: SeparationRule) -> Arc<dyn ImpactModel> {
+    let pairs = [("stiffness", STIFFNESS), ("restitution", 0.5)];
+    let parameters = ModelParameters::from_pairs(&pairs).with_separation(rule);
+    registry::build("anagnostopoulos_2004", &parameters)
+        .unwrap()
+        .into()
+}
+
+fn against_wall(approach: f64) -> Bodies {
+    Bodies {
+        mass_left: MASS,
+        mass_right: None,
+        velocity_left: approach,
+        velocity_right: 0.0,
+    }
+}
+
+/// A body as good as free between a wall at the left and one at the right.
+fn between_walls(gap: f64, law: &Arc<dyn ImpactModel>, ground: f64) -> System {
+    let mut system = System::new(
+        vec![single_storey("body", MASS, 1.0e-9)],
+        constant_ground(ground, 4.0),
+    );
+    let (body, wall) = (Floor::Storey(0, 0), Floor::Wall);
+    let names = |a: &str, b: &str| [a.to_owned(), b.to_owned()];
+    let left = vec![(wall, body, gap, Arc::clone(law))];
+    let right = vec![(body, wall, gap, Arc::clone(law))];
+    system.add_gap("left", names("wall", "body"), left).unwrap();
+    system
+        .add_gap("right", names("body", "wall"), right)
+        .unwrap();
+    system
+}
+
+fn go(system: &System, duration: f64) -> Outcome {
+    let options = RunOptions {
+        duration: Some(duration),
+        ..RunOptions::default()
+    };
+    run(system, &options, &mut [], &mut |_| {}).unwrap()
+}
+
+fn near(what: &str, computed: f64, expected: f64) {
+    let error = (computed / expected - 1.0).abs();
+    assert!(
+        error < 1e-9,
+        "{what}: {computed}, not {expected} ({error:e})"
+    );
+}
+
+#[test]
+fn gap_shift_widens_the_gap_for_later_impacts() {
+    let (gap, speed) = (0.05, 0.8);
+    let law = kelvin_voigt(SeparationRule::GapShift);
+    let one = collide(law.as_ref(), &against_wall(speed)).unwrap();
+    let (e, contact) = (one.restitution, one.duration);
+    let left_over = one.history.last().unwrap().penetration;
+    assert!(left_over > 1e-4, "{left_over}");
+    let system = between_walls(gap, &law, 0.0)
+        .with_initial_state(&[0.0], &[speed])
+        .unwrap();
+    let outcome = go(&system, 0.9);
+    // The linear law scales: every impact leaves e times the penetration of the last.
+    let first = gap / speed;
+    let second = first + contact + (2.0 * gap + left_over) / (e * speed);
+    let third = second + contact + (2.0 * gap + left_over * (1.0 + e)) / (e * e * speed);
+    for (k, time) in [first, second, third].into_iter().enumerate() {
+        near("closure", outcome.impacts[k].time_closed, time);
+        near("opening", outcome.impacts[k].time_opened, time + contact);
+    }
+    assert_eq!(outcome.impacts.len(), 3);
+    let widening = |g: usize| outcome.gaps[g].levels[0].gap_widening;
+    near("left gap", widening(0), left_over * e);
+    near("right gap", widening(1), left_over * (1.0 + e * e));
+    assert!(outcome.energy.residual_ratio < 1e-9);
+}
+
+/// Pressed to the wall, the body is let go while it still overlaps and pressed back
+/// before it has left. Without a latch the law acts again as soon as it would push;
+/// with one, once the body approaches again.
+#[test]
+fn the_latch_waits_for_approach() {
+    let (press, speed, gap, read_at) = (60.0, 2.4, 0.1, 0.08);
+    let after = [SeparationRule::NoTension, SeparationRule::NoTensionLatched].map(|rule| {
+        let law = kelvin_voigt(rule);
+        let options = CollisionOptions {
+            pressing_acceleration: press,
+            read_at: Some(read_at),
+        };
+        let two = collide_with(law.as_ref(), &against_wall(speed), &options).unwrap();
+        assert!(two.stays_in_contact);
+        let reading = two.reading.unwrap();
+        // From rest at this distance it meets the wall with the wanted speed.
+        let system = between_walls(gap, &law, -press)
+            .with_initial_state(&[gap - speed * speed / (2.0 * press)], &[0.0])
+            .unwrap();
+        let closure = speed / press;
+        let outcome = go(&system, closure + read_at);
+        near("closure", outcome.impacts[0].time_closed, closure);
+        let penetration = outcome.final_displacement[0] - gap;
+        near("penetration", penetration, reading.penetration);
+        near("velocity", outcome.final_velocity[0], reading.velocity);
+        assert!(outcome.energy.residual_ratio < 1e-9);
+        penetration
+    });
+    assert!((after[0] / after[1] - 1.0).abs() > 1e-2, "{after:?}");
+}

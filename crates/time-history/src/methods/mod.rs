@@ -2,6 +2,7 @@
 //! inside it, accept it; events and their location belong to the driver.
 
 mod adaptive;
+mod effective_mass;
 mod newmark;
 mod runge_kutta_4;
 

@@ -1,8 +1,6 @@
 //! The implicit family: Newmark with any beta and gamma, and HHT-alpha.
 
-use nalgebra::{Cholesky, DMatrix, Dyn};
-use pounding_shear_building::{DampingMatrix, TridiagonalFactor};
-
+use super::effective_mass::EffectiveMass;
 use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
 use crate::dynamics::{Dynamics, Layout, Segment, push_apart};
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
@@ -31,8 +29,7 @@ pub(crate) struct Newmark {
     fixed: f64,
     layout: Layout,
     step: f64,
-    factored_step: f64,
-    factors: Vec<Factor>,
+    effective: EffectiveMass,
     start: Vec<f64>,
     end: Vec<f64>,
     start_acceleration: Option<Vec<f64>>,
@@ -51,13 +48,6 @@ pub(crate) struct Newmark {
     solver: SmallSolver,
     dense: Vec<Polynomial>,
     newton_iterations: u64,
-}
-
-/// Factor of one building's effective mass matrix.
-#[derive(Debug, Clone)]
-enum Factor {
-    Tridiagonal(TridiagonalFactor),
-    Dense(Option<Cholesky<f64, Dyn>>),
 }
 
 impl Newmark {
@@ -90,16 +80,6 @@ impl Newmark {
     fn new(system: &System, information: Information, fixed: f64, weights: [f64; 3]) -> Self {
         let layout = Layout::of(system);
         let zeros = || vec![0.0; layout.dofs];
-        let factors = system
-            .buildings()
-            .iter()
-            .map(|b| match b.damping_matrix() {
-                DampingMatrix::Tridiagonal(_) => {
-                    Factor::Tridiagonal(TridiagonalFactor::new(b.storeys()))
-                }
-                DampingMatrix::Dense(_) => Factor::Dense(None),
-            })
-            .collect();
         Self {
             information,
             beta: weights[0],
@@ -108,8 +88,7 @@ impl Newmark {
             fixed,
             layout,
             step: 0.0,
-            factored_step: 0.0,
-            factors,
+            effective: EffectiveMass::new(system),
             start: vec![0.0; layout.dimension()],
             end: vec![0.0; layout.dimension()],
             start_acceleration: None,
@@ -128,68 +107,6 @@ impl Newmark {
             solver: SmallSolver::default(),
             dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
             newton_iterations: 0,
-        }
-    }
-
-    /// `M + (1 + alpha) (gamma h C + beta h^2 K)` of every building. Returns false
-    /// if a factor fails.
-    fn factor(&mut self, system: &System, h: f64) -> bool {
-        if self.factored_step == h {
-            return true;
-        }
-        self.factored_step = 0.0;
-        let weight = 1.0 + self.alpha;
-        let (wc, wk) = (weight * self.gamma * h, weight * self.beta * h * h);
-        for (building, factor) in system.buildings().iter().zip(&mut self.factors) {
-            let k = building.stiffness_matrix();
-            let mass = building.mass();
-            let done = match (building.damping_matrix(), factor) {
-                (DampingMatrix::Tridiagonal(c), Factor::Tridiagonal(f)) => {
-                    let n = mass.len();
-                    for i in 0..n {
-                        self.scratch[i] = mass[i] + wc * c.diagonal[i] + wk * k.diagonal[i];
-                    }
-                    for i in 0..n - 1 {
-                        self.load[i] = wc * c.off_diagonal[i] + wk * k.off_diagonal[i];
-                    }
-                    f.factor(&self.scratch[..n], &self.load[..n - 1]).is_ok()
-                }
-                (DampingMatrix::Dense(c), Factor::Dense(f)) => {
-                    let n = mass.len();
-                    let a = DMatrix::from_fn(n, n, |i, j| {
-                        let stiffness = match i.abs_diff(j) {
-                            0 => k.diagonal[i],
-                            1 => k.off_diagonal[i.min(j)],
-                            _ => 0.0,
-                        };
-                        let inertia = if i == j { mass[i] } else { 0.0 };
-                        inertia + wc * c[(i, j)] + wk * stiffness
-                    });
-                    *f = a.cholesky();
-                    f.is_some()
-                }
-                _ => false,
-            };
-            if !done {
-                return false;
-            }
-        }
-        self.factored_step = h;
-        true
-    }
-
-    /// Solves with the effective matrices in place, building by building.
-    fn solve(factors: &[Factor], offsets: &[usize], x: &mut [f64]) {
-        for (factor, range) in factors.iter().zip(offsets.windows(2)) {
-            let part = &mut x[range[0]..range[1]];
-            match factor {
-                Factor::Tridiagonal(f) => f.solve_in_place(part),
-                Factor::Dense(Some(f)) => {
-                    let mut view = nalgebra::DVectorViewMut::from_slice(part, part.len());
-                    f.solve_mut(&mut view);
-                }
-                Factor::Dense(None) => part.fill(f64::NAN),
-            }
         }
     }
 
@@ -243,7 +160,7 @@ impl Newmark {
             }
         }
         self.last.copy_from_slice(&self.load);
-        Self::solve(&self.factors, system.offsets(), &mut self.last);
+        self.effective.solve(system, &mut self.last);
     }
 
     /// Flexibility between the closed levels: relative acceleration at one caused
@@ -255,7 +172,7 @@ impl Newmark {
         for (column, &m) in closed.iter().enumerate() {
             self.net.fill(0.0);
             push_apart(&system.levels()[m], -1.0, &mut self.net);
-            Self::solve(&self.factors, system.offsets(), &mut self.net);
+            self.effective.solve(system, &mut self.net);
             for (row, &l) in closed.iter().enumerate() {
                 self.flexibility[row * size + column] = system.levels()[l].relative(&self.net);
             }
@@ -386,7 +303,9 @@ impl Method for Newmark {
         self.step = step;
         self.start.copy_from_slice(state);
         let system = context.dynamics.system;
-        if !self.factor(system, step) {
+        let weight = 1.0 + self.alpha;
+        let weights = (weight * self.gamma * step, weight * self.beta * step * step);
+        if !self.effective.factor(system, weights) {
             return Verdict::Retry(0.5 * step);
         }
         self.start_up(context, tau, state);
@@ -399,11 +318,10 @@ impl Method for Newmark {
             for (k, &l) in context.contacts.closed().iter().enumerate() {
                 push_apart(&system.levels()[l], self.unknowns[k], &mut self.net);
             }
-            let weight = 1.0 + self.alpha;
             for i in 0..self.layout.dofs {
                 self.last[i] = self.load[i] + weight * self.net[i];
             }
-            Self::solve(&self.factors, system.offsets(), &mut self.last);
+            self.effective.solve(system, &mut self.last);
         }
         self.finish(context, tau, state, new_state);
         self.end.copy_from_slice(new_state);

@@ -164,6 +164,49 @@ pub fn single_storey(name: &str, mass: f64, stiffness: f64) -> Arc<ShearBuilding
     }
 }
 
+/// The rigid impact model with this restitution.
+///
+/// # Panics
+/// If the restitution is not in 0..1.
+#[must_use]
+pub fn rigid(restitution: f64) -> AnyModel {
+    let parameters = ModelParameters::from_pairs(&[("restitution", restitution)]);
+    match registry::build("stereomechanical", &parameters) {
+        Ok(model) => model.into(),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Bodies (kg) in a row, as good as free, with rigid impacts across gaps (m) between
+/// them, and a wall at the right if there is a gap for it.
+///
+/// # Panics
+/// If masses or gaps are not possible.
+#[must_use]
+pub fn free_bodies(
+    masses: &[f64],
+    gaps: &[f64],
+    restitution: f64,
+    ground: GroundAcceleration,
+) -> System {
+    let name = |i: usize| format!("body{i}");
+    let bodies = masses.iter().enumerate();
+    let bodies = bodies.map(|(i, m)| single_storey(&name(i), *m, 1.0e-12 * m));
+    let mut system = System::new(bodies.collect(), ground);
+    for (i, gap) in gaps.iter().enumerate() {
+        let (right, next) = if i + 1 == masses.len() {
+            (Floor::Wall, "wall".to_owned())
+        } else {
+            (Floor::Storey(i + 1, 0), name(i + 1))
+        };
+        let pair = (Floor::Storey(i, 0), right, *gap, rigid(restitution));
+        if let Err(error) = system.add_gap(&format!("gap{i}"), [name(i), next], vec![pair]) {
+            panic!("{error}");
+        }
+    }
+    system
+}
+
 /// The system of a reference case with one of the short-named models; `scale`
 /// multiplies all gaps.
 ///

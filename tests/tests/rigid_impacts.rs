@@ -7,19 +7,11 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
-use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
-};
+use pounding_time_history::{GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run};
 use verification::{
-    constant_ground, reference_cases, reference_system_with, single_storey, synthetic_motion,
+    constant_ground, free_bodies as row, reference_cases, reference_system_with, rigid,
+    synthetic_motion,
 };
-
-fn rigid(restitution: f64) -> Arc<dyn ImpactModel> {
-    let parameters = ModelParameters::from_pairs(&[("restitution", restitution)]);
-    registry::build("stereomechanical", &parameters)
-        .unwrap()
-        .into()
-}
 
 fn go(system: &System, duration: f64) -> Outcome {
     let options = RunOptions {
@@ -27,29 +19,6 @@ fn go(system: &System, duration: f64) -> Outcome {
         ..RunOptions::default()
     };
     run(system, &options, &mut [], &mut |_| {}).unwrap()
-}
-
-/// Free bodies (kg) in a row with gaps (m) between them, and a wall at the right if
-/// there is a gap for it.
-fn row(masses: &[f64], gaps: &[f64], e: f64, ground: GroundAcceleration) -> System {
-    let name = |i: usize| format!("body{i}");
-    let bodies = masses.iter().enumerate();
-    let bodies = bodies.map(|(i, m)| single_storey(&name(i), *m, 1.0e-12 * m));
-    let mut system = System::new(bodies.collect(), ground);
-    for (i, gap) in gaps.iter().enumerate() {
-        let wall = i + 1 == masses.len();
-        let (right, next) = if wall {
-            (Floor::Wall, "wall".to_owned())
-        } else {
-            (Floor::Storey(i + 1, 0), name(i + 1))
-        };
-        let pair = (Floor::Storey(i, 0), right, *gap, rigid(e));
-        let gap_name = format!("gap{i}");
-        system
-            .add_gap(&gap_name, [name(i), next], vec![pair])
-            .unwrap();
-    }
-    system
 }
 
 fn near(what: &str, computed: &[f64], expected: &[f64]) {

@@ -250,6 +250,7 @@ fn default_analysis() -> Analysis {
         beta: None,
         gamma: None,
         alpha: None,
+        theta: None,
         relative_tolerance: None,
         energy_tolerance: None,
     }
@@ -268,6 +269,7 @@ fn analysis(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseErro
         beta: table.optional_number("beta")?,
         gamma: table.optional_number("gamma")?,
         alpha: table.optional_number("alpha")?,
+        theta: table.optional_number("theta")?,
         relative_tolerance: table.optional_positive("relative_tolerance", Dimension::NUMBER)?,
         energy_tolerance: table.optional_positive("energy_tolerance", Dimension::NUMBER)?,
     })

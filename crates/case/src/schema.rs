@@ -256,7 +256,7 @@ pub(crate) const ANALYSIS: &[Key] = &[
     key(
         "method",
         Kind::Text,
-        "adaptive (default), newmark, hht_alpha or runge_kutta_4",
+        "adaptive (default), newmark, hht_alpha, runge_kutta_4, or moreau_jean for rigid impacts",
     ),
     key(
         "duration",
@@ -275,6 +275,11 @@ pub(crate) const ANALYSIS: &[Key] = &[
         "alpha",
         Kind::Quantity,
         "Alpha of HHT, -1/3 to 0, by default -0.05",
+    ),
+    key(
+        "theta",
+        Kind::Quantity,
+        "Theta of Moreau and Jean, 1/2 to 1, by default 1/2",
     ),
     key(
         "relative_tolerance",

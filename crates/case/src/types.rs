@@ -191,6 +191,8 @@ pub struct Analysis {
     pub gamma: Option<f64>,
     /// Alpha of HHT.
     pub alpha: Option<f64>,
+    /// Theta of Moreau and Jean.
+    pub theta: Option<f64>,
     /// Relative tolerance of adaptive methods.
     pub relative_tolerance: Option<f64>,
     /// Allowed energy residual.

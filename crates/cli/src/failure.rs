@@ -72,6 +72,7 @@ impl Failure {
             TimeHistoryError::GroundMotion(error) => Self::input(error.to_string(), help),
             error @ (TimeHistoryError::GapDefinition { .. }
             | TimeHistoryError::InitialState { .. }
+            | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error @ TimeHistoryError::ResultFile { .. } => {
                 Self::Output(plain(error.to_string(), help))

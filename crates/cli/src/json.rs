@@ -65,6 +65,8 @@ fn level(l: &LevelOutcome) -> Value {
         "approach_velocity_max": l.approach_velocity_max,
         "energy_dissipated": l.energy_dissipated,
         "impulse": l.impulse,
+        "impulse_max": l.impulse_max,
+        "gap_widening": l.gap_widening,
         "achieved_restitution": l.achieved_restitution,
         "sticks": l.sticks,
     })

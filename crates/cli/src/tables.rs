@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, Table};
 use pounding_case::Case;
-use pounding_time_history::{Assembly, Peak, RunRecord};
+use pounding_time_history::{Assembly, LevelOutcome, Peak, RunRecord};
 
 const G: f64 = 9.80665;
 
@@ -92,13 +92,18 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     if total == 0 {
         return format!("\nGap {} ({model}): the buildings do not touch\n", gap.name);
     }
+    let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
     let mut table = new_table(&[
         "level",
         "gap (mm)",
         "impacts",
         "first contact (s)",
         "approach velocity (m/s)",
-        "peak force (kN)",
+        if rigid {
+            "greatest impulse (kN s)"
+        } else {
+            "peak force (kN)"
+        },
         "energy lost (kJ)",
         "restitution",
     ]);
@@ -115,16 +120,44 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
             l.impacts.to_string(),
             or_dash(l.first_contact.map(|t| format!("{t:.4}"))),
             format!("{:.3}", l.approach_velocity_max),
-            if l.impacts > 0 {
-                format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time)
-            } else {
-                "-".to_owned()
+            match l.impacts {
+                0 => "-".to_owned(),
+                _ if rigid => format!("{:.2}", l.impulse_max * 1e-3),
+                _ => format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time),
             },
             format!("{:.2}", l.energy_dissipated * 1e-3),
             or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
         ]);
     }
-    format!("\nGap {} ({model}): {total} impacts\n{table}\n", gap.name)
+    let mut text = format!("\nGap {} ({model}): {total} impacts\n{table}\n", gap.name);
+    if rigid {
+        text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
+    }
+    text.push_str(&held_and_widened(&outcome.levels));
+    text
+}
+
+/// Lasting contacts with the greatest force that they held, and widened gaps.
+fn held_and_widened(levels: &[LevelOutcome]) -> String {
+    let mut text = String::new();
+    for (index, l) in levels.iter().enumerate() {
+        let level = index + 1;
+        if l.sticks > 0 {
+            text.push_str(&format!(
+                "Level {level}: floors held together {} times, greatest contact force {:.1} kN at {:.2} s\n",
+                l.sticks,
+                l.peak_force.value * 1e-3,
+                l.peak_force.time
+            ));
+        }
+        if l.gap_widening > 0.0 {
+            text.push_str(&format!(
+                "Level {level}: plastic deformation widened the gap by {:.2} mm\n",
+                l.gap_widening * 1e3
+            ));
+        }
+    }
+    text
 }
 
 fn energy(record: &RunRecord<'_>) -> String {

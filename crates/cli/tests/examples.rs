@@ -74,6 +74,12 @@ fn three_storey_pair() {
 /// The same example by fixed-step RK4, which shares nothing with the adaptive pair
 /// but the equations of motion.
 fn by_fixed_step(name: &str, step: &str) -> Value {
+    let lines = format!("method = \"runge_kutta_4\"\nstep = \"{step}\"");
+    with_analysis(name, &lines)
+}
+
+/// An example with more lines under `[analysis]`.
+fn with_analysis(name: &str, lines: &str) -> Value {
     let file = root().join("examples").join(name).join("case.toml");
     let case = std::fs::read_to_string(file).unwrap();
     let motions = root().join("ground_motions").canonicalize().unwrap();
@@ -81,10 +87,7 @@ fn by_fixed_step(name: &str, step: &str) -> Value {
     if !fixed.contains("[analysis]") {
         fixed.push_str("\n[analysis]\n");
     }
-    let fixed = fixed.replace(
-        "[analysis]",
-        &format!("[analysis]\nmethod = \"runge_kutta_4\"\nstep = \"{step}\""),
-    );
+    let fixed = fixed.replace("[analysis]", &format!("[analysis]\n{lines}"));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fixed.toml");
     std::fs::write(&path, fixed).unwrap();
@@ -151,4 +154,54 @@ fn rigid_wall() {
     let roof = &result["buildings"][0]["isolated"][4]["displacement"];
     close(&roof["peak"], 0.173950, 1e-3);
     agree(&result, &by_fixed_step("rigid_wall", "1 ms"));
+}
+
+/// Two frames let go: matrix exponentials in 30 digits.
+#[test]
+fn snap_back() {
+    let result = run_example("snap_back");
+    let level = &result["gaps"][0]["levels"][0];
+    close(&level["first_contact"], 0.278_154_263_102_045_05, 1e-9);
+    close(
+        &level["approach_velocity_max"],
+        0.418_472_563_464_010_24,
+        1e-9,
+    );
+    close(&level["peak_force"]["peak"], 783_354.258_210_039_1, 1e-9);
+}
+
+/// Located jumps against Moreau-Jean stepping, which locates nothing and is of first
+/// order.
+#[test]
+fn rigid_impacts() {
+    let result = run_example("rigid_impacts");
+    let roof = &result["buildings"][0]["storeys"][2]["displacement"]["peak"];
+    close(roof, 0.12408, 1e-3);
+    let levels = result["gaps"][0]["levels"].as_array().unwrap();
+    let impacts: u64 = levels.iter().map(|l| l["impacts"].as_u64().unwrap()).sum();
+    assert_eq!(impacts, 46);
+    close(&levels[2]["impulse_max"], 28.03e3, 1e-3);
+    assert!(
+        levels[2]["peak_force"]["peak"].is_null(),
+        "a jump has no force"
+    );
+    close(&result["energy"]["impact"], 26.87e3, 1e-3);
+    let stepped = with_analysis(
+        "rigid_impacts",
+        "method = \"moreau_jean\"\nstep = \"10 us\"",
+    );
+    for storey in 0..3 {
+        let peak =
+            |r: &Value| r["buildings"][0]["storeys"][storey]["displacement"]["peak"].as_f64();
+        close(
+            &result["buildings"][0]["storeys"][storey]["displacement"]["peak"],
+            peak(&stepped).unwrap(),
+            2e-3,
+        );
+    }
+    close(
+        &result["energy"]["impact"],
+        stepped["energy"]["impact"].as_f64().unwrap(),
+        1e-2,
+    );
 }

@@ -260,11 +260,18 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
             alpha: analysis.alpha.unwrap_or(-0.05),
         },
         "runge_kutta_4" => MethodChoice::RungeKutta4 { step: step()? },
+        "moreau_jean" => MethodChoice::MoreauJean {
+            step: step()?,
+            theta: analysis.theta.unwrap_or(0.5),
+        },
         other => {
             return Err(case.error(
                 analysis.method.span.clone(),
                 format!("unknown method \"{other}\""),
-                Some("methods are adaptive, newmark, hht_alpha, runge_kutta_4".to_owned()),
+                Some(
+                    "methods are adaptive, newmark, hht_alpha, runge_kutta_4, moreau_jean"
+                        .to_owned(),
+                ),
             ));
         }
     };

@@ -2,6 +2,7 @@
 
 mod event_handling;
 mod rigid_impacts;
+mod stepped_impacts;
 
 use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
@@ -278,6 +279,9 @@ impl<'a> Driver<'a> {
     }
 
     fn find(&mut self, segment: &Segment, tau: f64, step: f64) -> Option<Candidate> {
+        if self.method.step_impulses().is_some() {
+            return None;
+        }
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,
@@ -327,6 +331,7 @@ impl<'a> Driver<'a> {
         }
         self.method.accept(cut);
         std::mem::swap(&mut self.state, &mut self.new_state);
+        self.stepped_impacts(segment, tau, step);
         self.statistics.steps += 1;
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
@@ -380,7 +385,7 @@ impl<'a> Driver<'a> {
     ) -> Result<Outcome, TimeHistoryError> {
         let layout = self.dynamics.layout;
         let n = layout.dofs;
-        for l in self.contacts.closed().to_vec() {
+        for l in 0..layout.levels {
             let stored = ledger::stored_energy(self.system, &self.contacts, l, &self.state[..n]);
             self.log
                 .open(l, None, &self.peaks, layout, &self.state, stored);

@@ -36,6 +36,14 @@ pub enum TimeHistoryError {
         /// What is allowed.
         reason: &'static str,
     },
+    /// The method treats rigid impacts only.
+    #[error("method moreau_jean treats rigid impacts only, but gap {gap} has model {model}")]
+    CompliantModel {
+        /// Name of the gap.
+        gap: String,
+        /// Its model.
+        model: &'static str,
+    },
     /// The step had to be cut below what time can resolve.
     #[error(
         "the step at t = {time} s fell below {step:e} s ({method}); buildings in touch there: {place}"
@@ -96,6 +104,12 @@ impl TimeHistoryError {
             Self::GroundMotion(error) => return error.help(),
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::CompliantModel { .. } => {
+                "use model = \"stereomechanical\" in every gap, or method = \"adaptive\""
+            }
+            Self::InitialState { .. } => {
+                "correct `initial_displacement` and `initial_velocity` of the buildings"
             }
             Self::Chatter { .. } => {
                 "try another method, or another separation rule for that gap, and report the case"

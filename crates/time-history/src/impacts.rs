@@ -26,6 +26,8 @@ pub(crate) struct ImpactLog {
     squares: Vec<(f64, f64)>,
     places: Vec<(usize, usize)>,
     constants: Vec<usize>,
+    /// Levels whose impacts are velocity jumps.
+    rigid: Vec<bool>,
     finished: Vec<usize>,
     handed_out: Vec<Impact>,
 }
@@ -42,6 +44,7 @@ impl ImpactLog {
             first_contact: None,
             peak_force: Peak::default(),
             peak_penetration: Peak::default(),
+            impulse_max: 0.0,
             approach_velocity_max: 0.0,
             energy_dissipated: 0.0,
             impulse: 0.0,
@@ -59,6 +62,11 @@ impl ImpactLog {
                 .levels()
                 .iter()
                 .map(|l| l.model.descriptor().constants.len())
+                .collect(),
+            rigid: system
+                .levels()
+                .iter()
+                .map(|l| l.model.rigid_restitution().is_some())
                 .collect(),
             finished: Vec::new(),
             handed_out: Vec::new(),
@@ -136,6 +144,7 @@ impl ImpactLog {
             }
         }
         outcome.impulse += impact.impulse;
+        outcome.impulse_max = outcome.impulse_max.max(impact.impulse);
         outcome.energy_dissipated += impact.energy_dissipated;
         outcome
             .peak_force
@@ -149,6 +158,11 @@ impl ImpactLog {
     /// A plastic deformation (m) widened the gap.
     pub(crate) fn widen(&mut self, l: usize, deformation: f64) {
         self.levels[l].gap_widening += deformation;
+    }
+
+    /// Whether an impact is in progress.
+    pub(crate) fn is_running(&self, l: usize) -> bool {
+        self.present[l].is_some()
     }
 
     /// Whether the impact in progress is a lasting contact of rigid floors.
@@ -184,7 +198,12 @@ impl ImpactLog {
         &self.handed_out
     }
 
-    pub(crate) fn into_outcome(self) -> (Vec<LevelOutcome>, Vec<Impact>) {
+    pub(crate) fn into_outcome(mut self) -> (Vec<LevelOutcome>, Vec<Impact>) {
+        for (level, rigid) in self.levels.iter_mut().zip(&self.rigid) {
+            if *rigid && level.impacts > 0 && level.sticks == 0 {
+                level.peak_force.value = f64::NAN;
+            }
+        }
         (self.levels, self.impacts)
     }
 }

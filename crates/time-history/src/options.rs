@@ -2,7 +2,7 @@
 
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
-use crate::methods::{Adaptive, Method, Newmark, RungeKutta4};
+use crate::methods::{Adaptive, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
 /// Default relative tolerance of the adaptive pair.
@@ -38,6 +38,13 @@ pub enum MethodChoice {
     RungeKutta4 {
         /// Step (s).
         step: f64,
+    },
+    /// Time stepping of Moreau and Jean for rigid impacts, which are not located.
+    MoreauJean {
+        /// Step (s).
+        step: f64,
+        /// Weight of the end of a step, 1/2 to 1.
+        theta: f64,
     },
 }
 
@@ -123,6 +130,16 @@ impl RunOptions {
                 )?;
             }
             MethodChoice::RungeKutta4 { step } => positive("step", step)?,
+            MethodChoice::MoreauJean { step, theta } => {
+                positive("step", step)?;
+                require(
+                    (0.5..=1.0).contains(&theta),
+                    "theta",
+                    theta,
+                    "it must lie between 1/2 and 1",
+                )?;
+                rigid_throughout(system)?;
+            }
         }
         if let Some(tolerance) = self.energy_tolerance {
             positive("energy_tolerance", tolerance)?;
@@ -145,8 +162,26 @@ impl RunOptions {
                 Box::new(Newmark::hht_alpha(system, step, alpha))
             }
             MethodChoice::RungeKutta4 { step } => Box::new(RungeKutta4::new(layout, step)),
+            MethodChoice::MoreauJean { step, theta } => {
+                Box::new(MoreauJean::new(system, step, theta))
+            }
         }
     }
+}
+
+/// Moreau-Jean stepping knows impulses only.
+fn rigid_throughout(system: &System) -> Result<(), TimeHistoryError> {
+    for gap in system.gaps() {
+        for level in &system.levels()[gap.first_level..gap.first_level + gap.levels] {
+            if level.model.rigid_restitution().is_none() {
+                return Err(TimeHistoryError::CompliantModel {
+                    gap: gap.name.clone(),
+                    model: level.model.descriptor().name,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 fn require(

@@ -80,10 +80,12 @@ pub struct LevelOutcome {
     pub impacts: usize,
     /// Time of the first contact (s).
     pub first_contact: Option<f64>,
-    /// Greatest force (N).
+    /// Greatest force (N); NaN where there were velocity jumps alone.
     pub peak_force: Peak,
     /// Greatest penetration (m).
     pub peak_penetration: Peak,
+    /// Greatest impulse of a single impact (N s).
+    pub impulse_max: f64,
     /// Greatest relative velocity at closure (m/s).
     pub approach_velocity_max: f64,
     /// Energy dissipated in the contact (J).

@@ -3,10 +3,12 @@
 
 mod adaptive;
 mod effective_mass;
+mod moreau_jean;
 mod newmark;
 mod runge_kutta_4;
 
 pub(crate) use adaptive::Adaptive;
+pub(crate) use moreau_jean::MoreauJean;
 pub(crate) use newmark::Newmark;
 pub(crate) use runge_kutta_4::RungeKutta4;
 
@@ -76,6 +78,11 @@ pub(crate) trait Method {
     /// the force starts with a power of time that no polynomial follows.
     fn restart(&mut self, smooth: bool);
     fn counts(&self) -> Counts;
+    /// Impulse of every level in the last trial step (N s), for a method that treats
+    /// contacts itself; `None` where the driver locates them.
+    fn step_impulses(&self) -> Option<&[f64]> {
+        None
+    }
 }
 
 /// Next grid point of a fixed step: the segment is divided evenly into steps of

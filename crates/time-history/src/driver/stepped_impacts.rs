@@ -1,0 +1,50 @@
+//! Impacts of a method that does not locate them: told from the impulses of its steps.
+
+use super::Driver;
+use crate::dynamics::Segment;
+use crate::outcome::Peak;
+
+impl Driver<'_> {
+    /// Logs what an accepted step did at every level. An impact is a run of steps with
+    /// impulses; its times are ends of steps. `self.new_state` holds the state before
+    /// the step.
+    pub(super) fn stepped_impacts(&mut self, segment: &Segment, tau: f64, step: f64) {
+        let Some(impulses) = self.method.step_impulses() else {
+            return;
+        };
+        let n = self.dynamics.layout.dofs;
+        let time = segment.start + tau + step;
+        for (l, impulse) in impulses.iter().enumerate() {
+            let level = &self.system.levels()[l];
+            let overlap = self
+                .contacts
+                .penetration(self.system, l, &self.state[..n])
+                .max(0.0);
+            let running = self.log.is_running(l);
+            if *impulse > 0.0 && !running {
+                let approach = level.relative(&self.new_state[n..2 * n]).max(0.0);
+                let collision = level.model.begin(approach, level.effective_mass);
+                let layout = self.dynamics.layout;
+                self.log.close(l, time, &collision, layout, &self.new_state);
+                let value = f64::NAN;
+                self.peaks.force[l] = Peak { value, time };
+                self.peaks.penetration[l] = Peak { value: 0.0, time };
+            } else if *impulse > 0.0 {
+                if !self.log.is_lasting(l) {
+                    self.log.begin_lasting(l);
+                    self.peaks.force[l] = Peak { value: 0.0, time };
+                }
+                self.peaks.force[l].raise(impulse / step, time);
+            } else if running {
+                let separation = -level.relative(&self.new_state[n..2 * n]);
+                let end = Some((segment.start + tau, separation));
+                let layout = self.dynamics.layout;
+                self.log
+                    .open(l, end, &self.peaks, layout, &self.new_state, 0.0);
+            }
+            if *impulse > 0.0 {
+                self.peaks.penetration[l].raise(overlap, time);
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Datasets and attributes with their units and names.
+
+use std::str::FromStr;
+
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, Group, Location};
+
+use super::Result;
+use crate::recorder::Sample;
+
+/// Rows of a chunk: a few hundred kilobytes for tall buildings, few chunks for
+/// short runs.
+const CHUNK_ROWS: usize = 1024;
+
+pub(super) fn column(samples: &[Sample], pick: impl Fn(&Sample) -> f64) -> Vec<f64> {
+    samples.iter().map(pick).collect()
+}
+
+/// A one-dimensional dataset with units and long name.
+pub(super) fn series(
+    group: &Group,
+    name: &str,
+    units: &str,
+    long_name: &str,
+    values: &[f64],
+) -> Result<Dataset> {
+    let builder = group.new_dataset::<f64>();
+    let data = if values.is_empty() {
+        builder.shape(0).create(name)?
+    } else {
+        let rows = CHUNK_ROWS.min(values.len());
+        builder
+            .chunk(rows)
+            .shuffle()
+            .deflate(1)
+            .shape(values.len())
+            .create(name)?
+    };
+    if !values.is_empty() {
+        data.write_raw(values)?;
+    }
+    describe(&data, units, long_name)?;
+    Ok(data)
+}
+
+/// A dataset of rows by columns with units and long name.
+pub(super) fn matrix(
+    group: &Group,
+    name: &str,
+    units: &str,
+    long_name: &str,
+    values: &[f64],
+    columns: usize,
+) -> Result<Dataset> {
+    let rows = values.len() / columns.max(1);
+    let data = group
+        .new_dataset::<f64>()
+        .chunk((CHUNK_ROWS.min(rows).max(1), columns.max(1)))
+        .shuffle()
+        .deflate(1)
+        .shape((rows, columns))
+        .create(name)?;
+    data.write_raw(values)?;
+    describe(&data, units, long_name)?;
+    Ok(data)
+}
+
+fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
+    text(data, "units", units)?;
+    text(data, "long_name", long_name)
+}
+
+/// A UTF-8 text attribute.
+pub(super) fn text(location: &Location, name: &str, value: &str) -> Result<()> {
+    let value = VarLenUnicode::from_str(value)
+        .map_err(|e| hdf5::Error::from(format!("attribute {name}: {e}")))?;
+    location
+        .new_attr::<VarLenUnicode>()
+        .create(name)?
+        .write_scalar(&value)
+}

@@ -1,0 +1,131 @@
+//! Contact levels and impacts of every gap.
+
+use hdf5::{Dataset, H5Type};
+
+use super::datasets::{matrix, series, text};
+use super::{Result, RunRecord, dimension_scales};
+use crate::outcome::Impact;
+use crate::recorder::Sample;
+
+/// One impact as a row of the compound table.
+#[derive(Debug, Clone, Copy, H5Type)]
+#[repr(C)]
+struct ImpactRow {
+    level: u64,
+    t_close: f64,
+    t_open: f64,
+    approach_velocity: f64,
+    separation_velocity: f64,
+    achieved_restitution: f64,
+    peak_force: f64,
+    peak_force_time: f64,
+    peak_penetration: f64,
+    impulse: f64,
+    energy_dissipated: f64,
+    constants: [f64; 4],
+}
+
+impl ImpactRow {
+    fn new(impact: &Impact) -> Self {
+        Self {
+            level: impact.level as u64 + 1,
+            t_close: impact.time_closed,
+            t_open: impact.time_opened,
+            approach_velocity: impact.approach_velocity,
+            separation_velocity: impact.separation_velocity,
+            achieved_restitution: impact.achieved_restitution,
+            peak_force: impact.peak_force.value,
+            peak_force_time: impact.peak_force.time,
+            peak_penetration: impact.peak_penetration.value,
+            impulse: impact.impulse,
+            energy_dissipated: impact.energy_dissipated,
+            constants: std::array::from_fn(|i| impact.constants.get(i).copied().unwrap_or(0.0)),
+        }
+    }
+}
+
+pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
+    let all = file.create_group("gap")?;
+    let system = &record.assembly.system;
+    for (index, gap) in system.gaps().iter().enumerate() {
+        let group = all.create_group(&gap.name)?;
+        let range = gap.first_level..gap.first_level + gap.levels;
+        let levels = &system.levels()[range.clone()];
+        let elevation: Vec<f64> = levels.iter().map(|l| l.elevation).collect();
+        let level = series(
+            &group,
+            "level",
+            "m",
+            "elevation of the contact level",
+            &elevation,
+        )?;
+        dimension_scales::make_scale(&level, "level")?;
+        let width: Vec<f64> = levels.iter().map(|l| l.width).collect();
+        dimension_scales::attach(
+            &series(&group, "width", "m", "width of the gap at rest", &width)?,
+            &level,
+            0,
+        )?;
+        let widened: Vec<f64> = record.outcome.gaps[index]
+            .levels
+            .iter()
+            .map(|l| l.gap_widening)
+            .collect();
+        let long_name = "widening of the gap by plastic deformation over the run";
+        let widening = series(&group, "widening", "m", long_name, &widened)?;
+        dimension_scales::attach(&widening, &level, 0)?;
+        let table =
+            |name: &str, units: &str, long_name: &str, pick: &dyn Fn(&Sample) -> Vec<f64>| {
+                let rows: Vec<f64> = record.samples.iter().flat_map(pick).collect();
+                let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+                dimension_scales::attach(&data, time, 0)?;
+                dimension_scales::attach(&data, &level, 1)
+            };
+        table(
+            "penetration",
+            "m",
+            "penetration, negative while the gap is open",
+            &|s| s.penetration[range.clone()].to_vec(),
+        )?;
+        table("force", "N", "contact force, positive pushes apart", &|s| {
+            s.force[range.clone()].to_vec()
+        })?;
+        let rows: Vec<ImpactRow> = record
+            .outcome
+            .impacts
+            .iter()
+            .filter(|i| i.gap == index)
+            .map(ImpactRow::new)
+            .collect();
+        let impacts = group
+            .new_dataset::<ImpactRow>()
+            .shape(rows.len())
+            .create("impacts")?;
+        if !rows.is_empty() {
+            impacts.write_raw(&rows)?;
+            let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
+            let number = series(&group, "impact", "1", "number of the impact", &numbers)?;
+            dimension_scales::make_scale(&number, "impact")?;
+            dimension_scales::attach(&impacts, &number, 0)?;
+        }
+        text(
+            &impacts,
+            "long_name",
+            "impacts in order of closure; levels from 1, bottom first; SI units",
+        )?;
+        if let Some(first) = levels.first() {
+            let names: Vec<_> = first
+                .model
+                .descriptor()
+                .constants
+                .iter()
+                .map(|c| c.name)
+                .collect();
+            text(&impacts, "constants", &names.join(", "))?;
+            text(&group, "model", first.model.descriptor().name)?;
+            text(&group, "separation", first.model.separation().name())?;
+        }
+        text(&group, "between", &gap.between.join(" | "))?;
+    }
+    Ok(())
+}

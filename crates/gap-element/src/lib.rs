@@ -1,10 +1,12 @@
 //! Impact models for the gaps between buildings: trait, models, registry, two-body collision.
 
+pub mod calibration;
 pub mod contact_stiffness;
 pub mod descriptor;
 pub mod error;
 pub mod model;
 pub mod parameters;
+pub mod published;
 pub mod registry;
 
 mod classes;

@@ -5,6 +5,10 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
+mod verification;
+
+pub use verification::*;
+
 /// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
 /// wide enough?
 #[derive(Debug, Parser)]
@@ -38,6 +42,8 @@ pub enum Command {
     },
     /// Let two bodies collide: what a model really returns
     Impact(ImpactArguments),
+    /// Compute published results and compare
+    Verify(VerifyArguments),
     /// Find a contact stiffness, with its source and limits
     Stiffness(StiffnessArguments),
     /// Print the JSON Schema of the case file
@@ -70,9 +76,14 @@ pub struct RunArguments {
 
 /// Arguments of `impact`.
 #[derive(Debug, clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct ImpactArguments {
+    /// What to do instead of a collision
+    #[command(subcommand)]
+    pub command: Option<ImpactCommand>,
     /// Impact model
-    pub model: String,
+    #[arg(required = true)]
+    pub model: Option<String>,
     /// Mass of the left body, such as "25 t"
     #[arg(long, default_value = "25 t")]
     pub mass_left: String,

@@ -5,11 +5,14 @@ use std::process::ExitCode;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_case::CaseError;
 use pounding_gap_element::GapElementError;
+use pounding_gap_element::calibration::CalibrationError;
 use pounding_time_history::TimeHistoryError;
 
 /// Why a command did not succeed.
 #[derive(Debug)]
 pub enum Failure {
+    /// The command ran and its answer, already printed, is "no": exit code 1.
+    No,
     /// Bad input: exit code 2.
     Input(Report),
     /// The computation failed: exit code 3.
@@ -22,6 +25,7 @@ impl Failure {
     /// Prints the failure and returns the exit code.
     pub fn report(self) -> ExitCode {
         let (report, code) = match self {
+            Self::No => return ExitCode::from(1),
             Self::Input(report) => (report, 2),
             Self::Computation(report) => (report, 3),
             Self::Output(report) => (report, 4),
@@ -78,6 +82,18 @@ impl Failure {
                 Self::Output(plain(error.to_string(), help))
             }
             error => Self::Computation(plain(error.to_string(), help)),
+        }
+    }
+}
+
+impl From<CalibrationError> for Failure {
+    fn from(error: CalibrationError) -> Self {
+        let help = error.help();
+        match error {
+            CalibrationError::NotReached { .. } => {
+                Self::Computation(plain(error.to_string(), help))
+            }
+            error => Self::input(error.to_string(), help),
         }
     }
 }

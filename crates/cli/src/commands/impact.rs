@@ -26,7 +26,7 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
     if arguments.table {
         return table(arguments, &bodies, parameters);
     }
-    let model = registry::build(&arguments.model, &parameters)?;
+    let model = registry::build(arguments.model.as_deref().unwrap_or_default(), &parameters)?;
     let outcome = collide(model.as_ref(), &bodies)?;
     if arguments.json {
         return print(&pretty(&outcome_json(&outcome)));
@@ -99,7 +99,7 @@ fn table(
         parameters
             .values
             .insert("restitution".to_owned(), requested);
-        let model = registry::build(&arguments.model, &parameters)?;
+        let model = registry::build(arguments.model.as_deref().unwrap_or_default(), &parameters)?;
         rows.push((requested, collide(model.as_ref(), bodies)?));
     }
     let error = |(e, out): &(f64, CollisionOutcome)| 100.0 * (out.restitution - e).abs() / e;

@@ -1,16 +1,18 @@
 //! One command a file.
 
+mod calibrate;
 mod check;
 mod impact;
 mod models;
 mod run;
 mod stiffness;
+mod verify;
 
 use std::io::Write;
 
 use clap::CommandFactory;
 
-use crate::arguments::{Arguments, Command};
+use crate::arguments::{Arguments, Command, ImpactCommand};
 use crate::failure::Failure;
 
 /// Carries a command out.
@@ -19,7 +21,11 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check { case, json } => check::check(&case, json),
         Command::Models { name, json } => models::models(name.as_deref(), json),
-        Command::Impact(arguments) => impact::impact(&arguments),
+        Command::Impact(arguments) => match &arguments.command {
+            Some(ImpactCommand::Calibrate(arguments)) => calibrate::calibrate(arguments),
+            None => impact::impact(&arguments),
+        },
+        Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {

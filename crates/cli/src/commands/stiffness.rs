@@ -209,7 +209,7 @@ fn optional(text: Option<&str>, name: &str, wanted: Dimension) -> Result<Option<
 }
 
 /// The SI value of an argument; a plain number is SI.
-fn value(text: &str, name: &str, wanted: Dimension) -> Result<f64, Failure> {
+pub(super) fn value(text: &str, name: &str, wanted: Dimension) -> Result<f64, Failure> {
     let quantity = parse_quantity(text)
         .map_err(|e| Failure::input(format!("--{name}: {e}"), Some(e.help())))?;
     match quantity.dimension {

@@ -8,6 +8,19 @@ use crate::parameters::ModelParameters;
 /// The restitutions of the tables in the literature: 0.1, 0.2, ... 1.0.
 pub const REQUESTED: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 
+/// Mean of `100 |achieved - requested| / requested` (%) over the requested
+/// restitutions of [`REQUESTED`] from `least` to `greatest`.
+#[must_use]
+pub fn mean_error_percent(achieved: &[f64], least: f64, greatest: f64) -> f64 {
+    let errors: Vec<f64> = REQUESTED
+        .iter()
+        .zip(achieved)
+        .filter(|(e, _)| **e > least - 1e-9 && **e < greatest + 1e-9)
+        .map(|(e, achieved)| 100.0 * (achieved - e).abs() / e)
+        .collect();
+    errors.iter().sum::<f64>() / errors.len() as f64
+}
+
 /// One line of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RestitutionRow {
@@ -35,18 +48,13 @@ pub struct RestitutionTable {
 }
 
 impl RestitutionTable {
-    /// Mean of [`RestitutionRow::error_percent`] over the rows from `least` to
+    /// [`mean_error_percent`] over the rows from `least` to
     /// `greatest` requested restitution (%). The literature quotes 0.1 to 1.0, and
     /// 0.5 to 0.8 where building materials are (Papi and Toopchi-Nezhad 2022).
     #[must_use]
     pub fn mean_error_percent(&self, least: f64, greatest: f64) -> f64 {
-        let errors: Vec<f64> = self
-            .rows
-            .iter()
-            .filter(|row| row.requested > least - 1e-9 && row.requested < greatest + 1e-9)
-            .map(RestitutionRow::error_percent)
-            .collect();
-        errors.iter().sum::<f64>() / errors.len() as f64
+        let achieved = self.rows.iter().map(|row| row.outcome.restitution);
+        mean_error_percent(&achieved.collect::<Vec<_>>(), least, greatest)
     }
 }
 

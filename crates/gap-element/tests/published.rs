@@ -4,11 +4,10 @@
 //! independent integration of order 8 at a tolerance of 1e-13.
 #![allow(clippy::unwrap_used)]
 
-use pounding_gap_element::published::{
-    borovin_2014, mean_error_percent, papi_toopchi_2022, restitution, zhou_2012,
-};
+use pounding_gap_element::published::{borovin_2014, papi_toopchi_2022, restitution, zhou_2012};
 use pounding_gap_element::{
-    Bodies, CollisionOptions, REQUESTED, SeparationRule, registry, restitution_table,
+    Bodies, CollisionOptions, REQUESTED, SeparationRule, mean_error_percent, registry,
+    restitution_table,
 };
 use serde_json::Value;
 

@@ -5,7 +5,8 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_gap_element::{
-    Bodies, CollisionOutcome, ImpactModel, ModelParameters, SeparationRule, collide, registry,
+    Bodies, CollisionOutcome, ImpactModel, ModelParameters, REQUESTED, SeparationRule, collide,
+    published::restitution::REFERENCES, registry,
 };
 use serde_json::Value;
 
@@ -128,51 +129,29 @@ fn every_model_agrees_with_its_reference_values() {
 
 #[test]
 fn restitution_tables_by_closed_form_and_by_integration() {
-    let data = data();
-    let requested: Vec<f64> = data["e_pre"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect();
     let bodies = Bodies {
         mass_left: 3.0e4,
         mass_right: None,
         velocity_left: 0.37,
         velocity_right: 0.0,
     };
-    let mut rows = 0;
-    for table in data["tables"].as_array().unwrap() {
-        let name = table["model"].as_str().unwrap();
-        let descriptor = registry::find(name).unwrap();
-        let tolerance = table["tolerance"].as_f64().unwrap_or(1e-10);
-        for (e, expected) in requested
-            .iter()
-            .zip(table["restitution"].as_array().unwrap())
-        {
-            let expected = expected.as_f64().unwrap();
-            let mut all = descriptor.example_parameters(*e);
-            let given = parameters(table);
-            all.values.extend(given.values);
-            all.separation = given.separation;
-            if let Some(offset) = table["alpha_minus_e"].as_f64() {
-                // The paper's misprint replaces the whole rule but its second part.
-                let alpha = if *e < 0.8 { e + offset } else { 1.0 };
-                all.values.insert("alpha".to_owned(), alpha);
-            }
-            let law = registry::build(name, &all).unwrap();
+    for reference in REFERENCES {
+        for (e, expected) in REQUESTED.iter().zip(reference.achieved) {
+            let mut all = reference.parameters().unwrap();
+            all.values.insert("restitution".to_owned(), *e);
+            let law = registry::build(reference.model, &all).unwrap();
             let out = collide(law.as_ref(), &bodies).unwrap();
-            closed_form_agrees(name, law.as_ref(), &out);
+            closed_form_agrees(reference.model, law.as_ref(), &out);
             let error = (out.restitution - expected).abs();
             assert!(
-                error <= tolerance,
-                "{name} {e}: integrated {}, not {expected}: {error:e}",
+                error <= reference.tolerance,
+                "{} {e}: integrated {}, not {expected}: {error:e}",
+                reference.model,
                 out.restitution
             );
-            rows += 1;
         }
     }
-    assert!(rows >= 350, "{rows}");
+    assert!(REFERENCES.len() >= 35, "{}", REFERENCES.len());
 }
 
 #[test]
@@ -183,13 +162,10 @@ fn every_registered_model_has_reference_values() {
             .chain(descriptor.aliases.iter().map(|a| a.name))
             .collect();
         let single = names.iter().any(|n| data["models"].get(n).is_some());
-        let tables = data["tables"].as_array().unwrap();
-        let table = tables
-            .iter()
-            .any(|t| names.contains(&t["model"].as_str().unwrap()));
+        let table = REFERENCES.iter().any(|r| names.contains(&r.model));
         assert!(
             single || table,
-            "{} has no reference values in tests/data/impact_models.json",
+            "{} has reference values neither in tests/data/impact_models.json nor in src/published/restitution.rs",
             descriptor.name
         );
     }

@@ -2,7 +2,7 @@
 
 use pounding_gap_element::REQUESTED;
 use pounding_gap_element::calibration::{CalibrationError, calibrate, free_alpha, rule_alpha};
-use pounding_gap_element::published::mean_error_percent;
+use pounding_gap_element::mean_error_percent;
 use pounding_gap_element::published::papi_toopchi_2022::{
     DROP_TEST, PrintedErrors, PrintedRow, TABLE_1, TABLE_2, misprint, peak_force_ratio,
     restitutions,

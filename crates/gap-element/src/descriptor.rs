@@ -111,7 +111,8 @@ pub struct ModelDescriptor {
     pub formula: &'static str,
     /// Author, year, journal, equation.
     pub citation: &'static str,
-    /// Class of the law: elastic, Hunt-Crossley, linear, dry friction.
+    /// Class of the law: the family, and after a comma its member. The
+    /// documentation groups models by family.
     pub class: &'static str,
     /// Parameters that a user may give.
     pub parameters: &'static [ParameterDescriptor],
@@ -150,6 +151,22 @@ impl ModelDescriptor {
                 .insert("restitution".to_owned(), restitution);
         }
         parameters
+    }
+
+    /// The family in [`ModelDescriptor::class`].
+    #[must_use]
+    pub fn family(&self) -> &'static str {
+        self.class.split(',').next().unwrap_or(self.class)
+    }
+
+    /// Symbol of a unit, with the model's own exponent where that is not free.
+    #[must_use]
+    pub fn unit_symbol(&self, unit: ParameterUnit) -> &'static str {
+        let free = self.parameters.iter().any(|p| p.name == "exponent");
+        match unit {
+            ParameterUnit::NewtonPerMetreToExponent if !free => "N/m^1.5",
+            other => other.symbol(),
+        }
     }
 
     /// Whether users may ask for a restitution.

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_gap_element::{
-    AchievedRestitution, Bodies, GapElementError, ImpactModel, Memory, ModelDescriptor,
-    ModelParameters, Phase, collide, registry,
+    AchievedRestitution, Bodies, GapElementError, ImpactModel, MAXIMUM_CONSTANTS, Memory,
+    ModelDescriptor, ModelParameters, Phase, REQUESTED, Verification, collide, registry,
 };
 use proptest::prelude::*;
 
@@ -106,20 +106,29 @@ fn zero_approach_velocity_is_regular() {
 fn cards_are_complete_and_names_unique() {
     let mut names = Vec::new();
     for d in registry::descriptors() {
-        for text in [d.title, d.formula, d.citation, d.class] {
-            assert!(!text.is_empty(), "{}", d.name);
+        let status = match d.verification {
+            Verification::Verified(how) | Verification::SecondarySources(how) => how,
+        };
+        let texts = [d.title, d.formula, d.citation, d.class, d.family(), status];
+        for text in texts.iter().chain(d.traps) {
+            assert_eq!(text.trim(), *text, "{}", d.name);
+            assert!(text.len() > 4, "{}: \"{text}\" says nothing", d.name);
         }
-        assert!(
-            !d.traps.is_empty()
-                && !d.separation_rules.is_empty()
-                && (!d.constants.is_empty() || d.name == "stereomechanical")
-        );
+        let rigid = example(d, 0.65).rigid_restitution().is_some();
+        assert!(!d.traps.is_empty(), "{} has nothing to know", d.name);
+        assert!(!d.separation_rules.is_empty(), "{}", d.name);
+        assert!(!d.constants.is_empty() || rigid, "{}", d.name);
+        assert!(d.constants.len() <= MAXIMUM_CONSTANTS, "{}", d.name);
         names.push(d.name);
         for alias in d.aliases {
             names.push(alias.name);
             assert!(!alias.citation.is_empty(), "{}", alias.name);
             assert_eq!(registry::find(alias.name).unwrap().name, d.name);
         }
+    }
+    for name in &names {
+        let allowed = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        assert!(name.chars().all(allowed), "{name}");
     }
     let count = names.len();
     names.sort_unstable();
@@ -130,6 +139,81 @@ fn cards_are_complete_and_names_unique() {
         panic!("an unknown name was accepted");
     };
     assert_eq!(nearest, "jankowski_2005");
+}
+
+/// The model of the documentation's example.
+fn example(d: &ModelDescriptor, restitution: f64) -> Box<dyn ImpactModel> {
+    registry::build(d.name, &d.example_parameters(restitution))
+        .unwrap_or_else(|e| panic!("the example of {}: {e}", d.name))
+}
+
+#[test]
+fn parameters_are_described_and_examples_build() {
+    for d in registry::descriptors() {
+        for (index, p) in d.parameters.iter().enumerate() {
+            let before = &d.parameters[..index];
+            assert!(before.iter().all(|q| q.name != p.name), "{}", p.name);
+            assert!(!p.explanation.is_empty(), "{}: {}", d.name, p.name);
+            assert!(
+                p.default.is_none_or(|x| p.allows(x)),
+                "{}: {}",
+                d.name,
+                p.name
+            );
+            assert!(!p.required || p.default.is_none(), "{}: {}", d.name, p.name);
+        }
+        for e in [0.1, 0.4, 0.65, 0.9, 1.0] {
+            for &rule in d.separation_rules {
+                let parameters = d.example_parameters(e).with_separation(rule);
+                let model = registry::build(d.name, &parameters)
+                    .unwrap_or_else(|e| panic!("the example of {}: {e}", d.name));
+                assert_eq!(model.separation(), rule, "{}", d.name);
+                assert_eq!(model.descriptor().name, d.name);
+            }
+        }
+    }
+}
+
+/// One model a file of its own name, and no file that nobody registered.
+#[test]
+fn every_model_has_its_file() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/models");
+    let mut files: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .filter(|name| name != "mod")
+        .collect();
+    let mut names: Vec<&str> = registry::descriptors().iter().map(|d| d.name).collect();
+    files.sort_unstable();
+    names.sort_unstable();
+    assert_eq!(files, names, "files of src/models and lines of `models!`");
+}
+
+/// Why they are recommended: in a free collision they return what is asked, with
+/// every separation rule that they offer.
+#[test]
+fn recommended_models_return_the_restitution_asked_for() {
+    let bodies = Bodies {
+        mass_left: 25e3,
+        mass_right: Some(40e3),
+        velocity_left: 0.8,
+        velocity_right: 0.0,
+    };
+    for d in registry::descriptors().iter().filter(|d| d.recommended) {
+        for &rule in d.separation_rules {
+            for e in REQUESTED {
+                let parameters = d.example_parameters(e).with_separation(rule);
+                let model = registry::build(d.name, &parameters).unwrap();
+                let returned = collide(model.as_ref(), &bodies).unwrap().restitution;
+                assert!(
+                    (returned - e).abs() < 1e-9,
+                    "{} {rule:?} {e}: {returned}",
+                    d.name
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "IMPACT function of ADAMS",
     formula: "F = max(0, k delta^n + c(delta) v);  c = c_max s^2 (3 - 2 s), s = min(delta / d, 1)",
     citation: "MSC/Altair documentation of the functions IMPACT and STEP; Zhou, Wu, Zhang and Xie 2012",
-    class: "power spring with a stepped dashpot",
+    class: "power spring, dashpot stepped with penetration",
     parameters: &[
         POWER_STIFFNESS,
         DAMPING,

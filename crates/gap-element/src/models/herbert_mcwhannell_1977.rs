@@ -16,7 +16,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "relation as quoted in the literature, not read in the paper; behaviour verified against the closed form",
     ),
     traps: &[
-        "Returns 0.6511 for 0.6 and 0.5936 for 0.5; never below 0.48.",
+        "Returns 0.6511 for 0.6 and 0.5936 for 0.5; never below 0.487.",
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,

@@ -14,7 +14,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     formula: "F = k delta^n (1 + y v / v0);  y = (3/2) (1 - e)",
     citation: "Hunt and Crossley, J. Applied Mechanics 42 (1975) 440",
     traps: &[
-        "Right to first order near e = 1 only: 0.7120 for 0.6, 0.7390 for 0.65; never below 0.47.",
+        "Right to first order near e = 1 only: 0.7120 for 0.6, 0.7390 for 0.65; never below 0.487.",
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,

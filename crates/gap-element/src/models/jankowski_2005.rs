@@ -17,7 +17,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Non-linear viscoelastic",
     formula: "F = k delta^1.5 + c v (v > 0), k delta^1.5 (v <= 0);  c = 2 xi sqrt(k sqrt(delta) m),  xi = (9 sqrt5 / 2) (1 - e^2) / (e (e (9 pi - 16) + 16))",
     citation: "Jankowski, Earthquake Engineering and Structural Dynamics 34 (2005) 595; xi(e): 35 (2006) 517",
-    class: "linear class with exponent 3/2, damping in approach only",
+    class: "linear class, exponent 3/2, damping in approach only",
     parameters: &[HERTZ_STIFFNESS, RESTITUTION, DAMPING_RATIO],
     verification: Verification::SecondarySources(
         "formula and xi(e) as documented in OpenSees; behaviour verified against the closed form e = exp(-g(2 xi / sqrt5))",

@@ -13,7 +13,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Modified linear viscoelastic",
     formula: "F = k delta + c v (v > 0), k delta (v <= 0);  c = 2 zeta sqrt(k m),  zeta = (1 - e^2) / (e (e (pi - 2) + 2))",
     citation: "Mahmoud and Jankowski, IJST Transactions C 35 (2011) 51, equations 6-7",
-    class: "linear, damping in approach only",
+    class: "linear class, exponent 1, damping in approach only",
     verification: Verification::Verified("closed form e = exp(-g(zeta)) of approach-only damping"),
     traps: &[
         "Returns slightly more than asked: 0.2055 for 0.2, 0.6046 for 0.6, 0.6538 for 0.65.",

@@ -19,7 +19,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Kelvin-Voigt with a limited damper",
     formula: "F = k delta + clamp(c v, -k delta, k delta);  c = 2 zeta sqrt(k m),  zeta = -ln e / sqrt(pi^2 + ln^2 e)",
     citation: "Modelica Standard Library, Mechanics.Translational.Components.ElastoGap",
-    class: "linear with a limited damper",
+    class: "linear class, exponent 1, damper limited by the spring",
     achieved_restitution: AchievedRestitution::Constant,
     verification: Verification::SecondarySources(
         "the library's documentation gives the law and leaves c to the user; with the customary zeta(e) verified against an independent integration to 1e-8",

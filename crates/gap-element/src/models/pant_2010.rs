@@ -16,7 +16,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Modified Kelvin-Voigt of Pant",
     formula: "F = k delta (1 + y v / v0) (v > 0), k delta (v <= 0);  y = (3/2) (1 - e^2) / e^2",
     citation: "Pant, Wijeyewickrema and Ohmachi (2010); Pant and Wijeyewickrema, Earthquake Engineering and Structural Dynamics 41 (2012) 1709",
-    class: "Hunt-Crossley class with exponent 1, damping in approach only",
+    class: "Hunt-Crossley class, exponent 1, damping in approach only",
     separation_rules: &[crate::model::SeparationRule::ZeroPenetration],
     verification: Verification::SecondarySources(
         "relation as quoted in the literature; behaviour verified against the closed form e = sqrt(2 (y - ln(1 + y))) / y",

@@ -18,7 +18,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Rubber bumper",
     formula: "F = f(delta) (1 + y v / v0) (v > 0), f(delta) (v <= 0);  f = k delta^n up to crushing, then f_u + k_u (delta - delta_u);  y = (3/2) (1 - e^2) / e^2",
     citation: "Polycarpou, Komodromos and Polycarpou, Earthquake Engineering and Structural Dynamics 42 (2013) 81",
-    class: "Hunt-Crossley class, damping in approach only, with a stiff branch",
+    class: "Hunt-Crossley class, damping in approach only, stiff branch when crushed",
     parameters: &[
         POWER_STIFFNESS,
         RESTITUTION,

@@ -17,7 +17,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     title: "Hertz spring, dashpot in both phases",
     formula: "F = k delta^1.5 + c v;  c = 2 xi sqrt(k m sqrt(delta)),  xi = (sqrt5 / 2) zeta,  zeta = -ln e / sqrt(pi^2 + ln^2 e)",
     citation: "Tsuji, Tanaka and Ishida, Powder Technology 71 (1992) 239; the contact law \"Hertz\" of Chrono",
-    class: "linear class with exponent 3/2, damping in both phases",
+    class: "linear class, exponent 3/2, damping in both phases",
     parameters: &[HERTZ_STIFFNESS, RESTITUTION, DAMPING_RATIO],
     separation_rules: &[
         SeparationRule::ZeroPenetration,

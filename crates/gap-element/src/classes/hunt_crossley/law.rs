@@ -47,7 +47,7 @@ pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
 
 /// The same with the exponent 1.
 pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
-    class: "Hunt-Crossley class with exponent 1, damping in both phases",
+    class: "Hunt-Crossley class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_FACTOR],
     constants: &[
         ConstantDescriptor {

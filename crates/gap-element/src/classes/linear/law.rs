@@ -48,7 +48,7 @@ pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
 
 /// The same with the exponent 1.
 pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
-    class: "linear, damping in both phases",
+    class: "linear class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_RATIO],
     constants: &[
         ConstantDescriptor {

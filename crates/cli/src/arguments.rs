@@ -39,6 +39,9 @@ pub enum Command {
         /// Print one JSON object
         #[arg(long)]
         json: bool,
+        /// Write the documentation's page of every model into this folder
+        #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json"])]
+        pages: Option<PathBuf>,
     },
     /// Let two bodies collide: what a model really returns
     Impact(ImpactArguments),

@@ -33,6 +33,17 @@ pub struct Panel {
 const WIDTH: u32 = 960;
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 320;
+/// Colours of the curves in turn, all dark enough on white (Tableau's ten without
+/// the palest).
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(31, 119, 180),
+    RGBColor(214, 39, 40),
+    RGBColor(44, 160, 44),
+    RGBColor(255, 127, 14),
+    RGBColor(148, 103, 189),
+    RGBColor(140, 86, 75),
+    RGBColor(23, 190, 207),
+];
 
 /// Draws panels below one another as SVG.
 pub fn figure(panels: &[Panel]) -> Result<String, Failure> {
@@ -119,16 +130,16 @@ fn draw_panel(
         .x_label_area_size(32)
         .y_label_area_size(64)
         .build_cartesian_2d(
-            range(points().map(|p| p.0), 0.0),
+            range(points().map(|p| p.0), 0.02),
             range(points().map(|p| p.1), 0.05),
         )?;
     chart
         .configure_mesh()
         .x_desc(&panel.horizontal)
-        .light_line_style(WHITE)
+        .max_light_lines(0)
         .draw()?;
     for (i, curve) in panel.curves.iter().enumerate() {
-        let colour = Palette99::pick(i).to_rgba();
+        let colour = COLOURS[i % COLOURS.len()];
         chart
             .draw_series(LineSeries::new(curve.points.iter().copied(), &colour))?
             .label(curve.name.as_str())
@@ -137,6 +148,7 @@ fn draw_panel(
     if panel.curves.len() > 1 {
         chart
             .configure_series_labels()
+            .position(SeriesLabelPosition::LowerRight)
             .background_style(WHITE.mix(0.8))
             .border_style(BLACK)
             .draw()?;

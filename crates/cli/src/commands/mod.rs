@@ -20,7 +20,9 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check { case, json } => check::check(&case, json),
-        Command::Models { name, json } => models::models(name.as_deref(), json),
+        Command::Models { name, json, pages } => {
+            models::models(name.as_deref(), json, pages.as_deref())
+        }
         Command::Impact(arguments) => match &arguments.command {
             Some(ImpactCommand::Calibrate(arguments)) => calibrate::calibrate(arguments),
             None => impact::impact(&arguments),

@@ -1,0 +1,177 @@
+//! The page of one model.
+
+use pounding_gap_element::{
+    GapElementError, ModelDescriptor, ParameterDescriptor, Verification, registry,
+};
+
+use super::example::{BODIES_AS_ARGUMENTS, Example, RESTITUTION};
+use super::numbers::{plain, with_unit};
+use super::results::{collisions, restitution};
+
+/// The page as Markdown.
+pub fn page(example: &Example) -> String {
+    let d = example.descriptor;
+    let mut sections = vec![
+        head(d),
+        parameters(d),
+        separation(d),
+        traps(d),
+        restitution(example),
+        collisions(example),
+        usage(d),
+    ];
+    sections.retain(|s| !s.is_empty());
+    format!("\n{}\n", sections.join("\n"))
+}
+
+/// Text inside a table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+fn head(d: &ModelDescriptor) -> String {
+    let (status, how) = match d.verification {
+        Verification::Verified(how) => ("verified against", how),
+        Verification::SecondarySources(how) => ("**from secondary sources**", how),
+    };
+    let mut text = format!(
+        "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| class | {} |\n| checked | {status}: {} |\n",
+        d.name,
+        d.title,
+        d.formula.split(";  ").collect::<Vec<_>>().join("\n"),
+        cell(d.citation),
+        cell(d.class),
+        cell(how),
+    );
+    for alias in d.aliases {
+        text.push_str(&format!(
+            "| also called | `{}`: {} |\n",
+            alias.name,
+            cell(alias.citation)
+        ));
+    }
+    if d.recommended {
+        text.push_str("| recommended | it returns the restitution asked for |\n");
+    }
+    text
+}
+
+fn parameters(d: &ModelDescriptor) -> String {
+    let mut text =
+        "## Parameters\n\n| name | unit | range | default | |\n|---|---|---|---|---|\n".to_owned();
+    for p in d.parameters {
+        text.push_str(&format!(
+            "| `{}` | {} | {} | {} | {} |\n",
+            p.name,
+            d.unit_symbol(p.unit),
+            p.range(),
+            default(d, p),
+            cell(p.explanation)
+        ));
+    }
+    let constants: Vec<_> = d
+        .constants
+        .iter()
+        .map(|c| format!("`{}` ({})", c.name, d.unit_symbol(c.unit)))
+        .collect();
+    if !constants.is_empty() {
+        text.push_str(&format!(
+            "\nFixed when the gap closes and written with each impact: {}.",
+            constants.join(", ")
+        ));
+    }
+    let needed: Vec<_> = [
+        (d.needs_approach_velocity, "approach velocity"),
+        (d.needs_effective_mass, "effective mass"),
+    ]
+    .iter()
+    .filter_map(|(needed, what)| needed.then_some(*what))
+    .collect();
+    text.push_str(&if needed.is_empty() {
+        "\nThe law uses neither approach velocity nor effective mass.\n".to_owned()
+    } else {
+        format!("\nThe law uses the {}.\n", needed.join(" and the "))
+    });
+    text
+}
+
+/// The default of a parameter, or whether a case must give it.
+fn default(d: &ModelDescriptor, p: &ParameterDescriptor) -> String {
+    if p.required {
+        return "required".to_owned();
+    }
+    if let Some(default) = p.default {
+        return plain(default);
+    }
+    // One of a pair of alternatives shows when the example is left without it.
+    let mut parameters = d.example_parameters(RESTITUTION);
+    parameters.values.remove(p.name);
+    match registry::build(d.name, &parameters) {
+        Err(GapElementError::MissingParameter { parameter, .. }) if parameter != p.name => {
+            format!("required: {parameter}")
+        }
+        _ => "optional".to_owned(),
+    }
+}
+
+fn separation(d: &ModelDescriptor) -> String {
+    let mut names: Vec<_> = d
+        .separation_rules
+        .iter()
+        .map(|rule| format!("`{}`", rule.name()))
+        .collect();
+    if names.len() > 1 {
+        names[0].push_str(" (default)");
+    }
+    format!(
+        "Separation: {}. What the rules mean: [contact laws](../contact-laws.md#separation-rules).\n",
+        names.join(", ")
+    )
+}
+
+fn traps(d: &ModelDescriptor) -> String {
+    let mut text = "## What to know\n\n".to_owned();
+    for trap in d.traps {
+        text.push_str(&format!("- {trap}\n"));
+    }
+    text
+}
+
+fn usage(d: &ModelDescriptor) -> String {
+    let (mut keys, mut arguments) = (String::new(), String::new());
+    let example = d.example_parameters(RESTITUTION);
+    for p in d.parameters {
+        if let Some(value) = example.values.get(p.name) {
+            let (value, has_unit) = with_unit(d, &example, p.name, *value);
+            let quoted = if has_unit {
+                format!("\"{value}\"")
+            } else {
+                value
+            };
+            keys.push_str(&format!("{} = {quoted}\n", p.name));
+            arguments.push_str(&format!(" -p {}={quoted}", p.name));
+        }
+    }
+    if let [_, others @ ..] = d.separation_rules {
+        for rule in others {
+            keys.push_str(&format!(
+                "# separation = \"{}\"    # instead of the default\n",
+                rule.name()
+            ));
+        }
+    }
+    let table = if d.takes_restitution() {
+        "the example collision, and with `--table` the table above"
+    } else {
+        "the example collision"
+    };
+    let stiffness = if d.parameters.iter().any(|p| p.name == "stiffness") {
+        "\nWhere a stiffness comes from: [contact stiffness](../contact-stiffness.md).\n"
+    } else {
+        ""
+    };
+    format!(
+        "## Use it\n\nIn a case file, with the values of the example:\n\n```toml\n[[gap]]\nbetween = [\"left\", \"right\"]\nwidth = \"20 mm\"\nmodel = \"{0}\"\n{keys}```\n\nOn the command line {table}:\n\n```sh\npounding impact {0} {BODIES_AS_ARGUMENTS} \\\n   {arguments}\n```\n{stiffness}",
+        d.name
+    )
+}

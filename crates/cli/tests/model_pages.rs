@@ -1,0 +1,174 @@
+//! The pages of the impact models are what the code says, and what they tell users
+//! to type works.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pounding_gap_element::{ModelDescriptor, registry};
+
+const REMEDY: &str = "run `cargo run --release --bin pounding -- models --pages docs/models`, look at the difference and commit it";
+
+fn committed() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/models")
+}
+
+fn pounding() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    command.env("NO_COLOR", "1");
+    command
+}
+
+fn succeeds(command: &mut Command, what: &str) {
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{what}: {errors}");
+}
+
+fn files(folder: &Path) -> BTreeSet<String> {
+    std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect()
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}; {REMEDY}"))
+}
+
+/// A law without compliance has no force to draw.
+fn has_figure(d: &ModelDescriptor) -> bool {
+    let model = registry::build(d.name, &d.example_parameters(0.65)).unwrap();
+    model.rigid_restitution().is_none()
+}
+
+/// Pages and figures, to the last character: figures too, as their coordinates are
+/// whole pixels, far coarser than any machine's round-off.
+#[test]
+fn committed_pages_are_what_the_code_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let fresh = folder.path().join("pages");
+    succeeds(pounding().args(["models", "--pages"]).arg(&fresh), "pages");
+    let (made, kept) = (files(&fresh), files(&committed()));
+    let stale: Vec<_> = kept.difference(&made).collect();
+    assert!(
+        stale.is_empty(),
+        "no model makes these files of docs/models, remove them: {stale:?}"
+    );
+    for name in &made {
+        let (new, old) = (read(&fresh, name), read(&committed(), name));
+        let line = new.lines().zip(old.lines()).position(|(a, b)| a != b);
+        assert!(
+            new == old,
+            "docs/models/{name} differs from line {} on; {REMEDY}",
+            1 + line.unwrap_or_else(|| new.lines().count().min(old.lines().count()))
+        );
+    }
+}
+
+#[test]
+fn every_registered_model_has_its_page_and_figure() {
+    let folder = committed();
+    let index = read(&folder, "README.md");
+    let mut wanted = BTreeSet::from(["README.md".to_owned()]);
+    for d in registry::descriptors() {
+        wanted.insert(format!("{}.md", d.name));
+        if has_figure(d) {
+            wanted.insert(format!("{}.svg", d.name));
+        }
+        assert!(index.contains(&format!("]({}.md)", d.name)), "{REMEDY}");
+    }
+    assert_eq!(wanted, files(&folder), "{REMEDY}");
+    for name in wanted {
+        let size = std::fs::metadata(folder.join(&name)).unwrap().len();
+        assert!(size < 60_000, "{name} has {size} bytes");
+    }
+}
+
+/// The fenced block of this language on a page.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let (_, rest) = page.split_once(&format!("```{language}\n")).unwrap();
+    rest.split_once("```").unwrap().0
+}
+
+const BUILDING: &str = r#"
+storeys = 1
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+"#;
+
+/// A case around the gap of a page.
+fn case(gap: &str) -> String {
+    let motion = committed().join("../../ground_motions/el_centro_1940_ns.csv");
+    let motion = motion.canonicalize().unwrap();
+    format!(
+        "[[building]]\nname = \"left\"{BUILDING}[[building]]\nname = \"right\"{BUILDING}{gap}[ground_motion]\nfile = {motion:?}\n"
+    )
+}
+
+#[test]
+fn the_case_files_of_the_pages_are_accepted() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    for d in registry::descriptors() {
+        let page = read(&committed(), &format!("{}.md", d.name));
+        let gap = block(&page, "toml");
+        // The default separation rule, and each that the page shows instead.
+        let others = gap.lines().filter(|line| line.starts_with("# separation"));
+        let mut gaps = vec![gap.to_owned()];
+        gaps.extend(others.map(|line| gap.replace(line, line.trim_start_matches("# "))));
+        assert_eq!(gaps.len(), d.separation_rules.len(), "{}", d.name);
+        for gap in gaps {
+            std::fs::write(&file, case(&gap)).unwrap();
+            succeeds(pounding().arg("check").arg(&file), &gap);
+        }
+    }
+}
+
+/// Words of a line as a shell takes them apart, quotes being double.
+fn words(line: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut quoted = false;
+    for c in line.replace("\\\n", " ").trim().chars() {
+        match c {
+            '"' => quoted = !quoted,
+            c if c.is_whitespace() && !quoted => words.push(String::new()),
+            c => words.last_mut().unwrap().push(c),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+#[test]
+fn the_commands_of_the_pages_run() {
+    for d in registry::descriptors() {
+        let page = read(&committed(), &format!("{}.md", d.name));
+        let words = words(block(&page, "sh"));
+        assert_eq!(words[0], "pounding");
+        succeeds(pounding().args(&words[1..]), d.name);
+        if d.takes_restitution() {
+            succeeds(pounding().args(&words[1..]).arg("--table"), d.name);
+        }
+    }
+}
+
+/// Relative links of the guides and pages lead to files.
+#[test]
+fn links_lead_somewhere() {
+    let docs = committed().join("..");
+    for folder in [docs.join(".."), docs.clone(), committed()] {
+        for name in files(&folder).iter().filter(|n| n.ends_with(".md")) {
+            for part in read(&folder, name).split("](").skip(1) {
+                let target = part.split(')').next().unwrap();
+                let target = target.split('#').next().unwrap();
+                if !target.is_empty() && !target.contains("://") {
+                    assert!(folder.join(target).exists(), "{name}: {target}");
+                }
+            }
+        }
+    }
+}

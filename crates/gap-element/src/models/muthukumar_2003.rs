@@ -56,7 +56,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "the thesis' example in kip and inch, and e = sqrt((1 - c) / (1 + c)), c = (1 - e^2) / (n + 1), at the design penetration",
     ),
     traps: &[
-        "The energy to load it is not that of the Hertz spring: at the design penetration it returns 0.7338 for 0.5, 0.7696 for 0.6, 0.7906 for 0.65.",
+        "The energy to load it is not that of the Hertz spring: at the design penetration it returns 0.7338 for 0.5, 0.7696 for 0.6, 0.7904 for 0.65.",
         "Without design_penetration it is found from approach velocity and effective mass of each collision: the one that a free collision reaches. The restitution is then the same at every speed.",
         "With a design_penetration of the user's own, the restitution depends on the penetration reached.",
         "Evaluated from the penetration itself: programs that add increments from the last step include travel outside the gap.",

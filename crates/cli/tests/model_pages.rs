@@ -128,6 +128,26 @@ fn the_case_files_of_the_pages_are_accepted() {
     }
 }
 
+/// The case file takes a key that resembles one of the gap's own for a slip.
+#[test]
+fn no_parameter_is_mistaken_for_a_key_of_the_gap() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let mut tried = BTreeSet::new();
+    for d in registry::descriptors() {
+        for p in d.parameters.iter().filter(|p| tried.insert(p.name)) {
+            let gap = format!(
+                "[[gap]]\nbetween = [\"left\", \"right\"]\nwidth = \"20 mm\"\nmodel = \"{}\"\n{} = 0.5\n",
+                d.name, p.name
+            );
+            std::fs::write(&file, case(&gap)).unwrap();
+            let output = pounding().arg("check").arg(&file).output().unwrap();
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert!(!errors.contains("unknown key"), "{}: {errors}", p.name);
+        }
+    }
+}
+
 /// Words of a line as a shell takes them apart, quotes being double.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
@@ -171,4 +191,31 @@ fn links_lead_somewhere() {
             }
         }
     }
+}
+
+/// The hand-kept table of contact-laws.md says what the pages say.
+#[test]
+fn the_theory_quotes_the_pages() {
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.split('|').map(|cell| cell.trim().to_owned());
+        cells.collect()
+    };
+    let mut compared = 0;
+    for line in read(&committed().join(".."), "contact-laws.md").lines() {
+        let row = cells(line);
+        let numbers: Vec<f64> = row.iter().filter_map(|c| c.parse().ok()).collect();
+        let (Some((_, rest)), 3) = (line.split_once("](models/"), numbers.len()) else {
+            continue;
+        };
+        let page = read(&committed(), rest.split(')').next().unwrap());
+        let achieved = page
+            .lines()
+            .find(|l| l.starts_with("| achieved restitution"));
+        for (quoted, said) in row[2..5].iter().zip(&cells(achieved.unwrap())[2..5]) {
+            let said: f64 = said.parse().unwrap();
+            assert_eq!(*quoted, format!("{said:.4}"), "{line}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 30, "{compared}");
 }

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use pounding_case::{
-    Building, Case, CaseError, Damping, Dimension, Gap, Located, Parameter, Scale, Side,
-};
+use pounding_case::{Building, Case, CaseError, Damping, Gap, Located, Parameter, Scale, Side};
 use pounding_gap_element::{
-    ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit, SeparationRule, registry,
+    ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, Format, ReadOptions};
 use pounding_shear_building::ShearBuilding;
 
+use crate::dimension::parameter_dimension;
 use crate::error::TimeHistoryError;
 use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 use crate::system::{Floor, GroundAcceleration, System};
@@ -180,19 +179,7 @@ fn model_parameter(
             Some(format!("its parameters are {}", all.join(", "))),
         ));
     };
-    let wanted = match known.unit {
-        ParameterUnit::One => Dimension::NUMBER,
-        ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
-        ParameterUnit::NewtonPerMetreToExponent => {
-            let known = descriptor.parameters.iter().find(|p| p.name == "exponent");
-            let default = known.and_then(|p| p.default).unwrap_or(1.5);
-            Dimension::stiffness_with_exponent(exponent.unwrap_or(default))
-        }
-        ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
-        ParameterUnit::SecondPerMetre => Dimension::SLOWNESS,
-        ParameterUnit::Metre => Dimension::LENGTH,
-        ParameterUnit::Second => Dimension::TIME,
-    };
+    let wanted = parameter_dimension(descriptor, known, exponent);
     match quantity.dimension {
         Some(found) if found != wanted => Err(case.error(
             parameter.value.span.clone(),

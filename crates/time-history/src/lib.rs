@@ -3,6 +3,7 @@
 mod assemble;
 mod complementarity;
 mod contact;
+mod dimension;
 mod driver;
 mod dynamics;
 mod error;
@@ -20,6 +21,7 @@ mod small_solver;
 mod system;
 
 pub use assemble::{Assembly, assemble};
+pub use dimension::parameter_dimension;
 pub use driver::run;
 pub use error::TimeHistoryError;
 pub use methods::Information;

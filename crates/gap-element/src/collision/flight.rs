@@ -17,6 +17,10 @@ const MAXIMUM_STEPS: usize = 100_000;
 /// Places of the history inside a step.
 const PLACES: usize = 8;
 
+/// Part of the approach velocity below which bodies that settle without turning
+/// back have arrived.
+const CREEP: f64 = 1.0e-9;
+
 /// How a contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
@@ -85,6 +89,11 @@ impl<'a> Flight<'a> {
 
     pub(super) fn integrate(&mut self) -> Result<End, GapElementError> {
         self.record();
+        self.reading = self
+            .history
+            .first()
+            .copied()
+            .filter(|_| self.read_at == Some(0.0));
         for _ in 0..MAXIMUM_STEPS {
             let to_reading = self.read_at.map(|t| t - self.time).filter(|t| *t > 0.0);
             let (wanted, reads) = match to_reading {
@@ -130,11 +139,15 @@ impl<'a> Flight<'a> {
     }
 
     /// Parting takes a kinetic energy at zero penetration; less than nothing is
-    /// left for it, and no law here gives energy back that it did not store. The
+    /// left for it, and no law here gives energy back that it did not store. That
+    /// may be known on the way in: the peaks are so when the way in is over. The
     /// motion goes on as long as a reading is wanted.
     fn rests(&self) -> bool {
         let [delta, velocity, _] = self.state;
         let (mass, pressing) = (self.collision.effective_mass, self.pressing);
+        if velocity > CREEP * self.collision.approach_velocity {
+            return false;
+        }
         let stored = self
             .model
             .stored_energy(&self.collision, &self.memory, self.phase, delta);

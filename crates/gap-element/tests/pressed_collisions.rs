@@ -1,0 +1,98 @@
+//! Collisions under a constant pressing acceleration, against closed forms.
+#![allow(clippy::unwrap_used)]
+
+use pounding_gap_element::{
+    Bodies, CollisionOptions, CollisionOutcome, ModelParameters, collide_with, registry,
+};
+
+const GRAVITY: f64 = 9.80665;
+
+fn drop(
+    model: &str,
+    parameters: &[(&str, f64)],
+    (mass, velocity): (f64, f64),
+    read_at: f64,
+) -> CollisionOutcome {
+    let model = registry::build(model, &ModelParameters::from_pairs(parameters)).unwrap();
+    let bodies = Bodies {
+        mass_left: mass,
+        mass_right: None,
+        velocity_left: velocity,
+        velocity_right: 0.0,
+    };
+    let options = CollisionOptions {
+        pressing_acceleration: GRAVITY,
+        read_at: Some(read_at),
+    };
+    collide_with(model.as_ref(), &bodies, &options).unwrap()
+}
+
+fn close(value: f64, expected: f64) {
+    let error = (value / expected - 1.0).abs();
+    assert!(error < 1e-9, "{value} is not {expected}");
+}
+
+/// x = g/w^2 (1 - cos wt) + v0/w sin wt until x = 0 again, then free flight.
+#[test]
+fn an_elastic_drop_is_that_of_an_oscillator() {
+    let (mass, velocity, stiffness) = (500.0, 2.0, 1.0e6);
+    let natural = f64::sqrt(stiffness / mass);
+    let sag = GRAVITY / (natural * natural);
+    let contact = (2.0 * std::f64::consts::PI - 2.0 * (velocity / natural).atan2(sag)) / natural;
+    let parameters = [("stiffness", stiffness)];
+    let out = drop("linear_elastic", &parameters, (mass, velocity), 0.2);
+    close(out.peak_penetration, sag + sag.hypot(velocity / natural));
+    close(out.duration, contact);
+    close(out.restitution, 1.0);
+    let reading = out.reading.unwrap();
+    close(reading.velocity, GRAVITY * (0.2 - contact) - velocity);
+    let within = drop("linear_elastic", &parameters, (mass, velocity), 0.01);
+    let phase = natural * 0.01;
+    let expected = sag * natural * phase.sin() + velocity * phase.cos();
+    close(within.reading.unwrap().velocity, expected);
+    let at_once = drop("linear_elastic", &parameters, (mass, velocity), 0.0);
+    assert_eq!(at_once.reading.unwrap().velocity, velocity);
+    assert_eq!(at_once.reading.unwrap().penetration, 0.0);
+}
+
+/// A body set down so slowly that it stays: its peak is that of the damped
+/// oscillator, though its fate is known before it gets there.
+#[test]
+fn a_body_that_stays_has_reached_its_peak() {
+    let (mass, velocity, stiffness, ratio) = (500.0, 1e-3, 1.0e6, 0.5_f64);
+    let natural = f64::sqrt(stiffness / mass);
+    let damped = natural * (1.0 - ratio * ratio).sqrt();
+    let sag = GRAVITY / (natural * natural);
+    let sine = (velocity - ratio * natural * sag) / damped;
+    let state = |t: f64| {
+        let (s, c) = (damped * t).sin_cos();
+        let fading = (-ratio * natural * t).exp();
+        let x = sag + fading * (sine * s - sag * c);
+        let rate = fading * damped * (sine * c + sag * s) - ratio * natural * (x - sag);
+        (x, rate)
+    };
+    let (mut low, mut high) = (1e-4 / damped, 1.5 * std::f64::consts::PI / damped);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if state(middle).1 > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let parameters = [("stiffness", stiffness), ("damping_ratio", ratio)];
+    let out = drop("anagnostopoulos_2004", &parameters, (mass, velocity), 1.0);
+    assert!(out.stays_in_contact);
+    assert!(out.reading.is_none());
+    close(out.peak_penetration, state(low).0);
+    assert!((out.peak_penetration_time / low - 1.0).abs() < 1e-6);
+}
+
+/// A dashpot so strong that the body creeps to rest without turning back.
+#[test]
+fn a_body_that_creeps_comes_to_rest() {
+    let parameters = [("stiffness", 1.0e6), ("damping_ratio", 3.0)];
+    let out = drop("anagnostopoulos_2004", &parameters, (500.0, 0.01), 100.0);
+    assert!(out.stays_in_contact);
+    close(out.peak_penetration, 500.0 * GRAVITY / 1.0e6);
+}

@@ -1,12 +1,14 @@
 //! Arguments of all commands.
 
+mod impact;
+mod verification;
+
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
-mod verification;
-
+pub use impact::ImpactArguments;
 pub use verification::*;
 
 /// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
@@ -73,39 +75,6 @@ pub struct RunArguments {
     #[arg(long)]
     pub plot: Option<PathBuf>,
     /// Print one JSON object instead of tables
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `impact`.
-#[derive(Debug, clap::Args)]
-#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct ImpactArguments {
-    /// What to do instead of a collision
-    #[command(subcommand)]
-    pub command: Option<ImpactCommand>,
-    /// Impact model
-    #[arg(required = true)]
-    pub model: Option<String>,
-    /// Mass of the left body, such as "25 t"
-    #[arg(long, default_value = "25 t")]
-    pub mass_left: String,
-    /// Mass of the right body, or "wall"
-    #[arg(long, default_value = "40 t")]
-    pub mass_right: String,
-    /// Approach velocity, such as "0.8 m/s"
-    #[arg(long, default_value = "0.8 m/s", allow_hyphen_values = true)]
-    pub velocity: String,
-    /// Parameter of the model as key=value, such as stiffness="93.5 MN/m"; may be repeated
-    #[arg(short, long = "parameter", value_name = "KEY=VALUE")]
-    pub parameters: Vec<String>,
-    /// Separation rule: zero_penetration or no_tension
-    #[arg(long)]
-    pub separation: Option<String>,
-    /// Table of requested against achieved restitution
-    #[arg(long)]
-    pub table: bool,
-    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
 }

@@ -42,6 +42,22 @@ impl Failure {
         Self::Input(plain(message.into(), help))
     }
 
+    /// Bad input at a place (byte range) in a file.
+    pub fn in_file(
+        file: &str,
+        source: &str,
+        place: std::ops::Range<usize>,
+        message: String,
+        help: &str,
+    ) -> Self {
+        let diagnostic = MietteDiagnostic::new(message)
+            .with_help(help)
+            .with_label(LabeledSpan::at((place.start, place.len()), "here"));
+        Self::Input(
+            Report::new(diagnostic).with_source_code(NamedSource::new(file, source.to_owned())),
+        )
+    }
+
     /// Output that could not be written; a closed pipe is the reader's choice.
     pub fn output(error: &std::io::Error, what: &str) -> Self {
         Self::Output(plain(
@@ -100,7 +116,12 @@ impl From<CalibrationError> for Failure {
 
 impl From<GapElementError> for Failure {
     fn from(error: GapElementError) -> Self {
-        Self::input(error.to_string(), error.help())
+        match error {
+            GapElementError::Unfinished { .. } => {
+                Self::Computation(plain(error.to_string(), error.help()))
+            }
+            _ => Self::input(error.to_string(), error.help()),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use pounding_time_history::{RunRecord, Sample};
 
@@ -29,7 +30,16 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
-/// Width of a picture (pixels).
+/// A curve to compare with, drawn dashed and black.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// Number of the panel, from zero.
+    pub panel: usize,
+    /// The curve.
+    pub curve: Curve,
+}
+
+/// Width of the panels (pixels).
 const WIDTH: u32 = 960;
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 320;
@@ -44,11 +54,27 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(140, 86, 75),
     RGBColor(23, 190, 207),
 ];
+/// Dashes and spaces (pixels) that tell curves apart where the colours begin anew.
+const DASHES: [(u32, u32); 4] = [(6, 4), (2, 3), (12, 3), (1, 5)];
+/// More curves than this would hide behind their legend: it moves beside them.
+const LEGEND_INSIDE: usize = 2;
+/// Width of a legend beside the panels (pixels).
+const LEGEND_WIDTH: u32 = 280;
+/// Height of its lines (pixels).
+const LEGEND_LINE: u32 = 18;
 
 /// Draws panels below one another as SVG.
 pub fn figure(panels: &[Panel]) -> Result<String, Failure> {
+    figure_with_references(panels, &[])
+}
+
+/// Draws panels below one another, and curves to compare with, as SVG.
+pub fn figure_with_references(
+    panels: &[Panel],
+    references: &[Reference],
+) -> Result<String, Failure> {
     let mut svg = String::new();
-    let drawn = draw(&mut svg, panels).map_err(|e| e.to_string());
+    let drawn = draw(&mut svg, panels, references).map_err(|e| e.to_string());
     drawn
         .map_err(std::io::Error::other)
         .map_err(|e| Failure::output(&e, "the picture"))?;
@@ -99,15 +125,100 @@ pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
     write(path, &figure(&panels)?)
 }
 
-fn draw(svg: &mut String, panels: &[Panel]) -> Outcome {
-    let height = HEIGHT * u32::try_from(panels.len())?;
-    let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
+fn draw(svg: &mut String, panels: &[Panel], references: &[Reference]) -> Outcome {
+    let beside = legend_beside(panels);
+    let mut height = HEIGHT * u32::try_from(panels.len())?;
+    if beside {
+        let lines = panels[0].curves.len() + references.len();
+        height = height.max(LEGEND_LINE * u32::try_from(lines + 1)?);
+    }
+    let width = if beside { WIDTH + LEGEND_WIDTH } else { WIDTH };
+    let root = SVGBackend::with_string(svg, (width, height)).into_drawing_area();
     root.fill(&WHITE)?;
-    for (panel, area) in panels.iter().zip(root.split_evenly((panels.len(), 1))) {
-        draw_panel(&area, panel)?;
+    let (left, right) = root.split_horizontally(WIDTH);
+    let areas = left.split_evenly((panels.len(), 1));
+    for (i, (panel, area)) in panels.iter().zip(areas).enumerate() {
+        let references: Vec<_> = references.iter().filter(|r| r.panel == i).collect();
+        draw_panel(&area, panel, &references, !beside)?;
+    }
+    if beside {
+        draw_legend(&right, &panels[0].curves, references)?;
     }
     root.present()?;
     Ok(())
+}
+
+/// Whether one legend beside the panels serves them all better.
+fn legend_beside(panels: &[Panel]) -> bool {
+    let names =
+        |panel: &Panel| -> Vec<String> { panel.curves.iter().map(|c| c.name.clone()).collect() };
+    panels.first().is_some_and(|first| {
+        first.curves.len() > LEGEND_INSIDE && panels.iter().all(|p| names(p) == names(first))
+    })
+}
+
+fn draw_legend(
+    area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
+    curves: &[Curve],
+    references: &[Reference],
+) -> Outcome {
+    let references = references.iter().map(|r| (&r.curve, Stroke::REFERENCE));
+    let curves = curves.iter().enumerate();
+    let lines = references.chain(curves.map(|(i, c)| (c, Stroke::of(i))));
+    let mut middle = i32::try_from(LEGEND_LINE)?;
+    for (curve, stroke) in lines {
+        let across = [(8, middle), (40, middle)];
+        area.draw(&stroke.line(across))?;
+        area.draw(&Text::new(
+            curve.name.as_str(),
+            (48, middle - 6),
+            ("sans-serif", 13),
+        ))?;
+        middle += i32::try_from(LEGEND_LINE)?;
+    }
+    Ok(())
+}
+
+/// How a curve looks.
+#[derive(Clone, Copy)]
+struct Stroke {
+    colour: RGBColor,
+    /// Dash and space (pixels); `None` is a solid line.
+    dash: Option<(u32, u32)>,
+    width: u32,
+}
+
+impl Stroke {
+    /// A curve to compare with.
+    const REFERENCE: Self = Self {
+        colour: BLACK,
+        dash: Some(DASHES[0]),
+        width: 2,
+    };
+
+    /// Curve number `index`.
+    fn of(index: usize) -> Self {
+        let turn = index / COLOURS.len();
+        Self {
+            colour: COLOURS[index % COLOURS.len()],
+            dash: turn.checked_sub(1).map(|k| DASHES[k % DASHES.len()]),
+            width: 1,
+        }
+    }
+
+    fn style(self) -> ShapeStyle {
+        self.colour.stroke_width(self.width)
+    }
+
+    /// A short line for a legend.
+    fn line(
+        self,
+        ends: [(i32, i32); 2],
+    ) -> DashedPathElement<std::array::IntoIter<(i32, i32), 2>, u32> {
+        // A dash as long as the picture is a solid line.
+        let (dash, space) = self.dash.unwrap_or((WIDTH, 0));
+        DashedPathElement::new(ends, dash, space, self.style())
+    }
 }
 
 /// Range of a coordinate with a margin, and never empty.
@@ -122,8 +233,17 @@ fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64>
 fn draw_panel(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
     panel: &Panel,
+    references: &[&Reference],
+    legend: bool,
 ) -> Outcome {
-    let points = || panel.curves.iter().flat_map(|c| c.points.iter());
+    let compared = || references.iter().map(|r| &r.curve);
+    let points = || {
+        panel
+            .curves
+            .iter()
+            .chain(compared())
+            .flat_map(|c| c.points.iter())
+    };
     let mut chart = ChartBuilder::on(area)
         .caption(&panel.caption, ("sans-serif", 18))
         .margin(10)
@@ -138,14 +258,21 @@ fn draw_panel(
         .x_desc(&panel.horizontal)
         .max_light_lines(0)
         .draw()?;
-    for (i, curve) in panel.curves.iter().enumerate() {
-        let colour = COLOURS[i % COLOURS.len()];
-        chart
-            .draw_series(LineSeries::new(curve.points.iter().copied(), &colour))?
+    let curves = panel.curves.iter().enumerate();
+    let strokes = curves.map(|(i, curve)| (curve, Stroke::of(i)));
+    for (curve, stroke) in strokes.chain(compared().map(|c| (c, Stroke::REFERENCE))) {
+        let points = curve.points.iter().copied();
+        let series = match stroke.dash {
+            Some((dash, space)) => {
+                chart.draw_series(DashedLineSeries::new(points, dash, space, stroke.style()))?
+            }
+            None => chart.draw_series(LineSeries::new(points, stroke.style()))?,
+        };
+        series
             .label(curve.name.as_str())
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour));
+            .legend(move |(x, y)| stroke.line([(x, y), (x + 20, y)]));
     }
-    if panel.curves.len() > 1 {
+    if legend && panel.curves.len() + references.len() > 1 {
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::LowerRight)

@@ -174,10 +174,7 @@ fn every_registered_model_has_reference_values() {
         } else {
             (single, "collision in tests/data/impact_models.json")
         };
-        assert!(
-            wanted,
-            "{name} has no {what}"
-        );
+        assert!(wanted, "{name} has no {what}");
     }
 }
 

@@ -1,0 +1,366 @@
+//! Which models, with which parameters.
+
+use pounding_case::{Quantity, parse_quantity};
+use pounding_gap_element::{
+    GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
+    ParameterUnit, SeparationRule, Verification, registry,
+};
+use pounding_time_history::parameter_dimension;
+use serde_json::{Map, Value, json};
+
+use super::setting::refused;
+use crate::arguments::ImpactArguments;
+use crate::failure::Failure;
+
+/// Restitution of the examples in the documentation: concrete floors.
+const EXAMPLE_RESTITUTION: f64 = 0.65;
+
+/// One model with its parameters.
+pub struct Chosen {
+    /// The model's card.
+    pub descriptor: &'static ModelDescriptor,
+    /// Parameters, given and filled in.
+    pub parameters: ModelParameters,
+    /// Names of those that were filled in from the model's example.
+    pub filled: Vec<String>,
+    /// Whether the separation rule asked for is not offered: its own holds.
+    pub keeps_own_separation: bool,
+}
+
+/// One parameter as given.
+struct Given {
+    text: String,
+    model: Option<&'static ModelDescriptor>,
+    key: String,
+    quantity: Quantity,
+}
+
+/// The models of the arguments.
+pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
+    let descriptors = descriptors(arguments)?;
+    let given = arguments
+        .parameters
+        .iter()
+        .map(|text| given(text, &descriptors))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut used = vec![false; given.len()];
+    let mut chosen = Vec::new();
+    for &descriptor in &descriptors {
+        let values = values(descriptor, &given, &mut used)?;
+        chosen.push(Chosen {
+            descriptor,
+            parameters: ModelParameters {
+                values,
+                separation: None,
+            },
+            filled: Vec::new(),
+            keeps_own_separation: false,
+        });
+    }
+    if let Some(at) = used.iter().position(|used| !used) {
+        return Err(Failure::input(
+            format!("-p {} serves no model", given[at].text),
+            Some("its unit fits none of the chosen models, or each has a value of its own".into()),
+        ));
+    }
+    separation(arguments, &mut chosen)?;
+    if arguments.example {
+        chosen.iter_mut().for_each(Chosen::fill);
+    }
+    Ok(chosen)
+}
+
+fn descriptors(arguments: &ImpactArguments) -> Result<Vec<&'static ModelDescriptor>, Failure> {
+    if arguments.all {
+        return Ok(registry::descriptors().to_vec());
+    }
+    let mut found: Vec<&'static ModelDescriptor> = Vec::new();
+    for name in &arguments.models {
+        let descriptor = registry::find(name)?;
+        if found.iter().any(|d| d.name == descriptor.name) {
+            return Err(Failure::input(
+                format!("model {} is asked for twice", descriptor.name),
+                Some(format!(
+                    "leave \"{name}\" out: one name or alias a model is enough"
+                )),
+            ));
+        }
+        found.push(descriptor);
+    }
+    Ok(found)
+}
+
+/// Takes `KEY=VALUE` or `MODEL.KEY=VALUE` apart, for models that were chosen.
+fn given(text: &str, descriptors: &[&'static ModelDescriptor]) -> Result<Given, Failure> {
+    let (name, value) = text.split_once('=').ok_or_else(|| {
+        Failure::input(
+            format!("-p {text}: this is not KEY=VALUE"),
+            Some("for example -p stiffness=\"93.5 MN/m\" -p restitution=0.65".to_owned()),
+        )
+    })?;
+    let (model, key) = match name.trim().split_once('.') {
+        Some((model, key)) => (Some(registry::find(model)?), key.trim()),
+        None => (None, name.trim()),
+    };
+    if let Some(model) = model.filter(|m| descriptors.iter().all(|d| d.name != m.name)) {
+        return Err(Failure::input(
+            format!("-p {text}: model {} is not among those chosen", model.name),
+            Some("name it before the options, or correct the name".to_owned()),
+        ));
+    }
+    let asked: Vec<_> = model.map_or_else(|| descriptors.to_vec(), |m| vec![m]);
+    let known = || asked.iter().flat_map(|d| d.parameters).map(|p| p.name);
+    if !known().any(|name| name == key) {
+        return Err(unknown(key, &asked, known()));
+    }
+    let quantity = parse_quantity(value)
+        .map_err(|e| Failure::input(format!("-p {text}: {e}"), Some(e.help())))?;
+    Ok(Given {
+        text: text.to_owned(),
+        model,
+        key: key.to_owned(),
+        quantity,
+    })
+}
+
+fn unknown(
+    key: &str,
+    asked: &[&ModelDescriptor],
+    known: impl Iterator<Item = &'static str>,
+) -> Failure {
+    let mut known: Vec<_> = known.collect();
+    known.sort_unstable();
+    known.dedup();
+    let nearest = known
+        .iter()
+        .min_by_key(|name| strsim::levenshtein(name, key));
+    let guess = nearest.map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
+    let who = match asked {
+        [one] => format!("model {} has no parameter \"{key}\"", one.name),
+        _ => format!("no chosen model has a parameter \"{key}\""),
+    };
+    Failure::input(
+        who,
+        Some(format!("{guess}the parameters are {}", known.join(", "))),
+    )
+}
+
+/// What of the given parameters one model takes.
+fn values(
+    descriptor: &'static ModelDescriptor,
+    given: &[Given],
+    used: &mut [bool],
+) -> Result<std::collections::BTreeMap<String, f64>, Failure> {
+    let mut values = std::collections::BTreeMap::new();
+    let mut take = |parameter: &ParameterDescriptor, exponent| {
+        if let Some(at) = pick(descriptor, parameter, given, exponent)? {
+            used[at] = true;
+            values.insert(parameter.name.to_owned(), given[at].quantity.value);
+            return Ok::<_, Failure>(Some(given[at].quantity.value));
+        }
+        Ok(None)
+    };
+    // The exponent first: the unit of the stiffness depends on it.
+    let free = descriptor.parameters.iter().find(|p| p.name == "exponent");
+    let exponent = match free {
+        Some(parameter) => take(parameter, None)?,
+        None => None,
+    };
+    for parameter in descriptor
+        .parameters
+        .iter()
+        .filter(|p| p.name != "exponent")
+    {
+        take(parameter, exponent)?;
+    }
+    Ok(values)
+}
+
+/// Which of the given parameters serves a parameter of a model: the model's own
+/// before the general ones, and of several general ones that with the right unit.
+fn pick(
+    descriptor: &ModelDescriptor,
+    parameter: &ParameterDescriptor,
+    given: &[Given],
+    exponent: Option<f64>,
+) -> Result<Option<usize>, Failure> {
+    let of = |own: bool| -> Vec<usize> {
+        (0..given.len())
+            .filter(|&i| given[i].key == parameter.name)
+            .filter(|&i| match given[i].model {
+                Some(model) => own && model.name == descriptor.name,
+                None => !own,
+            })
+            .collect()
+    };
+    let own = of(true);
+    let candidates = if own.is_empty() { of(false) } else { own };
+    let wanted = parameter_dimension(descriptor, parameter, exponent);
+    let fits = |i: &&usize| given[**i].quantity.dimension.is_none_or(|d| d == wanted);
+    let fitting: Vec<usize> = candidates.iter().filter(fits).copied().collect();
+    match (candidates.as_slice(), fitting.as_slice()) {
+        ([], _) => Ok(None),
+        (_, [one]) => Ok(Some(*one)),
+        ([first, ..], []) => {
+            let found = given[*first].quantity.dimension;
+            Err(Failure::input(
+                format!(
+                    "`{}` of model {} must be {wanted}, but \"{}\" is {}",
+                    parameter.name,
+                    descriptor.name,
+                    given[*first].quantity.text,
+                    found.map_or_else(String::new, |d| d.to_string())
+                ),
+                Some(format!(
+                    "correct the unit, or give this model a value of its own: -p {}.{}=VALUE",
+                    descriptor.name, parameter.name
+                )),
+            ))
+        }
+        (_, [first, second, ..]) => Err(Failure::input(
+            format!(
+                "`{}` of model {} is given twice: \"{}\" and \"{}\"",
+                parameter.name,
+                descriptor.name,
+                given[*first].quantity.text,
+                given[*second].quantity.text
+            ),
+            Some("leave one out".to_owned()),
+        )),
+    }
+}
+
+/// One model must offer the rule asked for; of several, those that do take it.
+fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), Failure> {
+    let Some(name) = &arguments.separation else {
+        return Ok(());
+    };
+    let Some(rule) = SeparationRule::from_name(name) else {
+        let known: Vec<_> = SeparationRule::ALL.iter().map(|r| r.name()).collect();
+        return Err(Failure::input(
+            format!("unknown separation \"{name}\""),
+            Some(format!("it is one of {}", known.join(", "))),
+        ));
+    };
+    let offers = |c: &Chosen| c.descriptor.separation_rules.contains(&rule);
+    if let [only] = chosen
+        && !offers(only)
+    {
+        return Err(Failure::from(GapElementError::Separation {
+            model: only.descriptor.name,
+            rule: name.clone(),
+            offered: only
+                .descriptor
+                .separation_rules
+                .iter()
+                .map(|r| r.name())
+                .collect(),
+        }));
+    }
+    if !chosen.iter().any(offers) {
+        return Err(Failure::input(
+            format!("no chosen model offers separation \"{name}\""),
+            Some("`pounding models NAME` shows what a model offers".to_owned()),
+        ));
+    }
+    for one in chosen {
+        one.keeps_own_separation = !offers(one);
+        if offers(one) {
+            one.parameters.separation = Some(rule);
+        }
+    }
+    Ok(())
+}
+
+impl Chosen {
+    /// Takes what is missing from the model's example.
+    fn fill(&mut self) {
+        let example = self.descriptor.example_parameters(EXAMPLE_RESTITUTION);
+        // The example's stiffness belongs to the example's exponent.
+        let exponent = self.parameters.values.contains_key("exponent")
+            && !example.values.contains_key("exponent");
+        for (key, value) in example.values {
+            let alien = exponent && key == "stiffness";
+            if !alien && !self.parameters.values.contains_key(&key) {
+                self.filled.push(key.clone());
+                self.parameters.values.insert(key, value);
+            }
+        }
+        // What was given may exclude its alternatives.
+        while let Err(GapElementError::Conflict { first, second, .. }) =
+            registry::build(self.descriptor.name, &self.parameters)
+        {
+            let Some(at) = self.filled.iter().position(|k| k == first || k == second) else {
+                break;
+            };
+            let key = self.filled.remove(at);
+            self.parameters.values.remove(&key);
+        }
+    }
+
+    /// The model itself.
+    pub fn build(&self) -> Result<Box<dyn ImpactModel>, Failure> {
+        registry::build(self.descriptor.name, &self.parameters).map_err(refused)
+    }
+
+    /// The rule by which its contact ends.
+    pub fn separation(&self) -> SeparationRule {
+        self.parameters.separation(self.descriptor)
+    }
+
+    /// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
+    pub fn parameter(&self, key: &str) -> String {
+        let value = self.parameters.values.get(key).copied().unwrap_or(f64::NAN);
+        let unit = self.descriptor.parameters.iter().find(|p| p.name == key);
+        let unit = match unit.map(|p| p.unit) {
+            None | Some(ParameterUnit::One) => String::new(),
+            Some(ParameterUnit::NewtonPerMetreToExponent) => {
+                let free = self
+                    .descriptor
+                    .parameters
+                    .iter()
+                    .find(|p| p.name == "exponent");
+                let given = self.parameters.values.get("exponent").copied();
+                let exponent = given.or(free.and_then(|p| p.default)).unwrap_or(1.5);
+                format!(" N/m^{exponent}")
+            }
+            Some(unit) => format!(" {}", unit.symbol()),
+        };
+        if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+            format!("{key} = {value:e}{unit}")
+        } else {
+            format!("{key} = {value}{unit}")
+        }
+    }
+
+    /// All parameters as `key=value` pairs for the head of a file.
+    pub fn pairs(&self) -> String {
+        let mut text = format!("model={}", self.descriptor.name);
+        for (key, value) in &self.parameters.values {
+            text.push_str(&format!(" {key}={value:e}"));
+        }
+        format!("{text} separation={}", self.separation().name())
+    }
+
+    /// Leaves the restitution out, for a table that goes through all of them.
+    pub fn forget_restitution(&mut self) {
+        self.parameters.values.remove("restitution");
+        self.filled.retain(|key| key != "restitution");
+    }
+
+    /// The model and its parameters for machines.
+    pub fn json(&self) -> Map<String, Value> {
+        let verification = match self.descriptor.verification {
+            Verification::Verified(how) => format!("verified against: {how}"),
+            Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
+        };
+        let mut object = Map::new();
+        object.insert("model".into(), json!(self.descriptor.name));
+        object.insert("title".into(), json!(self.descriptor.title));
+        object.insert("parameters".into(), json!(self.parameters.values));
+        object.insert("filled_from_example".into(), json!(self.filled));
+        object.insert("separation".into(), json!(self.separation().name()));
+        object.insert("verification".into(), json!(verification));
+        object
+    }
+}

@@ -1,0 +1,247 @@
+//! Requested against achieved restitution.
+
+use std::path::Path;
+
+use pounding_gap_element::{AchievedRestitution, RestitutionTable, restitution_table};
+use serde_json::{Map, Value, json};
+
+use super::chosen::Chosen;
+use super::collisions::right_aligned;
+use super::curves::comma_separated;
+use super::remarks::remarks;
+use super::setting::{Setting, refused};
+use super::{one_or_several, pretty, print, setting_object, written};
+use crate::arguments::ImpactArguments;
+use crate::failure::Failure;
+use crate::plot::{self, Curve, Panel, Reference};
+
+/// One model's rows.
+struct Tabulated<'a> {
+    chosen: &'a Chosen,
+    table: RestitutionTable,
+}
+
+impl Tabulated<'_> {
+    /// Mean error over all rows, and where building materials are (%).
+    fn means(&self) -> (f64, f64) {
+        let mean = |from, to| self.table.mean_error_percent(from, to);
+        (mean(0.1, 1.0), mean(0.5, 0.8))
+    }
+}
+
+/// Tabulates the models that take a restitution; the others are left out by name.
+pub fn table(
+    arguments: &ImpactArguments,
+    chosen: &[Chosen],
+    setting: &Setting,
+) -> Result<(), Failure> {
+    let (taking, left_out): (Vec<&Chosen>, Vec<_>) = chosen
+        .iter()
+        .partition(|c| c.descriptor.takes_restitution());
+    let left_out: Vec<_> = left_out
+        .iter()
+        .map(|c| (c.descriptor.name, reason(c)))
+        .collect();
+    if taking.is_empty() {
+        let who: Vec<_> = left_out
+            .iter()
+            .map(|(name, why)| format!("{name} {why}"))
+            .collect();
+        return Err(Failure::input(
+            format!("there is nothing to tabulate: {}", who.join("; ")),
+            Some("leave --table out to see what such a model returns".to_owned()),
+        ));
+    }
+    let tables = taking
+        .into_iter()
+        .map(|chosen| tabulate(chosen, setting))
+        .collect::<Result<Vec<_>, _>>()?;
+    if let Some(path) = &arguments.csv {
+        write_csv(path, &tables, setting)?;
+    }
+    if let Some(path) = &arguments.svg {
+        write_svg(path, &tables)?;
+    }
+    if arguments.json {
+        return print(&pretty(&as_json(&tables, &left_out, setting)));
+    }
+    let mut text = format!("{}\n", setting.description);
+    text.push_str(&match tables.as_slice() {
+        [one] => detailed(one),
+        _ => matrix(&tables),
+    });
+    for (name, why) in &left_out {
+        text.push_str(&format!("left out: {name} {why}\n"));
+    }
+    let shown: Vec<_> = tables.iter().map(|one| one.chosen).collect();
+    text.push_str(&remarks(&shown));
+    text.push_str(&written(arguments));
+    print(&text)
+}
+
+fn tabulate<'a>(chosen: &'a Chosen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
+    let table = restitution_table(
+        chosen.descriptor,
+        &chosen.parameters,
+        &setting.bodies,
+        &setting.options,
+    )
+    .map_err(refused)?;
+    Ok(Tabulated { chosen, table })
+}
+
+fn reason(chosen: &Chosen) -> &'static str {
+    match chosen.descriptor.achieved_restitution {
+        AchievedRestitution::Elastic => "takes no restitution: it always returns 1",
+        AchievedRestitution::Constant => {
+            "takes no restitution: what it returns follows from its other parameters"
+        }
+        AchievedRestitution::Varies => {
+            "takes no restitution: what it returns depends on the collision"
+        }
+    }
+}
+
+fn detailed(one: &Tabulated<'_>) -> String {
+    let mut table = right_aligned(
+        [
+            "requested",
+            "achieved",
+            "error %",
+            "peak force (N)",
+            "contact time (s)",
+        ]
+        .map(str::to_owned)
+        .into(),
+    );
+    for row in &one.table.rows {
+        let rigid = row.outcome.peak_force.is_nan();
+        let dash = |text: String| if rigid { "-".to_owned() } else { text };
+        table.add_row([
+            format!("{:.1}", row.requested),
+            format!("{:.7}", row.outcome.restitution),
+            format!("{:.2}", row.error_percent()),
+            dash(format!("{:.4e}", row.outcome.peak_force)),
+            dash(format!("{:.4e}", row.outcome.duration)),
+        ]);
+    }
+    let (all, middle) = one.means();
+    format!("{table}\nmean error {all:.2} % over 0.1-1.0, {middle:.2} % over 0.5-0.8\n")
+}
+
+fn matrix(tables: &[Tabulated<'_>]) -> String {
+    let mut header = vec!["achieved".to_owned()];
+    header.extend(
+        tables[0]
+            .table
+            .rows
+            .iter()
+            .map(|r| format!("{:.1}", r.requested)),
+    );
+    header.push("mean error % 0.1-1.0".into());
+    header.push("0.5-0.8".into());
+    let mut table = right_aligned(header);
+    for one in tables {
+        let mut row = vec![one.chosen.descriptor.name.to_owned()];
+        let achieved = one.table.rows.iter().map(|r| r.outcome.restitution);
+        row.extend(achieved.map(|e| format!("{e:.4}")));
+        let (all, middle) = one.means();
+        row.extend([format!("{all:.2}"), format!("{middle:.2}")]);
+        table.add_row(row);
+    }
+    format!("{table}\n")
+}
+
+fn as_json(tables: &[Tabulated<'_>], left_out: &[(&str, &str)], setting: &Setting) -> Value {
+    let objects = tables
+        .iter()
+        .map(|one| {
+            let rows: Vec<_> = one
+                .table
+                .rows
+                .iter()
+                .map(|r| {
+                    json!({
+                        "requested": r.requested, "achieved": r.outcome.restitution,
+                        "error_percent": r.error_percent(), "peak_force": r.outcome.peak_force,
+                        "duration": r.outcome.duration,
+                    })
+                })
+                .collect();
+            let (all, middle) = one.means();
+            let mut object: Map<_, _> = one.chosen.json();
+            object.insert("rows".into(), json!(rows));
+            object.insert("mean_error_percent".into(), json!(all));
+            object.insert("mean_error_percent_0.5_0.8".into(), json!(middle));
+            object
+        })
+        .collect();
+    let mut shared = setting_object(setting);
+    let list: Vec<_> = left_out
+        .iter()
+        .map(|(name, why)| json!({"model": name, "reason": why}))
+        .collect();
+    shared.insert("left_out".into(), json!(list));
+    one_or_several(objects, shared)
+}
+
+fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result<(), Failure> {
+    let mut head = format!("# pounding impact --table: {}\n", setting.pairs());
+    let mut rows = Vec::new();
+    for one in tables {
+        head.push_str(&format!("# {}\n", one.chosen.pairs()));
+        rows.extend(one.table.rows.iter().map(|r| {
+            let force = Some(r.outcome.peak_force).filter(|f| f.is_finite());
+            let duration = force.map(|_| r.outcome.duration);
+            let name = one.chosen.descriptor.name;
+            (
+                name,
+                r.requested,
+                r.outcome.restitution,
+                r.error_percent(),
+                force,
+                duration,
+            )
+        }));
+    }
+    let columns = [
+        "model",
+        "requested",
+        "achieved",
+        "error_percent",
+        "peak_force_n",
+        "contact_time_s",
+    ];
+    plot::write(
+        path,
+        &format!("{head}{}", comma_separated(&columns, &rows)?),
+    )
+}
+
+fn write_svg(path: &Path, tables: &[Tabulated<'_>]) -> Result<(), Failure> {
+    let curves = tables
+        .iter()
+        .map(|one| Curve {
+            name: one.chosen.descriptor.name.to_owned(),
+            points: one
+                .table
+                .rows
+                .iter()
+                .map(|r| (r.requested, r.outcome.restitution))
+                .collect(),
+        })
+        .collect();
+    let panel = Panel {
+        caption: "Achieved restitution".to_owned(),
+        horizontal: "requested restitution".to_owned(),
+        curves,
+    };
+    let diagonal = Reference {
+        panel: 0,
+        curve: Curve {
+            name: "as requested".to_owned(),
+            points: vec![(0.0, 0.0), (1.0, 1.0)],
+        },
+    };
+    plot::write(path, &plot::figure_with_references(&[panel], &[diagonal])?)
+}

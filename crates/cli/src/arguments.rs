@@ -46,7 +46,7 @@ pub enum Command {
         pages: Option<PathBuf>,
     },
     /// Let two bodies collide: what a model really returns
-    Impact(ImpactArguments),
+    Impact(Box<ImpactArguments>),
     /// Compute published results and compare
     Verify(VerifyArguments),
     /// Find a contact stiffness, with its source and limits

@@ -131,7 +131,10 @@ fn bad_input_is_refused_with_the_remedy() {
         &["tolerance = 0 is outside (0, 1)"],
     );
     refused("", &["<MODEL>"]);
-    refused("hertz_1882 calibrate", &["cannot be used with"]);
+    refused(
+        "hertz_1882 calibrate",
+        &["`pounding impact calibrate", "before"],
+    );
 }
 
 /// The subcommand takes nothing from the collision itself.

@@ -9,7 +9,6 @@ use pounding_gap_element::{
     Bodies, CollisionOptions, REQUESTED, SeparationRule, mean_error_percent, registry,
     restitution_table,
 };
-use serde_json::Value;
 
 fn close(what: &str, value: f64, expected: f64, relative: f64) {
     let error = (value / expected - 1.0).abs();

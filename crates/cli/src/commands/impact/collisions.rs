@@ -146,6 +146,12 @@ pub fn text(collided: &[Collided<'_>], setting: &Setting) -> String {
     text
 }
 
+/// Whether bodies that stay in contact have settled by the time of the reading.
+fn at_rest(reading: &CollisionSample, outcome: &CollisionOutcome) -> bool {
+    let slow = reading.velocity.abs() < 1.0e-6 * outcome.collision.approach_velocity;
+    outcome.stays_in_contact && slow
+}
+
 fn one_model(one: &Collided<'_>, setting: &Setting) -> String {
     let outcome = &one.outcome;
     let requested = one.chosen.parameters.values.get("restitution");
@@ -170,12 +176,13 @@ fn one_model(one: &Collided<'_>, setting: &Setting) -> String {
                 "{:.9}  ({})",
                 one.restitution_at(s),
                 match outcome.stays_in_contact || time < outcome.duration {
+                    true if at_rest(s, outcome) => "the bodies rest on one another",
                     true if s.velocity > 0.0 => "still approaching",
                     true => "still in contact",
                     false => "after contact",
                 }
             ),
-            None => "-  (the bodies rest on one another, or met again before)".to_owned(),
+            None => "-  (the bodies met again before)".to_owned(),
         };
         text.push_str(&format!(
             "read at {:14}{reading}\n",

@@ -21,6 +21,15 @@ use setting::Setting;
 /// Collisions by one or several models, a table over restitutions, or a comparison
 /// with a measured force.
 pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
+    if arguments.models.iter().any(|m| m == "calibrate") {
+        return Err(Failure::input(
+            "calibrate is no model".to_owned(),
+            Some(
+                "write `pounding impact calibrate` with all options behind it, none before"
+                    .to_owned(),
+            ),
+        ));
+    }
     let setting = setting::setting(arguments)?;
     let mut chosen = chosen::choose(arguments)?;
     if arguments.table {

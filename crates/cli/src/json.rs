@@ -1,10 +1,11 @@
 //! Results for machines: SI units, full precision.
 
-use pounding_time_history::{LevelOutcome, Outcome, Peak, StoreyPeaks};
+use pounding_gap_element::Verification;
+use pounding_time_history::{LevelOutcome, Outcome, Peak, StoreyPeaks, System};
 use serde_json::{Value, json};
 
 /// The object that `run --json` prints.
-pub fn outcome(outcome: &Outcome, isolated: &Outcome) -> Value {
+pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value {
     let buildings: Vec<_> = outcome
         .buildings
         .iter()
@@ -20,7 +21,21 @@ pub fn outcome(outcome: &Outcome, isolated: &Outcome) -> Value {
     let gaps: Vec<_> = outcome
         .gaps
         .iter()
-        .map(|g| json!({"name": g.name, "levels": g.levels.iter().map(level).collect::<Vec<_>>()}))
+        .zip(system.gaps())
+        .map(|(g, place)| {
+            let card = system
+                .levels()
+                .get(place.first_level)
+                .map(|l| l.model.descriptor());
+            let secondary =
+                card.is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
+            json!({
+                "name": g.name,
+                "model": card.map(|d| d.name),
+                "from_secondary_sources": secondary,
+                "levels": g.levels.iter().map(level).collect::<Vec<_>>(),
+            })
+        })
         .collect();
     let (end, statistics) = (outcome.energy.end, outcome.statistics);
     json!({

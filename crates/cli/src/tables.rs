@@ -2,7 +2,8 @@
 
 use comfy_table::{CellAlignment, Table};
 use pounding_case::Case;
-use pounding_time_history::{Assembly, LevelOutcome, Peak, RunRecord};
+use pounding_gap_element::Verification;
+use pounding_time_history::{Assembly, ContactLevel, LevelOutcome, Peak, RunRecord};
 
 const G: f64 = 9.80665;
 
@@ -130,11 +131,23 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
         ]);
     }
     let mut text = format!("\nGap {} ({model}): {total} impacts\n{table}\n", gap.name);
+    text.push_str(&secondary_sources(levels));
     if rigid {
         text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
     }
     text.push_str(&held_and_widened(&outcome.levels));
     text
+}
+
+/// The line of a model whose formula or constants were not read in its paper.
+fn secondary_sources(levels: &[ContactLevel]) -> String {
+    let card = levels.first().map(|l| l.model.descriptor());
+    match card.map(|d| (d.name, d.verification)) {
+        Some((name, Verification::SecondarySources(how))) => {
+            format!("{name} is from secondary sources: {how}\n")
+        }
+        _ => String::new(),
+    }
 }
 
 /// Lasting contacts with the greatest force that they held, and widened gaps.
@@ -242,6 +255,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             )
         });
         text.push_str(&format!("\nGap {} ({model})\n{table}\n", gap.name));
+        text.push_str(&secondary_sources(levels));
     }
     let duration = assembly
         .options

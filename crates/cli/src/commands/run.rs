@@ -45,7 +45,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         plot::responses(path, &record)?;
     }
     if arguments.json {
-        return print(&pretty(&json::outcome(&outcome, &isolated)));
+        return print(&pretty(&json::outcome(
+            &assembly.system,
+            &outcome,
+            &isolated,
+        )));
     }
     let mut text = tables::report(&record);
     if let Some(path) = &output {

@@ -188,6 +188,15 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
         velocity: f64,
     ) -> Force;
 
+    /// Whether the force of this phase is an affine function of penetration and
+    /// velocity (zero counts): then value and derivatives of [`ImpactModel::force`] at
+    /// zero are its constants, and an integrator may take the contact as a linear
+    /// system.
+    fn is_affine(&self, collision: &Collision, phase: Phase) -> bool {
+        let _ = (collision, phase);
+        false
+    }
+
     /// A smooth function with the sign of the law's force before any cut of
     /// tension; the force itself (N) unless the law has a simpler factor.
     fn raw_force(

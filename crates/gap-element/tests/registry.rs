@@ -328,3 +328,38 @@ proptest! {
         }
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 64,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    /// Where a model says that its law is affine, the force at any state is that of its
+    /// constants at zero.
+    #[test]
+    fn affine_laws_are_affine(
+        delta in 0.0..2e-2_f64, v in -1.0..1.0_f64, v0 in 1e-2..1.5_f64, e in 0.2..1.0_f64,
+    ) {
+        let mut affine = 0;
+        for d in registry::descriptors() {
+            let model = sample(d, e, 1e8);
+            let collision = model.begin(v0, 2.0e4);
+            let memory = Memory { maximum_penetration: delta, plastic_penetration: 0.1 * delta };
+            for phase in [Phase::Approach, Phase::Restitution, Phase::Released, Phase::Branch(0), Phase::Branch(1)] {
+                if !model.is_affine(&collision, phase) {
+                    continue;
+                }
+                affine += 1;
+                let zero = model.force(&collision, &memory, phase, 0.0, 0.0);
+                let there = model.force(&collision, &memory, phase, delta, v);
+                let expected = zero.value + zero.by_penetration * delta + zero.by_velocity * v;
+                let scale = (zero.by_penetration * delta).abs() + (zero.by_velocity * v).abs() + zero.value.abs();
+                prop_assert!((there.value - expected).abs() <= 1e-12 * scale, "{} {phase:?}", d.name);
+                prop_assert_eq!((there.by_penetration, there.by_velocity), (zero.by_penetration, zero.by_velocity));
+            }
+        }
+        prop_assert!(affine > 25, "{affine}");
+    }
+}

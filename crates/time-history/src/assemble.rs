@@ -237,6 +237,11 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
                 .relative_tolerance
                 .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
         },
+        "event_driven" => MethodChoice::EventDriven {
+            relative_tolerance: analysis
+                .relative_tolerance
+                .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
+        },
         "newmark" => MethodChoice::Newmark {
             step: step()?,
             beta: analysis.beta.unwrap_or(0.25),
@@ -256,7 +261,7 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
                 analysis.method.span.clone(),
                 format!("unknown method \"{other}\""),
                 Some(
-                    "methods are adaptive, newmark, hht_alpha, runge_kutta_4, moreau_jean"
+                    "methods are adaptive, event_driven, newmark, hht_alpha, runge_kutta_4, moreau_jean"
                         .to_owned(),
                 ),
             ));

@@ -8,6 +8,7 @@ use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, Finder};
+use crate::free_flight::{Flight, FreeFlight, Leg, Logbook};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
@@ -54,8 +55,16 @@ pub fn run(
     let mut told = 0.0;
     let mut sample = 0;
     while let Some(segment) = segment(system, sample, duration) {
-        driver.segment(&segment, duration, recorders)?;
-        sample += 1;
+        let flown = if recorders.is_empty() {
+            driver.fly(sample, duration)
+        } else {
+            0
+        };
+        sample += flown;
+        if flown == 0 {
+            driver.segment(&segment, duration, recorders)?;
+            sample += 1;
+        }
         let done = (segment.start + segment.length) / duration;
         if done - told >= 0.004 {
             told = done;
@@ -128,6 +137,8 @@ struct Driver<'a> {
     stalled: usize,
     last_ground: f64,
     rigid: RigidImpacts,
+    /// Exact open flight, where the method and the buildings allow it.
+    open: Option<(FreeFlight, Flight)>,
 }
 
 impl<'a> Driver<'a> {
@@ -164,8 +175,62 @@ impl<'a> Driver<'a> {
             stalled: 0,
             last_ground: f64::NAN,
             rigid: RigidImpacts::default(),
+            open: None,
             dynamics,
         }
+        .ready_to_fly()
+    }
+
+    fn ready_to_fly(mut self) -> Self {
+        if self.method.flies() {
+            let constants = FreeFlight::new(self.system, self.system.ground().time_step);
+            self.open = constants.map(|c| (c, Flight::new(self.system)));
+        }
+        self
+    }
+
+    /// Flies from this sample on while no gap can close and no peak can lie between
+    /// samples. Returns the number of samples flown.
+    fn fly(&mut self, sample: usize, duration: f64) -> usize {
+        let Some((constants, flight)) = &mut self.open else {
+            return 0;
+        };
+        let ground = self.system.ground();
+        let whole = (duration / ground.time_step * (1.0 + 1.0e-12)).floor() as usize;
+        let leg = Leg {
+            system: self.system,
+            contacts: &self.contacts,
+            from: sample,
+            to: whole.min(ground.samples.len().saturating_sub(1)),
+        };
+        let quiet = self.mute.iter().all(|m| *m == Mute::No);
+        if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
+            return 0;
+        }
+        let before = self.ledger.end.residual.abs();
+        let mut book = Logbook {
+            state: &mut self.state,
+            peaks: &mut self.peaks.storeys,
+            largest_input: &mut self.ledger.largest_input,
+            residual: 0.0,
+        };
+        let flown = flight.fly(constants, &leg, &mut book);
+        let residual = before + book.residual;
+        if flown > 0 {
+            self.largest_residual = self.largest_residual.max(residual);
+            self.ledger.end = ledger::energy(
+                self.system,
+                self.dynamics.layout,
+                &self.contacts,
+                &self.state,
+            );
+            self.method.restart(true);
+            self.last_ground = ground.samples[sample + flown];
+            self.statistics.steps += flown as u64;
+            self.at_once.fill(0);
+            self.stalled = 0;
+        }
+        flown
     }
 
     fn begin(&mut self, recorders: &mut [&mut dyn Recorder]) -> Result<(), TimeHistoryError> {
@@ -203,7 +268,12 @@ impl<'a> Driver<'a> {
         self.last_ground = segment.ground(segment.length);
         let mut tau = 0.0;
         while tau < segment.length {
-            let mut step = self.method.propose(segment, tau);
+            let context = Context {
+                dynamics: &mut self.dynamics,
+                contacts: &self.contacts,
+                segment,
+            };
+            let mut step = self.method.propose(&context, tau);
             for (mute, quiet) in self.mute.iter().zip(&self.quiet) {
                 if *mute != Mute::No {
                     step = step.min(*quiet);

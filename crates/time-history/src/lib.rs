@@ -8,6 +8,7 @@ mod driver;
 mod dynamics;
 mod error;
 mod events;
+mod free_flight;
 mod impacts;
 mod ledger;
 mod methods;

@@ -2,7 +2,7 @@
 
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
-use crate::methods::{Adaptive, Method, MoreauJean, Newmark, RungeKutta4};
+use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
 /// Default relative tolerance of the adaptive pair.
@@ -16,6 +16,12 @@ pub enum MethodChoice {
     /// values are smaller than that.
     Adaptive {
         /// Relative tolerance (-).
+        relative_tolerance: f64,
+    },
+    /// Exact between impacts, a Taylor series to round-off in contacts whose law is
+    /// affine, the adaptive pair in all others.
+    EventDriven {
+        /// Relative tolerance of the adaptive pair (-).
         relative_tolerance: f64,
     },
     /// Newmark with a fixed step.
@@ -80,7 +86,7 @@ impl RunOptions {
     #[must_use]
     pub fn energy_tolerance(&self) -> f64 {
         self.energy_tolerance.unwrap_or(match self.method {
-            MethodChoice::Adaptive { .. } => 1.0e-6,
+            MethodChoice::Adaptive { .. } | MethodChoice::EventDriven { .. } => 1.0e-6,
             _ => 0.05,
         })
     }
@@ -99,7 +105,8 @@ impl RunOptions {
             )
         };
         match self.method {
-            MethodChoice::Adaptive { relative_tolerance } => require(
+            MethodChoice::Adaptive { relative_tolerance }
+            | MethodChoice::EventDriven { relative_tolerance } => require(
                 (1.0e-14..=1.0e-2).contains(&relative_tolerance),
                 "relative_tolerance",
                 relative_tolerance,
@@ -154,6 +161,9 @@ impl RunOptions {
         match self.method {
             MethodChoice::Adaptive { relative_tolerance } => {
                 Box::new(Adaptive::new(layout, relative_tolerance))
+            }
+            MethodChoice::EventDriven { relative_tolerance } => {
+                Box::new(EventDriven::new(system, relative_tolerance))
             }
             MethodChoice::Newmark { step, beta, gamma } => {
                 Box::new(Newmark::with_beta_gamma(system, step, beta, gamma))

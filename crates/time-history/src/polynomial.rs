@@ -58,6 +58,26 @@ pub(crate) fn hermite(step: f64, y0: f64, y1: f64, d0: f64, d1: f64) -> Polynomi
     p
 }
 
+/// The polynomial of degree 7 through values and three derivatives (with respect to
+/// theta) at both ends of a step.
+pub(crate) fn septic(start: [f64; 4], end: [f64; 4]) -> Polynomial {
+    let [y, d, e, f] = [start[0], start[1], 0.5 * start[2], start[3] / 6.0];
+    let r0 = end[0] - (y + d + e + f);
+    let r1 = end[1] - (d + 2.0 * e + 3.0 * f);
+    let r2 = end[2] - (2.0 * e + 6.0 * f);
+    let r3 = end[3] - 6.0 * f;
+    [
+        y,
+        d,
+        e,
+        f,
+        35.0 * r0 - 15.0 * r1 + 2.5 * r2 - r3 / 6.0,
+        -84.0 * r0 + 39.0 * r1 - 7.0 * r2 + 0.5 * r3,
+        70.0 * r0 - 34.0 * r1 + 6.5 * r2 - 0.5 * r3,
+        -20.0 * r0 + 10.0 * r1 - 2.0 * r2 + r3 / 6.0,
+    ]
+}
+
 /// Nodes at which [`fit`] wants a function sampled: Chebyshev points with both
 /// ends, on the unit interval.
 pub(crate) fn fit_nodes() -> [f64; COEFFICIENTS] {

@@ -107,6 +107,9 @@ impl ImpactModel for DryFriction {
             by_velocity: spring * self.rate,
         }
     }
+    fn is_affine(&self, _: &Collision, phase: Phase) -> bool {
+        self.exponent == 1.0 && self.rate == 0.0 && phase != Phase::Stuck
+    }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
     }

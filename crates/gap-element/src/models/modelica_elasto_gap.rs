@@ -121,6 +121,9 @@ impl ImpactModel for ElastoGap {
     fn guard(&self, _: u8, collision: &Collision, _: &Memory, delta: f64, velocity: f64) -> f64 {
         self.stiffness * delta - collision.constants[1] * velocity
     }
+    fn is_affine(&self, _: &Collision, _: Phase) -> bool {
+        true
+    }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, 1.0, delta)
     }

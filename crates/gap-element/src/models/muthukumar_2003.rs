@@ -241,6 +241,9 @@ impl ImpactModel for BilinearImpact {
             memory.plastic_penetration = delta - force / collision.constants[0];
         }
     }
+    fn is_affine(&self, _: &Collision, _: Phase) -> bool {
+        true
+    }
     fn stored_energy(
         &self,
         collision: &Collision,

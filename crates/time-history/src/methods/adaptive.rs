@@ -3,7 +3,7 @@
 use pounding_runge_kutta::Dop853;
 
 use super::{Context, Counts, Information, Method, Verdict};
-use crate::dynamics::{Layout, Segment};
+use crate::dynamics::Layout;
 use crate::polynomial::Polynomial;
 
 /// First step (s) after a closure whose force starts like a power of the
@@ -51,8 +51,8 @@ impl Method for Adaptive {
         }
     }
 
-    fn propose(&self, segment: &Segment, tau: f64) -> f64 {
-        let rest = segment.length - tau;
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+        let rest = context.segment.length - tau;
         if self.next >= rest * (1.0 - 1.0e-9) {
             rest
         } else if self.next > 0.5 * rest {

@@ -3,11 +3,14 @@
 
 mod adaptive;
 mod effective_mass;
+mod event_driven;
 mod moreau_jean;
 mod newmark;
 mod runge_kutta_4;
+mod taylor;
 
 pub(crate) use adaptive::Adaptive;
+pub(crate) use event_driven::EventDriven;
 pub(crate) use moreau_jean::MoreauJean;
 pub(crate) use newmark::Newmark;
 pub(crate) use runge_kutta_4::RungeKutta4;
@@ -57,8 +60,8 @@ pub(crate) struct Counts {
 /// One integration method with its work space.
 pub(crate) trait Method {
     fn information(&self) -> Information;
-    /// Step to try from `tau` in this segment (s).
-    fn propose(&self, segment: &Segment, tau: f64) -> f64;
+    /// Step to try from `tau` in the context's segment (s).
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64;
     /// Computes a trial step from `state` at `tau`.
     fn trial(
         &mut self,
@@ -78,6 +81,10 @@ pub(crate) trait Method {
     /// the force starts with a power of time that no polynomial follows.
     fn restart(&mut self, smooth: bool);
     fn counts(&self) -> Counts;
+    /// Whether open flight may be left to the exact step of the modes.
+    fn flies(&self) -> bool {
+        false
+    }
     /// Impulse of every level in the last trial step (N s), for a method that treats
     /// contacts itself; `None` where the driver locates them.
     fn step_impulses(&self) -> Option<&[f64]> {

@@ -172,8 +172,8 @@ impl Method for MoreauJean {
         }
     }
 
-    fn propose(&self, segment: &Segment, tau: f64) -> f64 {
-        step_to_grid(segment, tau, self.fixed)
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+        step_to_grid(context.segment, tau, self.fixed)
     }
 
     fn trial(

@@ -2,7 +2,7 @@
 
 use super::effective_mass::EffectiveMass;
 use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
-use crate::dynamics::{Dynamics, Layout, Segment, push_apart};
+use crate::dynamics::{Dynamics, Layout, push_apart};
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
 use crate::small_solver::SmallSolver;
 use crate::system::System;
@@ -288,8 +288,8 @@ impl Method for Newmark {
         self.information
     }
 
-    fn propose(&self, segment: &Segment, tau: f64) -> f64 {
-        step_to_grid(segment, tau, self.fixed)
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+        step_to_grid(context.segment, tau, self.fixed)
     }
 
     fn trial(

@@ -1,7 +1,7 @@
 //! The classical Runge-Kutta method of order 4 with a fixed step.
 
 use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
-use crate::dynamics::{Layout, Segment};
+use crate::dynamics::Layout;
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
 
 /// Classical Runge-Kutta (Kutta 1901), fixed step cut at events, cubic Hermite
@@ -46,8 +46,8 @@ impl Method for RungeKutta4 {
         }
     }
 
-    fn propose(&self, segment: &Segment, tau: f64) -> f64 {
-        step_to_grid(segment, tau, self.fixed)
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+        step_to_grid(context.segment, tau, self.fixed)
     }
 
     fn trial(

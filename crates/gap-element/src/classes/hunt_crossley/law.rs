@@ -154,6 +154,11 @@ impl ImpactModel for HuntCrossley {
     ) -> f64 {
         1.0 + collision.constants[1] * velocity
     }
+    fn is_affine(&self, collision: &Collision, phase: Phase) -> bool {
+        let damped = self.phases == DampingPhases::Both || phase == Phase::Approach;
+        let elastic = !damped || collision.constants[1] == 0.0;
+        (self.exponent == 1.0 && elastic) || phase == Phase::Released
+    }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         super::stored_energy(self.stiffness, self.exponent, delta)
     }

@@ -152,6 +152,9 @@ impl ImpactModel for LinearClass {
     ) -> f64 {
         self.law(collision, Phase::Approach, delta, velocity).value
     }
+    fn is_affine(&self, _: &Collision, phase: Phase) -> bool {
+        self.exponent == 1.0 || phase == Phase::Released
+    }
     fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
         if phase == Phase::Released {
             return 0.0;

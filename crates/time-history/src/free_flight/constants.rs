@@ -1,0 +1,144 @@
+//! What open flight needs to know of the buildings: made once, shared by all runs.
+
+use pounding_shear_building::{Damping, ShearBuilding};
+
+use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
+use super::mode_step::{ModeStep, Oscillator};
+use crate::system::System;
+
+/// Exact steps, mode shapes and bounds of all buildings for one length of step.
+#[derive(Debug, Clone)]
+pub(crate) struct FreeFlight {
+    /// Length of a step (s).
+    pub step: f64,
+    pub modes: Vec<ModeLanes>,
+    /// Floors from modes.
+    pub shapes: Vec<Shapes>,
+    /// Modes from floors: `q = Phi' M u`.
+    pub inverse: Vec<Shapes>,
+    /// Of every building.
+    pub bounds: Vec<BuildingBounds>,
+    /// Building of every degree of freedom.
+    pub building: Vec<usize>,
+}
+
+/// Parts of a building's bounds that the ground motion makes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct BuildingBounds {
+    /// Floor acceleration relative to the ground for a ground acceleration of 1.
+    pub acceleration: f64,
+    /// Second derivative of absolute floor acceleration, likewise.
+    pub snap: f64,
+    /// The same for a slope of the ground acceleration of 1 (1/s).
+    pub snap_by_slope: f64,
+}
+
+impl FreeFlight {
+    /// For these buildings and this step (s); `None` if the damping of a building
+    /// couples its modes.
+    pub(crate) fn new(system: &System, step: f64) -> Option<Self> {
+        let classical = |b: &ShearBuilding| !matches!(b.damping(), Damping::Dashpots { .. });
+        if !system.buildings().iter().all(|b| classical(b)) || !(step > 0.0) {
+            return None;
+        }
+        let dofs = system.degrees_of_freedom();
+        let mut this = Self {
+            step,
+            modes: vec![ModeLanes::default(); dofs.div_ceil(WIDTH)],
+            shapes: Vec::new(),
+            inverse: Vec::new(),
+            bounds: Vec::new(),
+            building: Vec::new(),
+        };
+        for (index, building) in system.buildings().iter().enumerate() {
+            let first = system.offsets()[index];
+            this.building.extend((0..building.storeys()).map(|_| index));
+            this.add_building(building, first);
+        }
+        Some(this)
+    }
+
+    fn add_building(&mut self, building: &ShearBuilding, first: usize) {
+        let modes = building.modes();
+        let count = building.storeys();
+        let shape = |i: usize, j: usize| modes.shape[(i, j)];
+        let mass = building.mass();
+        self.shapes
+            .push(spread(first, count, |floor, mode| shape(floor, mode)));
+        let inverse = spread(first, count, |mode, floor| shape(floor, mode) * mass[floor]);
+        self.inverse.push(inverse);
+        let mut bounds = BuildingBounds::default();
+        for j in 0..count {
+            let mode = Oscillator {
+                circular_frequency: modes.circular_frequency[j],
+                damping_ratio: modes.damping_ratio[j],
+                participation: modes.participation_factor[j],
+            };
+            let largest = (0..count).map(|i| shape(i, j).abs()).fold(0.0, f64::max);
+            self.add_mode(first + j, mode, largest, &mut bounds);
+        }
+        self.bounds.push(bounds);
+    }
+
+    /// Bounds, with `e = |q'| + omega |q|` and `e* = e + |gamma| h A` for the sample:
+    /// `|q''| <= (1 + 2 zeta) omega e* + |gamma| A`; the modal part of absolute
+    /// acceleration `s = 2 zeta omega q' + omega^2 q` has
+    /// `|s''| <= (1 + 4 zeta^2) omega^2 |q''| + 2 zeta omega^3 e* + 2 zeta omega |gamma| S`.
+    fn add_mode(
+        &mut self,
+        place: usize,
+        mode: Oscillator,
+        largest: f64,
+        bounds: &mut BuildingBounds,
+    ) {
+        let (lane, l) = (place / WIDTH, place % WIDTH);
+        let step = ModeStep::new(mode, self.step);
+        let m = &mut self.modes[lane];
+        for k in 0..4 {
+            m.displacement[k][l] = step.displacement[k];
+            m.velocity[k][l] = step.velocity[k];
+            m.integral[k][l] = step.integral[k];
+        }
+        for k in 0..10 {
+            m.viscous[k][l] = step.viscous[k];
+        }
+        let (omega, zeta) = (mode.circular_frequency, mode.damping_ratio);
+        m.participation[l] = mode.participation;
+        m.circular_frequency[l] = omega;
+        m.damping[l] = 2.0 * zeta * omega;
+        let gamma = mode.participation.abs();
+        let by_size = (1.0 + 2.0 * zeta) * omega;
+        let (second, third) = (
+            (1.0 + 4.0 * zeta * zeta) * omega * omega,
+            2.0 * zeta * omega * omega * omega,
+        );
+        m.acceleration_bound[l] = largest * by_size;
+        m.snap_bound[l] = largest * (second * by_size + third);
+        let growth = gamma * self.step;
+        let acceleration = by_size * growth + gamma;
+        bounds.acceleration += largest * acceleration;
+        bounds.snap += largest * (second * acceleration + third * growth);
+        bounds.snap_by_slope += largest * 2.0 * zeta * omega * gamma;
+    }
+}
+
+/// A square matrix over the lanes that hold rows `first..first + count`.
+fn spread(first: usize, count: usize, entry: impl Fn(usize, usize) -> f64) -> Shapes {
+    let first_lane = first / WIDTH;
+    let lanes = (first + count).div_ceil(WIDTH) - first_lane;
+    let mut columns: Vec<Lane> = vec![[0.0; WIDTH]; lanes * count];
+    for row in 0..count {
+        let place = first + row;
+        let lane = place / WIDTH - first_lane;
+        for column in 0..count {
+            columns[lane * count + column][place % WIDTH] = entry(row, column);
+        }
+    }
+    Shapes {
+        first_lane,
+        lanes,
+        first_mode: first,
+        modes: count,
+        columns,
+    }
+}

@@ -1,0 +1,145 @@
+//! The event-driven exact method.
+
+use super::taylor::Taylor;
+use super::{Adaptive, Context, Counts, Information, Method, Verdict};
+use crate::dynamics::Layout;
+use crate::polynomial::Polynomial;
+use crate::system::System;
+
+/// Greatest product of frequency and step for the Taylor series: its interpolant of
+/// degree 7 then errs by less than 1e-8 of the amplitude of the fastest mode.
+const LONGEST: f64 = 0.7;
+
+/// Open flight by the exact step of the modes (`free_flight`), a Taylor series to
+/// round-off while all closed contacts are affine, the adaptive pair for the others.
+#[derive(Debug, Clone)]
+pub(crate) struct EventDriven {
+    taylor: Taylor,
+    pair: Adaptive,
+    /// Circular frequency of the fastest mode of all buildings (rad/s).
+    fastest: f64,
+    /// Circular frequency of the stiffest closed contact (rad/s).
+    contact: f64,
+    by_series: bool,
+    /// Whether the next step can be a Taylor series.
+    affine: bool,
+}
+
+impl EventDriven {
+    pub(crate) fn new(system: &System, relative_tolerance: f64) -> Self {
+        let layout = Layout::of(system);
+        let modes = system.buildings().iter().map(|b| b.modes());
+        let fastest = modes
+            .filter_map(|m| m.circular_frequency.last().copied())
+            .fold(0.0, f64::max);
+        Self {
+            taylor: Taylor::new(layout),
+            pair: Adaptive::new(layout, relative_tolerance),
+            fastest,
+            contact: 0.0,
+            by_series: false,
+            affine: true,
+        }
+    }
+
+    /// Shortest wavelength of what follows, and whether the series can follow it.
+    fn look_at(&mut self, context: &Context<'_, '_>) {
+        self.affine = Taylor::applies(context);
+        self.contact = 0.0;
+        if !self.affine {
+            return;
+        }
+        for &l in context.contacts.closed() {
+            let level = &context.dynamics.system.levels()[l];
+            if let Some(contact) = context.contacts.contact(l) {
+                let law = contact.force(level, 0.0, 0.0);
+                let spring = (law.by_penetration.abs() / level.effective_mass).sqrt();
+                let damper = law.by_velocity.abs() / level.effective_mass;
+                self.contact = self.contact.max(spring).max(damper);
+            }
+        }
+    }
+}
+
+impl Method for EventDriven {
+    fn information(&self) -> Information {
+        Information {
+            name: "event_driven",
+            title: "event-driven, exact between impacts",
+            order: pounding_runge_kutta::ORDER,
+            implicit: false,
+            adaptive: true,
+        }
+    }
+
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+        self.look_at(context);
+        if !self.affine {
+            return self.pair.propose(context, tau);
+        }
+        let rest = context.segment.length - tau;
+        let parts = (rest * self.fastest.max(self.contact) / LONGEST)
+            .ceil()
+            .max(1.0);
+        rest / parts
+    }
+
+    fn trial(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        tau: f64,
+        state: &[f64],
+        step: f64,
+        new_state: &mut [f64],
+    ) -> Verdict {
+        self.by_series = self.affine;
+        if !self.by_series {
+            return self.pair.trial(context, tau, state, step, new_state);
+        }
+        self.taylor.step(context, tau, state, step, new_state);
+        self.taylor.rest(new_state);
+        if new_state.iter().all(|x| x.is_finite()) {
+            Verdict::Accept
+        } else {
+            Verdict::Retry(0.5 * step)
+        }
+    }
+
+    fn prepare_interpolant(&mut self, context: &mut Context<'_, '_>, tau: f64) {
+        if !self.by_series {
+            self.pair.prepare_interpolant(context, tau);
+        }
+    }
+
+    fn polynomial(&self, i: usize) -> &Polynomial {
+        if self.by_series {
+            self.taylor.polynomial(i)
+        } else {
+            self.pair.polynomial(i)
+        }
+    }
+
+    fn accept(&mut self, cut: bool) {
+        if self.by_series {
+            self.pair.restart(true);
+        } else {
+            self.pair.accept(cut);
+        }
+    }
+
+    fn restart(&mut self, smooth: bool) {
+        self.pair.restart(smooth);
+    }
+
+    fn counts(&self) -> Counts {
+        let pair = self.pair.counts();
+        Counts {
+            evaluations: pair.evaluations + self.taylor.terms(),
+            ..pair
+        }
+    }
+
+    fn flies(&self) -> bool {
+        true
+    }
+}

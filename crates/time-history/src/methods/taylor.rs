@@ -1,0 +1,299 @@
+//! Taylor series of a linear system: buildings with all closed contacts affine.
+
+use super::Context;
+use crate::dynamics::{Layout, push_apart};
+use crate::polynomial::{COEFFICIENTS, Polynomial, hermite, septic, value};
+
+/// Terms at most; ten to twenty reach round-off for steps below a sixth of the
+/// shortest period.
+const TERMS: usize = 60;
+/// Terms smaller than this (m, m/s) end the series.
+const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
+
+/// Inner nodes and weights of the Lobatto rule with five points, exact to degree 7.
+const LOBATTO: [(f64, f64); 3] = [
+    (0.172_673_164_646_011_43, 49.0 / 180.0),
+    (0.5, 16.0 / 45.0),
+    (0.827_326_835_353_988_6, 49.0 / 180.0),
+];
+const LOBATTO_END: f64 = 0.05;
+
+/// Work space of the series.
+#[derive(Debug, Clone)]
+pub(crate) struct Taylor {
+    layout: Layout,
+    /// Present term of displacements and velocities.
+    term: Vec<f64>,
+    /// Derivatives of displacements and velocities with respect to theta at both ends,
+    /// three of each.
+    start: [Vec<f64>; 3],
+    end: [Vec<f64>; 3],
+    /// Integral of the displacements over the step.
+    integral: Vec<f64>,
+    scratch: Vec<f64>,
+    damping: Vec<f64>,
+    speed: Vec<f64>,
+    /// Closed contacts: level, force at zero, stiffness, dashpot.
+    contacts: Vec<(usize, f64, f64, f64)>,
+    dense: Vec<Polynomial>,
+    terms: u64,
+}
+
+impl Taylor {
+    pub(crate) fn new(layout: Layout) -> Self {
+        let two = || vec![0.0; 2 * layout.dofs];
+        let one = || vec![0.0; layout.dofs];
+        Self {
+            layout,
+            term: two(),
+            start: [two(), two(), two()],
+            end: [two(), two(), two()],
+            integral: one(),
+            scratch: one(),
+            damping: one(),
+            speed: one(),
+            contacts: Vec::with_capacity(layout.levels),
+            dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
+            terms: 0,
+        }
+    }
+
+    /// Terms computed so far.
+    pub(crate) fn terms(&self) -> u64 {
+        self.terms
+    }
+
+    /// Whether every closed contact is affine in its phase.
+    pub(crate) fn applies(context: &Context<'_, '_>) -> bool {
+        context.contacts.closed().iter().all(|&l| {
+            context.contacts.contact(l).is_some_and(|c| {
+                let model = &context.dynamics.system.levels()[l].model;
+                !c.is_stuck() && model.is_affine(&c.collision, c.phase)
+            })
+        })
+    }
+
+    /// State after a step of length `h`, with the energy integrals.
+    pub(crate) fn step(
+        &mut self,
+        context: &Context<'_, '_>,
+        tau: f64,
+        state: &[f64],
+        h: f64,
+        new: &mut [f64],
+    ) {
+        self.laws(context);
+        self.series(context, tau, state, h, new);
+        new[2 * self.layout.dofs..].copy_from_slice(&state[2 * self.layout.dofs..]);
+        self.interpolate_motion(state, new);
+        self.works(context, tau, state, h, new);
+    }
+
+    /// Constants of the closed contacts.
+    fn laws(&mut self, context: &Context<'_, '_>) {
+        self.contacts.clear();
+        for &l in context.contacts.closed() {
+            let level = &context.dynamics.system.levels()[l];
+            if let Some(contact) = context.contacts.contact(l) {
+                let law = contact.force(level, 0.0, 0.0);
+                let at_rest = law.value - law.by_penetration * context.contacts.width(l);
+                self.contacts
+                    .push((l, at_rest, law.by_penetration, law.by_velocity));
+            }
+        }
+    }
+
+    fn series(
+        &mut self,
+        context: &Context<'_, '_>,
+        tau: f64,
+        state: &[f64],
+        h: f64,
+        new: &mut [f64],
+    ) {
+        let n = self.layout.dofs;
+        let system = context.dynamics.system;
+        let ground = context.segment.ground(tau);
+        self.term.copy_from_slice(&state[..2 * n]);
+        new[..2 * n].copy_from_slice(&state[..2 * n]);
+        self.integral.copy_from_slice(&state[..n]);
+        for end in &mut self.end {
+            end.fill(0.0);
+        }
+        for k in 1..TERMS {
+            let (u, v) = self.term.split_at(n);
+            system.internal_forces(u, v, &mut self.scratch, &mut self.damping);
+            for &(l, at_rest, stiffness, dashpot) in &self.contacts {
+                let level = &system.levels()[l];
+                let constant = if k == 1 { at_rest } else { 0.0 };
+                let force = constant + stiffness * level.relative(u) + dashpot * level.relative(v);
+                push_apart(level, force, &mut self.scratch);
+            }
+            let load = match k {
+                1 => ground,
+                2 => context.segment.slope * h,
+                _ => 0.0,
+            };
+            let scale = h / k as f64;
+            let (mut largest_u, mut largest_v) = (0.0_f64, 0.0_f64);
+            let order = k as f64;
+            let (first, second) = (order, order * (order - 1.0));
+            let third = second * (order - 2.0);
+            for i in 0..n {
+                let u = scale * self.term[n + i];
+                let v = scale * (self.scratch[i] / system.mass()[i] - load);
+                (self.term[i], self.term[n + i]) = (u, v);
+                new[i] += u;
+                new[n + i] += v;
+                self.integral[i] += u / (order + 1.0);
+                largest_u = largest_u.max(u.abs());
+                largest_v = largest_v.max(v.abs());
+            }
+            for (end, factor) in self.end.iter_mut().zip([first, second, third]) {
+                for (e, t) in end.iter_mut().zip(&self.term) {
+                    *e += factor * t;
+                }
+            }
+            if k <= 3 {
+                let factorial = [1.0, 2.0, 6.0][k - 1];
+                for (s, t) in self.start[k - 1].iter_mut().zip(&self.term) {
+                    *s = factorial * t;
+                }
+            }
+            self.terms += 1;
+            if k > 3 && largest_u < NEGLIGIBLE.0 && largest_v < NEGLIGIBLE.1 {
+                break;
+            }
+        }
+        for x in &mut self.integral {
+            *x *= h;
+        }
+    }
+
+    fn interpolate_motion(&mut self, state: &[f64], new: &[f64]) {
+        for i in 0..2 * self.layout.dofs {
+            let derivatives = |at: &[Vec<f64>; 3]| [at[0][i], at[1][i], at[2][i]];
+            let (a, b) = (derivatives(&self.start), derivatives(&self.end));
+            self.dense[i] = septic([state[i], a[0], a[1], a[2]], [new[i], b[0], b[1], b[2]]);
+        }
+    }
+
+    /// Works and impulses over the step. The input is exact; damping and contacts by
+    /// the Lobatto rule.
+    fn works(
+        &mut self,
+        context: &Context<'_, '_>,
+        tau: f64,
+        state: &[f64],
+        h: f64,
+        new: &mut [f64],
+    ) {
+        let (n, layout) = (self.layout.dofs, self.layout);
+        let (system, segment) = (context.dynamics.system, context.segment);
+        let (a, b) = (segment.ground(tau), segment.ground(tau + h));
+        for (i, m) in system.mass().iter().enumerate() {
+            let moved = new[i] * b - state[i] * a - segment.slope * self.integral[i];
+            new[layout.input()] -= m * moved;
+        }
+        let mut rates = [(0.0, 0.0); 2];
+        for (end, y) in [(0, state), (1, &*new)] {
+            let (power, input) = (
+                self.viscous_power(context, &y[n..2 * n]),
+                input_power(system.mass(), &y[n..2 * n], [a, b][end]),
+            );
+            rates[end] = (input, power);
+        }
+        let mut viscous = LOBATTO_END * (rates[0].1 + rates[1].1);
+        for (theta, weight) in LOBATTO {
+            for i in 0..n {
+                self.speed[i] = value(&self.dense[n + i], theta);
+            }
+            let speed = std::mem::take(&mut self.speed);
+            viscous += weight * self.viscous_power(context, &speed);
+            self.speed = speed;
+        }
+        new[layout.viscous()] += h * viscous;
+        for k in 0..self.contacts.len() {
+            self.contact_work(context, k, state, h, new);
+        }
+        for (place, rate) in [
+            (layout.input(), [rates[0].0, rates[1].0]),
+            (layout.viscous(), [rates[0].1, rates[1].1]),
+        ] {
+            self.dense[place] = hermite(h, state[place], new[place], rate[0], rate[1]);
+        }
+    }
+
+    /// Work and impulse of one contact, and their interpolants.
+    fn contact_work(
+        &mut self,
+        context: &Context<'_, '_>,
+        k: usize,
+        state: &[f64],
+        h: f64,
+        new: &mut [f64],
+    ) {
+        let (n, layout) = (self.layout.dofs, self.layout);
+        let (l, at_rest, stiffness, dashpot) = self.contacts[k];
+        let level = &context.dynamics.system.levels()[l];
+        let force = |u: f64, v: f64| at_rest + stiffness * u + dashpot * v;
+        let ends = [state, &*new].map(|y| {
+            let (u, v) = (level.relative(&y[..n]), level.relative(&y[n..2 * n]));
+            (force(u, v), v)
+        });
+        let mut impulse = LOBATTO_END * (ends[0].0 + ends[1].0);
+        let mut work = LOBATTO_END * (ends[0].0 * ends[0].1 + ends[1].0 * ends[1].1);
+        for (theta, weight) in LOBATTO {
+            let at = |offset: usize| {
+                let one = |floor: Option<usize>| {
+                    floor.map_or(0.0, |i| value(&self.dense[offset + i], theta))
+                };
+                one(level.left) - one(level.right)
+            };
+            let (u, v) = (at(0), at(n));
+            impulse += weight * force(u, v);
+            work += weight * force(u, v) * v;
+        }
+        new[layout.work(l)] += h * work;
+        new[layout.impulse(l)] += h * impulse;
+        for (place, rate) in [
+            (
+                layout.work(l),
+                [ends[0].0 * ends[0].1, ends[1].0 * ends[1].1],
+            ),
+            (layout.impulse(l), [ends[0].0, ends[1].0]),
+        ] {
+            self.dense[place] = hermite(h, state[place], new[place], rate[0], rate[1]);
+        }
+    }
+
+    fn viscous_power(&mut self, context: &Context<'_, '_>, v: &[f64]) -> f64 {
+        let system = context.dynamics.system;
+        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
+            let (a, b) = (range[0], range[1]);
+            building.apply_damping(&v[a..b], &mut self.scratch[a..b]);
+        }
+        v.iter().zip(&self.scratch).map(|(v, f)| v * f).sum()
+    }
+
+    /// Component `i` of the state over the last step.
+    pub(crate) fn polynomial(&self, i: usize) -> &Polynomial {
+        &self.dense[i]
+    }
+
+    /// Keeps the integrals of levels that are open constant in the interpolant.
+    pub(crate) fn rest(&mut self, new: &[f64]) {
+        for l in 0..self.layout.levels {
+            if self.contacts.iter().all(|c| c.0 != l) {
+                for place in [self.layout.work(l), self.layout.impulse(l)] {
+                    self.dense[place] = [0.0; COEFFICIENTS];
+                    self.dense[place][0] = new[place];
+                }
+            }
+        }
+    }
+}
+
+fn input_power(mass: &[f64], v: &[f64], ground: f64) -> f64 {
+    -ground * mass.iter().zip(v).map(|(m, v)| m * v).sum::<f64>()
+}

@@ -7,7 +7,8 @@ use crate::events::{Finder, penetration, velocity};
 use crate::methods::{Context, Method};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::polynomial::{
-    Polynomial, bound, derivative, difference, fit, fit_nodes, maximum_above, value,
+    Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
+    value,
 };
 
 /// Peaks of all storeys, and of the levels in contact.
@@ -163,14 +164,4 @@ impl Peaks {
             peak.raise(force(theta), start + theta * step);
         }
     }
-}
-
-/// Largest absolute value over the step, if it exceeds `floor`.
-fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
-    if bound(p) <= floor {
-        return None;
-    }
-    let up = maximum_above(p, floor);
-    let level = up.map_or(floor, |(_, top)| top);
-    maximum_above(&p.map(|c| -c), level).or(up)
 }

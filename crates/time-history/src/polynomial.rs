@@ -233,6 +233,16 @@ pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
     best.map(|theta| (theta, value(p, theta)))
 }
 
+/// Largest absolute value over the step, if it exceeds `floor`.
+pub(crate) fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
+    if bound(p) <= floor {
+        return None;
+    }
+    let up = maximum_above(p, floor);
+    let level = up.map_or(floor, |(_, top)| top);
+    maximum_above(&p.map(|c| -c), level).or(up)
+}
+
 /// Branch and bound on the Bernstein hull; `level` is the best value so far.
 fn search_maximum(
     b: &Polynomial,

@@ -2,7 +2,7 @@
 
 use pounding_shear_building::{Damping, ShearBuilding};
 
-use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
+use super::lanes::{BuildingBounds, Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use crate::system::System;
 
@@ -20,18 +20,21 @@ pub(crate) struct FreeFlight {
     pub bounds: Vec<BuildingBounds>,
     /// Building of every degree of freedom.
     pub building: Vec<usize>,
+    /// Steps so short that displacements are polynomials of degree 7 over each.
+    pub fine: Option<Fine>,
 }
 
-/// Parts of a building's bounds that the ground motion makes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BuildingBounds {
-    /// Floor acceleration relative to the ground for a ground acceleration of 1.
-    pub acceleration: f64,
-    /// Second derivative of absolute floor acceleration, likewise.
-    pub snap: f64,
-    /// The same for a slope of the ground acceleration of 1 (1/s).
-    pub snap_by_slope: f64,
+/// A sample in equal parts.
+#[derive(Debug, Clone)]
+pub(crate) struct Fine {
+    pub parts: usize,
+    pub step: f64,
+    pub modes: Vec<ModeLanes>,
 }
+
+/// Greatest product of frequency and fine step: the interpolant then errs by less than
+/// 1e-8 of the amplitude of the fastest mode.
+const FINE: f64 = 0.7;
 
 impl FreeFlight {
     /// For these buildings and this step (s); `None` if the damping of a building
@@ -41,6 +44,22 @@ impl FreeFlight {
         if !system.buildings().iter().all(|b| classical(b)) || !(step > 0.0) {
             return None;
         }
+        let mut this = Self::with_step(system, step);
+        let fastest = this.modes.iter().flat_map(|m| m.circular_frequency);
+        let parts = (fastest.fold(0.0, f64::max) * step / FINE).ceil().max(1.0);
+        this.fine = Some(Fine {
+            parts: parts as usize,
+            step: step / parts,
+            modes: if parts == 1.0 {
+                this.modes.clone()
+            } else {
+                Self::with_step(system, step / parts).modes
+            },
+        });
+        Some(this)
+    }
+
+    fn with_step(system: &System, step: f64) -> Self {
         let dofs = system.degrees_of_freedom();
         let mut this = Self {
             step,
@@ -49,13 +68,14 @@ impl FreeFlight {
             inverse: Vec::new(),
             bounds: Vec::new(),
             building: Vec::new(),
+            fine: None,
         };
         for (index, building) in system.buildings().iter().enumerate() {
             let first = system.offsets()[index];
             this.building.extend((0..building.storeys()).map(|_| index));
             this.add_building(building, first);
         }
-        Some(this)
+        this
     }
 
     fn add_building(&mut self, building: &ShearBuilding, first: usize) {

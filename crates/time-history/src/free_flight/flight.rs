@@ -1,7 +1,11 @@
 //! The flight over many samples.
 
+use super::closer_look::CloserLook;
 use super::constants::FreeFlight;
-use super::lanes::{Bounds, Ground, Lane, Modal, WIDTH, advance, restoring, transform};
+use super::lanes::{
+    Advance, Ground, Lane, Modal, Track, WIDTH, acceleration_turns, advance, balance, drifts,
+    raise, restoring, transform,
+};
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
 use crate::outcome::{Peak, StoreyPeaks};
@@ -25,137 +29,73 @@ pub(crate) struct Logbook<'a> {
     pub residual: f64,
 }
 
-/// A function of time at every floor, sampled: present and next values, and its peak.
-#[derive(Debug, Clone, Default)]
-struct Track {
-    now: Vec<Lane>,
-    next: Vec<Lane>,
-    peak: Vec<Lane>,
-    time: Vec<Lane>,
-    /// Bound of the overshoot between samples, `h^2 / 8` times that of the second
-    /// derivative.
-    overshoot: Vec<Lane>,
-}
-
 /// Work space of open flight.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Flight {
     now: Modal,
-    next: Modal,
-    bounds: Bounds,
+    step: Advance,
     displacement: Track,
     drift: Track,
     acceleration: Track,
     /// Whether `acceleration.now` holds.
     acceleration_known: bool,
-    restoring: Vec<Lane>,
+    modal: Vec<Lane>,
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
-    /// Bounds of overshoot of every building: displacement, absolute acceleration.
-    over: Vec<(f64, f64)>,
     /// Smallest peak of absolute acceleration of every building.
     smallest: Vec<f64>,
     /// Penetrations at the last sample.
     penetration: Vec<f64>,
+    look: CloserLook,
 }
 
-impl Track {
-    fn resize(&mut self, lanes: usize) {
-        for field in [
-            &mut self.now,
-            &mut self.next,
-            &mut self.peak,
-            &mut self.time,
-            &mut self.overshoot,
-        ] {
-            field.resize(lanes, [0.0; WIDTH]);
-        }
-    }
-
-    /// Whether an extremum inside the sample could exceed the peak.
-    fn wants_a_closer_look(&self) -> bool {
-        let mut look = false;
-        for c in 0..self.now.len() {
-            for l in 0..WIDTH {
-                let (a, b, over) = (self.now[c][l], self.next[c][l], self.overshoot[c][l]);
-                let top = a.abs().max(b.abs()) + over;
-                // |b - a| > h^2/2 A excludes a turning point.
-                look |= (top > self.peak[c][l]) & ((b - a).abs() <= 4.0 * over);
-            }
-        }
-        look
-    }
-
-    /// Takes the values at the end of the sample as peaks.
-    fn land(&mut self, time: f64) {
-        for c in 0..self.now.len() {
-            for l in 0..WIDTH {
-                let value = self.next[c][l].abs();
-                let higher = value > self.peak[c][l];
-                self.peak[c][l] = if higher { value } else { self.peak[c][l] };
-                self.time[c][l] = if higher { time } else { self.time[c][l] };
-            }
-        }
-        std::mem::swap(&mut self.now, &mut self.next);
-    }
+/// What could happen inside a sample.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Doubts {
+    pub touch: bool,
+    /// A turning point of displacement or drift above the peak.
+    pub turn: bool,
+    /// One of absolute acceleration.
+    pub acceleration: bool,
 }
 
 impl Flight {
     pub(crate) fn new(system: &System) -> Self {
-        let mut this = Self::default();
         let lanes = system.degrees_of_freedom().div_ceil(WIDTH);
-        for modal in [&mut this.now, &mut this.next] {
-            modal.displacement.resize(lanes, [0.0; WIDTH]);
-            modal.velocity.resize(lanes, [0.0; WIDTH]);
-            modal.input.resize(lanes, [0.0; WIDTH]);
-            modal.viscous.resize(lanes, [0.0; WIDTH]);
+        let buildings = system.buildings().len();
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Self {
+            now: Modal::new(lanes),
+            step: Advance::new(lanes, buildings),
+            displacement: Track::new(lanes),
+            drift: Track::new(lanes),
+            acceleration: Track::new(lanes),
+            acceleration_known: false,
+            modal: zeros(),
+            start_energy: zeros(),
+            drifted: zeros(),
+            smallest: vec![0.0; buildings],
+            penetration: vec![0.0; system.levels().len()],
+            look: CloserLook::new(lanes),
         }
-        this.bounds.acceleration.resize(lanes, [0.0; WIDTH]);
-        this.bounds.snap.resize(lanes, [0.0; WIDTH]);
-        this.displacement.resize(lanes);
-        this.drift.resize(lanes);
-        this.acceleration.resize(lanes);
-        for field in [
-            &mut this.restoring,
-            &mut this.start_energy,
-            &mut this.drifted,
-        ] {
-            field.resize(lanes, [0.0; WIDTH]);
-        }
-        this.over.resize(system.buildings().len(), (0.0, 0.0));
-        this.smallest.resize(system.buildings().len(), 0.0);
-        this.penetration.resize(system.levels().len(), 0.0);
-        this
     }
 
-    /// Flies samples until one needs a closer look or the leg ends. Returns how many.
+    /// Flies samples until a gap closes in one or the leg ends. Returns how many.
     pub(crate) fn fly(
         &mut self,
         constants: &FreeFlight,
         leg: &Leg<'_>,
         book: &mut Logbook<'_>,
     ) -> usize {
-        let ground = leg.system.ground();
         self.take_off(constants, leg, book);
         let mut sample = leg.from;
         while sample < leg.to {
-            let (a, b) = (ground.samples[sample], ground.samples[sample + 1]);
-            let ground = Ground {
-                start: a,
-                end: b,
-                slope: (b - a) / constants.step,
-            };
-            advance(
-                &constants.modes,
-                &constants.shapes,
-                &self.now,
-                ground,
-                &mut self.next,
-                &mut self.bounds,
-                &mut self.displacement.next,
-            );
-            self.bound(constants, ground);
-            if self.may_touch(constants, leg) || self.wants_a_closer_look(constants) {
+            let ground = ground(leg.system, sample, constants.step);
+            let doubts = self.advance(constants, leg, ground);
+            let time = sample as f64 * constants.step;
+            if (doubts.touch || doubts.turn || doubts.acceleration)
+                && !self.clears(constants, leg, ground, doubts, time)
+            {
                 break;
             }
             sample += 1;
@@ -171,13 +111,12 @@ impl Flight {
 
     fn take_off(&mut self, constants: &FreeFlight, leg: &Leg<'_>, book: &Logbook<'_>) {
         let n = leg.system.degrees_of_freedom();
-        let floors = &mut self.restoring;
         for (modal, from) in [
             (&mut self.now.displacement, &book.state[..n]),
             (&mut self.now.velocity, &book.state[n..2 * n]),
         ] {
-            floors.as_flattened_mut()[..n].copy_from_slice(from);
-            transform(&constants.inverse, floors, modal);
+            self.modal.as_flattened_mut()[..n].copy_from_slice(from);
+            transform(&constants.inverse, &self.modal, modal);
         }
         for field in [
             &mut self.now.input,
@@ -195,7 +134,11 @@ impl Flight {
         }
         let u = self.displacement.now.as_flattened_mut();
         u[..n].copy_from_slice(&book.state[..n]);
-        drifts(constants, &self.displacement.now, &mut self.drift.now);
+        drifts(
+            &constants.shapes,
+            &self.displacement.now,
+            &mut self.drift.now,
+        );
         self.acceleration_known = false;
         self.read_peaks(leg.system, book.peaks);
         for (l, penetration) in self.penetration.iter_mut().enumerate() {
@@ -225,28 +168,20 @@ impl Flight {
         }
     }
 
-    /// Bounds of overshoot for every building, and for every floor.
-    fn bound(&mut self, constants: &FreeFlight, ground: Ground) {
-        let largest = ground.start.abs().max(ground.end.abs());
-        let slope = ground.slope.abs();
-        let eighth = 0.125 * constants.step * constants.step;
-        let acceleration = self.bounds.acceleration.as_flattened();
-        let snap = self.bounds.snap.as_flattened();
-        for ((shapes, fixed), over) in constants
-            .shapes
-            .iter()
-            .zip(&constants.bounds)
-            .zip(&mut self.over)
-        {
-            let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-            let a: f64 = acceleration[range.clone()].iter().sum();
-            let s: f64 = snap[range.clone()].iter().sum();
-            let a = a + fixed.acceleration * largest;
-            let s = s + fixed.snap * largest + fixed.snap_by_slope * slope;
-            *over = (eighth * a, eighth * s);
-            self.displacement.overshoot.as_flattened_mut()[range.clone()].fill(eighth * a);
-            self.drift.overshoot.as_flattened_mut()[range.clone()].fill(2.0 * eighth * a);
-            self.acceleration.overshoot.as_flattened_mut()[range].fill(eighth * s);
+    /// Tries the next sample.
+    fn advance(&mut self, constants: &FreeFlight, leg: &Leg<'_>, ground: Ground) -> Doubts {
+        let turn = advance(
+            constants,
+            &self.now,
+            ground,
+            &mut self.step,
+            &mut self.displacement,
+            &mut self.drift,
+        );
+        Doubts {
+            turn,
+            touch: self.may_touch(constants, leg),
+            acceleration: self.acceleration_may_peak(constants),
         }
     }
 
@@ -254,15 +189,11 @@ impl Flight {
     fn may_touch(&mut self, constants: &FreeFlight, leg: &Leg<'_>) -> bool {
         let u = self.displacement.next.as_flattened();
         let mut touch = false;
-        for (l, (level, penetration)) in leg
-            .system
-            .levels()
-            .iter()
-            .zip(&mut self.penetration)
-            .enumerate()
-        {
-            let over =
-                |floor: Option<usize>| floor.map_or(0.0, |i| self.over[constants.building[i]].0);
+        let levels = leg.system.levels().iter().zip(&mut self.penetration);
+        for (l, (level, penetration)) in levels.enumerate() {
+            let over = |floor: Option<usize>| {
+                floor.map_or(0.0, |i| self.step.over[constants.building[i]].0)
+            };
             let end = level.relative(u) - leg.contacts.width(l);
             touch |= end.max(*penetration) + (over(level.left) + over(level.right)) > 0.0;
             *penetration = end;
@@ -270,67 +201,91 @@ impl Flight {
         touch
     }
 
-    fn wants_a_closer_look(&mut self, constants: &FreeFlight) -> bool {
-        drifts(constants, &self.displacement.next, &mut self.drift.next);
-        if self.displacement.wants_a_closer_look() || self.drift.wants_a_closer_look() {
-            return true;
-        }
-        // Absolute acceleration is below that relative to the ground's bound.
+    /// Whether absolute acceleration could have a peak within the sample. It is below
+    /// the bound of that relative to the ground, which mostly settles it.
+    fn acceleration_may_peak(&mut self, constants: &FreeFlight) -> bool {
         let eighth = 0.125 * constants.step * constants.step;
         let low = |(over, smallest): (&(f64, f64), &f64)| over.0 <= eighth * smallest;
-        if self.over.iter().zip(&self.smallest).all(low) {
+        if self.step.over.iter().zip(&self.smallest).all(low) {
             self.acceleration_known = false;
             return false;
         }
+        let modes = &constants.modes;
         if !self.acceleration_known {
-            restoring(&constants.modes, &self.now, &mut self.restoring);
-            transform(
-                &constants.shapes,
-                &self.restoring,
-                &mut self.acceleration.now,
-            );
+            let (q, p) = (&self.now.displacement, &self.now.velocity);
+            restoring(modes, q, p, &mut self.modal);
+            transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
         }
-        restoring(&constants.modes, &self.next, &mut self.restoring);
-        transform(
-            &constants.shapes,
-            &self.restoring,
-            &mut self.acceleration.next,
-        );
+        let (q, p) = (&self.step.next.displacement, &self.step.next.velocity);
+        restoring(modes, q, p, &mut self.modal);
+        transform(&constants.shapes, &self.modal, &mut self.acceleration.next);
         self.acceleration_known = true;
-        self.acceleration.wants_a_closer_look()
+        acceleration_turns(constants, &self.step.over, &mut self.acceleration)
+    }
+
+    /// Looks closer at a sample. Returns false if a gap closes in it.
+    fn clears(
+        &mut self,
+        constants: &FreeFlight,
+        leg: &Leg<'_>,
+        ground: Ground,
+        doubts: Doubts,
+        time: f64,
+    ) -> bool {
+        let Some(fine) = &constants.fine else {
+            return false;
+        };
+        self.look.begin(&self.now);
+        for part in 0..fine.parts {
+            let from = part as f64 / fine.parts as f64;
+            let at = |x: f64| ground.start + x * (ground.end - ground.start);
+            let inner = Ground {
+                start: at(from),
+                end: at(from + 1.0 / fine.parts as f64),
+                slope: ground.slope,
+            };
+            self.look.advance(constants, fine, inner);
+            if doubts.touch && self.look.touches(leg) {
+                return false;
+            }
+            let start = time + from * constants.step;
+            if doubts.turn {
+                self.look
+                    .displacement_peaks(constants, &mut self.displacement, start, fine.step);
+                self.look
+                    .drift_peaks(constants, &mut self.drift, start, fine.step);
+            }
+            if doubts.acceleration {
+                self.look
+                    .acceleration_peaks(constants, &mut self.acceleration, start, fine.step);
+            }
+        }
+        true
     }
 
     /// Goes on to the end of the sample. Returns the input energy since take-off (J).
     fn accept(&mut self, constants: &FreeFlight, time: f64) -> f64 {
-        self.displacement.land(time);
-        self.drift.land(time);
+        raise(&mut self.displacement, time);
+        raise(&mut self.drift, time);
         if self.acceleration_known {
-            self.acceleration.land(time);
+            raise(&mut self.acceleration, time);
         }
-        std::mem::swap(&mut self.now, &mut self.next);
-        let mut input = 0.0;
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let (q, p) = (self.now.displacement[c][l], self.now.velocity[c][l]);
-                let x = m.circular_frequency[l] * q;
-                let balance = 0.5 * (p * p + x * x) - self.start_energy[c][l]
-                    + self.now.viscous[c][l]
-                    - self.now.input[c][l];
-                self.drifted[c][l] = self.drifted[c][l].max(balance.abs());
-                input += self.now.input[c][l];
-            }
-        }
-        input
+        std::mem::swap(&mut self.now, &mut self.step.next);
+        balance(
+            &constants.modes,
+            &self.now,
+            &self.start_energy,
+            &mut self.drifted,
+        )
     }
 
     /// Writes state, integrals and peaks back.
     fn land(&mut self, constants: &FreeFlight, system: &System, book: &mut Logbook<'_>) {
         let layout = Layout::of(system);
         let n = layout.dofs;
-        let floors = &mut self.restoring;
         for (modal, place) in [(&self.now.displacement, 0), (&self.now.velocity, n)] {
-            transform(&constants.shapes, modal, floors);
-            book.state[place..place + n].copy_from_slice(&floors.as_flattened()[..n]);
+            transform(&constants.shapes, modal, &mut self.modal);
+            book.state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
         }
         let sum = |lanes: &[Lane]| lanes.as_flattened().iter().sum::<f64>();
         book.state[layout.input()] += sum(&self.now.input);
@@ -362,15 +317,13 @@ impl Flight {
     }
 }
 
-/// Storey drifts from floor displacements.
-fn drifts(constants: &FreeFlight, floors: &[Lane], drifts: &mut [Lane]) {
-    let (u, d) = (floors.as_flattened(), drifts.as_flattened_mut());
-    for building in &constants.shapes {
-        let range = building.first_mode..building.first_mode + building.modes;
-        let mut below = 0.0;
-        for (drift, floor) in d[range.clone()].iter_mut().zip(&u[range]) {
-            *drift = floor - below;
-            below = *floor;
-        }
+/// Ground acceleration over a sample.
+fn ground(system: &System, sample: usize, step: f64) -> Ground {
+    let samples = &system.ground().samples;
+    let (start, end) = (samples[sample], samples[sample + 1]);
+    Ground {
+        start,
+        end,
+        slope: (end - start) / step,
     }
 }

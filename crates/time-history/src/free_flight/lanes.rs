@@ -5,6 +5,8 @@
 
 use multiversion::multiversion;
 
+use super::constants::FreeFlight;
+
 /// Eight values side by side.
 pub(crate) type Lane = [f64; 8];
 
@@ -57,15 +59,79 @@ pub(crate) struct Shapes {
     pub columns: Vec<Lane>,
 }
 
-/// Bounds of a step: of the floor accelerations, and of the second derivatives of
-/// absolute floor accelerations, mode by mode without the part of the ground.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Bounds {
-    pub acceleration: Vec<Lane>,
-    pub snap: Vec<Lane>,
+/// Parts of a building's bounds that the ground motion makes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct BuildingBounds {
+    /// Floor acceleration relative to the ground for a ground acceleration of 1.
+    pub acceleration: f64,
+    /// Second derivative of absolute floor acceleration, likewise.
+    pub snap: f64,
+    /// The same for a slope of the ground acceleration of 1 (1/s).
+    pub snap_by_slope: f64,
 }
 
-/// Advances all modes by a step and transforms to floor displacements.
+/// A function of time at every floor, sampled: present and next values, and its peak.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Track {
+    pub now: Vec<Lane>,
+    pub next: Vec<Lane>,
+    pub peak: Vec<Lane>,
+    pub time: Vec<Lane>,
+    /// Bound of the overshoot between samples: `h^2 / 8` times that of the second
+    /// derivative.
+    pub overshoot: Vec<Lane>,
+}
+
+/// What [`advance`] leaves behind.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Advance {
+    pub next: Modal,
+    /// Bounds of every mode's part in floor acceleration and snap.
+    acceleration: Vec<Lane>,
+    snap: Vec<Lane>,
+    /// Overshoot of displacement and of absolute acceleration of every building.
+    pub over: Vec<(f64, f64)>,
+}
+
+impl Modal {
+    pub(crate) fn new(lanes: usize) -> Self {
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Self {
+            displacement: zeros(),
+            velocity: zeros(),
+            input: zeros(),
+            viscous: zeros(),
+        }
+    }
+}
+
+impl Advance {
+    pub(crate) fn new(lanes: usize, buildings: usize) -> Self {
+        Self {
+            next: Modal::new(lanes),
+            acceleration: vec![[0.0; WIDTH]; lanes],
+            snap: vec![[0.0; WIDTH]; lanes],
+            over: vec![(0.0, 0.0); buildings],
+        }
+    }
+}
+
+impl Track {
+    pub(crate) fn new(lanes: usize) -> Self {
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Self {
+            now: zeros(),
+            next: zeros(),
+            peak: zeros(),
+            time: zeros(),
+            overshoot: zeros(),
+        }
+    }
+}
+
+/// Advances all modes by a step, transforms to floor displacements and drifts, and
+/// bounds what lies between. Returns whether a turning point of either inside the step
+/// could exceed its peak.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -73,43 +139,90 @@ pub(crate) struct Bounds {
     "aarch64+neon"
 ))]
 pub(crate) fn advance(
-    modes: &[ModeLanes],
-    shapes: &[Shapes],
+    constants: &FreeFlight,
     now: &Modal,
     ground: Ground,
-    next: &mut Modal,
-    bounds: &mut Bounds,
-    floors: &mut [Lane],
-) {
+    out: &mut Advance,
+    displacement: &mut Track,
+    drift: &mut Track,
+) -> bool {
+    modal_step(&constants.modes, now, ground, out);
+    to_floors(
+        &constants.shapes,
+        &out.next.displacement,
+        &mut displacement.next,
+    );
+    drifts(&constants.shapes, &displacement.next, &mut drift.next);
+    let largest = ground.start.abs().max(ground.end.abs());
+    let slope = ground.slope.abs();
+    let eighth = 0.125 * constants.step * constants.step;
+    let (acceleration, snap) = (out.acceleration.as_flattened(), out.snap.as_flattened());
+    for ((shapes, fixed), over) in constants
+        .shapes
+        .iter()
+        .zip(&constants.bounds)
+        .zip(&mut out.over)
+    {
+        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
+        let mut a = fixed.acceleration * largest;
+        let mut s = fixed.snap * largest + fixed.snap_by_slope * slope;
+        for (x, y) in acceleration[range.clone()].iter().zip(&snap[range.clone()]) {
+            a += x;
+            s += y;
+        }
+        *over = (eighth * a, eighth * s);
+        displacement.overshoot.as_flattened_mut()[range.clone()].fill(eighth * a);
+        drift.overshoot.as_flattened_mut()[range].fill(2.0 * eighth * a);
+    }
+    turns_above(displacement) | turns_above(drift)
+}
+
+#[inline(always)]
+fn modal_step(modes: &[ModeLanes], now: &Modal, ground: Ground, out: &mut Advance) {
     let (a, b, slope) = (ground.start, ground.end, ground.slope);
     let count = modes.len();
     let (q0, p0) = (&now.displacement[..count], &now.velocity[..count]);
     let (i0, w0) = (&now.input[..count], &now.viscous[..count]);
+    let next = &mut out.next;
     let (q1, p1) = (&mut next.displacement[..count], &mut next.velocity[..count]);
     let (i1, w1) = (&mut next.input[..count], &mut next.viscous[..count]);
-    let (acceleration, snap) = (&mut bounds.acceleration[..count], &mut bounds.snap[..count]);
+    let (acceleration, snap) = (&mut out.acceleration[..count], &mut out.snap[..count]);
     for c in 0..count {
+        // Copies: what does not alias is computed eight at a time.
         let m = &modes[c];
-        let (q, p) = (&q0[c], &p0[c]);
+        let (x, v, mut input, mut viscous) = (q0[c], p0[c], i0[c], w0[c]);
+        let linear = |k: &[Lane; 4]| -> Lane {
+            let mut out = [0.0; WIDTH];
+            for l in 0..WIDTH {
+                out[l] = k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b);
+            }
+            out
+        };
+        let (end, speed, integral) = (
+            linear(&m.displacement),
+            linear(&m.velocity),
+            linear(&m.integral),
+        );
+        let k = &m.viscous;
         for l in 0..WIDTH {
-            let (x, v) = (q[l], p[l]);
-            let linear = |k: &[Lane; 4]| k[0][l] * x + k[1][l] * v + (k[2][l] * a + k[3][l] * b);
-            let end = linear(&m.displacement);
-            q1[c][l] = end;
-            p1[c][l] = linear(&m.velocity);
-            let moved = end * b - x * a - slope * linear(&m.integral);
-            i1[c][l] = i0[c][l] - m.participation[l] * moved;
-            let k = &m.viscous;
-            let work = x * (k[0][l] * x + k[1][l] * v + (k[2][l] * a + k[3][l] * b))
-                + v * (k[4][l] * v + (k[5][l] * a + k[6][l] * b))
+            let moved = end[l] * b - x[l] * a - slope * integral[l];
+            input[l] -= m.participation[l] * moved;
+            viscous[l] += x[l] * (k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b))
+                + v[l] * (k[4][l] * v[l] + (k[5][l] * a + k[6][l] * b))
                 + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
-            w1[c][l] = w0[c][l] + work;
-            let size = v.abs() + m.circular_frequency[l] * x.abs();
-            acceleration[c][l] = m.acceleration_bound[l] * size;
-            snap[c][l] = m.snap_bound[l] * size;
         }
+        let mut size = [0.0; WIDTH];
+        for l in 0..WIDTH {
+            size[l] = v[l].abs() + m.circular_frequency[l] * x[l].abs();
+        }
+        let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for l in 0..WIDTH {
+            first[l] = m.acceleration_bound[l] * size[l];
+            second[l] = m.snap_bound[l] * size[l];
+        }
+        (q1[c], p1[c], i1[c], w1[c]) = (end, speed, input, viscous);
+        (acceleration[c], snap[c]) = (first, second);
     }
-    transform(shapes, &next.displacement, floors);
 }
 
 /// Floors from modes: `u = Phi q`.
@@ -120,6 +233,11 @@ pub(crate) fn advance(
     "aarch64+neon"
 ))]
 pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
+    to_floors(shapes, modal, floors);
+}
+
+#[inline(always)]
+fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
     for lane in floors.iter_mut() {
         *lane = [0.0; WIDTH];
     }
@@ -140,13 +258,119 @@ pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
     }
 }
 
-/// Modal absolute accelerations, `-(2 zeta omega q' + omega^2 q)`.
-pub(crate) fn restoring(modes: &[ModeLanes], modal: &Modal, out: &mut [Lane]) {
+/// Storey drifts from floor displacements.
+#[inline(always)]
+pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {
+    let (u, d) = (floors.as_flattened(), drifts.as_flattened_mut());
+    for building in shapes {
+        let range = building.first_mode..building.first_mode + building.modes;
+        let (u, d) = (&u[range.clone()], &mut d[range]);
+        d[0] = u[0];
+        for (drift, pair) in d[1..].iter_mut().zip(u.windows(2)) {
+            *drift = pair[1] - pair[0];
+        }
+    }
+}
+
+/// Whether a turning point inside the step could exceed the peak: a change of more
+/// than `h^2 / 2` times the bound of the second derivative excludes one.
+#[inline(always)]
+fn turns_above(track: &Track) -> bool {
+    let count = track.now.len();
+    let (now, next) = (&track.now[..count], &track.next[..count]);
+    let (peak, overshoot) = (&track.peak[..count], &track.overshoot[..count]);
+    let mut any = [0_u64; WIDTH];
+    for c in 0..count {
+        for l in 0..WIDTH {
+            let (a, b, over) = (now[c][l], next[c][l], overshoot[c][l]);
+            let top = a.abs().max(b.abs()) + over;
+            let turns = (top > peak[c][l]) & ((b - a).abs() <= 4.0 * over);
+            any[l] |= u64::from(turns);
+        }
+    }
+    any.iter().fold(0, |all, x| all | x) != 0
+}
+
+/// [`turns_above`] for the absolute acceleration, whose bounds are not filled in yet.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn acceleration_turns(
+    constants: &FreeFlight,
+    over: &[(f64, f64)],
+    acceleration: &mut Track,
+) -> bool {
+    for (shapes, over) in constants.shapes.iter().zip(over) {
+        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
+        acceleration.overshoot.as_flattened_mut()[range].fill(over.1);
+    }
+    turns_above(acceleration)
+}
+
+/// Takes the values at the end of the step as peaks.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn raise(track: &mut Track, time: f64) {
+    let count = track.now.len();
+    let (next, peak) = (&track.next[..count], &mut track.peak[..count]);
+    let times = &mut track.time[..count];
+    for c in 0..count {
+        for l in 0..WIDTH {
+            let value = next[c][l].abs();
+            let higher = value > peak[c][l];
+            peak[c][l] = if higher { value } else { peak[c][l] };
+            times[c][l] = if higher { time } else { times[c][l] };
+        }
+    }
+    std::mem::swap(&mut track.now, &mut track.next);
+}
+
+/// Largest imbalance of every mode's energy so far, and the whole input energy.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn balance(
+    modes: &[ModeLanes],
+    now: &Modal,
+    start: &[Lane],
+    drifted: &mut [Lane],
+) -> f64 {
+    let mut input = [0.0; WIDTH];
+    for (c, m) in modes.iter().enumerate() {
+        let (q, p) = (&now.displacement[c], &now.velocity[c]);
+        for l in 0..WIDTH {
+            let x = m.circular_frequency[l] * q[l];
+            let energy = 0.5 * (p[l] * p[l] + x * x) - start[c][l];
+            let imbalance = (energy + now.viscous[c][l] - now.input[c][l]).abs();
+            drifted[c][l] = drifted[c][l].max(imbalance);
+            input[l] += now.input[c][l];
+        }
+    }
+    input.iter().sum()
+}
+
+/// Absolute accelerations of the modes, `-(2 zeta omega q' + omega^2 q)`.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn restoring(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
     for (c, m) in modes.iter().enumerate() {
         for l in 0..WIDTH {
             let omega = m.circular_frequency[l];
-            out[c][l] =
-                -(m.damping[l] * modal.velocity[c][l] + omega * omega * modal.displacement[c][l]);
+            out[c][l] = -(m.damping[l] * p[c][l] + omega * omega * q[c][l]);
         }
     }
 }

@@ -1,0 +1,215 @@
+//! A closer look at one sample of open flight: between points so dense that every
+//! floor moves on a polynomial of degree 7.
+
+use super::constants::{Fine, FreeFlight};
+use super::flight::Leg;
+use super::lanes::{Ground, Lane, Modal, Track, WIDTH, restoring, transform};
+use crate::polynomial::{
+    COEFFICIENTS, Polynomial, absolute_maximum, difference, first_rise, septic,
+};
+
+/// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
+/// acceleration relative to the ground, and two more.
+#[derive(Debug, Clone)]
+struct Point {
+    modes: [Vec<Lane>; 5],
+    floors: [Vec<Lane>; 4],
+    /// Absolute acceleration with three derivatives.
+    absolute: [Vec<Lane>; 4],
+    absolute_known: bool,
+}
+
+/// Work space.
+#[derive(Debug, Clone)]
+pub(super) struct CloserLook {
+    start: Point,
+    end: Point,
+    step: f64,
+    modal: Vec<Lane>,
+    fresh: bool,
+}
+
+impl Point {
+    fn new(lanes: usize) -> Self {
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Self {
+            modes: std::array::from_fn(|_| zeros()),
+            floors: std::array::from_fn(|_| zeros()),
+            absolute: std::array::from_fn(|_| zeros()),
+            absolute_known: false,
+        }
+    }
+
+    /// Derivatives from displacements and velocities of the modes by the equation of
+    /// motion and its derivatives.
+    fn derive(&mut self, constants: &FreeFlight, ground: f64, slope: f64) {
+        for (c, m) in constants.modes.iter().enumerate() {
+            for l in 0..WIDTH {
+                let (damping, gamma) = (m.damping[l], m.participation[l]);
+                let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
+                let (q, p) = (self.modes[0][c][l], self.modes[1][c][l]);
+                let second = -damping * p - stiffness * q - gamma * ground;
+                let third = -damping * second - stiffness * p - gamma * slope;
+                self.modes[2][c][l] = second;
+                self.modes[3][c][l] = third;
+                self.modes[4][c][l] = -damping * third - stiffness * second;
+            }
+        }
+        for (modes, floors) in self.modes.iter().zip(&mut self.floors) {
+            transform(&constants.shapes, modes, floors);
+        }
+        self.absolute_known = false;
+    }
+
+    fn derive_absolute(&mut self, constants: &FreeFlight, modal: &mut [Lane]) {
+        if self.absolute_known {
+            return;
+        }
+        for k in 0..4 {
+            let (q, p) = (&self.modes[k], &self.modes[k + 1]);
+            restoring(&constants.modes, q, p, modal);
+            transform(&constants.shapes, modal, &mut self.absolute[k]);
+        }
+        self.absolute_known = true;
+    }
+}
+
+impl CloserLook {
+    pub(super) fn new(lanes: usize) -> Self {
+        Self {
+            start: Point::new(lanes),
+            end: Point::new(lanes),
+            step: 0.0,
+            modal: vec![[0.0; WIDTH]; lanes],
+            fresh: false,
+        }
+    }
+
+    /// Begins at a modal state.
+    pub(super) fn begin(&mut self, modal: &Modal) {
+        self.end.modes[0].copy_from_slice(&modal.displacement);
+        self.end.modes[1].copy_from_slice(&modal.velocity);
+        self.fresh = true;
+    }
+
+    /// Goes on by one fine step.
+    pub(super) fn advance(&mut self, constants: &FreeFlight, fine: &Fine, ground: Ground) {
+        if self.fresh {
+            self.end.derive(constants, ground.start, ground.slope);
+            self.fresh = false;
+        }
+        std::mem::swap(&mut self.start, &mut self.end);
+        for (c, m) in fine.modes.iter().enumerate() {
+            let (q, p) = (&self.start.modes[0][c], &self.start.modes[1][c]);
+            let (q, p) = (
+                step(&m.displacement, q, p, ground),
+                step(&m.velocity, q, p, ground),
+            );
+            (self.end.modes[0][c], self.end.modes[1][c]) = (q, p);
+        }
+        self.end.derive(constants, ground.end, ground.slope);
+        self.step = fine.step;
+    }
+
+    fn polynomial(&self, floor: usize) -> Polynomial {
+        let at = |point: &Point| self.scaled(&point.floors, floor);
+        septic(at(&self.start), at(&self.end))
+    }
+
+    /// Derivatives with respect to theta.
+    fn scaled(&self, derivatives: &[Vec<Lane>; 4], floor: usize) -> [f64; 4] {
+        let mut factor = 1.0;
+        std::array::from_fn(|k| {
+            let value = factor * derivatives[k][floor / WIDTH][floor % WIDTH];
+            factor *= self.step;
+            value
+        })
+    }
+
+    /// Whether a gap closes within the fine step.
+    pub(super) fn touches(&self, leg: &Leg<'_>) -> bool {
+        leg.system.levels().iter().enumerate().any(|(l, level)| {
+            let zero = [0.0; COEFFICIENTS];
+            let one = |floor: Option<usize>| floor.map_or(zero, |i| self.polynomial(i));
+            let mut gap = difference(&one(level.left), &one(level.right));
+            gap[0] -= leg.contacts.width(l);
+            first_rise(&gap).is_some()
+        })
+    }
+
+    pub(super) fn displacement_peaks(
+        &self,
+        constants: &FreeFlight,
+        track: &mut Track,
+        start: f64,
+        step: f64,
+    ) {
+        for i in 0..constants.building.len() {
+            if turns(track, i) {
+                raise(track, i, &self.polynomial(i), start, step);
+            }
+        }
+    }
+
+    pub(super) fn drift_peaks(
+        &self,
+        constants: &FreeFlight,
+        track: &mut Track,
+        start: f64,
+        step: f64,
+    ) {
+        for i in 0..constants.building.len() {
+            if !turns(track, i) {
+                continue;
+            }
+            let lowest = i == 0 || constants.building[i] != constants.building[i - 1];
+            let floor = self.polynomial(i);
+            let drift = if lowest {
+                floor
+            } else {
+                difference(&floor, &self.polynomial(i - 1))
+            };
+            raise(track, i, &drift, start, step);
+        }
+    }
+
+    pub(super) fn acceleration_peaks(
+        &mut self,
+        constants: &FreeFlight,
+        track: &mut Track,
+        start: f64,
+        step: f64,
+    ) {
+        self.start.derive_absolute(constants, &mut self.modal);
+        self.end.derive_absolute(constants, &mut self.modal);
+        for i in 0..constants.building.len() {
+            if turns(track, i) {
+                let at = |point: &Point| self.scaled(&point.absolute, i);
+                let function = septic(at(&self.start), at(&self.end));
+                raise(track, i, &function, start, step);
+            }
+        }
+    }
+}
+
+/// One component of all modes of a lane after a step.
+fn step(k: &[Lane; 4], q: &Lane, p: &Lane, ground: Ground) -> Lane {
+    std::array::from_fn(|l| {
+        k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
+    })
+}
+
+/// Whether this floor is in doubt.
+fn turns(track: &Track, floor: usize) -> bool {
+    let (c, l) = (floor / WIDTH, floor % WIDTH);
+    let (a, b, over) = (track.now[c][l], track.next[c][l], track.overshoot[c][l]);
+    a.abs().max(b.abs()) + over > track.peak[c][l] && (b - a).abs() <= 4.0 * over
+}
+
+fn raise(track: &mut Track, floor: usize, function: &Polynomial, start: f64, step: f64) {
+    let (c, l) = (floor / WIDTH, floor % WIDTH);
+    if let Some((theta, top)) = absolute_maximum(function, track.peak[c][l]) {
+        track.peak[c][l] = top;
+        track.time[c][l] = start + theta * step;
+    }
+}

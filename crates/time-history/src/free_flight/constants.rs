@@ -2,6 +2,7 @@
 
 use pounding_shear_building::{Damping, ShearBuilding};
 
+use super::block::Rows;
 use super::lanes::{BuildingBounds, Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use crate::system::System;
@@ -20,6 +21,10 @@ pub(crate) struct FreeFlight {
     pub bounds: Vec<BuildingBounds>,
     /// Building of every degree of freedom.
     pub building: Vec<usize>,
+    /// Floors, drifts and the closing of levels from modes, for blocks.
+    pub floor_rows: Vec<Rows>,
+    pub drift_rows: Vec<Rows>,
+    pub level_rows: Vec<Rows>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Option<Fine>,
 }
@@ -45,6 +50,7 @@ impl FreeFlight {
             return None;
         }
         let mut this = Self::with_step(system, step);
+        this.add_rows(system);
         let fastest = this.modes.iter().flat_map(|m| m.circular_frequency);
         let parts = (fastest.fold(0.0, f64::max) * step / FINE).ceil().max(1.0);
         this.fine = Some(Fine {
@@ -68,6 +74,9 @@ impl FreeFlight {
             inverse: Vec::new(),
             bounds: Vec::new(),
             building: Vec::new(),
+            floor_rows: Vec::new(),
+            drift_rows: Vec::new(),
+            level_rows: Vec::new(),
             fine: None,
         };
         for (index, building) in system.buildings().iter().enumerate() {
@@ -98,6 +107,57 @@ impl FreeFlight {
             self.add_mode(first + j, mode, largest, &mut bounds);
         }
         self.bounds.push(bounds);
+    }
+
+    /// Every row is a sum over the modes of the buildings that it belongs to.
+    fn add_rows(&mut self, system: &System) {
+        let entry = |floor: Option<usize>, mode: usize| -> f64 {
+            let Some(i) = floor else { return 0.0 };
+            let shapes = &self.shapes[self.building[i]];
+            if !(shapes.first_mode..shapes.first_mode + shapes.modes).contains(&mode) {
+                return 0.0;
+            }
+            let lane = i / WIDTH - shapes.first_lane;
+            shapes.columns[lane * shapes.modes + mode - shapes.first_mode][i % WIDTH]
+        };
+        let modes = |floor: Option<usize>| {
+            floor.map(|i| {
+                let shapes = &self.shapes[self.building[i]];
+                (shapes.first_mode, shapes.first_mode + shapes.modes)
+            })
+        };
+        let below = |i: usize| (i > 0 && self.building[i] == self.building[i - 1]).then(|| i - 1);
+        let floors: Vec<_> = (0..self.building.len()).map(|i| (Some(i), None)).collect();
+        let drifts: Vec<_> = floors
+            .iter()
+            .map(|(i, _)| (*i, i.and_then(below)))
+            .collect();
+        let levels = system.levels().iter().map(|l| (l.left, l.right));
+        let levels: Vec<_> = levels.collect();
+        let lanes = |pairs: &[(Option<usize>, Option<usize>)]| -> Vec<Rows> {
+            let chunks = pairs.chunks(WIDTH);
+            chunks
+                .map(|chunk| {
+                    let ranges = chunk.iter().flat_map(|p| [modes(p.0), modes(p.1)]);
+                    let (first, end) = ranges
+                        .flatten()
+                        .fold((usize::MAX, 0), |(a, b), (c, d)| (a.min(c), b.max(d)));
+                    let column = |mode: usize| -> Lane {
+                        std::array::from_fn(|l| {
+                            chunk
+                                .get(l)
+                                .map_or(0.0, |p| entry(p.0, mode) - entry(p.1, mode))
+                        })
+                    };
+                    Rows {
+                        first_mode: first,
+                        columns: (first..end).map(column).collect(),
+                    }
+                })
+                .collect()
+        };
+        let (floors, drifts, levels) = (lanes(&floors), lanes(&drifts), lanes(&levels));
+        (self.floor_rows, self.drift_rows, self.level_rows) = (floors, drifts, levels);
     }
 
     /// Bounds, with `e = |q'| + omega |q|` and `e* = e + |gamma| h A` for the sample:

@@ -1,5 +1,6 @@
 //! The flight over many samples.
 
+use super::block::{self, BLOCK, Block};
 use super::closer_look::CloserLook;
 use super::constants::FreeFlight;
 use super::lanes::{
@@ -47,6 +48,7 @@ pub(crate) struct Flight {
     /// Penetrations at the last sample.
     penetration: Vec<f64>,
     look: CloserLook,
+    block: Block,
 }
 
 /// What could happen inside a sample.
@@ -77,6 +79,7 @@ impl Flight {
             smallest: vec![0.0; buildings],
             penetration: vec![0.0; system.levels().len()],
             look: CloserLook::new(lanes),
+            block: Block::new(lanes, system.levels().len()),
         }
     }
 
@@ -89,7 +92,17 @@ impl Flight {
     ) -> usize {
         self.take_off(constants, leg, book);
         let mut sample = leg.from;
+        // Where the next block may be tried: not where the last one failed.
+        let mut next_block = sample;
         while sample < leg.to {
+            if sample >= next_block && sample + BLOCK <= leg.to {
+                next_block = sample + BLOCK;
+                if self.fly_block(constants, leg, sample) {
+                    sample = next_block;
+                    self.note_input(constants, leg, book);
+                    continue;
+                }
+            }
             let ground = ground(leg.system, sample, constants.step);
             let doubts = self.advance(constants, leg, ground);
             let time = sample as f64 * constants.step;
@@ -99,9 +112,8 @@ impl Flight {
                 break;
             }
             sample += 1;
-            let input = self.accept(constants, sample as f64 * constants.step);
-            let before = book.state[Layout::of(leg.system).input()];
-            *book.largest_input = book.largest_input.max((before + input).abs());
+            self.accept(sample as f64 * constants.step);
+            self.note_input(constants, leg, book);
         }
         if sample > leg.from {
             self.land(constants, leg.system, book);
@@ -263,20 +275,77 @@ impl Flight {
         true
     }
 
-    /// Goes on to the end of the sample. Returns the input energy since take-off (J).
-    fn accept(&mut self, constants: &FreeFlight, time: f64) -> f64 {
+    /// Flies a block of samples if nothing can happen in it.
+    fn fly_block(&mut self, constants: &FreeFlight, leg: &Leg<'_>, sample: usize) -> bool {
+        let ground = &leg.system.ground().samples[sample..=sample + BLOCK];
+        let mut samples = [0.0; BLOCK + 1];
+        samples.copy_from_slice(ground);
+        let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+        let block = &mut self.block;
+        block::fly(constants, &self.now, &samples, block);
+        let eighth = 0.125 * constants.step * constants.step;
+        for (b, shapes) in constants.shapes.iter().enumerate() {
+            let bound = block.acceleration(constants, b, largest);
+            if bound > self.smallest[b] {
+                return false;
+            }
+            let over = eighth * bound;
+            self.step.over[b].0 = over;
+            let range = shapes.first_mode..shapes.first_mode + shapes.modes;
+            let below = |top: &[Lane], peak: &[Lane], over: f64| {
+                let (top, peak) = (&top.as_flattened()[range.clone()], peak.as_flattened());
+                let pairs = top.iter().zip(&peak[range.clone()]);
+                pairs.fold(true, |all, (top, peak)| all & (top + over <= *peak))
+            };
+            if !(below(&block.floors.top, &self.displacement.peak, over)
+                && below(&block.drifts.top, &self.drift.peak, 2.0 * over))
+            {
+                return false;
+            }
+        }
+        let (top, last) = (
+            block.levels.top.as_flattened(),
+            block.levels.last.as_flattened(),
+        );
+        for (l, level) in leg.system.levels().iter().enumerate() {
+            let over = |floor: Option<usize>| {
+                floor.map_or(0.0, |i| self.step.over[constants.building[i]].0)
+            };
+            let reach = (top[l] - leg.contacts.width(l)).max(self.penetration[l]);
+            if reach + (over(level.left) + over(level.right)) > 0.0 {
+                return false;
+            }
+        }
+        for (l, penetration) in self.penetration.iter_mut().enumerate() {
+            *penetration = last[l] - leg.contacts.width(l);
+        }
+        std::mem::swap(&mut self.now, &mut block.end);
+        std::mem::swap(&mut self.displacement.now, &mut block.floors.last);
+        std::mem::swap(&mut self.drift.now, &mut block.drifts.last);
+        self.acceleration_known = false;
+        true
+    }
+
+    /// Notes the greatest input energy and the imbalance so far.
+    fn note_input(&mut self, constants: &FreeFlight, leg: &Leg<'_>, book: &mut Logbook<'_>) {
+        let input = balance(
+            &constants.modes,
+            &self.now,
+            &self.start_energy,
+            &mut self.drifted,
+        );
+        let before = book.state[Layout::of(leg.system).input()];
+        *book.largest_input = book.largest_input.max((before + input).abs());
+    }
+
+    /// Goes on to the end of the sample.
+    fn accept(&mut self, time: f64) {
         raise(&mut self.displacement, time);
         raise(&mut self.drift, time);
         if self.acceleration_known {
             raise(&mut self.acceleration, time);
         }
         std::mem::swap(&mut self.now, &mut self.step.next);
-        balance(
-            &constants.modes,
-            &self.now,
-            &self.start_energy,
-            &mut self.drifted,
-        )
     }
 
     /// Writes state, integrals and peaks back.

@@ -9,6 +9,7 @@
 //! grow by at most `|gamma| h max |a_g|` over a sample. Samples that fail are left to
 //! the driver, which brackets and locates.
 
+mod block;
 mod closer_look;
 mod constants;
 mod flight;

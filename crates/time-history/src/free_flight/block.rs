@@ -1,0 +1,187 @@
+//! Open flight over a block of samples at once: most blocks neither touch nor peak,
+//! and one comparison of every floor, storey and level says so.
+
+use multiversion::multiversion;
+
+use super::constants::FreeFlight;
+use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
+
+/// Samples of a block.
+pub(super) const BLOCK: usize = 8;
+
+/// Rows of values that are linear in the displacements of the modes, eight to a lane.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    pub first_mode: usize,
+    /// One lane a mode, from `first_mode` on.
+    pub columns: Vec<Lane>,
+}
+
+/// Work space.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    /// Modal state at the end.
+    pub end: Modal,
+    /// Displacements of the modes at every sample, sample after sample.
+    displacement: Vec<Lane>,
+    /// Greatest `|q'| + omega |q|` of every mode over the block.
+    size: Vec<Lane>,
+    /// Greatest floor displacement and drift, and greatest closing of levels.
+    pub floors: Extremes,
+    pub drifts: Extremes,
+    pub levels: Extremes,
+}
+
+/// Greatest values over the block, and the values at its end.
+#[derive(Debug, Clone)]
+pub(super) struct Extremes {
+    pub top: Vec<Lane>,
+    pub last: Vec<Lane>,
+}
+
+impl Extremes {
+    fn new(lanes: usize) -> Self {
+        Self {
+            top: vec![[0.0; WIDTH]; lanes],
+            last: vec![[0.0; WIDTH]; lanes],
+        }
+    }
+}
+
+impl Block {
+    pub(super) fn new(lanes: usize, levels: usize) -> Self {
+        Self {
+            end: Modal::new(lanes),
+            displacement: vec![[0.0; WIDTH]; lanes * BLOCK],
+            size: vec![[0.0; WIDTH]; lanes],
+            floors: Extremes::new(lanes),
+            drifts: Extremes::new(lanes),
+            levels: Extremes::new(levels.div_ceil(WIDTH)),
+        }
+    }
+
+    /// Bound of the floor accelerations of a building relative to the ground over the
+    /// block, for a ground acceleration of at most `largest`.
+    pub(super) fn acceleration(
+        &self,
+        constants: &FreeFlight,
+        building: usize,
+        largest: f64,
+    ) -> f64 {
+        let shapes = &constants.shapes[building];
+        let size = self.size.as_flattened();
+        let mut sum = constants.bounds[building].acceleration * largest;
+        for place in shapes.first_mode..shapes.first_mode + shapes.modes {
+            let m = &constants.modes[place / WIDTH];
+            sum += m.acceleration_bound[place % WIDTH] * size[place];
+        }
+        sum
+    }
+}
+
+/// Advances a block of samples, whose ground accelerations are `samples` (one more than
+/// steps), and finds the extremes of all rows at the samples.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn fly(
+    constants: &FreeFlight,
+    now: &Modal,
+    samples: &[f64; BLOCK + 1],
+    block: &mut Block,
+) {
+    let count = constants.modes.len();
+    for (c, m) in constants.modes.iter().enumerate() {
+        let state = [
+            now.displacement[c],
+            now.velocity[c],
+            now.input[c],
+            now.viscous[c],
+        ];
+        let displacements = &mut block.displacement;
+        let (end, size) = modes(m, state, samples, constants.step, |s, q| {
+            displacements[s * count + c] = q;
+        });
+        block.size[c] = size;
+        let [q, p, input, viscous] = end;
+        (block.end.displacement[c], block.end.velocity[c]) = (q, p);
+        (block.end.input[c], block.end.viscous[c]) = (input, viscous);
+    }
+    let q = block.displacement.as_flattened();
+    let stride = count * WIDTH;
+    rows(&constants.floor_rows, q, stride, true, &mut block.floors);
+    rows(&constants.drift_rows, q, stride, true, &mut block.drifts);
+    rows(&constants.level_rows, q, stride, false, &mut block.levels);
+}
+
+/// Eight modes over the block. Returns state and works at the end, and the greatest
+/// size at the starts of the steps.
+#[inline(always)]
+fn modes(
+    m: &ModeLanes,
+    start: [Lane; 4],
+    samples: &[f64; BLOCK + 1],
+    step: f64,
+    mut store: impl FnMut(usize, Lane),
+) -> ([Lane; 4], Lane) {
+    let [mut q, mut p, mut input, mut viscous] = start;
+    let mut largest = [0.0; WIDTH];
+    for s in 0..BLOCK {
+        let (a, b) = (samples[s], samples[s + 1]);
+        let slope = (b - a) / step;
+        let linear = |k: &[Lane; 4]| -> Lane {
+            let mut out = [0.0; WIDTH];
+            for l in 0..WIDTH {
+                out[l] = k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * a + k[3][l] * b);
+            }
+            out
+        };
+        let (end, speed, integral) = (
+            linear(&m.displacement),
+            linear(&m.velocity),
+            linear(&m.integral),
+        );
+        let k = &m.viscous;
+        for l in 0..WIDTH {
+            let size = p[l].abs() + m.circular_frequency[l] * q[l].abs();
+            largest[l] = if size > largest[l] { size } else { largest[l] };
+            let moved = end[l] * b - q[l] * a - slope * integral[l];
+            input[l] -= m.participation[l] * moved;
+            viscous[l] += q[l] * (k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * a + k[3][l] * b))
+                + p[l] * (k[4][l] * p[l] + (k[5][l] * a + k[6][l] * b))
+                + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
+        }
+        (q, p) = (end, speed);
+        store(s, q);
+    }
+    ([q, p, input, viscous], largest)
+}
+
+/// Extremes of rows over the block: of their magnitude, or of their value.
+#[inline(always)]
+fn rows(rows: &[Rows], q: &[f64], stride: usize, magnitude: bool, out: &mut Extremes) {
+    for ((row, top), last) in rows.iter().zip(&mut out.top).zip(&mut out.last) {
+        let mut sums = [[0.0; WIDTH]; BLOCK];
+        for (j, column) in row.columns.iter().enumerate() {
+            let column = *column;
+            for (s, sum) in sums.iter_mut().enumerate() {
+                let x = q[s * stride + row.first_mode + j];
+                for l in 0..WIDTH {
+                    sum[l] += column[l] * x;
+                }
+            }
+        }
+        let mut most = [f64::NEG_INFINITY; WIDTH];
+        for sum in &sums {
+            for l in 0..WIDTH {
+                let value = if magnitude { sum[l].abs() } else { sum[l] };
+                most[l] = if value > most[l] { value } else { most[l] };
+            }
+        }
+        *top = most;
+        *last = sums[BLOCK - 1];
+    }
+}

@@ -82,7 +82,12 @@ pub fn figure_with_references(
 }
 
 /// Writes a text file beside its place and renames it: a reader never sees half.
+/// Renaming would put the file in the place of a device, such as /dev/stdout.
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    if path.exists() && !path.is_file() {
+        let e = std::io::Error::other("it is not a regular file");
+        return Err(Failure::output(&e, &path.display().to_string()));
+    }
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     let part = path.with_file_name(name);

@@ -66,8 +66,12 @@ pub enum GapElementError {
     #[error("the bodies cannot collide: {0}")]
     Bodies(String),
     /// A collision that did not end.
-    #[error("the collision did not end within {steps} steps, at t = {time} s after closure")]
+    #[error(
+        "model {model}: the collision did not end within {steps} steps, at t = {time:e} s after closure"
+    )]
     Unfinished {
+        /// Name of the model.
+        model: &'static str,
         /// Steps taken.
         steps: usize,
         /// Time after closure (s).

@@ -125,3 +125,29 @@ fn bad_arguments() {
         &["cannot write absent/x.csv"],
     );
 }
+
+#[test]
+fn output_replaces_files_only() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("taken")).unwrap();
+    for option in ["--csv", "--svg"] {
+        let arguments = format!("exact_hunt_crossley|--example|{option}|taken");
+        refused_with(
+            folder.path(),
+            &arguments,
+            4,
+            &["cannot write taken", "not a regular file"],
+        );
+    }
+    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
+
+#[test]
+fn a_collision_that_does_not_end_names_its_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = "hertz_1882|pant_2010|--example|-p|restitution=0.001|--drop|\
+        --height|0.01|--mass-left|1e4";
+    let wanted = ["model pant_2010", "did not end"];
+    refused_with(folder.path(), arguments, 3, &wanted);
+}

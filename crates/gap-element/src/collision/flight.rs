@@ -133,6 +133,7 @@ impl<'a> Flight<'a> {
             self.step = next.min((0.5 * self.time).max(FIRST_STEP));
         }
         Err(GapElementError::Unfinished {
+            model: self.model.descriptor().name,
             steps: MAXIMUM_STEPS,
             time: self.time,
         })

@@ -8,7 +8,9 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};
-use pounding_time_history::{Floor, Outcome, RunOptions, System, run};
+use pounding_time_history::{
+    Floor, MethodChoice, Outcome, RunOptions, System, TimeHistoryError, run,
+};
 use verification::{constant_ground, single_storey};
 
 fn model(name: &str, pairs: &[(&str, f64)], rule: SeparationRule) -> Arc<dyn ImpactModel> {
@@ -225,4 +227,23 @@ fn impossible_initial_states_are_refused() {
         let error = system.clone().with_initial_state(&u, &v).unwrap_err();
         assert!(error.to_string().contains("initial state"), "{error}");
     }
+}
+
+/// A step beyond the limit of stability blows the motion up: an error, whatever the
+/// allowance of the energy ledger, and no result.
+#[test]
+fn a_motion_that_is_not_finite_is_an_error() {
+    let mut buildings = vec![single_storey("stiff", 1.0, 1.0e12)];
+    buildings.push(single_storey("soft", 1.0, 1.0));
+    let system = System::new(buildings, constant_ground(1.0, 2.0));
+    let options = RunOptions {
+        method: MethodChoice::RungeKutta4 { step: 1e-3 },
+        duration: Some(1.0),
+        energy_tolerance: Some(f64::MAX),
+    };
+    let error = run(&system, &options, &mut [], &mut |_| {}).unwrap_err();
+    assert!(
+        matches!(error, TimeHistoryError::NotFinite { .. }),
+        "{error}"
+    );
 }

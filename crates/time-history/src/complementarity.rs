@@ -1,8 +1,8 @@
 //! The linear complementarity problem of simultaneous rigid impacts:
 //! `w = A z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
 //!
-//! `A` is positive definite (it is `G M^-1 G'` of independent contacts), so that the
-//! solution exists and is unique. Solved by principal pivoting with the least index
+//! `A` is positive definite if it is `G M^-1 G'` of independent contacts; the
+//! solution then exists and is unique. Solved by principal pivoting with the least index
 //! (Murty, Linear Complementarity, 1988, section 4.1), which ends for every such
 //! matrix.
 
@@ -23,15 +23,18 @@ pub(crate) struct Complementarity {
 const ROUND_OFF: f64 = 1.0e-14;
 
 impl Complementarity {
-    /// Solves for `z`; `a` row by row.
-    pub(crate) fn solve(&mut self, a: &[f64], q: &[f64]) -> &[f64] {
+    /// Solves for `z`; `a` row by row. `None` if the contacts are not independent, as
+    /// those of floors without clearance between two walls, and no solution is found.
+    pub(crate) fn solve(&mut self, a: &[f64], q: &[f64]) -> Option<&[f64]> {
         let n = q.len();
         let scale = q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         self.active.clear();
         self.active.resize(n, false);
         // 2^n pivots suffice in theory, a few in practice.
         for _ in 0..(1_usize << n.min(16)) {
-            self.solve_active(a, q);
+            if !self.solve_active(a, q) {
+                return None;
+            }
             let violated = (0..n).find(|&i| {
                 if self.active[i] {
                     self.solution[i] < 0.0
@@ -41,14 +44,15 @@ impl Complementarity {
                 }
             });
             let Some(i) = violated else {
-                break;
+                return Some(&self.solution);
             };
             self.active[i] = !self.active[i];
         }
-        &self.solution
+        None
     }
 
-    fn solve_active(&mut self, a: &[f64], q: &[f64]) {
+    /// Solves for the active unknowns; false if their matrix is singular.
+    fn solve_active(&mut self, a: &[f64], q: &[f64]) -> bool {
         let n = q.len();
         self.indices.clear();
         self.indices.extend((0..n).filter(|i| self.active[*i]));
@@ -63,17 +67,29 @@ impl Complementarity {
         self.solution.clear();
         self.solution.resize(n, 0.0);
         if !self.right.is_empty() && !self.solver.solve(&self.matrix, &mut self.right) {
-            return;
+            return false;
         }
         for (&i, x) in self.indices.iter().zip(&self.right) {
             self.solution[i] = *x;
         }
+        true
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    /// A floor between two walls that ask for different restitutions.
+    #[test]
+    fn dependent_contacts_without_a_solution_are_told() {
+        let a = [1.0, -1.0, -1.0, 1.0];
+        assert!(Complementarity::default().solve(&a, &[-2.0, 1.3]).is_none());
+        // With equal restitutions one of the solutions is found.
+        let mut problem = Complementarity::default();
+        assert_eq!(problem.solve(&a, &[-1.5, 1.5]), Some(&[1.5, 0.0][..]));
+    }
 
     /// Brute force over all index sets: the unique solution of a positive definite
     /// problem.
@@ -84,7 +100,7 @@ mod tests {
                 active: (0..n).map(|i| set >> i & 1 == 1).collect(),
                 ..Complementarity::default()
             };
-            problem.solve_active(a, q);
+            assert!(problem.solve_active(a, q));
             let z = &problem.solution;
             let fits = (0..n).all(|i| {
                 let w: f64 = (0..n).map(|j| a[i * n + j] * z[j]).sum::<f64>() + q[i];
@@ -120,7 +136,7 @@ mod tests {
                 }
                 let q: Vec<f64> = (0..n).map(|_| random() - 0.6).collect();
                 let mut problem = Complementarity::default();
-                let z = problem.solve(&a, &q).to_vec();
+                let z = problem.solve(&a, &q).unwrap().to_vec();
                 for (x, y) in z.iter().zip(enumerate(&a, &q)) {
                     assert!((x - y).abs() < 1e-11, "{z:?}");
                 }

@@ -418,6 +418,13 @@ impl<'a> Driver<'a> {
             &self.state,
         );
         self.ledger.end = energy;
+        if !energy.residual.is_finite() {
+            return Err(TimeHistoryError::NotFinite {
+                time: segment.start + tau + step,
+                method: self.method.information().title,
+                place: self.places_in_touch(),
+            });
+        }
         self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
         self.largest_residual = self.largest_residual.max(energy.residual.abs());
         Ok(())
@@ -469,8 +476,7 @@ impl<'a> Driver<'a> {
             self.ledger.residual_ratio = self.largest_residual / self.ledger.largest_input;
         }
         let allowed = self.options.energy_tolerance();
-        // A NaN must not pass.
-        if !(self.ledger.residual_ratio <= allowed) {
+        if self.ledger.residual_ratio > allowed {
             return Err(TimeHistoryError::EnergyResidual {
                 residual: self.ledger.residual_ratio,
                 allowed,

@@ -58,6 +58,26 @@ pub enum TimeHistoryError {
         /// Gap levels in contact, or "none".
         place: String,
     },
+    /// The motion is no longer a number.
+    #[error(
+        "the motion is not finite at t = {time} s ({method}); buildings in touch there: {place}"
+    )]
+    NotFinite {
+        /// Time (s).
+        time: f64,
+        /// Method.
+        method: &'static str,
+        /// Gap levels in contact, or "none".
+        place: String,
+    },
+    /// Rigid floors that cannot give way.
+    #[error("the rigid impact at t = {time} s has no solution; buildings in touch there: {place}")]
+    Wedged {
+        /// Time (s).
+        time: f64,
+        /// Gap levels in contact.
+        place: String,
+    },
     /// The same events came back over and over at one time.
     #[error("{count} events at t = {time} s without progress, the last at {place}")]
     Chatter {
@@ -104,6 +124,12 @@ impl TimeHistoryError {
             Self::GroundMotion(error) => return error.help(),
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::NotFinite { .. } => {
+                "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::Wedged { .. } => {
+                "rigid floors without clearance between two walls cannot move: give a gap a width, or its model a stiffness"
             }
             Self::CompliantModel { .. } => {
                 "use model = \"stereomechanical\" in every gap, or method = \"adaptive\""

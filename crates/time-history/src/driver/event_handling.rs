@@ -99,7 +99,7 @@ impl Driver<'_> {
         }
         self.finder.candidates = candidates;
         if !self.rigid.closing.is_empty() {
-            self.rigid_impacts(segment, tau);
+            self.rigid_impacts(segment, tau)?;
         }
         self.method.restart(smooth);
         if self.stalled > CHATTER {

@@ -12,6 +12,7 @@ use super::{Driver, Mute};
 use crate::complementarity::Complementarity;
 use crate::contact::Contact;
 use crate::dynamics::{Segment, coupling};
+use crate::error::TimeHistoryError;
 use crate::outcome::Peak;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
@@ -86,17 +87,30 @@ impl Driver<'_> {
     }
 
     /// Applies the jumps of all rigid levels in touch at this instant.
-    pub(super) fn rigid_impacts(&mut self, segment: &Segment, tau: f64) {
+    ///
+    /// # Errors
+    /// Contacts that leave no velocity to part with.
+    pub(super) fn rigid_impacts(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+    ) -> Result<(), TimeHistoryError> {
         let mut work = std::mem::take(&mut self.rigid);
         let time = segment.start + tau;
         self.gather(&mut work, segment, tau);
         self.begin_impacts(&work, time);
-        self.jump(&mut work);
+        if !self.jump(&mut work) {
+            return Err(TimeHistoryError::Wedged {
+                time,
+                place: self.places_in_touch(),
+            });
+        }
         for k in 0..work.active.len() {
             self.settle(&work, k, time);
         }
         self.release_pulling(segment, tau, time);
         self.rigid = work;
+        Ok(())
     }
 
     /// Levels that take part, with their approach velocities and restitutions.
@@ -196,8 +210,8 @@ impl Driver<'_> {
 
     /// Solves for the impulses and applies them. The work of an impulse is its mean
     /// velocity times itself, which is the kinetic energy lost to the last bit of
-    /// theory.
-    fn jump(&mut self, work: &mut RigidImpacts) {
+    /// theory. False if there are none.
+    fn jump(&mut self, work: &mut RigidImpacts) -> bool {
         let (levels, mass) = (self.system.levels(), self.system.mass());
         work.matrix.clear();
         work.right.clear();
@@ -208,7 +222,9 @@ impl Driver<'_> {
             work.right
                 .push(-(1.0 + work.restitution[k]) * work.before[k]);
         }
-        let impulses = work.problem.solve(&work.matrix, &work.right);
+        let Some(impulses) = work.problem.solve(&work.matrix, &work.right) else {
+            return false;
+        };
         let n = self.dynamics.layout.dofs;
         let velocity = &mut self.state[n..2 * n];
         for (&l, impulse) in work.active.iter().zip(impulses) {
@@ -225,6 +241,7 @@ impl Driver<'_> {
             self.state[layout.work(l)] += 0.5 * impulse * (work.before[k] + after);
             self.state[layout.impulse(l)] += impulse;
         }
+        true
     }
 
     /// Ends the impact of a level whose floors part; leaves the others in lasting

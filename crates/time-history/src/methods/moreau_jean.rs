@@ -91,8 +91,8 @@ impl MoreauJean {
 
     /// Impulses of all gaps that half a step would close, solved together:
     /// `0 <= -(r + e r0) complementary to p >= 0` with the relative velocities `r0`
-    /// and `r` (positive closing) at both ends of the step.
-    fn impulses(&mut self, context: &Context<'_, '_>, state: &[f64]) {
+    /// and `r` (positive closing) at both ends of the step. False if there are none.
+    fn impulses(&mut self, context: &Context<'_, '_>, state: &[f64]) -> bool {
         let system = context.dynamics.system;
         let n = self.layout.dofs;
         let (u, v) = (&state[..n], &state[n..2 * n]);
@@ -111,7 +111,7 @@ impl MoreauJean {
             }
         }
         if self.active.is_empty() {
-            return;
+            return true;
         }
         let size = self.active.len();
         self.matrix.resize(size * size, 0.0);
@@ -123,7 +123,9 @@ impl MoreauJean {
                 self.matrix[row * size + column] = levels[l].relative(&self.net);
             }
         }
-        let solution = self.problem.solve(&self.matrix, &self.right);
+        let Some(solution) = self.problem.solve(&self.matrix, &self.right) else {
+            return false;
+        };
         self.net.fill(0.0);
         for (&l, impulse) in self.active.iter().zip(solution) {
             self.impulses[l] = *impulse;
@@ -133,6 +135,7 @@ impl MoreauJean {
         for (w, extra) in self.change.iter_mut().zip(&self.net) {
             *w += extra;
         }
+        true
     }
 
     /// New state with the works over the step, which balance exactly for theta 1/2.
@@ -192,7 +195,9 @@ impl Method for MoreauJean {
             return Verdict::Retry(0.5 * step);
         }
         self.free_change(context, tau, state);
-        self.impulses(context, state);
+        if !self.impulses(context, state) {
+            return Verdict::Retry(0.5 * step);
+        }
         self.finish(context, tau, state, new_state);
         self.end.copy_from_slice(new_state);
         if new_state.iter().all(|x| x.is_finite()) {

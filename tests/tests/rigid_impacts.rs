@@ -7,7 +7,9 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
-use pounding_time_history::{GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{
+    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
+};
 use verification::{
     constant_ground, free_bodies as row, reference_cases, reference_system_with, rigid,
     synthetic_motion,
@@ -192,6 +194,72 @@ fn energy_and_momentum_over_many_rigid_impacts() {
                 assert_eq!(level.impacts > 0, level.first_contact.is_some());
             }
         }
+    }
+}
+
+/// A row of five buildings that stand close or touch: floors are held together while
+/// others hit them and part. Contacts neither flutter nor sink into one another.
+#[test]
+fn a_row_in_touch_does_not_flutter() {
+    let cases = reference_cases().unwrap();
+    for scale in [0.0, 0.05] {
+        for e in [0.3, 0.5, 0.65] {
+            let ground = synthetic_motion().unwrap();
+            let case = &cases.cases["C4"];
+            let system = reference_system_with(case, &|_| Ok(rigid(e)), ground, scale).unwrap();
+            let outcome = go(&system, 10.0);
+            let tell = format!("scale {scale}, e {e}");
+            assert!(outcome.energy.residual_ratio < 1e-10, "{tell}");
+            let count = outcome.impacts.len();
+            assert!(count < 20_000, "{tell}: {count} impacts");
+            for impact in &outcome.impacts {
+                assert!(!(impact.time_opened < impact.time_closed), "{impact:?}");
+            }
+            for level in outcome.gaps.iter().flat_map(|g| &g.levels) {
+                assert!(level.peak_penetration.value < 1e-12, "{tell}: {level:?}");
+            }
+        }
+    }
+}
+
+/// A floor between two walls without clearance has no unique contact forces: an
+/// error with every method, never numbers that are none.
+#[test]
+fn a_floor_that_cannot_move_is_refused() {
+    let methods = [
+        MethodChoice::Adaptive {
+            relative_tolerance: 1e-10,
+        },
+        MethodChoice::RungeKutta4 { step: 1e-3 },
+        MethodChoice::Newmark {
+            step: 1e-3,
+            beta: 0.25,
+            gamma: 0.5,
+        },
+    ];
+    for method in methods {
+        let ground = GroundAcceleration {
+            samples: vec![0.0, 1.0, -1.0].into(),
+            time_step: 0.1,
+        };
+        let mut system = row(&[1.0], &[0.0], 0.5, ground);
+        let pair = (Floor::Wall, Floor::Storey(0, 0), 0.0, rigid(1.0));
+        system
+            .add_gap("left", ["wall".to_owned(), "body0".to_owned()], vec![pair])
+            .unwrap();
+        let system = system.with_initial_state(&[0.0], &[0.3]).unwrap();
+        let options = RunOptions {
+            method,
+            duration: Some(0.2),
+            energy_tolerance: None,
+        };
+        let error = run(&system, &options, &mut [], &mut |_| {}).unwrap_err();
+        let told = error.to_string();
+        assert!(
+            told.contains("rigid impact at t = 0 s has no solution"),
+            "{told}"
+        );
+        assert!(error.help().is_some());
     }
 }
 

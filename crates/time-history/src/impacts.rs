@@ -132,6 +132,8 @@ impl ImpactLog {
         let outcome = &mut self.levels[l];
         if let Some((time, separation)) = end {
             impact.time_opened = time;
+            // Contact may end before the impacts that led to it would have.
+            impact.time_closed = impact.time_closed.min(time);
             impact.separation_velocity = separation;
             if impact.approach_velocity > 0.0 {
                 impact.achieved_restitution = separation / impact.approach_velocity;

@@ -55,7 +55,13 @@ impl Driver<'_> {
         let guard = self
             .finder
             .guard(&mut context, method, event.level, event.kind, tau, step);
-        -value(&guard, 1.0) * step / value(&derivative(&guard), 1.0)
+        // Floors that were let be may have closed by a trifle: they meet again where
+        // they set out, not at a zero that they never reach.
+        let start = match event.kind {
+            EventKind::Close => guard[0].max(0.0),
+            _ => 0.0,
+        };
+        (start - value(&guard, 1.0)) * step / value(&derivative(&guard), 1.0)
     }
 
     /// Processes the event and all others within tolerance of it, in the order

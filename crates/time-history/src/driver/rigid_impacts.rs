@@ -20,7 +20,7 @@ use crate::outcome::Peak;
 /// own round-off of about 1e-17 m, in which lower hops would drown.
 const LOWEST_HOP: f64 = 1.0e-12;
 
-/// Round-off of a relative velocity, as a part of the velocities.
+/// Round-off of a velocity, as a part of the greatest one.
 const ROUND_OFF: f64 = 1.0e-14;
 
 /// Longest time (s) for which a level is let be.
@@ -41,6 +41,8 @@ pub(super) struct RigidImpacts {
     restitution: Vec<f64>,
     /// Time until the accumulation ends (s); NaN where there is none.
     accumulation: Vec<f64>,
+    /// Round-off of the velocities before the jump (m/s), which it may bring to rest.
+    round_off: f64,
     matrix: Vec<f64>,
     right: Vec<f64>,
     problem: Complementarity,
@@ -58,7 +60,7 @@ impl Driver<'_> {
     pub(super) fn only_touches(&mut self, segment: &Segment, tau: f64, l: usize) -> bool {
         let n = self.dynamics.layout.dofs;
         let level = &self.system.levels()[l];
-        let round_off = self.velocity_round_off(l);
+        let round_off = self.velocity_round_off();
         let approach = level.relative(&self.state[n..2 * n]);
         if approach > round_off {
             return false;
@@ -70,12 +72,12 @@ impl Driver<'_> {
         approach < -round_off || holding <= 0.0
     }
 
-    /// Round-off of the relative velocity of a level (m/s).
-    fn velocity_round_off(&self, l: usize) -> f64 {
+    /// Round-off of a relative velocity (m/s). Floors at rest have it from those that
+    /// move: storeys and impacts connect them.
+    fn velocity_round_off(&self) -> f64 {
         let n = self.dynamics.layout.dofs;
-        let level = &self.system.levels()[l];
-        let speed = |floor: Option<usize>| floor.map_or(0.0, |i| self.state[n + i].abs());
-        ROUND_OFF * (speed(level.left) + speed(level.right))
+        let fastest = |m: f64, v: &f64| m.max(v.abs());
+        2.0 * ROUND_OFF * self.state[n..2 * n].iter().fold(0.0, fastest)
     }
 
     /// Lets a level be for a while, ever longer if it does not come to rest.
@@ -120,6 +122,7 @@ impl Driver<'_> {
         work.before.clear();
         work.restitution.clear();
         work.accumulation.clear();
+        work.round_off = self.velocity_round_off();
         for l in 0..self.dynamics.layout.levels {
             let in_touch = self.contacts.contact(l).is_some()
                 || self.contacts.penetration(self.system, l, &self.state[..n]) > -TOUCHING;
@@ -133,7 +136,7 @@ impl Driver<'_> {
             let l = work.active[k];
             let asked = self.system.levels()[l].model.rigid_restitution();
             let restitution = asked.unwrap_or(0.0);
-            let approaches = work.before[k] >= -self.velocity_round_off(l);
+            let approaches = work.before[k] >= -work.round_off;
             let left = if self.contacts.contact(l).is_none() && approaches {
                 let approach = work.before[k].max(0.0);
                 self.accumulation(segment, tau, l, approach, restitution)
@@ -141,7 +144,8 @@ impl Driver<'_> {
                 f64::NAN
             };
             work.accumulation.push(left);
-            let plastic = left.is_finite();
+            // Floors in lasting contact have nothing to give back but round-off.
+            let plastic = left.is_finite() || self.contacts.contact(l).is_some();
             work.restitution
                 .push(if plastic { 0.0 } else { restitution });
         }
@@ -253,10 +257,10 @@ impl Driver<'_> {
         }
         let n = self.dynamics.layout.dofs;
         let after = self.system.levels()[l].relative(&self.state[n..2 * n]);
-        let remains = work.accumulation[k].is_finite() || work.restitution[k] == 0.0;
-        // Round-off of a plastic impact must not count as parting.
-        let round_off = self.velocity_round_off(l);
-        if after < -round_off || (after < 0.0 && !remains) {
+        let remains = work.restitution[k] == 0.0;
+        // Round-off of a plastic impact, or beside a lasting contact, must not count
+        // as parting.
+        if after < -work.round_off || (after < 0.0 && !remains) {
             self.open(l, time);
             return;
         }

@@ -57,6 +57,25 @@ fn newtons_law_for_two_bodies_and_for_a_chain() {
     }
 }
 
+/// What an impact takes does not depend on theta: 0.75 - 0.27 J.
+#[test]
+fn the_loss_is_newtons_for_every_theta() {
+    for theta in [0.5, 0.7, 1.0] {
+        let system = free_bodies(&[1.0, 2.0], &[0.3], 0.6, constant_ground(0.0, 1.0))
+            .with_initial_state(&[0.0, 0.0], &[1.0, -0.5])
+            .unwrap();
+        let options = RunOptions {
+            method: MethodChoice::MoreauJean { step: 1e-3, theta },
+            duration: Some(0.5),
+            energy_tolerance: None,
+        };
+        let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+        let loss = outcome.impacts[0].energy_dissipated;
+        assert!((loss - 0.48).abs() < 1e-12, "theta {theta}: {loss}");
+        assert!(outcome.energy.residual_ratio < 1e-10);
+    }
+}
+
 /// Impacts that accumulate come to rest in finitely many steps, and the contact holds
 /// the weight.
 #[test]

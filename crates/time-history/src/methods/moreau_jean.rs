@@ -158,7 +158,10 @@ impl MoreauJean {
             new[layout.viscous()] += h * self.middle[i] * self.scratch[i];
         }
         for (l, impulse) in self.impulses.iter().enumerate() {
-            new[layout.work(l)] += impulse * system.levels()[l].relative(&self.middle);
+            // The mean of both ends for every theta: what the jump itself takes away.
+            let level = &system.levels()[l];
+            let sum = level.relative(&state[n..2 * n]) + level.relative(&new[n..2 * n]);
+            new[layout.work(l)] += 0.5 * impulse * sum;
             new[layout.impulse(l)] += impulse;
         }
     }

@@ -109,6 +109,7 @@ impl From<CalibrationError> for Failure {
             CalibrationError::NotReached { .. } => {
                 Self::Computation(plain(error.to_string(), help))
             }
+            CalibrationError::Collision(error) => Self::from(error),
             error => Self::input(error.to_string(), help),
         }
     }

@@ -143,3 +143,12 @@ fn a_model_still_collides() {
     let shown = text("exact_hunt_crossley -p stiffness=2e9 -p restitution=0.5");
     assert!(shown.contains("achieved restitution  0.5000000"), "{shown}");
 }
+
+/// A collision that does not end is a computation that failed, as without the search.
+#[test]
+fn a_search_whose_collision_does_not_end_failed() {
+    let output = run("calibrate --restitution 1e-9");
+    assert_eq!(output.status.code(), Some(3));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(message.contains("did not end"), "{message}");
+}

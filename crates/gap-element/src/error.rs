@@ -98,7 +98,7 @@ impl GapElementError {
             Self::Conflict { first, second, .. } => format!("give {first} or {second}, not both"),
             Self::Separation { offered, .. } => format!("it offers {}", offered.join(", ")),
             Self::Bodies(_) => "the left body must move towards the right one".to_owned(),
-            Self::Unfinished { .. } => return None,
+            Self::Unfinished { .. } => "so much damping makes the contact creep for ever: check damping, restitution and their units".to_owned(),
         })
     }
 }

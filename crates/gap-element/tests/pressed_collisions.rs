@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_gap_element::{
-    Bodies, CollisionOptions, CollisionOutcome, ModelParameters, collide_with, registry,
+    Bodies, CollisionOptions, CollisionOutcome, ModelParameters, collide, collide_with, registry,
 };
 
 const GRAVITY: f64 = 9.80665;
@@ -86,6 +86,24 @@ fn a_body_that_stays_has_reached_its_peak() {
     close(out.reading.unwrap().penetration, state(1.0).0);
     close(out.peak_penetration, state(low).0);
     assert!((out.peak_penetration_time / low - 1.0).abs() < 1e-6);
+}
+
+/// A spring so weak that the dashpot takes all: nothing acts any more, and the bodies
+/// neither part nor approach.
+#[test]
+fn bodies_that_the_dashpot_stops_stay_together() {
+    let card = registry::find("adams_impact").unwrap();
+    let mut parameters = card.example_parameters(0.5);
+    parameters.values.insert("stiffness".to_owned(), 7.74509e-6);
+    let law = registry::build("adams_impact", &parameters).unwrap();
+    let bodies = Bodies {
+        mass_left: 12.9834,
+        mass_right: Some(2761.67),
+        velocity_left: 295.191,
+        velocity_right: 0.0,
+    };
+    let out = collide(law.as_ref(), &bodies).unwrap();
+    assert!(out.stays_in_contact && out.restitution == 0.0);
 }
 
 /// A dashpot so strong that the body creeps to rest without turning back.

@@ -173,7 +173,8 @@ impl<'a> Dynamics<'a> {
                 self.matrix.push(coupling(&levels[l], &levels[m], mass));
             }
         }
-        // The matrix is positive definite; a NaN in it surfaces as a rejected step.
+        // The matrix is positive definite unless floors are wedged between two walls,
+        // where contact forces are not unique; that surfaces as a rejected step.
         if !self.solver.solve(&self.matrix, &mut self.right) {
             self.right.fill(f64::NAN);
         }

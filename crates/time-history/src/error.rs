@@ -123,7 +123,7 @@ impl TimeHistoryError {
             Self::Case(error) => return error.help.clone(),
             Self::GroundMotion(error) => return error.help(),
             Self::StepTooSmall { .. } => {
-                "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+                "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
             }
             Self::NotFinite { .. } => {
                 "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""

@@ -8,12 +8,14 @@ use crate::model::{Collision, Direction, Force, Guard, ImpactModel, Memory, Phas
 
 /// Relative error of a step.
 const TOLERANCE: f64 = 1.0e-13;
-/// First step as a part of the unknown contact time: small enough for any start
-/// like a power of time, since later steps may grow sixfold.
+/// First step (s): small enough for any start like a power of time, since later steps
+/// may grow sixfold.
 const FIRST_STEP: f64 = 1.0e-10;
 /// Shortest step that error control may ask for.
 const SHORTEST_STEP: f64 = 1.0e-18;
 const MAXIMUM_STEPS: usize = 100_000;
+/// Changes of phase after which a contact is given up.
+const MAXIMUM_CHANGES: usize = 1_000;
 /// Places of the history inside a step.
 const PLACES: usize = 8;
 
@@ -94,7 +96,11 @@ impl<'a> Flight<'a> {
             .first()
             .copied()
             .filter(|_| self.read_at == Some(0.0));
+        let mut changes = 0;
         for _ in 0..MAXIMUM_STEPS {
+            if changes > MAXIMUM_CHANGES {
+                break;
+            }
             let to_reading = self.read_at.map(|t| t - self.time).filter(|t| *t > 0.0);
             let (wanted, reads) = match to_reading {
                 Some(rest) if self.step >= rest => (rest, true),
@@ -115,7 +121,10 @@ impl<'a> Flight<'a> {
                 .commit(&mut self.memory, self.phase, new[0], new[1]);
             let end = match event.map(|(event, _)| event) {
                 Some(Event::Separation) => Some(End::Separation),
-                Some(Event::Transition(index)) => self.change_phase(index),
+                Some(Event::Transition(index)) => {
+                    changes += 1;
+                    self.change_phase(index)
+                }
                 None => self.rests().then_some(End::AtRest),
             };
             self.record();
@@ -146,6 +155,10 @@ impl<'a> Flight<'a> {
     fn rests(&self) -> bool {
         let [delta, velocity, _] = self.state;
         let (mass, pressing) = (self.collision.effective_mass, self.pressing);
+        if self.phase == Phase::Released && pressing == 0.0 {
+            // Nothing acts, and they do not part.
+            return velocity >= 0.0;
+        }
         if velocity > CREEP * self.collision.approach_velocity {
             return false;
         }

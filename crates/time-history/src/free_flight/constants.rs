@@ -92,8 +92,7 @@ impl FreeFlight {
         let count = building.storeys();
         let shape = |i: usize, j: usize| modes.shape[(i, j)];
         let mass = building.mass();
-        self.shapes
-            .push(spread(first, count, |floor, mode| shape(floor, mode)));
+        self.shapes.push(spread(first, count, shape));
         let inverse = spread(first, count, |mode, floor| shape(floor, mode) * mass[floor]);
         self.inverse.push(inverse);
         let mut bounds = BuildingBounds::default();

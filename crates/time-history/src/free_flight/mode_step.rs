@@ -172,7 +172,7 @@ mod tests {
                     let s = (v + z * omega * x) / wd;
                     decay * (x * (wd * step).cos() + s * (wd * step).sin())
                 }
-                z if z == 1.0 => decay * (x + (v + omega * x) * step),
+                1.0 => decay * (x + (v + omega * x) * step),
                 z => {
                     let wd = omega * (z * z - 1.0).sqrt();
                     let (up, down) = (-z * omega + wd, -z * omega - wd);

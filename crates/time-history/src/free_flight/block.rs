@@ -4,7 +4,7 @@
 use multiversion::multiversion;
 
 use super::constants::FreeFlight;
-use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
+use super::lanes::{Lane, Modal, ModeLanes, Overshoot, WIDTH, overshoots};
 
 /// Samples of a block.
 pub(super) const BLOCK: usize = 8;
@@ -22,14 +22,19 @@ pub(crate) struct Rows {
 pub(super) struct Block {
     /// Modal state at the end.
     pub end: Modal,
-    /// Displacements of the modes at every sample, sample after sample.
+    /// Displacements and absolute accelerations of the modes at every sample, sample
+    /// after sample.
     displacement: Vec<Lane>,
+    acceleration: Vec<Lane>,
     /// Greatest `|q'| + omega |q|` of every mode over the block.
     size: Vec<Lane>,
     /// Greatest floor displacement and drift, and greatest closing of levels.
     pub floors: Extremes,
     pub drifts: Extremes,
     pub levels: Extremes,
+    /// Absolute floor acceleration, after [`accelerations`].
+    pub accelerations: Extremes,
+    pub over: Vec<Overshoot>,
 }
 
 /// Greatest values over the block, and the values at its end.
@@ -49,33 +54,18 @@ impl Extremes {
 }
 
 impl Block {
-    pub(super) fn new(lanes: usize, levels: usize) -> Self {
+    pub(super) fn new(lanes: usize, levels: usize, buildings: usize) -> Self {
         Self {
             end: Modal::new(lanes),
             displacement: vec![[0.0; WIDTH]; lanes * BLOCK],
+            acceleration: vec![[0.0; WIDTH]; lanes * BLOCK],
             size: vec![[0.0; WIDTH]; lanes],
             floors: Extremes::new(lanes),
             drifts: Extremes::new(lanes),
             levels: Extremes::new(levels.div_ceil(WIDTH)),
+            accelerations: Extremes::new(lanes),
+            over: vec![Overshoot::default(); buildings],
         }
-    }
-
-    /// Bound of the floor accelerations of a building relative to the ground over the
-    /// block, for a ground acceleration of at most `largest`.
-    pub(super) fn acceleration(
-        &self,
-        constants: &FreeFlight,
-        building: usize,
-        largest: f64,
-    ) -> f64 {
-        let shapes = &constants.shapes[building];
-        let size = self.size.as_flattened();
-        let mut sum = constants.bounds[building].acceleration * largest;
-        for place in shapes.first_mode..shapes.first_mode + shapes.modes {
-            let m = &constants.modes[place / WIDTH];
-            sum += m.acceleration_bound[place % WIDTH] * size[place];
-        }
-        sum
     }
 }
 
@@ -101,9 +91,10 @@ pub(super) fn fly(
             now.input[c],
             now.viscous[c],
         ];
-        let displacements = &mut block.displacement;
-        let (end, size) = modes(m, state, samples, constants.step, |s, q| {
+        let (displacements, accelerations) = (&mut block.displacement, &mut block.acceleration);
+        let (end, size) = modes(m, state, samples, constants.step, |s, q, a| {
             displacements[s * count + c] = q;
+            accelerations[s * count + c] = a;
         });
         block.size[c] = size;
         let [q, p, input, viscous] = end;
@@ -115,6 +106,31 @@ pub(super) fn fly(
     rows(&constants.floor_rows, q, stride, true, &mut block.floors);
     rows(&constants.drift_rows, q, stride, true, &mut block.drifts);
     rows(&constants.level_rows, q, stride, false, &mut block.levels);
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let slope = samples
+        .windows(2)
+        .fold(0.0_f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
+    let largest = (largest, slope / constants.step);
+    overshoots(constants, &block.size, largest, &mut block.over);
+}
+
+/// Extremes of absolute floor acceleration over the block that was flown last.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
+    let a = block.acceleration.as_flattened();
+    let stride = constants.modes.len() * WIDTH;
+    rows(
+        &constants.floor_rows,
+        a,
+        stride,
+        true,
+        &mut block.accelerations,
+    );
 }
 
 /// Eight modes over the block. Returns state and works at the end, and the greatest
@@ -125,7 +141,7 @@ fn modes(
     start: [Lane; 4],
     samples: &[f64; BLOCK + 1],
     step: f64,
-    mut store: impl FnMut(usize, Lane),
+    mut store: impl FnMut(usize, Lane, Lane),
 ) -> ([Lane; 4], Lane) {
     let [mut q, mut p, mut input, mut viscous] = start;
     let mut largest = [0.0; WIDTH];
@@ -155,7 +171,12 @@ fn modes(
                 + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
         }
         (q, p) = (end, speed);
-        store(s, q);
+        let mut absolute = [0.0; WIDTH];
+        for l in 0..WIDTH {
+            let omega = m.circular_frequency[l];
+            absolute[l] = m.damping[l] * p[l] + omega * omega * q[l];
+        }
+        store(s, q, absolute);
     }
     ([q, p, input, viscous], largest)
 }

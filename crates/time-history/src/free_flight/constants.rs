@@ -102,7 +102,10 @@ impl FreeFlight {
                 damping_ratio: modes.damping_ratio[j],
                 participation: modes.participation_factor[j],
             };
+            let below = |i: usize| if i == 0 { 0.0 } else { shape(i - 1, j) };
             let largest = (0..count).map(|i| shape(i, j).abs()).fold(0.0, f64::max);
+            let drift = (0..count).map(|i| (shape(i, j) - below(i)).abs());
+            let largest = (largest, drift.fold(0.0, f64::max));
             self.add_mode(first + j, mode, largest, &mut bounds);
         }
         self.bounds.push(bounds);
@@ -167,7 +170,7 @@ impl FreeFlight {
         &mut self,
         place: usize,
         mode: Oscillator,
-        largest: f64,
+        (largest, drift): (f64, f64),
         bounds: &mut BuildingBounds,
     ) {
         let (lane, l) = (place / WIDTH, place % WIDTH);
@@ -192,10 +195,12 @@ impl FreeFlight {
             2.0 * zeta * omega * omega * omega,
         );
         m.acceleration_bound[l] = largest * by_size;
+        m.drift_bound[l] = drift * by_size;
         m.snap_bound[l] = largest * (second * by_size + third);
         let growth = gamma * self.step;
         let acceleration = by_size * growth + gamma;
         bounds.acceleration += largest * acceleration;
+        bounds.drift += drift * acceleration;
         bounds.snap += largest * (second * acceleration + third * growth);
         bounds.snap_by_slope += largest * 2.0 * zeta * omega * gamma;
     }

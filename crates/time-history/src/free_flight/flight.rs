@@ -1,11 +1,11 @@
 //! The flight over many samples.
 
-use super::block::{self, BLOCK, Block};
+use super::block::{self, BLOCK, Block, Extremes};
 use super::closer_look::CloserLook;
 use super::constants::FreeFlight;
 use super::lanes::{
-    Advance, Ground, Lane, Modal, Track, WIDTH, acceleration_turns, advance, balance, drifts,
-    raise, restoring, transform,
+    Advance, Ground, Lane, Modal, Overshoot, Track, WIDTH, acceleration_turns, advance, balance,
+    drifts, raise, restoring, transform,
 };
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
@@ -79,7 +79,7 @@ impl Flight {
             smallest: vec![0.0; buildings],
             penetration: vec![0.0; system.levels().len()],
             look: CloserLook::new(lanes),
-            block: Block::new(lanes, system.levels().len()),
+            block: Block::new(lanes, system.levels().len(), buildings),
         }
     }
 
@@ -204,7 +204,7 @@ impl Flight {
         let levels = leg.system.levels().iter().zip(&mut self.penetration);
         for (l, (level, penetration)) in levels.enumerate() {
             let over = |floor: Option<usize>| {
-                floor.map_or(0.0, |i| self.step.over[constants.building[i]].0)
+                floor.map_or(0.0, |i| self.step.over[constants.building[i]].displacement)
             };
             let end = level.relative(u) - leg.contacts.width(l);
             touch |= end.max(*penetration) + (over(level.left) + over(level.right)) > 0.0;
@@ -216,8 +216,7 @@ impl Flight {
     /// Whether absolute acceleration could have a peak within the sample. It is below
     /// the bound of that relative to the ground, which mostly settles it.
     fn acceleration_may_peak(&mut self, constants: &FreeFlight) -> bool {
-        let eighth = 0.125 * constants.step * constants.step;
-        let low = |(over, smallest): (&(f64, f64), &f64)| over.0 <= eighth * smallest;
+        let low = |(over, smallest): (&Overshoot, &f64)| over.relative <= *smallest;
         if self.step.over.iter().zip(&self.smallest).all(low) {
             self.acceleration_known = false;
             return false;
@@ -280,42 +279,23 @@ impl Flight {
         let ground = &leg.system.ground().samples[sample..=sample + BLOCK];
         let mut samples = [0.0; BLOCK + 1];
         samples.copy_from_slice(ground);
-        let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
         let block = &mut self.block;
         block::fly(constants, &self.now, &samples, block);
-        let eighth = 0.125 * constants.step * constants.step;
-        for (b, shapes) in constants.shapes.iter().enumerate() {
-            let bound = block.acceleration(constants, b, largest);
-            if bound > self.smallest[b] {
-                return false;
-            }
-            let over = eighth * bound;
-            self.step.over[b].0 = over;
-            let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-            let below = |top: &[Lane], peak: &[Lane], over: f64| {
-                let (top, peak) = (&top.as_flattened()[range.clone()], peak.as_flattened());
-                let pairs = top.iter().zip(&peak[range.clone()]);
-                pairs.fold(true, |all, (top, peak)| all & (top + over <= *peak))
-            };
-            if !(below(&block.floors.top, &self.displacement.peak, over)
-                && below(&block.drifts.top, &self.drift.peak, 2.0 * over))
-            {
+        if !block_is_low(constants, block, &self.displacement, &self.drift)
+            || block_may_touch(constants, leg, block, &self.penetration)
+        {
+            return false;
+        }
+        let low = |(over, smallest): (&Overshoot, &f64)| over.relative <= *smallest;
+        if !block.over.iter().zip(&self.smallest).all(low) {
+            block::accelerations(constants, block);
+            if !below(constants, &block.accelerations, &self.acceleration, |b| {
+                block.over[b].acceleration
+            }) {
                 return false;
             }
         }
-        let (top, last) = (
-            block.levels.top.as_flattened(),
-            block.levels.last.as_flattened(),
-        );
-        for (l, level) in leg.system.levels().iter().enumerate() {
-            let over = |floor: Option<usize>| {
-                floor.map_or(0.0, |i| self.step.over[constants.building[i]].0)
-            };
-            let reach = (top[l] - leg.contacts.width(l)).max(self.penetration[l]);
-            if reach + (over(level.left) + over(level.right)) > 0.0 {
-                return false;
-            }
-        }
+        let last = block.levels.last.as_flattened();
         for (l, penetration) in self.penetration.iter_mut().enumerate() {
             *penetration = last[l] - leg.contacts.width(l);
         }
@@ -384,6 +364,51 @@ impl Flight {
             }
         }
     }
+}
+
+/// Whether all values of a block stay below the peaks, overshoot included.
+fn below(
+    constants: &FreeFlight,
+    values: &Extremes,
+    track: &Track,
+    over: impl Fn(usize) -> f64,
+) -> bool {
+    let (top, peak) = (values.top.as_flattened(), track.peak.as_flattened());
+    constants.shapes.iter().enumerate().all(|(b, shapes)| {
+        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
+        let over = over(b);
+        let pairs = top[range.clone()].iter().zip(&peak[range]);
+        pairs.fold(true, |all, (top, peak)| all & (top + over <= *peak))
+    })
+}
+
+fn block_is_low(
+    constants: &FreeFlight,
+    block: &Block,
+    displacement: &Track,
+    drift: &Track,
+) -> bool {
+    below(constants, &block.floors, displacement, |b| {
+        block.over[b].displacement
+    }) && below(constants, &block.drifts, drift, |b| block.over[b].drift)
+}
+
+/// Whether a gap could close within the block.
+fn block_may_touch(
+    constants: &FreeFlight,
+    leg: &Leg<'_>,
+    block: &Block,
+    penetration: &[f64],
+) -> bool {
+    let top = block.levels.top.as_flattened();
+    let levels = leg.system.levels().iter().zip(penetration);
+    levels.enumerate().any(|(l, (level, start))| {
+        let over = |floor: Option<usize>| {
+            floor.map_or(0.0, |i| block.over[constants.building[i]].displacement)
+        };
+        let reach = (top[l] - leg.contacts.width(l)).max(*start);
+        reach + (over(level.left) + over(level.right)) > 0.0
+    })
 }
 
 /// Ground acceleration over a sample.

@@ -24,9 +24,10 @@ pub(crate) struct ModeLanes {
     pub circular_frequency: Lane,
     /// `2 zeta omega`.
     pub damping: Lane,
-    /// Weights of `|q'| + omega |q|` in the bounds of floor acceleration and of the
-    /// second derivative of absolute floor acceleration.
+    /// Weights of `|q'| + omega |q|` in the bounds of floor acceleration, of the second
+    /// derivative of drift, and of that of absolute floor acceleration.
     pub acceleration_bound: Lane,
+    pub drift_bound: Lane,
     pub snap_bound: Lane,
 }
 
@@ -64,6 +65,8 @@ pub(crate) struct Shapes {
 pub(crate) struct BuildingBounds {
     /// Floor acceleration relative to the ground for a ground acceleration of 1.
     pub acceleration: f64,
+    /// Second derivative of drift, likewise.
+    pub drift: f64,
     /// Second derivative of absolute floor acceleration, likewise.
     pub snap: f64,
     /// The same for a slope of the ground acceleration of 1 (1/s).
@@ -82,15 +85,28 @@ pub(crate) struct Track {
     pub overshoot: Vec<Lane>,
 }
 
+/// Bounds of what a building's functions can do between samples beyond their values
+/// there.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Overshoot {
+    /// Floor displacement (m).
+    pub displacement: f64,
+    /// Storey drift (m).
+    pub drift: f64,
+    /// Absolute acceleration (m/s2).
+    pub acceleration: f64,
+    /// Bound of the floor accelerations relative to the ground (m/s2).
+    pub relative: f64,
+}
+
 /// What [`advance`] leaves behind.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Advance {
     pub next: Modal,
-    /// Bounds of every mode's part in floor acceleration and snap.
-    acceleration: Vec<Lane>,
-    snap: Vec<Lane>,
-    /// Overshoot of displacement and of absolute acceleration of every building.
-    pub over: Vec<(f64, f64)>,
+    /// `|q'| + omega |q|` of every mode at the start.
+    size: Vec<Lane>,
+    /// Of every building.
+    pub over: Vec<Overshoot>,
 }
 
 impl Modal {
@@ -109,9 +125,8 @@ impl Advance {
     pub(crate) fn new(lanes: usize, buildings: usize) -> Self {
         Self {
             next: Modal::new(lanes),
-            acceleration: vec![[0.0; WIDTH]; lanes],
-            snap: vec![[0.0; WIDTH]; lanes],
-            over: vec![(0.0, 0.0); buildings],
+            size: vec![[0.0; WIDTH]; lanes],
+            over: vec![Overshoot::default(); buildings],
         }
     }
 }
@@ -153,28 +168,45 @@ pub(crate) fn advance(
         &mut displacement.next,
     );
     drifts(&constants.shapes, &displacement.next, &mut drift.next);
-    let largest = ground.start.abs().max(ground.end.abs());
-    let slope = ground.slope.abs();
-    let eighth = 0.125 * constants.step * constants.step;
-    let (acceleration, snap) = (out.acceleration.as_flattened(), out.snap.as_flattened());
-    for ((shapes, fixed), over) in constants
-        .shapes
-        .iter()
-        .zip(&constants.bounds)
-        .zip(&mut out.over)
-    {
+    let largest = (ground.start.abs().max(ground.end.abs()), ground.slope.abs());
+    overshoots(constants, &out.size, largest, &mut out.over);
+    for (shapes, over) in constants.shapes.iter().zip(&out.over) {
         let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-        let mut a = fixed.acceleration * largest;
-        let mut s = fixed.snap * largest + fixed.snap_by_slope * slope;
-        for (x, y) in acceleration[range.clone()].iter().zip(&snap[range.clone()]) {
-            a += x;
-            s += y;
-        }
-        *over = (eighth * a, eighth * s);
-        displacement.overshoot.as_flattened_mut()[range.clone()].fill(eighth * a);
-        drift.overshoot.as_flattened_mut()[range].fill(2.0 * eighth * a);
+        displacement.overshoot.as_flattened_mut()[range.clone()].fill(over.displacement);
+        drift.overshoot.as_flattened_mut()[range].fill(over.drift);
     }
     turns_above(displacement) | turns_above(drift)
+}
+
+/// Overshoots of all buildings for these sizes of the modes, and this greatest ground
+/// acceleration and slope.
+#[inline(always)]
+pub(crate) fn overshoots(
+    constants: &FreeFlight,
+    size: &[Lane],
+    (largest, slope): (f64, f64),
+    out: &mut [Overshoot],
+) {
+    let eighth = 0.125 * constants.step * constants.step;
+    let buildings = constants.shapes.iter().zip(&constants.bounds);
+    for ((shapes, fixed), over) in buildings.zip(out) {
+        let mut a = fixed.acceleration * largest;
+        let mut d = fixed.drift * largest;
+        let mut s = fixed.snap * largest + fixed.snap_by_slope * slope;
+        for place in shapes.first_mode..shapes.first_mode + shapes.modes {
+            let (c, l) = (place / WIDTH, place % WIDTH);
+            let (m, size) = (&constants.modes[c], size[c][l]);
+            a += m.acceleration_bound[l] * size;
+            d += m.drift_bound[l] * size;
+            s += m.snap_bound[l] * size;
+        }
+        *over = Overshoot {
+            displacement: eighth * a,
+            drift: eighth * d,
+            acceleration: eighth * s,
+            relative: a,
+        };
+    }
 }
 
 #[inline(always)]
@@ -186,7 +218,7 @@ fn modal_step(modes: &[ModeLanes], now: &Modal, ground: Ground, out: &mut Advanc
     let next = &mut out.next;
     let (q1, p1) = (&mut next.displacement[..count], &mut next.velocity[..count]);
     let (i1, w1) = (&mut next.input[..count], &mut next.viscous[..count]);
-    let (acceleration, snap) = (&mut out.acceleration[..count], &mut out.snap[..count]);
+    let sizes = &mut out.size[..count];
     for c in 0..count {
         // Copies: what does not alias is computed eight at a time.
         let m = &modes[c];
@@ -215,13 +247,8 @@ fn modal_step(modes: &[ModeLanes], now: &Modal, ground: Ground, out: &mut Advanc
         for l in 0..WIDTH {
             size[l] = v[l].abs() + m.circular_frequency[l] * x[l].abs();
         }
-        let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
-        for l in 0..WIDTH {
-            first[l] = m.acceleration_bound[l] * size[l];
-            second[l] = m.snap_bound[l] * size[l];
-        }
         (q1[c], p1[c], i1[c], w1[c]) = (end, speed, input, viscous);
-        (acceleration[c], snap[c]) = (first, second);
+        sizes[c] = size;
     }
 }
 
@@ -300,12 +327,12 @@ fn turns_above(track: &Track) -> bool {
 ))]
 pub(crate) fn acceleration_turns(
     constants: &FreeFlight,
-    over: &[(f64, f64)],
+    over: &[Overshoot],
     acceleration: &mut Track,
 ) -> bool {
     for (shapes, over) in constants.shapes.iter().zip(over) {
         let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-        acceleration.overshoot.as_flattened_mut()[range].fill(over.1);
+        acceleration.overshoot.as_flattened_mut()[range].fill(over.acceleration);
     }
     turns_above(acceleration)
 }

@@ -103,6 +103,13 @@ pub(crate) fn fit(samples: &[f64; COEFFICIENTS]) -> Polynomial {
     p
 }
 
+/// Bound of the distance from the chord: an eighth of that of the second derivative.
+fn sagitta(p: &Polynomial) -> f64 {
+    const EIGHTHS: Polynomial = [0.0, 0.0, 0.25, 0.75, 1.5, 2.5, 3.75, 5.25];
+    let terms = p.iter().zip(&EIGHTHS);
+    terms.map(|(c, k)| c.abs() * k).sum()
+}
+
 /// Bernstein coefficients on the unit interval.
 fn bernstein(p: &Polynomial) -> Polynomial {
     // b_i = sum_k C(i,k) / C(n,k) a_k, built by binomial sums of scaled terms.
@@ -153,6 +160,10 @@ pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
             return None;
         }
         if q[0] < -ROUND_OFF * largest {
+            let end: f64 = q.iter().sum();
+            if q[0].max(end) + sagitta(&q) < 0.0 {
+                return None;
+            }
             return search_rise(&bernstein(&q), 0.0, 1.0).map(|theta| polish(&q, theta));
         }
         // The deflated function decides; only its first clear sign counts.
@@ -226,6 +237,9 @@ fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
 
 /// Largest value on the unit interval and where, if it exceeds `floor`.
 pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
+    if p[0].max(p.iter().sum()) + sagitta(p) <= floor {
+        return None;
+    }
     let b = bernstein(p);
     let mut best = None;
     let mut level = floor;
@@ -235,7 +249,8 @@ pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
 
 /// Largest absolute value over the step, if it exceeds `floor`.
 pub(crate) fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
-    if bound(p) <= floor {
+    let ends = p[0].abs().max(p.iter().sum::<f64>().abs());
+    if ends + sagitta(p) <= floor {
         return None;
     }
     let up = maximum_above(p, floor);

@@ -288,6 +288,11 @@ impl Flight {
         }
         let low = |(over, smallest): (&Overshoot, &f64)| over.relative <= *smallest;
         if !block.over.iter().zip(&self.smallest).all(low) {
+            if !self.acceleration_known {
+                let (q, p) = (&self.now.displacement, &self.now.velocity);
+                restoring(&constants.modes, q, p, &mut self.modal);
+                transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
+            }
             block::accelerations(constants, block);
             if !below(constants, &block.accelerations, &self.acceleration, |b| {
                 block.over[b].acceleration
@@ -366,7 +371,8 @@ impl Flight {
     }
 }
 
-/// Whether all values of a block stay below the peaks, overshoot included.
+/// Whether all values of a block, that at its start included, stay below the peaks by
+/// more than the overshoot.
 fn below(
     constants: &FreeFlight,
     values: &Extremes,
@@ -374,11 +380,14 @@ fn below(
     over: impl Fn(usize) -> f64,
 ) -> bool {
     let (top, peak) = (values.top.as_flattened(), track.peak.as_flattened());
+    let now = track.now.as_flattened();
     constants.shapes.iter().enumerate().all(|(b, shapes)| {
         let range = shapes.first_mode..shapes.first_mode + shapes.modes;
         let over = over(b);
-        let pairs = top[range.clone()].iter().zip(&peak[range]);
-        pairs.fold(true, |all, (top, peak)| all & (top + over <= *peak))
+        let starts = now[range.clone()].iter().map(|x| x.abs());
+        let tops = starts.zip(&top[range.clone()]).map(|(a, b)| a.max(*b));
+        let mut pairs = tops.zip(&peak[range]);
+        pairs.all(|(top, peak)| top + over <= *peak)
     })
 }
 

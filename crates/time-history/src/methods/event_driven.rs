@@ -33,7 +33,7 @@ impl EventDriven {
             .filter_map(|m| m.circular_frequency.last().copied())
             .fold(0.0, f64::max);
         Self {
-            taylor: Taylor::new(layout),
+            taylor: Taylor::new(system),
             pair: Adaptive::new(layout, relative_tolerance),
             fastest,
             contact: 0.0,

@@ -2,6 +2,7 @@
 //! inside it, accept it; events and their location belong to the driver.
 
 mod adaptive;
+mod chain;
 mod effective_mass;
 mod event_driven;
 mod moreau_jean;

@@ -1,14 +1,10 @@
 //! Taylor series of a linear system: buildings with all closed contacts affine.
 
 use super::Context;
+use super::chain::{AffineContact, Chain, Sums, TERMS};
 use crate::dynamics::{Layout, push_apart};
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite, septic, value};
-
-/// Terms at most; ten to twenty reach round-off for steps below a sixth of the
-/// shortest period.
-const TERMS: usize = 60;
-/// Terms smaller than this (m, m/s) end the series.
-const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
+use crate::system::System;
 
 /// Inner nodes and weights of the Lobatto rule with five points, exact to degree 7.
 const LOBATTO: [(f64, f64); 3] = [
@@ -24,8 +20,7 @@ pub(crate) struct Taylor {
     layout: Layout,
     /// Present term of displacements and velocities.
     term: Vec<f64>,
-    /// Derivatives of displacements and velocities with respect to theta at both ends,
-    /// three of each.
+    /// Three derivatives of the velocities with respect to theta at both ends.
     start: [Vec<f64>; 3],
     end: [Vec<f64>; 3],
     /// Integral of the displacements over the step.
@@ -33,26 +28,32 @@ pub(crate) struct Taylor {
     scratch: Vec<f64>,
     damping: Vec<f64>,
     speed: Vec<f64>,
-    /// Closed contacts: level, force at zero, stiffness, dashpot.
-    contacts: Vec<(usize, f64, f64, f64)>,
+    /// Closed contacts.
+    contacts: Vec<AffineContact>,
+    /// Buildings with tridiagonal matrices, and the sums of those without.
+    chain: Option<Chain>,
+    sums: Sums,
     dense: Vec<Polynomial>,
     terms: u64,
 }
 
 impl Taylor {
-    pub(crate) fn new(layout: Layout) -> Self {
+    pub(crate) fn new(system: &System) -> Self {
+        let layout = Layout::of(system);
         let two = || vec![0.0; 2 * layout.dofs];
         let one = || vec![0.0; layout.dofs];
         Self {
             layout,
             term: two(),
-            start: [two(), two(), two()],
-            end: [two(), two(), two()],
+            start: [one(), one(), one()],
+            end: [one(), one(), one()],
             integral: one(),
             scratch: one(),
             damping: one(),
             speed: one(),
             contacts: Vec::with_capacity(layout.levels),
+            chain: Chain::new(system),
+            sums: Sums::new(layout.dofs),
             dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
             terms: 0,
         }
@@ -85,7 +86,7 @@ impl Taylor {
         self.laws(context);
         self.series(context, tau, state, h, new);
         new[2 * self.layout.dofs..].copy_from_slice(&state[2 * self.layout.dofs..]);
-        self.interpolate_motion(state, new);
+        self.interpolate_motion(state, new, h);
         self.works(context, tau, state, h, new);
     }
 
@@ -97,8 +98,14 @@ impl Taylor {
             if let Some(contact) = context.contacts.contact(l) {
                 let law = contact.force(level, 0.0, 0.0);
                 let at_rest = law.value - law.by_penetration * context.contacts.width(l);
-                self.contacts
-                    .push((l, at_rest, law.by_penetration, law.by_velocity));
+                self.contacts.push(AffineContact {
+                    level: l,
+                    left: level.left,
+                    right: level.right,
+                    at_rest,
+                    stiffness: law.by_penetration,
+                    dashpot: law.by_velocity,
+                });
             }
         }
     }
@@ -112,69 +119,66 @@ impl Taylor {
         new: &mut [f64],
     ) {
         let n = self.layout.dofs;
-        let system = context.dynamics.system;
-        let ground = context.segment.ground(tau);
-        self.term.copy_from_slice(&state[..2 * n]);
-        new[..2 * n].copy_from_slice(&state[..2 * n]);
-        self.integral.copy_from_slice(&state[..n]);
-        for end in &mut self.end {
-            end.fill(0.0);
+        let load = [context.segment.ground(tau), context.segment.slope * h];
+        self.terms += match &mut self.chain {
+            Some(chain) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
+            None => self.general(context, load, state, h),
+        };
+        let sums = self.chain.as_ref().map_or(&self.sums, |c| &c.sums);
+        let (u, v) = new[..2 * n].split_at_mut(n);
+        u.copy_from_slice(&sums.displacement[..n]);
+        v.copy_from_slice(&sums.velocity[..n]);
+        for (integral, sum) in self.integral.iter_mut().zip(&sums.integral) {
+            *integral = h * sum;
         }
-        for k in 1..TERMS {
-            let (u, v) = self.term.split_at(n);
-            system.internal_forces(u, v, &mut self.scratch, &mut self.damping);
-            for &(l, at_rest, stiffness, dashpot) in &self.contacts {
-                let level = &system.levels()[l];
-                let constant = if k == 1 { at_rest } else { 0.0 };
-                let force = constant + stiffness * level.relative(u) + dashpot * level.relative(v);
-                push_apart(level, force, &mut self.scratch);
-            }
-            let load = match k {
-                1 => ground,
-                2 => context.segment.slope * h,
-                _ => 0.0,
-            };
-            let scale = h / k as f64;
-            let (mut largest_u, mut largest_v) = (0.0_f64, 0.0_f64);
-            let order = k as f64;
-            let (first, second) = (order, order * (order - 1.0));
-            let third = second * (order - 2.0);
-            for i in 0..n {
-                let u = scale * self.term[n + i];
-                let v = scale * (self.scratch[i] / system.mass()[i] - load);
-                (self.term[i], self.term[n + i]) = (u, v);
-                new[i] += u;
-                new[n + i] += v;
-                self.integral[i] += u / (order + 1.0);
-                largest_u = largest_u.max(u.abs());
-                largest_v = largest_v.max(v.abs());
-            }
-            for (end, factor) in self.end.iter_mut().zip([first, second, third]) {
-                for (e, t) in end.iter_mut().zip(&self.term) {
-                    *e += factor * t;
-                }
-            }
-            if k <= 3 {
-                let factorial = [1.0, 2.0, 6.0][k - 1];
-                for (s, t) in self.start[k - 1].iter_mut().zip(&self.term) {
-                    *s = factorial * t;
-                }
-            }
-            self.terms += 1;
-            if k > 3 && largest_u < NEGLIGIBLE.0 && largest_v < NEGLIGIBLE.1 {
-                break;
-            }
-        }
-        for x in &mut self.integral {
-            *x *= h;
+        for k in 0..3 {
+            self.end[k].copy_from_slice(&sums.end[k][..n]);
+            self.start[k].copy_from_slice(&sums.start[k][..n]);
         }
     }
 
-    fn interpolate_motion(&mut self, state: &[f64], new: &[f64]) {
-        for i in 0..2 * self.layout.dofs {
+    /// The series with matrices of any shape. Returns the number of terms.
+    fn general(&mut self, context: &Context<'_, '_>, load: [f64; 2], state: &[f64], h: f64) -> u64 {
+        let n = self.layout.dofs;
+        let system = context.dynamics.system;
+        self.term.copy_from_slice(&state[..2 * n]);
+        self.sums.begin(&state[..n], &state[n..2 * n]);
+        for k in 1..TERMS {
+            let (u, v) = self.term.split_at(n);
+            system.internal_forces(u, v, &mut self.scratch, &mut self.damping);
+            for contact in &self.contacts {
+                let level = &system.levels()[contact.level];
+                let force = contact.term(k, level.relative(u), level.relative(v));
+                push_apart(level, force, &mut self.scratch);
+            }
+            let ground = load.get(k - 1).copied().unwrap_or(0.0);
+            let scale = h / k as f64;
+            for i in 0..n {
+                let u = scale * self.term[n + i];
+                let v = scale * (self.scratch[i] / system.mass()[i] - ground);
+                (self.term[i], self.term[n + i]) = (u, v);
+            }
+            let (u, v) = self.term.split_at(n);
+            if self.sums.add(k, u, v) {
+                return k as u64;
+            }
+        }
+        TERMS as u64
+    }
+
+    /// The velocity has three derivatives at both ends; the displacement has the
+    /// velocity and two of them.
+    fn interpolate_motion(&mut self, state: &[f64], new: &[f64], h: f64) {
+        let n = self.layout.dofs;
+        for i in 0..n {
             let derivatives = |at: &[Vec<f64>; 3]| [at[0][i], at[1][i], at[2][i]];
             let (a, b) = (derivatives(&self.start), derivatives(&self.end));
-            self.dense[i] = septic([state[i], a[0], a[1], a[2]], [new[i], b[0], b[1], b[2]]);
+            let (v0, v1) = (state[n + i], new[n + i]);
+            self.dense[n + i] = septic([v0, a[0], a[1], a[2]], [v1, b[0], b[1], b[2]]);
+            self.dense[i] = septic(
+                [state[i], h * v0, h * a[0], h * a[1]],
+                [new[i], h * v1, h * b[0], h * b[1]],
+            );
         }
     }
 
@@ -234,9 +238,10 @@ impl Taylor {
         new: &mut [f64],
     ) {
         let (n, layout) = (self.layout.dofs, self.layout);
-        let (l, at_rest, stiffness, dashpot) = self.contacts[k];
+        let contact = self.contacts[k];
+        let l = contact.level;
         let level = &context.dynamics.system.levels()[l];
-        let force = |u: f64, v: f64| at_rest + stiffness * u + dashpot * v;
+        let force = |u: f64, v: f64| contact.term(1, u, v);
         let ends = [state, &*new].map(|y| {
             let (u, v) = (level.relative(&y[..n]), level.relative(&y[n..2 * n]));
             (force(u, v), v)
@@ -284,7 +289,7 @@ impl Taylor {
     /// Keeps the integrals of levels that are open constant in the interpolant.
     pub(crate) fn rest(&mut self, new: &[f64]) {
         for l in 0..self.layout.levels {
-            if self.contacts.iter().all(|c| c.0 != l) {
+            if self.contacts.iter().all(|c| c.level != l) {
                 for place in [self.layout.work(l), self.layout.impulse(l)] {
                     self.dense[place] = [0.0; COEFFICIENTS];
                     self.dense[place][0] = new[place];

@@ -1,0 +1,246 @@
+//! Terms of the Taylor series of buildings with tridiagonal matrices.
+
+use multiversion::multiversion;
+use pounding_shear_building::DampingMatrix;
+
+use crate::system::System;
+
+/// Terms at most; ten to twenty reach round-off for steps below a sixth of the
+/// shortest period.
+pub(crate) const TERMS: usize = 60;
+/// Terms smaller than this (m, m/s) end the series.
+const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
+
+/// A closed contact whose force is `at_rest + stiffness u + dashpot v`, with the
+/// displacement `u` and velocity `v` of its left floor relative to its right one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AffineContact {
+    pub level: usize,
+    pub left: Option<usize>,
+    pub right: Option<usize>,
+    pub at_rest: f64,
+    pub stiffness: f64,
+    pub dashpot: f64,
+}
+
+impl AffineContact {
+    /// Its force from term number `k - 1`.
+    pub(crate) fn term(&self, k: usize, u: f64, v: f64) -> f64 {
+        let constant = if k == 1 { self.at_rest } else { 0.0 };
+        constant + self.stiffness * u + self.dashpot * v
+    }
+}
+
+/// Sums of the terms, for theta = 1.
+#[derive(Debug, Clone)]
+pub(crate) struct Sums {
+    pub displacement: Vec<f64>,
+    pub velocity: Vec<f64>,
+    /// Integral of the displacement over theta.
+    pub integral: Vec<f64>,
+    /// Three derivatives of the velocity with respect to theta, at both ends.
+    pub start: [Vec<f64>; 3],
+    pub end: [Vec<f64>; 3],
+}
+
+impl Sums {
+    pub(crate) fn new(dofs: usize) -> Self {
+        let zeros = || vec![0.0; dofs];
+        Self {
+            displacement: zeros(),
+            velocity: zeros(),
+            integral: zeros(),
+            start: [zeros(), zeros(), zeros()],
+            end: [zeros(), zeros(), zeros()],
+        }
+    }
+
+    /// Takes the term of order zero.
+    pub(crate) fn begin(&mut self, u: &[f64], v: &[f64]) {
+        self.displacement.copy_from_slice(u);
+        self.velocity.copy_from_slice(v);
+        self.integral.copy_from_slice(u);
+        for end in &mut self.end {
+            end.fill(0.0);
+        }
+    }
+
+    /// Takes a further term; returns whether the next ones are negligible.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, k: usize, u: &[f64], v: &[f64]) -> bool {
+        let n = u.len();
+        let order = k as f64;
+        let inverse = 1.0 / (order + 1.0);
+        let [first, second] = [order, order * (order - 1.0)];
+        let third = second * (order - 2.0);
+        accumulate(&mut self.displacement[..n], u, 1.0);
+        accumulate(&mut self.velocity[..n], v, 1.0);
+        accumulate(&mut self.integral[..n], u, inverse);
+        for (end, factor) in self.end.iter_mut().zip([first, second, third]) {
+            accumulate(&mut end[..n], v, factor);
+        }
+        if k <= 3 {
+            let factorial = [1.0, 2.0, 6.0][k - 1];
+            for (start, v) in self.start[k - 1].iter_mut().zip(v) {
+                *start = factorial * v;
+            }
+        }
+        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        k > 3 && largest(u) < NEGLIGIBLE.0 && largest(v) < NEGLIGIBLE.1
+    }
+}
+
+#[inline(always)]
+fn accumulate(sum: &mut [f64], x: &[f64], factor: f64) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum += factor * x;
+    }
+}
+
+/// All buildings as one chain without links between them; matrices over masses.
+#[derive(Debug, Clone)]
+pub(crate) struct Chain {
+    stiffness: Band,
+    damping: Band,
+    inverse_mass: Vec<f64>,
+    /// Present term, with a zero on either side.
+    u: Vec<f64>,
+    v: Vec<f64>,
+    acceleration: Vec<f64>,
+    pub sums: Sums,
+}
+
+/// A tridiagonal matrix by rows: entries left of, on and right of the diagonal.
+#[derive(Debug, Clone, Default)]
+struct Band {
+    left: Vec<f64>,
+    diagonal: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Band {
+    fn push(&mut self, diagonal: &[f64], off_diagonal: &[f64], mass: &[f64]) {
+        for (i, m) in mass.iter().enumerate() {
+            let before = i.checked_sub(1).and_then(|k| off_diagonal.get(k));
+            self.left.push(before.copied().unwrap_or(0.0) / m);
+            self.diagonal.push(diagonal[i] / m);
+            self.right
+                .push(off_diagonal.get(i).copied().unwrap_or(0.0) / m);
+        }
+    }
+}
+
+impl Chain {
+    /// `None` if a building's damping matrix is not tridiagonal.
+    pub(crate) fn new(system: &System) -> Option<Self> {
+        let n = system.degrees_of_freedom();
+        let (mut stiffness, mut damping) = (Band::default(), Band::default());
+        for building in system.buildings() {
+            let DampingMatrix::Tridiagonal(c) = building.damping_matrix() else {
+                return None;
+            };
+            let (k, mass) = (building.stiffness_matrix(), building.mass());
+            stiffness.push(&k.diagonal, &k.off_diagonal, mass);
+            damping.push(&c.diagonal, &c.off_diagonal, mass);
+        }
+        Some(Self {
+            stiffness,
+            damping,
+            inverse_mass: system.mass().iter().map(|m| 1.0 / m).collect(),
+            u: vec![0.0; n + 2],
+            v: vec![0.0; n + 2],
+            acceleration: vec![0.0; n],
+            sums: Sums::new(n),
+        })
+    }
+
+    /// Sums the series from displacements and velocities `start`; `load` holds the
+    /// ground acceleration and its change over the step. Returns the number of terms.
+    pub(crate) fn sum(
+        &mut self,
+        contacts: &[AffineContact],
+        load: [f64; 2],
+        h: f64,
+        start: (&[f64], &[f64]),
+    ) -> u64 {
+        let n = self.acceleration.len();
+        self.u[1..=n].copy_from_slice(start.0);
+        self.v[1..=n].copy_from_slice(start.1);
+        self.sums.begin(start.0, start.1);
+        series(self, contacts, load, h)
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn series(chain: &mut Chain, contacts: &[AffineContact], load: [f64; 2], h: f64) -> u64 {
+    let n = chain.acceleration.len();
+    for k in 1..TERMS {
+        let a = &mut chain.acceleration[..n];
+        multiply(a, &chain.stiffness, &chain.u);
+        for contact in contacts {
+            push(contact, k, &chain.u, &chain.v, &chain.inverse_mass, a);
+        }
+        subtract_damping(a, &chain.damping, &chain.v);
+        let ground = load.get(k - 1).copied().unwrap_or(0.0);
+        let scale = h / k as f64;
+        let (u, v) = (&mut chain.u[1..=n], &mut chain.v[1..=n]);
+        for i in 0..n {
+            u[i] = scale * v[i];
+        }
+        for i in 0..n {
+            v[i] = scale * (a[i] - ground);
+        }
+        if chain.sums.add(k, u, v) {
+            return k as u64;
+        }
+    }
+    TERMS as u64
+}
+
+/// `a = -K u`; `u` has a zero on either side.
+#[inline(always)]
+fn multiply(a: &mut [f64], k: &Band, u: &[f64]) {
+    let n = a.len();
+    let (left, diagonal, right) = (&k.left[..n], &k.diagonal[..n], &k.right[..n]);
+    let (before, at, after) = (&u[..n], &u[1..=n], &u[2..n + 2]);
+    for i in 0..n {
+        a[i] = -(left[i] * before[i] + diagonal[i] * at[i] + right[i] * after[i]);
+    }
+}
+
+/// `a -= C v`.
+#[inline(always)]
+fn subtract_damping(a: &mut [f64], c: &Band, v: &[f64]) {
+    let n = a.len();
+    let (left, diagonal, right) = (&c.left[..n], &c.diagonal[..n], &c.right[..n]);
+    let (before, at, after) = (&v[..n], &v[1..=n], &v[2..n + 2]);
+    for i in 0..n {
+        a[i] -= left[i] * before[i] + diagonal[i] * at[i] + right[i] * after[i];
+    }
+}
+
+/// Pushes the floors of a contact apart.
+#[inline(always)]
+fn push(
+    contact: &AffineContact,
+    k: usize,
+    u: &[f64],
+    v: &[f64],
+    inverse_mass: &[f64],
+    a: &mut [f64],
+) {
+    let at = |x: &[f64], floor: Option<usize>| floor.map_or(0.0, |i| x[i + 1]);
+    let relative = |x: &[f64]| at(x, contact.left) - at(x, contact.right);
+    let force = contact.term(k, relative(u), relative(v));
+    if let Some(l) = contact.left {
+        a[l] -= force * inverse_mass[l];
+    }
+    if let Some(r) = contact.right {
+        a[r] += force * inverse_mass[r];
+    }
+}

@@ -272,7 +272,10 @@ pub fn reference_system_with(
 }
 
 /// The model of a level by its short name in the reference data.
-fn reference_model(link: &ReferenceLink, model: &str) -> Result<AnyModel, Failure> {
+///
+/// # Errors
+/// If there is no such name, or the level's parameters do not suit the model.
+pub fn reference_model(link: &ReferenceLink, model: &str) -> Result<AnyModel, Failure> {
     let linear = ("stiffness", link.k_lin);
     let hertz = ("stiffness", link.k_hertz);
     let e = ("restitution", link.e);

@@ -17,15 +17,19 @@ pub(crate) fn sentence() -> String {
         .collect();
     let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     format!(
-        "{}, {threads} processors ({}), shared with other work (load {} at the start); {}; {}. Ours \
-         is built by `cargo --release` for the baseline of the architecture ({}), `peer.c` \
-         with `-O3 -march=native`.",
+        "{}, {threads} processors ({}), load {} at the start; {}; {}. Ours is built by `cargo \
+         --release` for {}{}, `peer.c` with `-O3 -march=native`.",
         field("model name").unwrap_or("unknown processor"),
         vectors.join(", "),
         load.split(' ').next().unwrap_or("?"),
         version("rustc"),
         version("gcc"),
         std::env::consts::ARCH,
+        if cfg!(target_feature = "avx2") {
+            " with AVX2"
+        } else {
+            ""
+        },
     )
 }
 

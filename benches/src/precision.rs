@@ -11,40 +11,61 @@ use crate::peers::{PEERS, Program, Room};
 /// Relative errors of the peaks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Errors {
+    /// Largest of a peak displacement, relative to the largest peak displacement.
     pub(crate) displacement: f64,
+    /// Largest of a peak force, relative to the largest peak force.
     pub(crate) force: f64,
+    /// Largest of any peak, relative to its own value.
+    pub(crate) own: f64,
 }
 
 impl Errors {
     fn of(displacement: &[f64], force: &[f64], reference: &ReferenceValues) -> Self {
+        let u = largest(displacement, &reference.peak_u);
+        let f = largest(force, &reference.peak_force);
         Self {
-            displacement: largest(displacement, &reference.peak_u),
-            force: largest(force, &reference.peak_force),
+            displacement: u.0,
+            force: f.0,
+            own: u.1.max(f.1),
         }
-    }
-
-    /// Whether both are within these bounds.
-    pub(crate) fn within(&self, (displacement, force): (f64, f64)) -> bool {
-        self.displacement <= displacement && self.force <= force
     }
 }
 
-/// Largest difference relative to each reference value; where that is zero, to the
-/// largest.
-fn largest(values: &[f64], reference: &[f64]) -> f64 {
-    let scale = reference.iter().copied().fold(0.0, f64::max);
-    let pairs = values.iter().zip(reference);
-    pairs.fold(0.0, |error: f64, (x, r)| {
-        let difference = (x - r).abs() / if *r > 0.0 { *r } else { scale };
-        // A NaN is no small error.
-        if difference <= error {
-            error
-        } else if difference.is_nan() {
-            f64::INFINITY
-        } else {
-            difference
+/// What a run has to keep.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Bound {
+    /// Errors of displacement and force, relative to the largest.
+    OfLargest(f64, f64),
+    /// Error of every peak, relative to its own value.
+    OfOwn(f64),
+}
+
+impl Bound {
+    fn kept(self, errors: Errors) -> bool {
+        match self {
+            Self::OfLargest(u, f) => errors.displacement <= u && errors.force <= f,
+            Self::OfOwn(any) => errors.own <= any,
         }
-    })
+    }
+}
+
+/// Largest difference relative to the largest reference value, and relative to each
+/// one's own. Where that is zero, the largest takes its place.
+fn largest(values: &[f64], reference: &[f64]) -> (f64, f64) {
+    let scale = reference.iter().copied().fold(0.0, f64::max);
+    // A NaN is no small error.
+    let worse = |a: f64, b: f64| if a.is_nan() || b <= a { a } else { b };
+    let pairs = values.iter().zip(reference);
+    let errors = pairs.fold((0.0, 0.0), |(all, own), (x, r)| {
+        let difference = (x - r).abs();
+        let value = if *r > 0.0 { *r } else { scale };
+        (
+            worse(all, difference / scale),
+            worse(own, difference / value),
+        )
+    });
+    let known = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+    (known(errors.0), known(errors.1))
 }
 
 enum Runner {
@@ -88,10 +109,12 @@ pub(crate) struct Plan {
     pub(crate) short: bool,
 }
 
-/// The bounds of "equal error": in peak displacement and in peak force.
-pub(crate) const TARGET: (f64, f64) = (1.0e-4, 1.0e-3);
+/// "Equal error".
+pub(crate) const TARGET: Bound = Bound::OfLargest(1.0e-4, 1.0e-3);
 /// A point that costs more than this (s) is repeated only where it is the cheapest.
 const SLOW: f64 = 0.1;
+/// Times in this ratio are the same.
+const EQUALLY_CHEAP: f64 = 1.05;
 /// Processor time that a measurement aims at (s).
 const LONG_ENOUGH: f64 = 0.03;
 
@@ -215,12 +238,16 @@ fn once(
 }
 
 /// The cheapest of a method's settings, given from coarse to fine, from which all
-/// finer ones meet the bounds as well.
-pub(crate) fn cheapest<'a>(family: &[&'a Point], bounds: (f64, f64)) -> Option<&'a Point> {
-    let meets = |p: &&&Point| p.errors.is_some_and(|e| e.within(bounds));
-    let good = family.iter().rev().take_while(meets);
-    good.min_by(|a, b| a.milliseconds().total_cmp(&b.milliseconds()))
-        .copied()
+/// finer ones keep the bound as well; of equally cheap ones the coarsest.
+pub(crate) fn cheapest<'a>(family: &[&'a Point], bound: Bound) -> Option<&'a Point> {
+    let keeps = |p: &&&Point| p.errors.is_some_and(|e| bound.kept(e));
+    let good: Vec<&Point> = family.iter().rev().take_while(keeps).copied().collect();
+    let least = good
+        .iter()
+        .map(|p| p.milliseconds())
+        .fold(f64::INFINITY, f64::min);
+    good.into_iter()
+        .rfind(|p| p.milliseconds() <= least * EQUALLY_CHEAP)
 }
 
 /// Methods in order of appearance, with their points.

@@ -22,6 +22,9 @@ const SUBSTEPS: [u32; 8] = [1, 2, 5, 10, 20, 50, 100, 200];
 /// All of ours. `sample` is the time step of the record (s).
 pub(crate) fn families(sample: f64) -> Vec<Family> {
     vec![
+        toleranced("event_driven", |relative_tolerance| {
+            MethodChoice::EventDriven { relative_tolerance }
+        }),
         toleranced("adaptive", |relative_tolerance| MethodChoice::Adaptive {
             relative_tolerance,
         }),

@@ -1,6 +1,7 @@
 //! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result.
 
 mod assemble;
+mod bands;
 mod complementarity;
 mod contact;
 mod dimension;

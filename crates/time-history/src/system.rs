@@ -4,6 +4,7 @@ use pounding_gap_element::ImpactModel;
 use pounding_shear_building::ShearBuilding;
 use std::sync::Arc;
 
+use crate::bands::Bands;
 use crate::error::TimeHistoryError;
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
@@ -74,6 +75,7 @@ pub struct System {
     mass: Vec<f64>,
     /// Displacements, then velocities at time zero.
     initial: Vec<f64>,
+    bands: Option<Bands>,
 }
 
 impl System {
@@ -87,12 +89,13 @@ impl System {
             offsets.push(mass.len());
         }
         Self {
-            buildings,
             offsets,
             gaps: Vec::new(),
             levels: Vec::new(),
             ground,
             initial: vec![0.0; 2 * mass.len()],
+            bands: Bands::of(&buildings),
+            buildings,
             mass,
         }
     }
@@ -264,6 +267,11 @@ impl System {
         self.mass.len()
     }
 
+    /// Matrices of all buildings, if they are all tridiagonal.
+    pub(crate) fn bands(&self) -> Option<&Bands> {
+        self.bands.as_ref()
+    }
+
     /// Floor masses of all buildings (kg).
     #[must_use]
     pub fn mass(&self) -> &[f64] {
@@ -276,9 +284,9 @@ impl System {
         self.ground.time_step * self.ground.samples.len().saturating_sub(1) as f64
     }
 
-    /// Storey forces, restoring and damping: `out = -(K u + C v)` (N). `scratch`
-    /// has the length of `out`. Arithmetic is per building, so a building's bits
-    /// do not depend on its neighbours.
+    /// Storey forces, restoring and damping: `out = -(K u + C v)` (N), with the damping
+    /// part `C v` in `scratch`. Neighbours enter with zeros at most, so that a
+    /// building's bits do not depend on them.
     pub(crate) fn internal_forces(
         &self,
         u: &[f64],
@@ -286,6 +294,10 @@ impl System {
         out: &mut [f64],
         scratch: &mut [f64],
     ) {
+        if let Some(bands) = &self.bands {
+            bands.internal_forces(u, v, out, scratch);
+            return;
+        }
         for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
             let (a, b) = (range[0], range[1]);
             building

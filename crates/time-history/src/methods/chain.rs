@@ -1,8 +1,8 @@
 //! Terms of the Taylor series of buildings with tridiagonal matrices.
 
 use multiversion::multiversion;
-use pounding_shear_building::DampingMatrix;
 
+use crate::bands::Bands;
 use crate::system::System;
 
 /// Terms at most; ten to twenty reach round-off for steps below a sixth of the
@@ -100,8 +100,8 @@ fn accumulate(sum: &mut [f64], x: &[f64], factor: f64) {
 /// All buildings as one chain without links between them; matrices over masses.
 #[derive(Debug, Clone)]
 pub(crate) struct Chain {
-    stiffness: Band,
-    damping: Band,
+    /// Over the masses.
+    bands: Bands,
     inverse_mass: Vec<f64>,
     /// Present term, with a zero on either side.
     u: Vec<f64>,
@@ -110,42 +110,14 @@ pub(crate) struct Chain {
     pub sums: Sums,
 }
 
-/// A tridiagonal matrix by rows: entries left of, on and right of the diagonal.
-#[derive(Debug, Clone, Default)]
-struct Band {
-    left: Vec<f64>,
-    diagonal: Vec<f64>,
-    right: Vec<f64>,
-}
-
-impl Band {
-    fn push(&mut self, diagonal: &[f64], off_diagonal: &[f64], mass: &[f64]) {
-        for (i, m) in mass.iter().enumerate() {
-            let before = i.checked_sub(1).and_then(|k| off_diagonal.get(k));
-            self.left.push(before.copied().unwrap_or(0.0) / m);
-            self.diagonal.push(diagonal[i] / m);
-            self.right
-                .push(off_diagonal.get(i).copied().unwrap_or(0.0) / m);
-        }
-    }
-}
-
 impl Chain {
     /// `None` if a building's damping matrix is not tridiagonal.
     pub(crate) fn new(system: &System) -> Option<Self> {
         let n = system.degrees_of_freedom();
-        let (mut stiffness, mut damping) = (Band::default(), Band::default());
-        for building in system.buildings() {
-            let DampingMatrix::Tridiagonal(c) = building.damping_matrix() else {
-                return None;
-            };
-            let (k, mass) = (building.stiffness_matrix(), building.mass());
-            stiffness.push(&k.diagonal, &k.off_diagonal, mass);
-            damping.push(&c.diagonal, &c.off_diagonal, mass);
-        }
+        let mut bands = system.bands()?.clone();
+        bands.divide(system.mass());
         Some(Self {
-            stiffness,
-            damping,
+            bands,
             inverse_mass: system.mass().iter().map(|m| 1.0 / m).collect(),
             u: vec![0.0; n + 2],
             v: vec![0.0; n + 2],
@@ -181,11 +153,10 @@ fn series(chain: &mut Chain, contacts: &[AffineContact], load: [f64; 2], h: f64)
     let n = chain.acceleration.len();
     for k in 1..TERMS {
         let a = &mut chain.acceleration[..n];
-        multiply(a, &chain.stiffness, &chain.u);
+        chain.bands.resist(&chain.u, &chain.v, a);
         for contact in contacts {
             push(contact, k, &chain.u, &chain.v, &chain.inverse_mass, a);
         }
-        subtract_damping(a, &chain.damping, &chain.v);
         let ground = load.get(k - 1).copied().unwrap_or(0.0);
         let scale = h / k as f64;
         let (u, v) = (&mut chain.u[1..=n], &mut chain.v[1..=n]);
@@ -200,28 +171,6 @@ fn series(chain: &mut Chain, contacts: &[AffineContact], load: [f64; 2], h: f64)
         }
     }
     TERMS as u64
-}
-
-/// `a = -K u`; `u` has a zero on either side.
-#[inline(always)]
-fn multiply(a: &mut [f64], k: &Band, u: &[f64]) {
-    let n = a.len();
-    let (left, diagonal, right) = (&k.left[..n], &k.diagonal[..n], &k.right[..n]);
-    let (before, at, after) = (&u[..n], &u[1..=n], &u[2..n + 2]);
-    for i in 0..n {
-        a[i] = -(left[i] * before[i] + diagonal[i] * at[i] + right[i] * after[i]);
-    }
-}
-
-/// `a -= C v`.
-#[inline(always)]
-fn subtract_damping(a: &mut [f64], c: &Band, v: &[f64]) {
-    let n = a.len();
-    let (left, diagonal, right) = (&c.left[..n], &c.diagonal[..n], &c.right[..n]);
-    let (before, at, after) = (&v[..n], &v[1..=n], &v[2..n + 2]);
-    for i in 0..n {
-        a[i] -= left[i] * before[i] + diagonal[i] * at[i] + right[i] * after[i];
-    }
 }
 
 /// Pushes the floors of a contact apart.

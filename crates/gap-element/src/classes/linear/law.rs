@@ -104,7 +104,7 @@ impl LinearClass {
         let dashpot = match (damped, self.exponent == 1.0) {
             (false, _) => 0.0,
             (true, true) => collision.constants[1],
-            (true, false) => self.dashpot(collision.effective_mass),
+            (true, false) => collision.constants[2],
         };
         super::force(self.stiffness, self.exponent, dashpot, delta, velocity)
     }
@@ -118,15 +118,17 @@ impl ImpactModel for LinearClass {
         self.separation
     }
     fn begin(&self, approach_velocity: f64, effective_mass: f64) -> Collision {
+        let dashpot = self.dashpot(effective_mass);
         let constant = if self.exponent == 1.0 {
-            self.dashpot(effective_mass)
+            dashpot
         } else {
             self.zeta
         };
         Collision {
             approach_velocity,
             effective_mass,
-            constants: [self.stiffness, constant, 0.0, 0.0],
+            // The third is not on the card: it spares a root at every evaluation.
+            constants: [self.stiffness, constant, dashpot, 0.0],
         }
     }
     fn force(

@@ -5,7 +5,7 @@
 //! the values: `tests/data/reference_cases.json`.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use pounding_time_history::{Outcome, RunOptions, run};
+use pounding_time_history::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, Outcome, RunOptions, run};
 use verification::{
     REFERENCE_MODELS, ReferenceValues, reference_cases, reference_system, synthetic_motion,
 };
@@ -89,7 +89,7 @@ fn compare(label: &str, outcome: &Outcome, reference: &ReferenceValues) -> Vec<S
         ("first contact", t, 1e-6),
         ("approach velocity", v, 1e-6),
         ("energy", e, 1e-6),
-        ("residual", outcome.energy.residual_ratio, 1e-8),
+        ("residual", outcome.energy.residual_ratio, 1e-9),
     ] {
         if !(error <= bound) {
             failures.push(format!("{label}: {name} differs by {error:e}"));
@@ -116,10 +116,19 @@ fn check_case(name: &str) {
     let mut failures = Vec::new();
     for model in REFERENCE_MODELS {
         let system = reference_system(case, model, synthetic_motion().unwrap(), 1.0).unwrap();
-        let label = format!("{name} {model}");
-        match run(&system, &RunOptions::default(), &mut [], &mut |_| {}) {
-            Ok(outcome) => failures.extend(compare(&label, &outcome, &case.models[model])),
-            Err(error) => failures.push(format!("{label}: {error}")),
+        let adaptive = MethodChoice::Adaptive {
+            relative_tolerance: DEFAULT_RELATIVE_TOLERANCE,
+        };
+        for (short, method) in [("evd", RunOptions::default().method), ("ad", adaptive)] {
+            let label = format!("{name} {model} {short}");
+            let options = RunOptions {
+                method,
+                ..RunOptions::default()
+            };
+            match run(&system, &options, &mut [], &mut |_| {}) {
+                Ok(outcome) => failures.extend(compare(&label, &outcome, &case.models[model])),
+                Err(error) => failures.push(format!("{label}: {error}")),
+            }
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));

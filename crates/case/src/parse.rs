@@ -241,7 +241,7 @@ fn scale(reader: &Reader<'_>, value: &Value<'_>) -> Result<Scale, CaseError> {
 fn default_analysis() -> Analysis {
     Analysis {
         method: Located {
-            value: "adaptive".to_owned(),
+            value: "event_driven".to_owned(),
             span: 0..0,
         },
         duration: None,

@@ -256,7 +256,7 @@ pub(crate) const ANALYSIS: &[Key] = &[
     key(
         "method",
         Kind::Text,
-        "adaptive (default), newmark, hht_alpha, runge_kutta_4, or moreau_jean for rigid impacts",
+        "event_driven (default), adaptive, newmark, hht_alpha, runge_kutta_4, or moreau_jean for rigid impacts",
     ),
     key(
         "duration",
@@ -284,7 +284,7 @@ pub(crate) const ANALYSIS: &[Key] = &[
     key(
         "relative_tolerance",
         Kind::Quantity,
-        "Relative tolerance of the adaptive method, by default 1e-10",
+        "Relative tolerance: of the adaptive method, by default 1e-10; of the event-driven one inside contacts, 1e-9",
     ),
     key(
         "energy_tolerance",

@@ -138,7 +138,7 @@ pub struct Energy {
 pub struct Ledger {
     /// At the end of the run.
     pub end: Energy,
-    /// Largest input energy of the run (J).
+    /// Largest input energy of the run, at its accepted steps (J).
     pub largest_input: f64,
     /// Largest absolute residual of the run over the largest input energy (-).
     pub residual_ratio: f64,

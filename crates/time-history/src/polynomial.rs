@@ -21,6 +21,16 @@ const SHORTEST: f64 = 1.0e-13;
 /// Relative size below which a leading coefficient is round-off.
 const ROUND_OFF: f64 = 1.0e-13;
 
+/// Nodes and weights of the Gauss rule with six points on (0, 1), exact to degree 11.
+pub(crate) const GAUSS: [(f64, f64); 6] = [
+    (0.033_765_242_898_423_99, 0.085_662_246_189_585_17),
+    (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
+    (0.380_690_406_958_401_56, 0.233_956_967_286_345_52),
+    (0.619_309_593_041_598_5, 0.233_956_967_286_345_52),
+    (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
+    (0.966_234_757_101_576, 0.085_662_246_189_585_17),
+];
+
 /// Value at `theta`.
 pub(crate) fn value(p: &Polynomial, theta: f64) -> f64 {
     p.iter().rev().fold(0.0, |sum, c| sum * theta + c)

@@ -1,5 +1,7 @@
 //! The exact step of one mode under a ground acceleration that is linear in time.
 
+use crate::polynomial::GAUSS;
+
 /// Step of `q'' + 2 zeta omega q' + omega^2 q = -gamma a_g(t)` over one interval
 /// between samples. All members are linear, or for the work quadratic, in
 /// `z = (q, q', a, b)`: displacement and velocity of the mode at the start, ground
@@ -33,16 +35,6 @@ pub(crate) struct Oscillator {
 const SUB_STEP: f64 = 0.25;
 /// Terms of the series, enough for round-off.
 const TERMS: usize = 18;
-
-/// Nodes and weights of the Gauss rule with six points on (0, 1), exact to degree 11.
-const GAUSS: [(f64, f64); 6] = [
-    (0.033_765_242_898_423_99, 0.085_662_246_189_585_17),
-    (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
-    (0.380_690_406_958_401_56, 0.233_956_967_286_345_52),
-    (0.619_309_593_041_598_5, 0.233_956_967_286_345_52),
-    (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
-    (0.966_234_757_101_576, 0.085_662_246_189_585_17),
-];
 
 impl ModeStep {
     /// For a step of this length (s). Any damping, and any number of periods within

@@ -3,16 +3,8 @@
 use super::Context;
 use super::chain::{AffineContact, Chain, Sums, TERMS};
 use crate::dynamics::{Layout, push_apart};
-use crate::polynomial::{COEFFICIENTS, Polynomial, hermite, septic, value};
+use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, hermite, septic, value};
 use crate::system::System;
-
-/// Inner nodes and weights of the Lobatto rule with five points, exact to degree 7.
-const LOBATTO: [(f64, f64); 3] = [
-    (0.172_673_164_646_011_43, 49.0 / 180.0),
-    (0.5, 16.0 / 45.0),
-    (0.827_326_835_353_988_6, 49.0 / 180.0),
-];
-const LOBATTO_END: f64 = 0.05;
 
 /// Work space of the series.
 #[derive(Debug, Clone)]
@@ -183,7 +175,7 @@ impl Taylor {
     }
 
     /// Works and impulses over the step. The input is exact; damping and contacts by
-    /// the Lobatto rule.
+    /// Gauss's rule.
     fn works(
         &mut self,
         context: &Context<'_, '_>,
@@ -207,8 +199,8 @@ impl Taylor {
             );
             rates[end] = (input, power);
         }
-        let mut viscous = LOBATTO_END * (rates[0].1 + rates[1].1);
-        for (theta, weight) in LOBATTO {
+        let mut viscous = 0.0;
+        for (theta, weight) in GAUSS {
             for i in 0..n {
                 self.speed[i] = value(&self.dense[n + i], theta);
             }
@@ -246,9 +238,8 @@ impl Taylor {
             let (u, v) = (level.relative(&y[..n]), level.relative(&y[n..2 * n]));
             (force(u, v), v)
         });
-        let mut impulse = LOBATTO_END * (ends[0].0 + ends[1].0);
-        let mut work = LOBATTO_END * (ends[0].0 * ends[0].1 + ends[1].0 * ends[1].1);
-        for (theta, weight) in LOBATTO {
+        let (mut impulse, mut work) = (0.0, 0.0);
+        for (theta, weight) in GAUSS {
             let at = |offset: usize| {
                 let one = |floor: Option<usize>| {
                     floor.map_or(0.0, |i| value(&self.dense[offset + i], theta))

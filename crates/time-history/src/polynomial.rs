@@ -247,14 +247,29 @@ fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
 
 /// Largest value on the unit interval and where, if it exceeds `floor`.
 pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
-    if p[0].max(p.iter().sum()) + sagitta(p) <= floor {
+    let (start, end) = (p[0], p.iter().sum::<f64>());
+    let sagitta = sagitta(p);
+    if start.max(end) + sagitta <= floor {
         return None;
     }
-    let b = bernstein(p);
-    let mut best = None;
-    let mut level = floor;
-    search_maximum(&b, 0.0, 1.0, 0, &mut level, &mut best);
-    best.map(|theta| (theta, value(p, theta)))
+    if (end - start).abs() > 4.0 * sagitta {
+        // No turning point: the greater end is the greatest value.
+        let (theta, top) = if end > start {
+            (1.0, end)
+        } else {
+            (0.0, start)
+        };
+        return (top > floor).then_some((theta, top));
+    }
+    let falling = derivative(p).map(|c| -c);
+    let mut search = Search {
+        function: p,
+        falling: &falling,
+        level: floor,
+        best: None,
+    };
+    search.look(&bernstein(p), (0.0, 1.0), 0);
+    search.best.map(|theta| (theta, value(p, theta)))
 }
 
 /// Largest absolute value over the step, if it exceeds `floor`.
@@ -269,32 +284,53 @@ pub(crate) fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)>
 }
 
 /// Branch and bound on the Bernstein hull; `level` is the best value so far.
-fn search_maximum(
-    b: &Polynomial,
-    left: f64,
-    right: f64,
-    depth: usize,
-    level: &mut f64,
-    best: &mut Option<f64>,
-) {
-    let upper = b.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
-    if upper <= *level {
-        return;
-    }
-    for (end, theta) in [(b[0], left), (b[DEGREE], right)] {
-        if end > *level {
-            *level = end;
-            *best = Some(theta);
+struct Search<'a> {
+    function: &'a Polynomial,
+    /// The derivative with its sign changed.
+    falling: &'a Polynomial,
+    level: f64,
+    best: Option<f64>,
+}
+
+impl Search<'_> {
+    fn look(&mut self, b: &Polynomial, (left, right): (f64, f64), depth: usize) {
+        let upper = b.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
+        if upper <= self.level {
+            return;
+        }
+        self.take(b[0], left);
+        self.take(b[DEGREE], right);
+        if depth >= 40 || upper - self.level <= 1.0e-15 * upper.abs() {
+            return;
+        }
+        // Differences of the coefficients bound the slope.
+        let mut slopes = [0.0; COEFFICIENTS];
+        for i in 0..DEGREE {
+            slopes[i] = b[i] - b[i + 1];
+        }
+        let rising = slopes[..DEGREE].iter().find(|d| **d != 0.0);
+        match (sign_changes(&slopes), rising) {
+            (0, _) => {}
+            (1, Some(first)) if *first < 0.0 => {
+                let theta = polish(self.falling, (left, right));
+                self.take(value(self.function, theta), theta);
+            }
+            // It falls and rises: an end is the greatest.
+            (1, _) => {}
+            _ => {
+                let middle = 0.5 * (left + right);
+                let (first, second) = halves(b);
+                self.look(&first, (left, middle), depth + 1);
+                self.look(&second, (middle, right), depth + 1);
+            }
         }
     }
-    let spread = upper - *level;
-    if depth >= 40 || spread <= 1.0e-15 * upper.abs() {
-        return;
+
+    fn take(&mut self, value: f64, theta: f64) {
+        if value > self.level {
+            (self.level, self.best) = (value, Some(theta));
+        }
     }
-    let middle = 0.5 * (left + right);
-    let (first, second) = halves(b);
-    search_maximum(&first, left, middle, depth + 1, level, best);
-    search_maximum(&second, middle, right, depth + 1, level, best);
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use multiversion::multiversion;
 
 use super::constants::FreeFlight;
-use super::lanes::{Lane, Modal, ModeLanes, Overshoot, WIDTH, overshoots};
+use super::lanes::{Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, overshoots};
 
 /// Samples of a block.
 pub(super) const BLOCK: usize = 8;
@@ -34,7 +34,11 @@ pub(super) struct Block {
     pub levels: Extremes,
     /// Absolute floor acceleration, after [`accelerations`].
     pub accelerations: Extremes,
-    pub over: Vec<Overshoot>,
+    /// Overshoots of displacement, drift and absolute acceleration.
+    pub over: [Vec<Lane>; 3],
+    /// Greatest ground acceleration and slope.
+    largest: (f64, f64),
+    modal: Vec<Lane>,
 }
 
 /// Greatest values over the block, and the values at its end.
@@ -54,7 +58,8 @@ impl Extremes {
 }
 
 impl Block {
-    pub(super) fn new(lanes: usize, levels: usize, buildings: usize) -> Self {
+    pub(super) fn new(lanes: usize, levels: usize) -> Self {
+        let zeros = || vec![[0.0; WIDTH]; lanes];
         Self {
             end: Modal::new(lanes),
             displacement: vec![[0.0; WIDTH]; lanes * BLOCK],
@@ -64,7 +69,9 @@ impl Block {
             drifts: Extremes::new(lanes),
             levels: Extremes::new(levels.div_ceil(WIDTH)),
             accelerations: Extremes::new(lanes),
-            over: vec![Overshoot::default(); buildings],
+            over: [zeros(), zeros(), zeros()],
+            largest: (0.0, 0.0),
+            modal: zeros(),
         }
     }
 }
@@ -110,8 +117,10 @@ pub(super) fn fly(
     let slope = samples
         .windows(2)
         .fold(0.0_f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
-    let largest = (largest, slope / constants.step);
-    overshoots(constants, &block.size, largest, &mut block.over);
+    block.largest = (largest, slope / constants.step);
+    let [displacement, drift, _] = &mut block.over;
+    let over = (displacement.as_mut_slice(), drift.as_mut_slice());
+    overshoots(constants, &block.size, largest, &mut block.modal, over);
 }
 
 /// Extremes of absolute floor acceleration over the block that was flown last.
@@ -130,6 +139,13 @@ pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
         stride,
         true,
         &mut block.accelerations,
+    );
+    acceleration_overshoots(
+        constants,
+        &block.size,
+        block.largest,
+        &mut block.modal,
+        &mut block.over[2],
     );
 }
 

@@ -3,7 +3,7 @@
 use pounding_shear_building::{Damping, ShearBuilding};
 
 use super::block::Rows;
-use super::lanes::{BuildingBounds, Lane, ModeLanes, Shapes, WIDTH};
+use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use crate::system::System;
 
@@ -17,8 +17,9 @@ pub(crate) struct FreeFlight {
     pub shapes: Vec<Shapes>,
     /// Modes from floors: `q = Phi' M u`.
     pub inverse: Vec<Shapes>,
-    /// Of every building.
-    pub bounds: Vec<BuildingBounds>,
+    /// Magnitudes of the shapes, and of their differences from floor to floor.
+    pub magnitudes: Vec<Shapes>,
+    pub drift_magnitudes: Vec<Shapes>,
     /// Building of every degree of freedom.
     pub building: Vec<usize>,
     /// Floors, drifts and the closing of levels from modes, for blocks.
@@ -37,7 +38,7 @@ pub(crate) struct Fine {
     pub modes: Vec<ModeLanes>,
 }
 
-/// Greatest product of frequency and fine step: the interpolant then errs by less than
+/// Greatest product of frequency, or rate of decay, and fine step: the interpolant then errs by less than
 /// 1e-8 of the amplitude of the fastest mode.
 const FINE: f64 = 0.7;
 
@@ -51,8 +52,11 @@ impl FreeFlight {
         }
         let mut this = Self::with_step(system, step);
         this.add_rows(system);
-        let fastest = this.modes.iter().flat_map(|m| m.circular_frequency);
-        let parts = (fastest.fold(0.0, f64::max) * step / FINE).ceil().max(1.0);
+        let rates = this
+            .modes
+            .iter()
+            .flat_map(|m| m.circular_frequency.into_iter().chain(m.damping));
+        let parts = (rates.fold(0.0, f64::max) * step / FINE).ceil().max(1.0);
         this.fine = Some(Fine {
             parts: parts as usize,
             step: step / parts,
@@ -72,7 +76,8 @@ impl FreeFlight {
             modes: vec![ModeLanes::default(); dofs.div_ceil(WIDTH)],
             shapes: Vec::new(),
             inverse: Vec::new(),
-            bounds: Vec::new(),
+            magnitudes: Vec::new(),
+            drift_magnitudes: Vec::new(),
             building: Vec::new(),
             floor_rows: Vec::new(),
             drift_rows: Vec::new(),
@@ -95,20 +100,24 @@ impl FreeFlight {
         self.shapes.push(spread(first, count, shape));
         let inverse = spread(first, count, |mode, floor| shape(floor, mode) * mass[floor]);
         self.inverse.push(inverse);
-        let mut bounds = BuildingBounds::default();
+        let below = |i: usize, j: usize| if i == 0 { 0.0 } else { shape(i - 1, j) };
+        self.magnitudes
+            .push(spread(first, count, |i, j| shape(i, j).abs()));
+        let drift = |i: usize, j: usize| (shape(i, j) - below(i, j)).abs();
+        self.drift_magnitudes.push(spread(first, count, drift));
         for j in 0..count {
             let mode = Oscillator {
                 circular_frequency: modes.circular_frequency[j],
                 damping_ratio: modes.damping_ratio[j],
                 participation: modes.participation_factor[j],
             };
-            let below = |i: usize| if i == 0 { 0.0 } else { shape(i - 1, j) };
-            let largest = (0..count).map(|i| shape(i, j).abs()).fold(0.0, f64::max);
-            let drift = (0..count).map(|i| (shape(i, j) - below(i)).abs());
-            let largest = (largest, drift.fold(0.0, f64::max));
-            self.add_mode(first + j, mode, largest, &mut bounds);
+            self.add_mode(first + j, mode);
         }
-        self.bounds.push(bounds);
+    }
+
+    /// An eighth of the step squared (s2).
+    pub(crate) fn eighth(&self) -> f64 {
+        0.125 * self.step * self.step
     }
 
     /// Every row is a sum over the modes of the buildings that it belongs to.
@@ -166,13 +175,7 @@ impl FreeFlight {
     /// `|q''| <= (1 + 2 zeta) omega e* + |gamma| A`; the modal part of absolute
     /// acceleration `s = 2 zeta omega q' + omega^2 q` has
     /// `|s''| <= (1 + 4 zeta^2) omega^2 |q''| + 2 zeta omega^3 e* + 2 zeta omega |gamma| S`.
-    fn add_mode(
-        &mut self,
-        place: usize,
-        mode: Oscillator,
-        (largest, drift): (f64, f64),
-        bounds: &mut BuildingBounds,
-    ) {
+    fn add_mode(&mut self, place: usize, mode: Oscillator) {
         let (lane, l) = (place / WIDTH, place % WIDTH);
         let step = ModeStep::new(mode, self.step);
         let m = &mut self.modes[lane];
@@ -194,15 +197,12 @@ impl FreeFlight {
             (1.0 + 4.0 * zeta * zeta) * omega * omega,
             2.0 * zeta * omega * omega * omega,
         );
-        m.acceleration_bound[l] = largest * by_size;
-        m.drift_bound[l] = drift * by_size;
-        m.snap_bound[l] = largest * (second * by_size + third);
         let growth = gamma * self.step;
-        let acceleration = by_size * growth + gamma;
-        bounds.acceleration += largest * acceleration;
-        bounds.drift += drift * acceleration;
-        bounds.snap += largest * (second * acceleration + third * growth);
-        bounds.snap_by_slope += largest * 2.0 * zeta * omega * gamma;
+        let by_ground = by_size * growth + gamma;
+        (m.acceleration_bound[0][l], m.acceleration_bound[1][l]) = (by_size, by_ground);
+        m.snap_bound[0][l] = second * by_size + third;
+        m.snap_bound[1][l] = second * by_ground + third * growth;
+        m.snap_bound[2][l] = 2.0 * zeta * omega * gamma;
     }
 }
 

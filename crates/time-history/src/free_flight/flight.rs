@@ -4,8 +4,8 @@ use super::block::{self, BLOCK, Block, Extremes};
 use super::closer_look::CloserLook;
 use super::constants::FreeFlight;
 use super::lanes::{
-    Advance, Ground, Lane, Modal, Overshoot, Track, WIDTH, acceleration_turns, advance, balance,
-    drifts, raise, restoring, transform,
+    Advance, Ground, Lane, Modal, Track, WIDTH, acceleration_turns, advance, balance, drifts,
+    is_low, raise, restoring, transform,
 };
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
@@ -43,8 +43,6 @@ pub(crate) struct Flight {
     modal: Vec<Lane>,
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
-    /// Smallest peak of absolute acceleration of every building.
-    smallest: Vec<f64>,
     /// Penetrations at the last sample.
     penetration: Vec<f64>,
     look: CloserLook,
@@ -64,11 +62,10 @@ pub(super) struct Doubts {
 impl Flight {
     pub(crate) fn new(system: &System) -> Self {
         let lanes = system.degrees_of_freedom().div_ceil(WIDTH);
-        let buildings = system.buildings().len();
         let zeros = || vec![[0.0; WIDTH]; lanes];
         Self {
             now: Modal::new(lanes),
-            step: Advance::new(lanes, buildings),
+            step: Advance::new(lanes),
             displacement: Track::new(lanes),
             drift: Track::new(lanes),
             acceleration: Track::new(lanes),
@@ -76,10 +73,9 @@ impl Flight {
             modal: zeros(),
             start_energy: zeros(),
             drifted: zeros(),
-            smallest: vec![0.0; buildings],
             penetration: vec![0.0; system.levels().len()],
             look: CloserLook::new(lanes),
-            block: Block::new(lanes, system.levels().len(), buildings),
+            block: Block::new(lanes, system.levels().len()),
         }
     }
 
@@ -159,12 +155,7 @@ impl Flight {
     }
 
     fn read_peaks(&mut self, system: &System, peaks: &[StoreyPeaks]) {
-        for (range, (building, smallest)) in system
-            .offsets()
-            .windows(2)
-            .zip(system.buildings().iter().zip(&mut self.smallest))
-        {
-            *smallest = f64::INFINITY;
+        for (range, building) in system.offsets().windows(2).zip(system.buildings()) {
             for i in range[0]..range[1] {
                 let (c, l) = (i / WIDTH, i % WIDTH);
                 let storey = i - range[0];
@@ -175,7 +166,6 @@ impl Flight {
                 self.drift.time[c][l] = p.storey_shear.time;
                 self.acceleration.peak[c][l] = p.acceleration_absolute.value;
                 self.acceleration.time[c][l] = p.acceleration_absolute.time;
-                *smallest = smallest.min(p.acceleration_absolute.value);
             }
         }
     }
@@ -192,20 +182,19 @@ impl Flight {
         );
         Doubts {
             turn,
-            touch: self.may_touch(constants, leg),
-            acceleration: self.acceleration_may_peak(constants),
+            touch: self.may_touch(leg),
+            acceleration: self.acceleration_may_peak(constants, ground),
         }
     }
 
     /// Whether a gap could close within the sample. Leaves the penetrations at its end.
-    fn may_touch(&mut self, constants: &FreeFlight, leg: &Leg<'_>) -> bool {
+    fn may_touch(&mut self, leg: &Leg<'_>) -> bool {
         let u = self.displacement.next.as_flattened();
+        let overshoot = self.displacement.overshoot.as_flattened();
         let mut touch = false;
         let levels = leg.system.levels().iter().zip(&mut self.penetration);
         for (l, (level, penetration)) in levels.enumerate() {
-            let over = |floor: Option<usize>| {
-                floor.map_or(0.0, |i| self.step.over[constants.building[i]].displacement)
-            };
+            let over = |floor: Option<usize>| floor.map_or(0.0, |i| overshoot[i]);
             let end = level.relative(u) - leg.contacts.width(l);
             touch |= end.max(*penetration) + (over(level.left) + over(level.right)) > 0.0;
             *penetration = end;
@@ -215,9 +204,9 @@ impl Flight {
 
     /// Whether absolute acceleration could have a peak within the sample. It is below
     /// the bound of that relative to the ground, which mostly settles it.
-    fn acceleration_may_peak(&mut self, constants: &FreeFlight) -> bool {
-        let low = |(over, smallest): (&Overshoot, &f64)| over.relative <= *smallest;
-        if self.step.over.iter().zip(&self.smallest).all(low) {
+    fn acceleration_may_peak(&mut self, constants: &FreeFlight, ground: Ground) -> bool {
+        let overshoot = &self.displacement.overshoot;
+        if is_low(constants, overshoot, &self.acceleration.peak) {
             self.acceleration_known = false;
             return false;
         }
@@ -231,7 +220,7 @@ impl Flight {
         restoring(modes, q, p, &mut self.modal);
         transform(&constants.shapes, &self.modal, &mut self.acceleration.next);
         self.acceleration_known = true;
-        acceleration_turns(constants, &self.step.over, &mut self.acceleration)
+        acceleration_turns(constants, &mut self.step, ground, &mut self.acceleration)
     }
 
     /// Looks closer at a sample. Returns false if a gap closes in it.
@@ -281,22 +270,21 @@ impl Flight {
         samples.copy_from_slice(ground);
         let block = &mut self.block;
         block::fly(constants, &self.now, &samples, block);
-        if !block_is_low(constants, block, &self.displacement, &self.drift)
-            || block_may_touch(constants, leg, block, &self.penetration)
+        let [displacement, drift, _] = &block.over;
+        if !(below(&block.floors, &self.displacement, displacement)
+            && below(&block.drifts, &self.drift, drift))
+            || block_may_touch(leg, block, &self.penetration)
         {
             return false;
         }
-        let low = |(over, smallest): (&Overshoot, &f64)| over.relative <= *smallest;
-        if !block.over.iter().zip(&self.smallest).all(low) {
+        if !is_low(constants, displacement, &self.acceleration.peak) {
             if !self.acceleration_known {
                 let (q, p) = (&self.now.displacement, &self.now.velocity);
                 restoring(&constants.modes, q, p, &mut self.modal);
                 transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
             }
             block::accelerations(constants, block);
-            if !below(constants, &block.accelerations, &self.acceleration, |b| {
-                block.over[b].acceleration
-            }) {
+            if !below(&block.accelerations, &self.acceleration, &block.over[2]) {
                 return false;
             }
         }
@@ -373,48 +361,21 @@ impl Flight {
 
 /// Whether all values of a block, that at its start included, stay below the peaks by
 /// more than the overshoot.
-fn below(
-    constants: &FreeFlight,
-    values: &Extremes,
-    track: &Track,
-    over: impl Fn(usize) -> f64,
-) -> bool {
+fn below(values: &Extremes, track: &Track, overshoot: &[Lane]) -> bool {
     let (top, peak) = (values.top.as_flattened(), track.peak.as_flattened());
-    let now = track.now.as_flattened();
-    constants.shapes.iter().enumerate().all(|(b, shapes)| {
-        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-        let over = over(b);
-        let starts = now[range.clone()].iter().map(|x| x.abs());
-        let tops = starts.zip(&top[range.clone()]).map(|(a, b)| a.max(*b));
-        let mut pairs = tops.zip(&peak[range]);
-        pairs.all(|(top, peak)| top + over <= *peak)
-    })
-}
-
-fn block_is_low(
-    constants: &FreeFlight,
-    block: &Block,
-    displacement: &Track,
-    drift: &Track,
-) -> bool {
-    below(constants, &block.floors, displacement, |b| {
-        block.over[b].displacement
-    }) && below(constants, &block.drifts, drift, |b| block.over[b].drift)
+    let (now, over) = (track.now.as_flattened(), overshoot.as_flattened());
+    let tops = top.iter().zip(now).map(|(a, b)| a.max(b.abs()));
+    let mut all = tops.zip(over).zip(peak);
+    all.all(|((top, over), peak)| top + over <= *peak)
 }
 
 /// Whether a gap could close within the block.
-fn block_may_touch(
-    constants: &FreeFlight,
-    leg: &Leg<'_>,
-    block: &Block,
-    penetration: &[f64],
-) -> bool {
+fn block_may_touch(leg: &Leg<'_>, block: &Block, penetration: &[f64]) -> bool {
     let top = block.levels.top.as_flattened();
+    let overshoot = block.over[0].as_flattened();
     let levels = leg.system.levels().iter().zip(penetration);
     levels.enumerate().any(|(l, (level, start))| {
-        let over = |floor: Option<usize>| {
-            floor.map_or(0.0, |i| block.over[constants.building[i]].displacement)
-        };
+        let over = |floor: Option<usize>| floor.map_or(0.0, |i| overshoot[i]);
         let reach = (top[l] - leg.contacts.width(l)).max(*start);
         reach + (over(level.left) + over(level.right)) > 0.0
     })

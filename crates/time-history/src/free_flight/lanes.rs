@@ -24,11 +24,11 @@ pub(crate) struct ModeLanes {
     pub circular_frequency: Lane,
     /// `2 zeta omega`.
     pub damping: Lane,
-    /// Weights of `|q'| + omega |q|` in the bounds of floor acceleration, of the second
-    /// derivative of drift, and of that of absolute floor acceleration.
-    pub acceleration_bound: Lane,
-    pub drift_bound: Lane,
-    pub snap_bound: Lane,
+    /// Bounds of the mode's part in floor acceleration, and in the second derivative of
+    /// absolute floor acceleration: weights of `|q'| + omega |q|`, of the greatest ground
+    /// acceleration, and of its greatest slope.
+    pub acceleration_bound: [Lane; 2],
+    pub snap_bound: [Lane; 3],
 }
 
 /// Modal state of a system, and what it has worked since take-off.
@@ -60,19 +60,6 @@ pub(crate) struct Shapes {
     pub columns: Vec<Lane>,
 }
 
-/// Parts of a building's bounds that the ground motion makes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BuildingBounds {
-    /// Floor acceleration relative to the ground for a ground acceleration of 1.
-    pub acceleration: f64,
-    /// Second derivative of drift, likewise.
-    pub drift: f64,
-    /// Second derivative of absolute floor acceleration, likewise.
-    pub snap: f64,
-    /// The same for a slope of the ground acceleration of 1 (1/s).
-    pub snap_by_slope: f64,
-}
-
 /// A function of time at every floor, sampled: present and next values, and its peak.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Track {
@@ -85,28 +72,13 @@ pub(crate) struct Track {
     pub overshoot: Vec<Lane>,
 }
 
-/// Bounds of what a building's functions can do between samples beyond their values
-/// there.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Overshoot {
-    /// Floor displacement (m).
-    pub displacement: f64,
-    /// Storey drift (m).
-    pub drift: f64,
-    /// Absolute acceleration (m/s2).
-    pub acceleration: f64,
-    /// Bound of the floor accelerations relative to the ground (m/s2).
-    pub relative: f64,
-}
-
 /// What [`advance`] leaves behind.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Advance {
     pub next: Modal,
     /// `|q'| + omega |q|` of every mode at the start.
     size: Vec<Lane>,
-    /// Of every building.
-    pub over: Vec<Overshoot>,
+    modal: Vec<Lane>,
 }
 
 impl Modal {
@@ -122,11 +94,11 @@ impl Modal {
 }
 
 impl Advance {
-    pub(crate) fn new(lanes: usize, buildings: usize) -> Self {
+    pub(crate) fn new(lanes: usize) -> Self {
         Self {
             next: Modal::new(lanes),
             size: vec![[0.0; WIDTH]; lanes],
-            over: vec![Overshoot::default(); buildings],
+            modal: vec![[0.0; WIDTH]; lanes],
         }
     }
 }
@@ -168,45 +140,69 @@ pub(crate) fn advance(
         &mut displacement.next,
     );
     drifts(&constants.shapes, &displacement.next, &mut drift.next);
-    let largest = (ground.start.abs().max(ground.end.abs()), ground.slope.abs());
-    overshoots(constants, &out.size, largest, &mut out.over);
-    for (shapes, over) in constants.shapes.iter().zip(&out.over) {
-        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-        displacement.overshoot.as_flattened_mut()[range.clone()].fill(over.displacement);
-        drift.overshoot.as_flattened_mut()[range].fill(over.drift);
-    }
+    let largest = ground.start.abs().max(ground.end.abs());
+    overshoots(
+        constants,
+        &out.size,
+        largest,
+        &mut out.modal,
+        (&mut displacement.overshoot, &mut drift.overshoot),
+    );
     turns_above(displacement) | turns_above(drift)
 }
 
-/// Overshoots of all buildings for these sizes of the modes, and this greatest ground
-/// acceleration and slope.
+/// Bounds of what displacements and drifts can do between samples beyond their values
+/// there, for these sizes of the modes and this greatest ground acceleration.
 #[inline(always)]
 pub(crate) fn overshoots(
     constants: &FreeFlight,
     size: &[Lane],
-    (largest, slope): (f64, f64),
-    out: &mut [Overshoot],
+    largest: f64,
+    modal: &mut [Lane],
+    (displacement, drift): (&mut [Lane], &mut [Lane]),
 ) {
-    let eighth = 0.125 * constants.step * constants.step;
-    let buildings = constants.shapes.iter().zip(&constants.bounds);
-    for ((shapes, fixed), over) in buildings.zip(out) {
-        let mut a = fixed.acceleration * largest;
-        let mut d = fixed.drift * largest;
-        let mut s = fixed.snap * largest + fixed.snap_by_slope * slope;
-        for place in shapes.first_mode..shapes.first_mode + shapes.modes {
-            let (c, l) = (place / WIDTH, place % WIDTH);
-            let (m, size) = (&constants.modes[c], size[c][l]);
-            a += m.acceleration_bound[l] * size;
-            d += m.drift_bound[l] * size;
-            s += m.snap_bound[l] * size;
+    let eighth = constants.eighth();
+    for (c, m) in constants.modes.iter().enumerate() {
+        let (size, [by_size, by_ground]) = (size[c], m.acceleration_bound);
+        let mut sum = [0.0; WIDTH];
+        for l in 0..WIDTH {
+            sum[l] = eighth * (by_size[l] * size[l] + by_ground[l] * largest);
         }
-        *over = Overshoot {
-            displacement: eighth * a,
-            drift: eighth * d,
-            acceleration: eighth * s,
-            relative: a,
-        };
+        modal[c] = sum;
     }
+    to_floors(&constants.magnitudes, modal, displacement);
+    to_floors(&constants.drift_magnitudes, modal, drift);
+}
+
+/// The same for absolute acceleration, with the greatest slope of the ground's.
+#[inline(always)]
+pub(crate) fn acceleration_overshoots(
+    constants: &FreeFlight,
+    size: &[Lane],
+    (largest, slope): (f64, f64),
+    modal: &mut [Lane],
+    acceleration: &mut [Lane],
+) {
+    let eighth = constants.eighth();
+    for (c, m) in constants.modes.iter().enumerate() {
+        let (size, [by_size, by_ground, by_slope]) = (size[c], m.snap_bound);
+        let mut sum = [0.0; WIDTH];
+        for l in 0..WIDTH {
+            let ground = by_ground[l] * largest + by_slope[l] * slope;
+            sum[l] = eighth * (by_size[l] * size[l] + ground);
+        }
+        modal[c] = sum;
+    }
+    to_floors(&constants.magnitudes, modal, acceleration);
+}
+
+/// Whether the bound of floor acceleration, told by the overshoot of displacement, is
+/// below all peaks of absolute acceleration.
+#[inline(always)]
+pub(crate) fn is_low(constants: &FreeFlight, displacement: &[Lane], peak: &[Lane]) -> bool {
+    let eighth = constants.eighth();
+    let pairs = displacement.as_flattened().iter().zip(peak.as_flattened());
+    pairs.fold(true, |all, (over, peak)| all & (*over <= eighth * peak))
 }
 
 #[inline(always)]
@@ -318,7 +314,7 @@ fn turns_above(track: &Track) -> bool {
     any.iter().fold(0, |all, x| all | x) != 0
 }
 
-/// [`turns_above`] for the absolute acceleration, whose bounds are not filled in yet.
+/// [`turns_above`] for the absolute acceleration, after [`advance`].
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -327,13 +323,18 @@ fn turns_above(track: &Track) -> bool {
 ))]
 pub(crate) fn acceleration_turns(
     constants: &FreeFlight,
-    over: &[Overshoot],
+    out: &mut Advance,
+    ground: Ground,
     acceleration: &mut Track,
 ) -> bool {
-    for (shapes, over) in constants.shapes.iter().zip(over) {
-        let range = shapes.first_mode..shapes.first_mode + shapes.modes;
-        acceleration.overshoot.as_flattened_mut()[range].fill(over.acceleration);
-    }
+    let largest = (ground.start.abs().max(ground.end.abs()), ground.slope.abs());
+    acceleration_overshoots(
+        constants,
+        &out.size,
+        largest,
+        &mut out.modal,
+        &mut acceleration.overshoot,
+    );
     turns_above(acceleration)
 }
 

@@ -17,7 +17,7 @@ const LONGEST: (f64, f64) = (0.7, 0.4);
 pub(crate) struct EventDriven {
     taylor: Taylor,
     pair: Adaptive,
-    /// Circular frequency of the fastest mode of all buildings (rad/s).
+    /// Frequency, or rate of decay, of the fastest mode of all buildings (rad/s).
     fastest: f64,
     /// Circular frequency of the stiffest closed contact (rad/s).
     contact: f64,
@@ -30,8 +30,9 @@ impl EventDriven {
     pub(crate) fn new(system: &System, relative_tolerance: f64) -> Self {
         let layout = Layout::of(system);
         let modes = system.buildings().iter().map(|b| b.modes());
-        let fastest = modes
-            .filter_map(|m| m.circular_frequency.last().copied())
+        let rates = modes.flat_map(|m| m.circular_frequency.iter().zip(&m.damping_ratio));
+        let fastest = rates
+            .map(|(omega, zeta)| omega * (2.0 * zeta).max(1.0))
             .fold(0.0, f64::max);
         Self {
             taylor: Taylor::new(system),

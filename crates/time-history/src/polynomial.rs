@@ -237,7 +237,7 @@ fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
         } else {
             0.5 * (low + high)
         };
-        if (next - x).abs() <= 1.0e-16 || high - low <= 1.0e-16 {
+        if (next - x).abs() <= 1.0e-15 || high - low <= 1.0e-15 {
             return next;
         }
         x = next;

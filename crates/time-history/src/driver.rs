@@ -1,6 +1,8 @@
 //! The run: steps, events, peaks, ledger.
 
 mod event_handling;
+mod open_flight;
+mod result;
 mod rigid_impacts;
 mod stepped_impacts;
 
@@ -8,12 +10,12 @@ use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, Finder};
-use crate::free_flight::{Flight, FreeFlight, Leg, Logbook};
+use crate::free_flight::{Flight, FreeFlight};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
 use crate::options::RunOptions;
-use crate::outcome::{BuildingOutcome, GapOutcome, Ledger, Outcome, Statistics};
+use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
@@ -179,58 +181,6 @@ impl<'a> Driver<'a> {
             dynamics,
         }
         .ready_to_fly()
-    }
-
-    fn ready_to_fly(mut self) -> Self {
-        if self.method.flies() {
-            let constants = FreeFlight::new(self.system, self.system.ground().time_step);
-            self.open = constants.map(|c| (c, Flight::new(self.system)));
-        }
-        self
-    }
-
-    /// Flies from this sample on while no gap can close and no peak can lie between
-    /// samples. Returns the number of samples flown.
-    fn fly(&mut self, sample: usize, duration: f64) -> usize {
-        let Some((constants, flight)) = &mut self.open else {
-            return 0;
-        };
-        let ground = self.system.ground();
-        let whole = (duration / ground.time_step * (1.0 + 1.0e-12)).floor() as usize;
-        let leg = Leg {
-            system: self.system,
-            contacts: &self.contacts,
-            from: sample,
-            to: whole.min(ground.samples.len().saturating_sub(1)),
-        };
-        let quiet = self.mute.iter().all(|m| *m == Mute::No);
-        if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
-            return 0;
-        }
-        let before = self.ledger.end.residual.abs();
-        let mut book = Logbook {
-            state: &mut self.state,
-            peaks: &mut self.peaks.storeys,
-            largest_input: &mut self.ledger.largest_input,
-            residual: 0.0,
-        };
-        let flown = flight.fly(constants, &leg, &mut book);
-        let residual = before + book.residual;
-        if flown > 0 {
-            self.largest_residual = self.largest_residual.max(residual);
-            self.ledger.end = ledger::energy(
-                self.system,
-                self.dynamics.layout,
-                &self.contacts,
-                &self.state,
-            );
-            self.method.restart(true);
-            self.last_ground = ground.samples[sample + flown];
-            self.statistics.steps += flown as u64;
-            self.at_once.fill(0);
-            self.stalled = 0;
-        }
-        flown
     }
 
     fn begin(&mut self, recorders: &mut [&mut dyn Recorder]) -> Result<(), TimeHistoryError> {
@@ -453,71 +403,5 @@ impl<'a> Driver<'a> {
         } else {
             places.join(", ")
         }
-    }
-
-    fn finish(
-        mut self,
-        duration: f64,
-        recorders: &mut [&mut dyn Recorder],
-    ) -> Result<Outcome, TimeHistoryError> {
-        let layout = self.dynamics.layout;
-        let n = layout.dofs;
-        for l in 0..layout.levels {
-            let stored = ledger::stored_energy(self.system, &self.contacts, l, &self.state[..n]);
-            self.log
-                .open(l, None, &self.peaks, layout, &self.state, stored);
-        }
-        for impact in self.log.finished() {
-            for recorder in recorders.iter_mut() {
-                recorder.impact(impact)?;
-            }
-        }
-        if self.ledger.largest_input > 0.0 {
-            self.ledger.residual_ratio = self.largest_residual / self.ledger.largest_input;
-        }
-        let allowed = self.options.energy_tolerance();
-        if self.ledger.residual_ratio > allowed {
-            return Err(TimeHistoryError::EnergyResidual {
-                residual: self.ledger.residual_ratio,
-                allowed,
-                time: duration,
-                method: self.method.information().title,
-            });
-        }
-        let counts = self.method.counts();
-        self.statistics.evaluations = counts.evaluations;
-        self.statistics.newton_iterations = counts.newton_iterations;
-        let buildings = self
-            .system
-            .buildings()
-            .iter()
-            .zip(self.system.offsets().windows(2))
-            .map(|(b, range)| BuildingOutcome {
-                name: b.name().to_owned(),
-                storeys: self.peaks.storeys[range[0]..range[1]].to_vec(),
-            })
-            .collect();
-        let (levels, impacts) = self.log.into_outcome();
-        let gaps = self
-            .system
-            .gaps()
-            .iter()
-            .map(|g| GapOutcome {
-                name: g.name.clone(),
-                levels: levels[g.first_level..g.first_level + g.levels].to_vec(),
-            })
-            .collect();
-        Ok(Outcome {
-            method: self.method.information(),
-            end_time: duration,
-            buildings,
-            gaps,
-            impacts,
-            energy: self.ledger,
-            final_displacement: self.state[..n].to_vec(),
-            final_velocity: self.state[n..2 * n].to_vec(),
-            statistics: self.statistics,
-            warnings: Vec::new(),
-        })
     }
 }

@@ -1,0 +1,59 @@
+//! Leaving open flight to the exact step of the modes.
+
+use super::{Driver, Mute};
+use crate::free_flight::{Flight, FreeFlight, Leg, Logbook};
+use crate::ledger;
+
+impl Driver<'_> {
+    pub(super) fn ready_to_fly(mut self) -> Self {
+        if self.method.flies() {
+            let constants = FreeFlight::new(self.system, self.system.ground().time_step);
+            self.open = constants.map(|c| (c, Flight::new(self.system)));
+        }
+        self
+    }
+
+    /// Flies from this sample on while no gap can close and no peak can lie between
+    /// samples. Returns the number of samples flown.
+    pub(super) fn fly(&mut self, sample: usize, duration: f64) -> usize {
+        let Some((constants, flight)) = &mut self.open else {
+            return 0;
+        };
+        let ground = self.system.ground();
+        let whole = (duration / ground.time_step * (1.0 + 1.0e-12)).floor() as usize;
+        let leg = Leg {
+            system: self.system,
+            contacts: &self.contacts,
+            from: sample,
+            to: whole.min(ground.samples.len().saturating_sub(1)),
+        };
+        let quiet = self.mute.iter().all(|m| *m == Mute::No);
+        if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
+            return 0;
+        }
+        let before = self.ledger.end.residual.abs();
+        let mut book = Logbook {
+            state: &mut self.state,
+            peaks: &mut self.peaks.storeys,
+            largest_input: &mut self.ledger.largest_input,
+            residual: 0.0,
+        };
+        let flown = flight.fly(constants, &leg, &mut book);
+        let residual = before + book.residual;
+        if flown > 0 {
+            self.largest_residual = self.largest_residual.max(residual);
+            self.ledger.end = ledger::energy(
+                self.system,
+                self.dynamics.layout,
+                &self.contacts,
+                &self.state,
+            );
+            self.method.restart(true);
+            self.last_ground = ground.samples[sample + flown];
+            self.statistics.steps += flown as u64;
+            self.at_once.fill(0);
+            self.stalled = 0;
+        }
+        flown
+    }
+}

@@ -4,7 +4,9 @@
 use multiversion::multiversion;
 
 use super::constants::FreeFlight;
-use super::lanes::{Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, overshoots};
+use super::lanes::{
+    Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, overshoots, step_modes,
+};
 
 /// Samples of a block.
 pub(super) const BLOCK: usize = 8;
@@ -159,42 +161,31 @@ fn modes(
     step: f64,
     mut store: impl FnMut(usize, Lane, Lane),
 ) -> ([Lane; 4], Lane) {
-    let [mut q, mut p, mut input, mut viscous] = start;
+    let mut state = start;
     let mut largest = [0.0; WIDTH];
     for s in 0..BLOCK {
-        let (a, b) = (samples[s], samples[s + 1]);
-        let slope = (b - a) / step;
-        let linear = |k: &[Lane; 4]| -> Lane {
-            let mut out = [0.0; WIDTH];
-            for l in 0..WIDTH {
-                out[l] = k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * a + k[3][l] * b);
-            }
-            out
+        let (start, end) = (samples[s], samples[s + 1]);
+        let ground = Ground {
+            start,
+            end,
+            slope: (end - start) / step,
         };
-        let (end, speed, integral) = (
-            linear(&m.displacement),
-            linear(&m.velocity),
-            linear(&m.integral),
-        );
-        let k = &m.viscous;
-        for l in 0..WIDTH {
-            let size = p[l].abs() + m.circular_frequency[l] * q[l].abs();
-            largest[l] = if size > largest[l] { size } else { largest[l] };
-            let moved = end[l] * b - q[l] * a - slope * integral[l];
-            input[l] -= m.participation[l] * moved;
-            viscous[l] += q[l] * (k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * a + k[3][l] * b))
-                + p[l] * (k[4][l] * p[l] + (k[5][l] * a + k[6][l] * b))
-                + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
-        }
-        (q, p) = (end, speed);
+        let (next, size) = step_modes(m, state, ground);
+        state = next;
+        let [q, p, ..] = state;
         let mut absolute = [0.0; WIDTH];
         for l in 0..WIDTH {
             let omega = m.circular_frequency[l];
             absolute[l] = m.damping[l] * p[l] + omega * omega * q[l];
+            largest[l] = if size[l] > largest[l] {
+                size[l]
+            } else {
+                largest[l]
+            };
         }
         store(s, q, absolute);
     }
-    ([q, p, input, viscous], largest)
+    (state, largest)
 }
 
 /// Extremes of rows over the block: of their magnitude, or of their value.

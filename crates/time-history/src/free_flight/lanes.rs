@@ -207,45 +207,53 @@ pub(crate) fn is_low(constants: &FreeFlight, displacement: &[Lane], peak: &[Lane
 
 #[inline(always)]
 fn modal_step(modes: &[ModeLanes], now: &Modal, ground: Ground, out: &mut Advance) {
-    let (a, b, slope) = (ground.start, ground.end, ground.slope);
-    let count = modes.len();
-    let (q0, p0) = (&now.displacement[..count], &now.velocity[..count]);
-    let (i0, w0) = (&now.input[..count], &now.viscous[..count]);
-    let next = &mut out.next;
-    let (q1, p1) = (&mut next.displacement[..count], &mut next.velocity[..count]);
-    let (i1, w1) = (&mut next.input[..count], &mut next.viscous[..count]);
-    let sizes = &mut out.size[..count];
-    for c in 0..count {
-        // Copies: what does not alias is computed eight at a time.
-        let m = &modes[c];
-        let (x, v, mut input, mut viscous) = (q0[c], p0[c], i0[c], w0[c]);
-        let linear = |k: &[Lane; 4]| -> Lane {
-            let mut out = [0.0; WIDTH];
-            for l in 0..WIDTH {
-                out[l] = k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b);
-            }
-            out
-        };
-        let (end, speed, integral) = (
-            linear(&m.displacement),
-            linear(&m.velocity),
-            linear(&m.integral),
-        );
-        let k = &m.viscous;
-        for l in 0..WIDTH {
-            let moved = end[l] * b - x[l] * a - slope * integral[l];
-            input[l] -= m.participation[l] * moved;
-            viscous[l] += x[l] * (k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b))
-                + v[l] * (k[4][l] * v[l] + (k[5][l] * a + k[6][l] * b))
-                + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
-        }
-        let mut size = [0.0; WIDTH];
-        for l in 0..WIDTH {
-            size[l] = v[l].abs() + m.circular_frequency[l] * x[l].abs();
-        }
-        (q1[c], p1[c], i1[c], w1[c]) = (end, speed, input, viscous);
-        sizes[c] = size;
+    for (c, m) in modes.iter().enumerate() {
+        let start = [
+            now.displacement[c],
+            now.velocity[c],
+            now.input[c],
+            now.viscous[c],
+        ];
+        let ([q, p, input, viscous], size) = step_modes(m, start, ground);
+        let next = &mut out.next;
+        (next.displacement[c], next.velocity[c]) = (q, p);
+        (next.input[c], next.viscous[c]) = (input, viscous);
+        out.size[c] = size;
     }
+}
+
+/// Displacement, velocity, input and viscous work of eight modes after a step, and their
+/// `|q'| + omega |q|` before it.
+#[inline(always)]
+pub(super) fn step_modes(
+    m: &ModeLanes,
+    [x, v, mut input, mut viscous]: [Lane; 4],
+    ground: Ground,
+) -> ([Lane; 4], Lane) {
+    let (a, b, slope) = (ground.start, ground.end, ground.slope);
+    let linear = |k: &[Lane; 4]| -> Lane {
+        let mut out = [0.0; WIDTH];
+        for l in 0..WIDTH {
+            out[l] = k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b);
+        }
+        out
+    };
+    let (end, speed, integral) = (
+        linear(&m.displacement),
+        linear(&m.velocity),
+        linear(&m.integral),
+    );
+    let k = &m.viscous;
+    let mut size = [0.0; WIDTH];
+    for l in 0..WIDTH {
+        let moved = end[l] * b - x[l] * a - slope * integral[l];
+        input[l] -= m.participation[l] * moved;
+        viscous[l] += x[l] * (k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b))
+            + v[l] * (k[4][l] * v[l] + (k[5][l] * a + k[6][l] * b))
+            + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
+        size[l] = v[l].abs() + m.circular_frequency[l] * x[l].abs();
+    }
+    ([end, speed, input, viscous], size)
 }
 
 /// Floors from modes: `u = Phi q`.

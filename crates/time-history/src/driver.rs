@@ -223,7 +223,7 @@ impl<'a> Driver<'a> {
                 contacts: &self.contacts,
                 segment,
             };
-            let mut step = self.method.propose(&context, tau);
+            let mut step = self.method.propose(&context, tau, &self.state);
             for (mute, quiet) in self.mute.iter().zip(&self.quiet) {
                 if *mute != Mute::No {
                     step = step.min(*quiet);

@@ -20,7 +20,17 @@ pub(crate) struct Adaptive {
     next: f64,
     last_norm: f64,
     step: f64,
+    /// Time (s) since the last start like a power of time, while it matters.
+    since: Option<f64>,
 }
+
+/// Growth of a step beyond what error control asks for, after such a start.
+const LARGEST_GROWTH: f64 = 2.0;
+
+/// Part of the time to the end of a contact that a step may take, and the change of
+/// velocity by what force is left, in allowed errors, that an end may have.
+const CLEAR: f64 = 0.65;
+const NEGLIGIBLE_CHANGE: f64 = 2.0e3;
 
 /// Sizes (m, m/s) below which a displacement or velocity is controlled
 /// absolutely: a hundredth of a metre, a tenth of a metre per second.
@@ -36,7 +46,37 @@ impl Adaptive {
             next: 1.0e-3,
             last_norm: 0.0,
             step: 0.0,
+            since: None,
         }
+    }
+}
+
+impl Adaptive {
+    /// Longest step (s) that stays clear of the ends of contacts whose force ends like
+    /// a power of the penetration: near such an end steps are as long as it is away,
+    /// until what is left of the force does not matter.
+    fn before_the_end(&self, context: &Context<'_, '_>, state: &[f64]) -> f64 {
+        let n = self.layout.dofs;
+        let system = context.dynamics.system;
+        let mut longest = f64::INFINITY;
+        for &l in context.contacts.closed() {
+            let level = &system.levels()[l];
+            let Some(contact) = context.contacts.contact(l) else {
+                continue;
+            };
+            let velocity = level.relative(&state[n..2 * n]);
+            if contact.is_stuck() || level.model.smooth_at_closure() || velocity >= 0.0 {
+                continue;
+            }
+            let delta = context.contacts.penetration(system, l, &state[..n]);
+            let left = delta / -velocity;
+            let force = contact.force(level, delta, velocity).value;
+            let change = force.abs() / level.effective_mass * left;
+            if change > NEGLIGIBLE_CHANGE * self.relative_tolerance * VELOCITY_SIZE {
+                longest = longest.min(CLEAR * left);
+            }
+        }
+        longest
     }
 }
 
@@ -51,8 +91,12 @@ impl Method for Adaptive {
         }
     }
 
-    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64, state: &[f64]) -> f64 {
         let rest = context.segment.length - tau;
+        let end = self.before_the_end(context, state);
+        if self.next > end {
+            return end.min(rest);
+        }
         if self.next >= rest * (1.0 - 1.0e-9) {
             rest
         } else if self.next > 0.5 * rest {
@@ -116,7 +160,13 @@ impl Method for Adaptive {
 
     fn accept(&mut self, cut: bool) {
         self.pair.advance();
-        let wanted = self.step * Dop853::step_factor(self.last_norm);
+        let mut wanted = self.step * Dop853::step_factor(self.last_norm);
+        if let Some(since) = self.since {
+            // The further from the start, the longer a step with the same error.
+            let growth = (since + self.step) / since;
+            wanted *= growth.min(LARGEST_GROWTH);
+            self.since = (growth > 1.1 || since == 0.0).then_some(since + self.step);
+        }
         // A step cut by an event or a sample says nothing against a longer one.
         if cut || self.step < self.next {
             self.next = self.next.max(wanted);
@@ -129,6 +179,7 @@ impl Method for Adaptive {
         self.pair.invalidate();
         if !smooth {
             self.next = SINGULAR_START;
+            self.since = Some(0.0);
         }
     }
 

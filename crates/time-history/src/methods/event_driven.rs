@@ -74,10 +74,10 @@ impl Method for EventDriven {
         }
     }
 
-    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64, state: &[f64]) -> f64 {
         self.look_at(context);
         if !self.affine {
-            return self.pair.propose(context, tau);
+            return self.pair.propose(context, tau, state);
         }
         let rest = context.segment.length - tau;
         let fastest = (self.fastest / LONGEST.0).max(self.contact / LONGEST.1);

@@ -62,7 +62,7 @@ pub(crate) struct Counts {
 pub(crate) trait Method {
     fn information(&self) -> Information;
     /// Step to try from `tau` in the context's segment (s).
-    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64;
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64, state: &[f64]) -> f64;
     /// Computes a trial step from `state` at `tau`.
     fn trial(
         &mut self,

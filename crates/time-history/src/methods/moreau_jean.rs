@@ -178,7 +178,7 @@ impl Method for MoreauJean {
         }
     }
 
-    fn propose(&mut self, context: &Context<'_, '_>, tau: f64) -> f64 {
+    fn propose(&mut self, context: &Context<'_, '_>, tau: f64, _state: &[f64]) -> f64 {
         step_to_grid(context.segment, tau, self.fixed)
     }
 

@@ -169,3 +169,26 @@ fn tolerances_and_methods_agree() {
         }
     }
 }
+
+/// Modes far above critical damping, which forget their velocity much faster than they
+/// would swing: after impacts the steps have to follow that.
+#[test]
+fn overdamped_modes_are_followed() {
+    let dampings = [
+        Damping::StiffnessProportional { ratio: 0.9 },
+        Damping::Rayleigh {
+            alpha: 0.1,
+            beta: 0.5,
+        },
+        Damping::Dashpots {
+            coefficients: vec![4.0e4, 0.0, 9.0e6, 1.0e4, 8.0e7, 2.0e4],
+        },
+    ];
+    for damping in dampings {
+        let label = format!("{damping:?}");
+        let pounding = beside_a_wall(0.001, 6, damping);
+        let outcome = go(&pounding, event_driven(1e-10));
+        assert!(outcome.impacts.len() > 3, "{label}");
+        agree(&label, &outcome, &go(&pounding, ADAPTIVE), 1e-6);
+    }
+}

@@ -17,6 +17,7 @@ mod options;
 mod outcome;
 mod peaks;
 mod polynomial;
+mod rates;
 mod recorder;
 mod result_file;
 mod small_solver;

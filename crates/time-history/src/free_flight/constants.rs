@@ -5,6 +5,7 @@ use pounding_shear_building::{Damping, ShearBuilding};
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
+use crate::rates::fastest_rate;
 use crate::system::System;
 
 /// Exact steps, mode shapes and bounds of all buildings for one length of step.
@@ -38,8 +39,8 @@ pub(crate) struct Fine {
     pub modes: Vec<ModeLanes>,
 }
 
-/// Greatest product of frequency, or rate of decay, and fine step: the interpolant then errs by less than
-/// 1e-8 of the amplitude of the fastest mode.
+/// Greatest product of the fastest rate and the fine step: the interpolant then errs by
+/// less than 1e-8 of the amplitude of the fastest mode.
 const FINE: f64 = 0.7;
 
 impl FreeFlight {
@@ -52,11 +53,8 @@ impl FreeFlight {
         }
         let mut this = Self::with_step(system, step);
         this.add_rows(system);
-        let rates = this
-            .modes
-            .iter()
-            .flat_map(|m| m.circular_frequency.into_iter().chain(m.damping));
-        let parts = (rates.fold(0.0, f64::max) * step / FINE).ceil().max(1.0);
+        let fastest = fastest_rate(system.buildings());
+        let parts = (fastest * step / FINE).ceil().max(1.0);
         this.fine = Some(Fine {
             parts: parts as usize,
             step: step / parts,

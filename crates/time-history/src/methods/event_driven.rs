@@ -4,9 +4,10 @@ use super::taylor::Taylor;
 use super::{Adaptive, Context, Counts, Information, Method, Verdict};
 use crate::dynamics::Layout;
 use crate::polynomial::Polynomial;
+use crate::rates::fastest_rate;
 use crate::system::System;
 
-/// Greatest product of frequency and step for the Taylor series, for the fastest mode
+/// Greatest product of rate and step for the Taylor series, for the fastest mode
 /// and for the stiffest contact: the interpolant of degree 7 then errs by less than
 /// 6e-9 of the mode's amplitude, and 1e-10 of the penetration.
 const LONGEST: (f64, f64) = (0.7, 0.4);
@@ -17,7 +18,7 @@ const LONGEST: (f64, f64) = (0.7, 0.4);
 pub(crate) struct EventDriven {
     taylor: Taylor,
     pair: Adaptive,
-    /// Frequency, or rate of decay, of the fastest mode of all buildings (rad/s).
+    /// Rate of the fastest mode of all buildings (1/s).
     fastest: f64,
     /// Circular frequency of the stiffest closed contact (rad/s).
     contact: f64,
@@ -29,15 +30,10 @@ pub(crate) struct EventDriven {
 impl EventDriven {
     pub(crate) fn new(system: &System, relative_tolerance: f64) -> Self {
         let layout = Layout::of(system);
-        let modes = system.buildings().iter().map(|b| b.modes());
-        let rates = modes.flat_map(|m| m.circular_frequency.iter().zip(&m.damping_ratio));
-        let fastest = rates
-            .map(|(omega, zeta)| omega * (2.0 * zeta).max(1.0))
-            .fold(0.0, f64::max);
         Self {
             taylor: Taylor::new(system),
             pair: Adaptive::new(layout, relative_tolerance),
-            fastest,
+            fastest: fastest_rate(system.buildings()),
             contact: 0.0,
             by_series: false,
             affine: true,

@@ -192,3 +192,23 @@ fn overdamped_modes_are_followed() {
         agree(&label, &outcome, &go(&pounding, ADAPTIVE), 1e-6);
     }
 }
+
+/// A building let go with its floors on their way back: its greatest displacement,
+/// drift and acceleration are those of time zero, and no sample comes after them.
+#[test]
+fn peaks_at_the_start_are_found() {
+    let displacement = [0.01, 0.02, 0.03, 0.035, 0.04, 0.042];
+    let free = beside_a_wall(10.0, 6, Damping::StiffnessProportional { ratio: 0.3 });
+    let ground = GroundAcceleration {
+        samples: vec![0.0; 2000].into(),
+        time_step: 0.001,
+    };
+    let mut free = System::new(free.buildings().to_vec(), ground);
+    free = free
+        .with_initial_state(&displacement, &displacement.map(|u| -5.0 * u))
+        .unwrap();
+    let outcome = go(&free, event_driven(1e-10));
+    agree("let go", &outcome, &go(&free, ADAPTIVE), 1e-7);
+    let roof = outcome.buildings[0].storeys[5].displacement;
+    assert_eq!((roof.value, roof.time), (0.042, 0.0));
+}

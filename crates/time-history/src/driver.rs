@@ -196,6 +196,7 @@ impl<'a> Driver<'a> {
             contacts: &self.contacts,
             segment: &segment,
         };
+        self.peaks.begin(&mut context, &self.state);
         let mut sample = Sample::default();
         fill_sample(&mut context, 0.0, ground, &self.state, &mut sample);
         for recorder in recorders {

@@ -38,6 +38,32 @@ impl Peaks {
         }
     }
 
+    /// Takes the state at time zero in, with all gaps open.
+    pub(crate) fn begin(&mut self, context: &mut Context<'_, '_>, state: &[f64]) {
+        let n = self.acceleration.len();
+        let (u, v, ground) = (&state[..n], &state[n..2 * n], context.segment.acceleration);
+        let out = &mut self.acceleration;
+        context
+            .dynamics
+            .accelerations(context.contacts, ground, u, v, out);
+        let system = context.dynamics.system;
+        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
+            let mut below = 0.0;
+            for (storey, i) in (range[0]..range[1]).enumerate() {
+                let (drift, peaks) = ((u[i] - below).abs(), &mut self.storeys[i]);
+                let shear = building.stiffness()[storey] * drift;
+                let acceleration = (self.acceleration[i] + ground).abs();
+                peaks.displacement.raise(u[i].abs(), 0.0);
+                peaks
+                    .drift_ratio
+                    .raise(drift / building.height()[storey], 0.0);
+                peaks.storey_shear.raise(shear, 0.0);
+                peaks.acceleration_absolute.raise(acceleration, 0.0);
+                below = u[i];
+            }
+        }
+    }
+
     /// Takes an accepted step in: `place` is tau and step length (s).
     pub(crate) fn step(
         &mut self,

@@ -284,7 +284,7 @@ pub(crate) const ANALYSIS: &[Key] = &[
     key(
         "relative_tolerance",
         Kind::Quantity,
-        "Relative tolerance: of the adaptive method, by default 1e-10; of the event-driven one inside contacts, 1e-9",
+        "Relative tolerance of the adaptive method, and of the event-driven one inside contacts, by default 1e-10",
     ),
     key(
         "energy_tolerance",

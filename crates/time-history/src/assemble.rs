@@ -11,9 +11,7 @@ use pounding_shear_building::ShearBuilding;
 
 use crate::dimension::parameter_dimension;
 use crate::error::TimeHistoryError;
-use crate::options::{
-    DEFAULT_CONTACT_TOLERANCE, DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions,
-};
+use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 use crate::system::{Floor, GroundAcceleration, System};
 
 /// All that a run needs, made from a case.
@@ -242,7 +240,7 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
         "event_driven" => MethodChoice::EventDriven {
             relative_tolerance: analysis
                 .relative_tolerance
-                .unwrap_or(DEFAULT_CONTACT_TOLERANCE),
+                .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
         },
         "newmark" => MethodChoice::Newmark {
             step: step()?,

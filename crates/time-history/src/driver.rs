@@ -58,7 +58,7 @@ pub fn run(
     let mut sample = 0;
     while let Some(segment) = segment(system, sample, duration) {
         let flown = if recorders.is_empty() {
-            driver.fly(sample, duration)
+            driver.fly(sample, duration)?
         } else {
             0
         };
@@ -362,6 +362,11 @@ impl<'a> Driver<'a> {
         let n = self.dynamics.layout.dofs;
         self.contacts
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
+        self.balance(segment.start + tau + step)
+    }
+
+    /// Takes the ledger at the present state; a motion that is not finite ends the run.
+    fn balance(&mut self, time: f64) -> Result<(), TimeHistoryError> {
         let energy = ledger::energy(
             self.system,
             self.dynamics.layout,
@@ -371,7 +376,7 @@ impl<'a> Driver<'a> {
         self.ledger.end = energy;
         if !energy.residual.is_finite() {
             return Err(TimeHistoryError::NotFinite {
-                time: segment.start + tau + step,
+                time,
                 method: self.method.information().title,
                 place: self.places_in_touch(),
             });

@@ -28,9 +28,7 @@ pub use dimension::parameter_dimension;
 pub use driver::run;
 pub use error::TimeHistoryError;
 pub use methods::Information;
-pub use options::{
-    DEFAULT_CONTACT_TOLERANCE, DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions,
-};
+pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, Recorder, Sample, StepView};
 pub use result_file::{RunRecord, write_result};

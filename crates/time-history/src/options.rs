@@ -5,12 +5,9 @@ use crate::error::TimeHistoryError;
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
-/// Default relative tolerance of the adaptive pair as a method of its own.
+/// Default relative tolerance of the adaptive pair, as a method of its own and inside
+/// contacts of the event-driven one.
 pub const DEFAULT_RELATIVE_TOLERANCE: f64 = 1.0e-10;
-/// Default relative tolerance of the pair inside contacts of the event-driven method:
-/// peaks of the reference cases are then right to 1e-7, of all but the ill-conditioned
-/// elastic ones to 1e-8.
-pub const DEFAULT_CONTACT_TOLERANCE: f64 = 1.0e-9;
 
 /// The integration method with its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +71,7 @@ impl Default for RunOptions {
     fn default() -> Self {
         Self {
             method: MethodChoice::EventDriven {
-                relative_tolerance: DEFAULT_CONTACT_TOLERANCE,
+                relative_tolerance: DEFAULT_RELATIVE_TOLERANCE,
             },
             duration: None,
             energy_tolerance: None,

@@ -1,8 +1,8 @@
 //! Leaving open flight to the exact step of the modes.
 
 use super::{Driver, Mute};
+use crate::error::TimeHistoryError;
 use crate::free_flight::{Flight, FreeFlight, Leg, Logbook};
-use crate::ledger;
 
 impl Driver<'_> {
     pub(super) fn ready_to_fly(mut self) -> Self {
@@ -15,9 +15,9 @@ impl Driver<'_> {
 
     /// Flies from this sample on while no gap can close and no peak can lie between
     /// samples. Returns the number of samples flown.
-    pub(super) fn fly(&mut self, sample: usize, duration: f64) -> usize {
+    pub(super) fn fly(&mut self, sample: usize, duration: f64) -> Result<usize, TimeHistoryError> {
         let Some((constants, flight)) = &mut self.open else {
-            return 0;
+            return Ok(0);
         };
         let ground = self.system.ground();
         let whole = (duration / ground.time_step * (1.0 + 1.0e-12)).floor() as usize;
@@ -29,7 +29,7 @@ impl Driver<'_> {
         };
         let quiet = self.mute.iter().all(|m| *m == Mute::No);
         if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
-            return 0;
+            return Ok(0);
         }
         let before = self.ledger.end.residual.abs();
         let mut book = Logbook {
@@ -42,18 +42,13 @@ impl Driver<'_> {
         let residual = before + book.residual;
         if flown > 0 {
             self.largest_residual = self.largest_residual.max(residual);
-            self.ledger.end = ledger::energy(
-                self.system,
-                self.dynamics.layout,
-                &self.contacts,
-                &self.state,
-            );
+            self.balance((sample + flown) as f64 * ground.time_step)?;
             self.method.restart(true);
             self.last_ground = ground.samples[sample + flown];
             self.statistics.steps += flown as u64;
             self.at_once.fill(0);
             self.stalled = 0;
         }
-        flown
+        Ok(flown)
     }
 }

@@ -1,5 +1,7 @@
 //! What is measured in which mode, and how it is written down.
 
+mod tables;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -9,17 +11,14 @@ use verification::{Failure, ReferenceCases, reference_system};
 use crate::clock::least;
 use crate::methods::sweeping;
 use crate::peers::{MODELS, PROTOTYPE, Program, Room};
-use crate::precision::{Bound, Plan, Point, TARGET, by_method, cheapest, measure};
-use crate::scaling::{self, Row};
+use crate::precision::{Plan, Point, measure};
+use crate::scaling;
 use crate::sweep::{Grid, sweep};
 use crate::{machine, memory, tell, write_cases};
+use tables::{equal_error, prototype_ratios, table, three, work_precision};
 
 /// Models that are measured by all methods.
 const WHOLE: [&str; 2] = ["kv", "jank"];
-/// Bounds at which ours is held against the prototype.
-const BOUNDS: [Bound; 2] = [TARGET, Bound::OfOwn(1.0e-6)];
-/// Columns of the work-precision tables: the larger of both errors.
-const LEVELS: [f64; 8] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
 /// Points of one case with one model.
 struct Block {
@@ -229,124 +228,6 @@ fn write_points(room: &Room, blocks: &[Block]) -> Result<(), Failure> {
     Ok(std::fs::write(room.out.join("points.csv"), text)?)
 }
 
-/// Time to reach each level of error.
-fn work_precision(blocks: &[Block]) -> Result<String, Failure> {
-    let mut text = "\n## Time against error\n\nLeast processor time (ms) of a run by a method's \
-                    cheapest setting from which all finer ones keep both errors, of peak \
-                    displacements and of peak forces, at or below the heading. Empty: not reached.\n"
-        .to_owned();
-    for b in blocks {
-        let families = by_method(&b.points);
-        if families.len() < 3 {
-            continue;
-        }
-        write!(text, "\n**{} {}**\n\n| method |", b.case, b.model)?;
-        for level in LEVELS {
-            write!(text, " {level:e} |")?;
-        }
-        text += "\n|---|";
-        text += &"---|".repeat(LEVELS.len());
-        for (name, family) in families {
-            write!(text, "\n| {} |", title(name, family[0].ours))?;
-            for level in LEVELS {
-                match cheapest(&family, Bound::OfLargest(level, level)) {
-                    Some(point) => write!(text, " {} |", three(point.milliseconds()))?,
-                    None => text += "  |",
-                }
-            }
-        }
-        text.push('\n');
-    }
-    Ok(text)
-}
-
-/// The table at equal error.
-fn equal_error(blocks: &[Block]) -> Result<String, Failure> {
-    let mut text = "\n## At equal error\n\nEach method at its cheapest setting from which all \
-                    finer ones have errors of at most 1e-4 of the largest peak displacement and \
-                    1e-3 of the largest peak force, at every floor and level. \"Times ours\" is against the fastest of ours on that \
-                    case, from least times (from medians over the rounds).\n"
-        .to_owned();
-    for b in blocks {
-        let families = by_method(&b.points);
-        if families.len() < 3 {
-            continue;
-        }
-        write!(
-            text,
-            "\n**{} {}**\n\n| method | setting | error of displacement | of force | ms | times ours |\n\
-             |---|---|---|---|---|---|\n",
-            b.case, b.model
-        )?;
-        let best = fastest(b, TARGET);
-        for (name, family) in families {
-            let title = title(name, family[0].ours);
-            match (cheapest(&family, TARGET), best) {
-                (Some(p), Some(best)) => {
-                    let errors = p.errors.ok_or("a point without errors was chosen")?;
-                    writeln!(
-                        text,
-                        "| {title} | {} | {:.0e} | {:.0e} | {} | {} ({}) |",
-                        p.parameter,
-                        errors.displacement,
-                        errors.force,
-                        three(p.milliseconds()),
-                        three(p.milliseconds() / best.milliseconds()),
-                        three(p.median_milliseconds() / best.median_milliseconds()),
-                    )?;
-                }
-                _ => {
-                    let finest = family.last().map_or("", |p| p.parameter.as_str());
-                    writeln!(text, "| {title} | not met down to {finest} | | | | |")?;
-                }
-            }
-        }
-    }
-    Ok(text)
-}
-
-/// The fastest of ours that keeps the bound.
-fn fastest(block: &Block, bound: Bound) -> Option<&Point> {
-    let ours = by_method(&block.points)
-        .into_iter()
-        .filter(|(_, family)| family[0].ours);
-    ours.filter_map(|(_, family)| cheapest(&family, bound))
-        .min_by(|a, b| a.milliseconds().total_cmp(&b.milliseconds()))
-}
-
-/// Ours over the prototype.
-fn prototype_ratios(blocks: &[Block]) -> Result<String, Failure> {
-    let mut text = "\n## Ours over the event-driven prototype\n\nTime of the fastest of ours over \
-                    that of `peer.c evd -o P`, each at its cheapest setting for the error \
-                    named: first that of the tables above, then 1e-6 in every single peak, \
-                    relative to its own value. The prototype keeps its propagators from an \
-                    earlier run.\n\n\
-                    | case | model | 1e-4 and 1e-3: ours (ms) | prototype (ms) | ratio | 1e-6: ours (ms) | prototype (ms) | ratio |\n\
-                    |---|---|---|---|---|---|---|---|\n"
-        .to_owned();
-    for b in blocks {
-        write!(text, "| {} | {} |", b.case, b.model)?;
-        let families = by_method(&b.points);
-        let prototype = families.iter().find(|(name, _)| *name == PROTOTYPE);
-        for bound in BOUNDS {
-            let ours = fastest(b, bound);
-            let other = prototype.and_then(|(_, family)| cheapest(family, bound));
-            let cell = |p: Option<&Point>| match p {
-                Some(p) => format!("{} ({} {})", three(p.milliseconds()), p.method, p.parameter),
-                None => "not met".to_owned(),
-            };
-            let theirs = other.map_or("not met".to_owned(), |p| three(p.milliseconds()));
-            let ratio = match (ours, other) {
-                (Some(a), Some(b)) => three(a.milliseconds() / b.milliseconds()),
-                _ => String::new(),
-            };
-            write!(text, " {} | {theirs} | {ratio} |", cell(ours))?;
-        }
-        text.push('\n');
-    }
-    Ok(text)
-}
-
 /// Sweeps of 1,000 runs, interleaved.
 fn sweeps(
     room: &Room,
@@ -450,30 +331,6 @@ fn scalings(
     Ok(text)
 }
 
-fn table(label: &str, ground: &GroundAcceleration, rows: &[Row]) -> Result<String, Failure> {
-    let mut text = format!("| {label} | floors | impacts |");
-    let methods = sweeping(ground.time_step);
-    for (name, _) in &methods {
-        write!(text, " **{name}** |")?;
-    }
-    writeln!(text, " {PROTOTYPE} 1e-8 |")?;
-    writeln!(text, "|---|---|---|---|{}", "---|".repeat(methods.len()))?;
-    for row in rows {
-        let each = (row.storeys * row.samples) as f64;
-        let cell = |s: f64| format!("{} ({})", three(1.0e3 * s), three(1.0e9 * s / each));
-        write!(
-            text,
-            "| {} | {} | {} |",
-            row.label, row.storeys, row.impacts
-        )?;
-        for seconds in &row.seconds {
-            write!(text, " {} |", cell(*seconds))?;
-        }
-        writeln!(text, " {} |", row.prototype.map_or(String::new(), cell))?;
-    }
-    Ok(text)
-}
-
 fn memories(runs: &[usize]) -> Result<String, Failure> {
     tell("memory");
     let mut text = "\n## Memory\n\nPeak resident memory of a whole process (MB) without \
@@ -502,29 +359,4 @@ fn memories(runs: &[usize]) -> Result<String, Failure> {
         }
     }
     Ok(text)
-}
-
-fn title(name: &str, ours: bool) -> String {
-    if ours {
-        format!("**{name}**")
-    } else {
-        name.to_owned()
-    }
-}
-
-/// Three digits, as a number and not with an exponent.
-fn three(value: f64) -> String {
-    if !value.is_finite() {
-        return "?".to_owned();
-    }
-    let digits = if value >= 100.0 {
-        0
-    } else if value >= 10.0 {
-        1
-    } else if value >= 1.0 {
-        2
-    } else {
-        3
-    };
-    format!("{value:.digits$}")
 }

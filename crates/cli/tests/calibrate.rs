@@ -2,24 +2,18 @@
 //! collision beside it.
 #![allow(clippy::unwrap_used)]
 
-use std::process::{Command, Output};
+mod support;
+
+use std::process::Output;
 
 use serde_json::Value;
 
 fn run(arguments: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pounding"))
-        .env("NO_COLOR", "1")
-        .arg("impact")
-        .args(arguments.split_whitespace())
-        .output()
-        .unwrap()
+    support::run("impact", arguments)
 }
 
 fn text(arguments: &str) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
+    support::text("impact", arguments)
 }
 
 fn json(arguments: &str) -> Value {

@@ -1,6 +1,8 @@
 //! `pounding stiffness`: numbers, units, the line for a case file, bad input.
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -9,21 +11,12 @@ const BALLS: &str = "hertz --radius-left=25mm --radius-right=50mm --elastic-modu
 const SLABS: &str = "slab --elastic-modulus-left=30GPa --area-left=1.8m^2 --length-left=20m";
 const FLOORS: &str = "--velocity=0.8m/s --mass-left=25t --mass-right=40t";
 
-/// Runs with arguments that are separated by blanks.
 fn run(arguments: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pounding"))
-        .env("NO_COLOR", "1")
-        .arg("stiffness")
-        .args(arguments.split_whitespace())
-        .output()
-        .unwrap()
+    support::run("stiffness", arguments)
 }
 
 fn text(arguments: &str) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
+    support::text("stiffness", arguments)
 }
 
 fn json(arguments: &str) -> Value {

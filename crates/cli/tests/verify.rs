@@ -1,24 +1,18 @@
 //! `pounding verify impact`: headline numbers, verdicts, exit codes, bad input.
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use std::process::{Command, Output};
 
 use serde_json::Value;
 
 fn run(arguments: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pounding"))
-        .env("NO_COLOR", "1")
-        .arg("verify")
-        .args(arguments.split_whitespace())
-        .output()
-        .unwrap()
+    support::run("verify", arguments)
 }
 
 fn text(arguments: &str) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{arguments}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
+    support::text("verify", arguments)
 }
 
 fn json(arguments: &str) -> Value {

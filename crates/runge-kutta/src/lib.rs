@@ -4,7 +4,7 @@
 //! step, an error estimate and, on request, an interpolating polynomial inside the
 //! step. Accepting, rejecting and cutting steps is the caller's business.
 
-mod tableau;
+pub mod tableau;
 
 use tableau::{DENSE, ERROR_3, ERROR_5, NODES, ROWS, STAGES, STAGES_DENSE, WEIGHTS};
 

@@ -1,5 +1,6 @@
 //! The run: steps, events, peaks, ledger.
 
+mod engage;
 mod event_handling;
 mod open_flight;
 mod result;
@@ -10,7 +11,6 @@ use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, Finder};
-use crate::free_flight::{Flight, FreeFlight};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
@@ -19,6 +19,7 @@ use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
+use engage::{Left, Open};
 use rigid_impacts::RigidImpacts;
 
 /// Events closer together than this (s) are one event.
@@ -57,14 +58,21 @@ pub fn run(
     let mut told = 0.0;
     let mut sample = 0;
     while let Some(segment) = segment(system, sample, duration) {
-        let flown = if recorders.is_empty() {
-            driver.fly(sample, duration)?
-        } else {
-            0
-        };
-        sample += flown;
-        if flown == 0 {
-            driver.segment(&segment, duration, recorders)?;
+        let mut from = 0.0;
+        if recorders.is_empty() && driver.open.is_some() {
+            sample += driver.fly(sample, duration)?;
+            match driver.engage(sample, duration)? {
+                Left::At(next) => {
+                    sample = next;
+                    from = f64::NAN;
+                }
+                Left::Within(at, tau) => (sample, from) = (at, tau),
+            }
+        }
+        if from.is_finite()
+            && let Some(segment) = crate::driver::segment(system, sample, duration)
+        {
+            driver.segment(&segment, from, duration, recorders)?;
             sample += 1;
         }
         let done = (segment.start + segment.length) / duration;
@@ -140,7 +148,9 @@ struct Driver<'a> {
     last_ground: f64,
     rigid: RigidImpacts,
     /// Exact open flight, where the method and the buildings allow it.
-    open: Option<(FreeFlight, Flight)>,
+    open: Option<Open>,
+    /// Terms of Taylor series in the coordinates of the modes.
+    series_terms: u64,
 }
 
 impl<'a> Driver<'a> {
@@ -178,6 +188,7 @@ impl<'a> Driver<'a> {
             last_ground: f64::NAN,
             rigid: RigidImpacts::default(),
             open: None,
+            series_terms: 0,
             dynamics,
         }
         .ready_to_fly()
@@ -209,15 +220,16 @@ impl<'a> Driver<'a> {
     fn segment(
         &mut self,
         segment: &Segment,
+        from: f64,
         duration: f64,
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<(), TimeHistoryError> {
-        if segment.acceleration != self.last_ground {
+        if segment.ground(from) != self.last_ground {
             // A jump of the ground acceleration, as at the end of a record.
             self.method.restart(true);
         }
         self.last_ground = segment.ground(segment.length);
-        let mut tau = 0.0;
+        let mut tau = from;
         while tau < segment.length {
             let context = Context {
                 dynamics: &mut self.dynamics,
@@ -375,15 +387,19 @@ impl<'a> Driver<'a> {
         );
         self.ledger.end = energy;
         if !energy.residual.is_finite() {
-            return Err(TimeHistoryError::NotFinite {
-                time,
-                method: self.method.information().title,
-                place: self.places_in_touch(),
-            });
+            return Err(self.not_finite(time));
         }
         self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
         self.largest_residual = self.largest_residual.max(energy.residual.abs());
         Ok(())
+    }
+
+    fn not_finite(&self, time: f64) -> TimeHistoryError {
+        TimeHistoryError::NotFinite {
+            time,
+            method: self.method.information().title,
+            place: self.places_in_touch(),
+        }
     }
 
     fn place(&self, level: usize) -> String {

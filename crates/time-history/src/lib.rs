@@ -7,6 +7,7 @@ mod contact;
 mod dimension;
 mod driver;
 mod dynamics;
+mod engagement;
 mod error;
 mod events;
 mod free_flight;

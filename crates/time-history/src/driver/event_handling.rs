@@ -64,15 +64,15 @@ impl Driver<'_> {
         (start - value(&guard, 1.0)) * step / value(&derivative(&guard), 1.0)
     }
 
-    /// Processes the event and all others within tolerance of it, in the order
-    /// of their levels.
+    /// Processes the event and all others within tolerance of it, in the order of their
+    /// levels. Returns whether the forces that begin are smooth functions of time.
     pub(super) fn process(
         &mut self,
         segment: &Segment,
         tau: f64,
         event: Candidate,
         step: f64,
-    ) -> Result<(), TimeHistoryError> {
+    ) -> Result<bool, TimeHistoryError> {
         let mut smooth = true;
         let candidates = std::mem::take(&mut self.finder.candidates);
         self.rigid.closing.clear();
@@ -115,7 +115,7 @@ impl Driver<'_> {
                 place: self.place(event.level),
             });
         }
-        Ok(())
+        Ok(smooth)
     }
 
     fn fire(&mut self, segment: &Segment, tau: f64, event: Candidate) {

@@ -1,14 +1,14 @@
 //! Leaving open flight to the exact step of the modes.
 
+use super::engage::Open;
 use super::{Driver, Mute};
 use crate::error::TimeHistoryError;
-use crate::free_flight::{Flight, FreeFlight, Leg, Logbook};
+use crate::free_flight::{Leg, Logbook};
 
 impl Driver<'_> {
     pub(super) fn ready_to_fly(mut self) -> Self {
         if self.method.flies() {
-            let constants = FreeFlight::new(self.system, self.system.ground().time_step);
-            self.open = constants.map(|c| (c, Flight::new(self.system)));
+            self.open = Open::new(self.system, &self.options.method);
         }
         self
     }
@@ -16,7 +16,10 @@ impl Driver<'_> {
     /// Flies from this sample on while no gap can close and no peak can lie between
     /// samples. Returns the number of samples flown.
     pub(super) fn fly(&mut self, sample: usize, duration: f64) -> Result<usize, TimeHistoryError> {
-        let Some((constants, flight)) = &mut self.open else {
+        let Some(Open {
+            constants, flight, ..
+        }) = &mut self.open
+        else {
             return Ok(0);
         };
         let ground = self.system.ground();

@@ -9,6 +9,7 @@ use super::lanes::{
 };
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
+use crate::engagement::Tracks;
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::system::System;
 
@@ -115,6 +116,56 @@ impl Flight {
             self.land(constants, leg.system, book);
         }
         sample - leg.from
+    }
+
+    /// Takes the state and the peaks over for motion with contacts.
+    pub(crate) fn board(
+        &mut self,
+        constants: &FreeFlight,
+        system: &System,
+        peaks: &[StoreyPeaks],
+        state: &[f64],
+    ) {
+        let n = system.degrees_of_freedom();
+        for (modal, from) in [
+            (&mut self.now.displacement, &state[..n]),
+            (&mut self.now.velocity, &state[n..2 * n]),
+        ] {
+            self.modal.as_flattened_mut()[..n].copy_from_slice(from);
+            transform(&constants.inverse, &self.modal, modal);
+        }
+        self.displacement.now.as_flattened_mut()[..n].copy_from_slice(&state[..n]);
+        let u = &self.displacement.now;
+        drifts(&constants.shapes, u, &mut self.drift.now);
+        self.read_peaks(system, peaks);
+    }
+
+    /// Modal displacements (0) or velocities (1).
+    pub(crate) fn modal(&self, which: usize) -> &[Lane] {
+        [&self.now.displacement, &self.now.velocity][which]
+    }
+
+    /// The floors' functions that have peaks.
+    pub(crate) fn tracks(&mut self) -> Tracks<'_> {
+        Tracks {
+            displacement: &mut self.displacement,
+            drift: &mut self.drift,
+            acceleration: &mut self.acceleration,
+        }
+    }
+
+    /// Floor displacements and velocities from those of the modes.
+    pub(crate) fn land_state(
+        &mut self,
+        constants: &FreeFlight,
+        (q, p): (&[Lane], &[Lane]),
+        state: &mut [f64],
+    ) {
+        let n = state.len() / 2;
+        for (modal, place) in [(q, 0), (p, n)] {
+            transform(&constants.shapes, modal, &mut self.modal);
+            state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
+        }
     }
 
     fn take_off(&mut self, constants: &FreeFlight, leg: &Leg<'_>, book: &Logbook<'_>) {
@@ -336,7 +387,7 @@ impl Flight {
         self.write_peaks(system, book.peaks);
     }
 
-    fn write_peaks(&self, system: &System, peaks: &mut [StoreyPeaks]) {
+    pub(crate) fn write_peaks(&self, system: &System, peaks: &mut [StoreyPeaks]) {
         let raise = |track: &Track, i: usize, factor: f64, peak: &mut Peak| {
             let (c, l) = (i / WIDTH, i % WIDTH);
             peak.raise(track.peak[c][l] * factor, track.time[c][l]);

@@ -306,7 +306,7 @@ pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {
 /// Whether a turning point inside the step could exceed the peak: a change of more
 /// than `h^2 / 2` times the bound of the second derivative excludes one.
 #[inline(always)]
-fn turns_above(track: &Track) -> bool {
+pub(crate) fn turns_above(track: &Track) -> bool {
     let count = track.now.len();
     let (now, next) = (&track.now[..count], &track.next[..count]);
     let (peak, overshoot) = (&track.peak[..count], &track.overshoot[..count]);
@@ -366,6 +366,21 @@ pub(crate) fn raise(track: &mut Track, time: f64) {
         }
     }
     std::mem::swap(&mut track.now, &mut track.next);
+}
+
+/// Takes the present values as peaks.
+pub(crate) fn raise_now(track: &mut Track, time: f64) {
+    let count = track.now.len();
+    let (now, peak) = (&track.now[..count], &mut track.peak[..count]);
+    let times = &mut track.time[..count];
+    for c in 0..count {
+        for l in 0..WIDTH {
+            let value = now[c][l].abs();
+            let higher = value > peak[c][l];
+            peak[c][l] = if higher { value } else { peak[c][l] };
+            times[c][l] = if higher { time } else { times[c][l] };
+        }
+    }
 }
 
 /// Largest imbalance of every mode's energy so far, and the whole input energy.

@@ -1,0 +1,517 @@
+//! Following contacts in the coordinates of the modes.
+
+use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP, SIMULTANEOUS, segment};
+use crate::dynamics::Segment;
+use crate::engagement::{
+    Clock, LevelRows, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch, are_affine,
+    begin_acceleration, in_series, in_span, list, note_floors_of_series, note_floors_of_span,
+    total,
+};
+use crate::error::TimeHistoryError;
+use crate::events::Candidate;
+use crate::free_flight::{Flight, FreeFlight, Lane, WIDTH};
+use crate::options::MethodChoice;
+use crate::outcome::Peak;
+use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
+use crate::rates::fastest_rate;
+use crate::system::System;
+
+/// Part of the present peak below which a fitted maximum is not looked at closer.
+const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
+
+/// Exact open flight, and contacts between flights.
+pub(super) struct Open {
+    pub constants: FreeFlight,
+    pub flight: Flight,
+    engagement: Engagement,
+}
+
+/// Work space of contacts.
+struct Engagement {
+    rows: LevelRows,
+    touches: Vec<Touch>,
+    series: Series,
+    pair: Pair,
+    rates: Rates,
+    lengths: StepLength,
+    absolute: Vec<Lane>,
+    penetration: Vec<f64>,
+    fastest: f64,
+    tolerance: f64,
+    /// Whether the accelerations at the present start hold.
+    derived: bool,
+    /// Whether the floors' accelerations at the present start are known.
+    accelerations_known: bool,
+}
+
+/// Where an engagement ended.
+pub(super) enum Left {
+    /// With all gaps open, before this sample.
+    At(usize),
+    /// In the middle of this sample: the rest is for the general step.
+    Within(usize, f64),
+}
+
+impl Open {
+    pub(super) fn new(system: &System, method: &MethodChoice) -> Option<Self> {
+        let constants = FreeFlight::new(system, system.ground().time_step)?;
+        let lanes = constants.modes.len();
+        let levels = system.levels().len();
+        let MethodChoice::EventDriven { relative_tolerance } = *method else {
+            return None;
+        };
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Some(Self {
+            flight: Flight::new(system),
+            engagement: Engagement {
+                rows: LevelRows::new(&constants, system),
+                touches: Vec::with_capacity(levels),
+                series: Series::new(lanes, levels),
+                pair: Pair::new(lanes, levels),
+                rates: Rates::new(lanes),
+                lengths: StepLength::new(),
+                absolute: zeros(),
+                penetration: vec![0.0; levels],
+                fastest: fastest_rate(system.buildings()),
+                tolerance: relative_tolerance,
+                derived: false,
+                accelerations_known: false,
+            },
+            constants,
+        })
+    }
+}
+
+impl Driver<'_> {
+    /// Follows the motion from the start of a sample until all gaps are open at the end
+    /// of one, or until something comes up that the coordinates of the modes do not cover.
+    pub(super) fn engage(
+        &mut self,
+        sample: usize,
+        duration: f64,
+    ) -> Result<Left, TimeHistoryError> {
+        let Some(mut open) = self.open.take() else {
+            return Ok(Left::Within(sample, 0.0));
+        };
+        let left = self.engage_with(&mut open, sample, duration);
+        self.open = Some(open);
+        left
+    }
+
+    fn engage_with(
+        &mut self,
+        open: &mut Open,
+        first: usize,
+        duration: f64,
+    ) -> Result<Left, TimeHistoryError> {
+        let mut sample = first;
+        if (0..self.system.levels().len()).any(|l| self.is_rigid(l)) {
+            return Ok(Left::Within(sample, 0.0));
+        }
+        self.board(open);
+        let mut left = None;
+        while let Some(segment) = segment(self.system, sample, duration) {
+            if let Some(tau) = self.engage_segment(open, &segment)? {
+                left = Some(Left::Within(sample, tau));
+                break;
+            }
+            sample += 1;
+            let quiet = self.mute.iter().all(|m| *m == Mute::No);
+            if self.contacts.closed().is_empty() && quiet {
+                break;
+            }
+        }
+        open.flight
+            .write_peaks(self.system, &mut self.peaks.storeys);
+        self.balance(sample as f64 * self.system.ground().time_step)?;
+        self.method.restart(true);
+        Ok(left.unwrap_or(Left::At(sample)))
+    }
+
+    /// Takes the state and the peaks over.
+    fn board(&mut self, open: &mut Open) {
+        let n = self.dynamics.layout.dofs;
+        open.flight.board(
+            &open.constants,
+            self.system,
+            &self.peaks.storeys,
+            &self.state,
+        );
+        let engagement = &mut open.engagement;
+        for which in 0..2 {
+            engagement.pair.start.motion[which].copy_from_slice(open.flight.modal(which));
+        }
+        for (l, penetration) in engagement.penetration.iter_mut().enumerate() {
+            *penetration = self.contacts.penetration(self.system, l, &self.state[..n]);
+        }
+        engagement.derived = false;
+        engagement.accelerations_known = false;
+    }
+
+    /// Integrates over one interval between samples. Returns a time within it (s) if it
+    /// cannot go on from there.
+    fn engage_segment(
+        &mut self,
+        open: &mut Open,
+        segment: &Segment,
+    ) -> Result<Option<f64>, TimeHistoryError> {
+        let mut tau = 0.0;
+        open.engagement.derived = false;
+        while tau < segment.length {
+            if !list(&self.contacts, &mut open.engagement.touches) {
+                return Ok(Some(tau));
+            }
+            let mut quiet = f64::INFINITY;
+            for (mute, step) in self.mute.iter().zip(&self.quiet) {
+                if *mute != Mute::No {
+                    quiet = quiet.min(*step);
+                }
+            }
+            let rest = segment.length - tau;
+            let longest = rest.min(quiet);
+            let affine = are_affine(&open.engagement.touches, self.system);
+            let (step, event) = if affine {
+                self.by_series(open, segment, tau, longest)
+            } else {
+                self.by_pair(open, segment, tau, longest)?
+            };
+            if let Some((event, whole)) = event
+                && event.theta * whole <= EVENT_TOLERANCE
+            {
+                // Nothing to cross: the event is at the start.
+                self.fire_all(open, segment, tau, (event, whole))?;
+                continue;
+            }
+            let next = if event.is_none() && step >= rest {
+                segment.length
+            } else {
+                tau + step
+            };
+            self.arrive(open, segment.start + tau + step, step)?;
+            if let Some((event, whole)) = event {
+                self.fire_all(open, segment, next, (event, whole))?;
+            }
+            tau = next;
+        }
+        Ok(None)
+    }
+
+    fn fire_all(
+        &mut self,
+        open: &mut Open,
+        segment: &Segment,
+        tau: f64,
+        (event, whole): (Candidate, f64),
+    ) -> Result<(), TimeHistoryError> {
+        let smooth = self.process(segment, tau, event, whole)?;
+        let engagement = &mut open.engagement;
+        engagement.lengths.restart(smooth);
+        engagement.derived = false;
+        engagement.accelerations_known = false;
+        Ok(())
+    }
+
+    /// Common to all steps: the new state has been put in place.
+    fn arrive(&mut self, open: &mut Open, time: f64, step: f64) -> Result<(), TimeHistoryError> {
+        let Open {
+            constants,
+            flight,
+            engagement,
+        } = open;
+        let layout = self.dynamics.layout;
+        let n = layout.dofs;
+        let [q, p, ..] = &engagement.pair.start.motion;
+        flight.land_state(constants, (q, p), &mut self.state[..2 * n]);
+        self.statistics.steps += 1;
+        if step > SIMULTANEOUS {
+            self.at_once.fill(0);
+            self.mute.fill(Mute::No);
+            self.stalled = 0;
+        }
+        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
+        self.contacts.commit(self.system, u, v);
+        for (l, penetration) in engagement.penetration.iter_mut().enumerate() {
+            *penetration = self.contacts.penetration(self.system, l, u);
+        }
+        // The modes hold kinetic and strain energy.
+        let mut energies = [0.0; WIDTH];
+        for (c, m) in constants.modes.iter().enumerate() {
+            for l in 0..WIDTH {
+                let x = m.circular_frequency[l] * q[c][l];
+                energies[l] += 0.5 * (p[c][l] * p[c][l] + x * x);
+            }
+        }
+        let worked: f64 = (0..layout.levels).map(|l| self.state[layout.work(l)]).sum();
+        let input = self.state[layout.input()];
+        let residual = total(&energies) + self.state[layout.viscous()] + worked - input;
+        if !residual.is_finite() {
+            return Err(self.not_finite(time));
+        }
+        self.ledger.largest_input = self.ledger.largest_input.max(input.abs());
+        self.largest_residual = self.largest_residual.max(residual.abs());
+        Ok(())
+    }
+
+    /// A step by the series, cut at its first event.
+    fn by_series(
+        &mut self,
+        open: &mut Open,
+        segment: &Segment,
+        tau: f64,
+        longest: f64,
+    ) -> (f64, Option<(Candidate, f64)>) {
+        let Open {
+            constants,
+            flight,
+            engagement: e,
+        } = open;
+        let rate = e.series.take_laws(self.system, &e.touches);
+        let rate = (e.fastest * e.fastest + rate * rate).sqrt();
+        let parts = (longest / Series::longest(rate)).ceil().max(1.0);
+        let whole = longest / parts;
+        let start = segment.start + tau;
+        let from = SeriesStep {
+            displacement: &e.pair.start.motion[0],
+            velocity: &e.pair.start.motion[1],
+            ground: (segment.ground(tau), segment.slope),
+            step: whole,
+            rate,
+        };
+        e.series.expand(constants, &e.rows, &e.touches, &from);
+        self.series_terms += e.series.terms() as u64;
+        let mut tracks = flight.tracks();
+        if !e.accelerations_known {
+            e.series
+                .start_acceleration(&constants.modes, &mut e.absolute);
+            begin_acceleration(constants, &e.absolute, &mut tracks, start);
+        }
+        let modes = &constants.modes;
+        let [q, p, ..] = &mut e.pair.end.motion;
+        e.series.end(modes, q, p, &mut e.absolute);
+        let mute = &self.mute;
+        let event = in_series(
+            (self.system, &self.contacts, &e.rows),
+            (&e.series, &e.touches),
+            (q, &e.penetration),
+            &mut self.finder.candidates,
+            |level, theta| is_muted(mute[level], theta),
+        );
+        let mut step = whole;
+        if let Some(event) = event {
+            if event.theta * whole <= EVENT_TOLERANCE {
+                return (0.0, Some((event, whole)));
+            }
+            if event.theta < 1.0 {
+                step = event.theta * whole;
+                e.series.shorten(event.theta);
+                e.series.end(modes, q, p, &mut e.absolute);
+            }
+        }
+        let works = e.series.works(modes, q);
+        let layout = self.dynamics.layout;
+        self.state[layout.input()] += works.input;
+        self.state[layout.viscous()] += works.viscous;
+        note_floors_of_series(
+            (constants, &e.rows),
+            &e.series,
+            (q, &e.absolute),
+            &mut tracks,
+            start,
+        );
+        e.accelerations_known = true;
+        for touch in &e.series.touches {
+            let (work, impulse) = e.series.contact_work(touch);
+            self.state[layout.work(touch.level)] += work;
+            self.state[layout.impulse(touch.level)] += impulse;
+            let peaks = [
+                (&touch.delta, &mut self.peaks.penetration[touch.level]),
+                (&touch.force, &mut self.peaks.force[touch.level]),
+            ];
+            for (terms, peak) in peaks {
+                let (after, bend) = e.series.end_and_bend(terms);
+                if terms[0].max(after) + bend <= peak.value {
+                    continue;
+                }
+                let fitted = fit(&e.series.at_nodes(terms));
+                if let Some((theta, _)) = maximum_above(&fitted, peak.value) {
+                    peak.raise(e.series.at(terms, theta).0, start + theta * step);
+                }
+            }
+        }
+        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        e.derived = false;
+        (step, event.map(|event| (event, whole)))
+    }
+
+    /// A step by the pair, cut at its first event.
+    fn by_pair(
+        &mut self,
+        open: &mut Open,
+        segment: &Segment,
+        tau: f64,
+        longest: f64,
+    ) -> Result<(f64, Option<(Candidate, f64)>), TimeHistoryError> {
+        let Open {
+            constants,
+            flight,
+            engagement: e,
+        } = open;
+        let start = segment.start + tau;
+        let ground = (segment.ground(tau), segment.slope);
+        let scene = Scene {
+            constants,
+            rows: &e.rows,
+            system: self.system,
+            touches: &e.touches,
+            ground,
+            tolerance: e.tolerance,
+        };
+        let mut tracks = flight.tracks();
+        if !e.derived {
+            e.pair
+                .start
+                .derive(constants, &e.rows, (self.system, &e.touches), ground);
+            e.derived = true;
+        }
+        if !e.accelerations_known {
+            for (c, m) in constants.modes.iter().enumerate() {
+                for l in 0..WIDTH {
+                    e.absolute[c][l] = e.pair.start.motion[2][c][l] + m.participation[l] * ground.0;
+                }
+            }
+            begin_acceleration(constants, &e.absolute, &mut tracks, start);
+            e.accelerations_known = true;
+        }
+        let mut tried = e.lengths.propose(&scene, &e.pair.start, longest);
+        let (mut clock, mut error);
+        loop {
+            clock = Clock::new(tried.pace, tried.since, tried.length);
+            error = e.pair.step(&scene, &clock);
+            if error <= 1.0 {
+                break;
+            }
+            self.statistics.rejected += 1;
+            tried = e.lengths.reject(&tried, error);
+            // A NaN must end here too.
+            if !(tried.length >= SHORTEST_STEP) {
+                return Err(TimeHistoryError::StepTooSmall {
+                    time: start,
+                    step: tried.length,
+                    method: self.method.information().title,
+                    place: self.places_in_touch(),
+                });
+            }
+        }
+        let whole = tried.length;
+        let end = (segment.ground(tau + whole), segment.slope);
+        e.pair
+            .end
+            .derive(constants, &e.rows, (self.system, &e.touches), end);
+        let mute = &self.mute;
+        let candidates = &mut self.finder.candidates;
+        let found = in_span(
+            &scene,
+            &self.contacts,
+            &Span {
+                start: &e.pair.start,
+                end: &e.pair.end,
+                clock: &clock,
+            },
+            &e.penetration,
+            candidates,
+            |level, theta| is_muted(mute[level], theta),
+        );
+        for candidate in candidates {
+            candidate.theta = clock.offset(candidate.theta) / whole;
+        }
+        let mut event = None;
+        if let Some(found) = found {
+            let time = clock.offset(found.theta);
+            let mut found = Candidate {
+                theta: time / whole,
+                ..found
+            };
+            if time <= EVENT_TOLERANCE {
+                return Ok((0.0, Some((found, whole))));
+            }
+            let trials = e.pair.reach(
+                &scene,
+                &self.contacts,
+                (found.level, found.kind),
+                &mut clock,
+                time,
+            );
+            self.statistics.location_steps += trials;
+            found.theta = clock.offset(1.0) / whole;
+            event = Some((found, whole));
+        }
+        let step = if event.is_some() {
+            clock.offset(1.0)
+        } else {
+            whole
+        };
+        e.lengths.accept(&tried, step, error);
+        let layout = self.dynamics.layout;
+        self.state[layout.input()] += e.pair.works.input;
+        self.state[layout.viscous()] += e.pair.works.viscous;
+        let span = Span {
+            start: &e.pair.start,
+            end: &e.pair.end,
+            clock: &clock,
+        };
+        note_floors_of_span(&scene, &span, &mut e.rates, &mut tracks, start);
+        for (k, (touch, works)) in e.touches.iter().zip(&e.pair.contact_works).enumerate() {
+            let l = touch.level;
+            self.state[layout.work(l)] += works.0;
+            self.state[layout.impulse(l)] += works.1;
+            let peaks = (&mut self.peaks.penetration[l], &mut self.peaks.force[l]);
+            note_contact(&scene, &span, k, peaks, start);
+        }
+        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        Ok((step, event))
+    }
+}
+
+/// Whether an event of a level does not count.
+fn is_muted(mute: Mute, theta: f64) -> bool {
+    match mute {
+        Mute::No => false,
+        Mute::Start => theta == 0.0,
+        Mute::Step => true,
+    }
+}
+
+/// Takes the peaks of one closed level.
+fn note_contact(
+    scene: &Scene<'_>,
+    span: &Span<'_>,
+    k: usize,
+    (penetration, force): (&mut Peak, &mut Peak),
+    start: f64,
+) {
+    let touch = &scene.touches[k];
+    let level = &scene.system.levels()[touch.level];
+    let (a, b) = span.touch(k);
+    let (delta, rate) = (span.displacement(a, b), span.velocity(a, b));
+    if let Some((theta, top)) = maximum_above(&delta, penetration.value) {
+        penetration.raise(top, start + span.clock.offset(theta));
+    }
+    let at = |theta: f64| {
+        let (delta, rate) = (value(&delta, theta), value(&rate, theta));
+        touch.contact.force(level, delta, rate).value
+    };
+    let nodes = fit_nodes();
+    let mut samples = nodes.map(at);
+    samples[0] = span.start.touches[k].force;
+    samples[nodes.len() - 1] = span.end.touches[k].force;
+    let fitted = fit(&samples);
+    if bound(&fitted) <= force.value * BELOW_PEAK {
+        return;
+    }
+    for (theta, sample) in nodes.iter().zip(samples) {
+        force.raise(sample, start + span.clock.offset(*theta));
+    }
+    if let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) {
+        force.raise(at(theta), start + span.clock.offset(theta));
+    }
+}

@@ -1,0 +1,289 @@
+//! Peaks of floors inside a step.
+
+use super::pair::Scene;
+use super::rows::LevelRows;
+use super::series::Series;
+use super::span::Span;
+use crate::free_flight::{
+    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform, turns_above,
+};
+use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
+
+/// Displacement, drift and absolute acceleration of all floors.
+pub(crate) struct Tracks<'a> {
+    pub displacement: &'a mut Track,
+    pub drift: &'a mut Track,
+    pub acceleration: &'a mut Track,
+}
+
+/// Absolute accelerations of the floors at the start of a step, which may have jumped.
+pub(crate) fn begin_acceleration(
+    constants: &FreeFlight,
+    absolute: &[Lane],
+    tracks: &mut Tracks<'_>,
+    time: f64,
+) {
+    transform(&constants.shapes, absolute, &mut tracks.acceleration.now);
+    raise_now(tracks.acceleration, time);
+}
+
+/// Takes the peaks within a series; `absolute` are the modal absolute accelerations and
+/// `displacement` the modal displacements at its end.
+pub(crate) fn note_floors_of_series(
+    (constants, rows): (&FreeFlight, &LevelRows),
+    series: &Series,
+    (displacement, absolute): (&[Lane], &[Lane]),
+    tracks: &mut Tracks<'_>,
+    start: f64,
+) {
+    let shapes = &constants.shapes;
+    transform(shapes, displacement, &mut tracks.displacement.next);
+    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
+    transform(shapes, absolute, &mut tracks.acceleration.next);
+    let bounds = [
+        (
+            &constants.magnitudes,
+            &series.bend,
+            &mut *tracks.displacement,
+        ),
+        (
+            &constants.drift_magnitudes,
+            &series.bend,
+            &mut *tracks.drift,
+        ),
+        (
+            &constants.magnitudes,
+            &series.snap,
+            &mut *tracks.acceleration,
+        ),
+    ];
+    for (shapes, bound, track) in bounds {
+        transform(shapes, bound, &mut track.overshoot);
+        for lane in &mut track.overshoot {
+            for x in lane {
+                *x *= 0.125;
+            }
+        }
+    }
+    let step = series.step();
+    for (which, track) in [
+        &mut *tracks.displacement,
+        &mut *tracks.drift,
+        &mut *tracks.acceleration,
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        if turns_above(track) {
+            for i in 0..rows.floors.len() {
+                if !turns(track, i) {
+                    continue;
+                }
+                let terms = match which {
+                    0 => series.row(&rows.floors[i]),
+                    1 => series.row(&rows.drifts[i]),
+                    _ => series.row_acceleration(&rows.floors[i], 1.0),
+                };
+                let fitted = fit(&series.at_nodes(&terms));
+                let (c, l) = (i / WIDTH, i % WIDTH);
+                if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
+                    take(
+                        track,
+                        i,
+                        series.at(&terms, theta).0.abs(),
+                        start + theta * step,
+                    );
+                }
+            }
+        }
+        raise(track, start + step);
+    }
+}
+
+/// Whether this floor could turn above its peak.
+fn turns(track: &Track, floor: usize) -> bool {
+    let (c, l) = (floor / WIDTH, floor % WIDTH);
+    let (a, b, over) = (track.now[c][l], track.next[c][l], track.overshoot[c][l]);
+    a.abs().max(b.abs()) + over > track.peak[c][l] && (b - a).abs() <= 4.0 * over
+}
+
+fn take(track: &mut Track, floor: usize, value: f64, time: f64) {
+    let (c, l) = (floor / WIDTH, floor % WIDTH);
+    if value > track.peak[c][l] {
+        (track.peak[c][l], track.time[c][l]) = (value, time);
+    }
+}
+
+/// Rates of the floors' functions at both ends of a span.
+#[derive(Debug, Clone)]
+pub(crate) struct Rates {
+    /// Velocity, drift velocity, and rate of absolute acceleration: at the start and at
+    /// the end.
+    ends: [[Vec<Lane>; 2]; 3],
+    modal: Vec<Lane>,
+    /// Absolute accelerations of the modes at the nodes of a fit.
+    nodes: [Vec<Lane>; COEFFICIENTS],
+}
+
+/// Margins of the hulls: cubics err by less than this part of a peak.
+const MARGIN: [f64; 3] = [1.0e-3, 1.0e-3, 2.0e-2];
+
+impl Rates {
+    pub(crate) fn new(lanes: usize) -> Self {
+        let zeros = || vec![[0.0; WIDTH]; lanes];
+        Self {
+            ends: std::array::from_fn(|_| [zeros(), zeros()]),
+            modal: zeros(),
+            nodes: std::array::from_fn(|_| zeros()),
+        }
+    }
+
+    /// Takes the rates at the start or the end of a span.
+    fn take(&mut self, constants: &FreeFlight, span: &Span<'_>, slope: f64, end: usize) {
+        let point = if end == 0 { span.start } else { span.end };
+        let shapes = &constants.shapes;
+        transform(shapes, &point.motion[1], &mut self.ends[0][end]);
+        let [velocity, drift, _] = &mut self.ends;
+        drifts(shapes, &velocity[end], &mut drift[end]);
+        for (c, m) in constants.modes.iter().enumerate() {
+            for l in 0..WIDTH {
+                self.modal[c][l] = point.motion[3][c][l] + m.participation[l] * slope;
+            }
+        }
+        transform(shapes, &self.modal, &mut self.ends[2][end]);
+    }
+}
+
+/// Takes the peaks within a step of the pair. `tracks` hold the values at its start.
+pub(crate) fn note_floors_of_span(
+    scene: &Scene<'_>,
+    span: &Span<'_>,
+    rates: &mut Rates,
+    tracks: &mut Tracks<'_>,
+    start: f64,
+) {
+    let (constants, rows) = (scene.constants, scene.rows);
+    let shapes = &constants.shapes;
+    let length = span.clock.offset(1.0);
+    let ground = scene.ground.0 + scene.ground.1 * length;
+    transform(shapes, &span.end.motion[0], &mut tracks.displacement.next);
+    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
+    for (c, m) in constants.modes.iter().enumerate() {
+        for l in 0..WIDTH {
+            rates.modal[c][l] = span.end.motion[2][c][l] + m.participation[l] * ground;
+        }
+    }
+    transform(shapes, &rates.modal, &mut tracks.acceleration.next);
+    rates.take(constants, span, scene.ground.1, 0);
+    rates.take(constants, span, scene.ground.1, 1);
+    let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
+    let mut sampled = false;
+    for (which, track) in [
+        &mut *tracks.displacement,
+        &mut *tracks.drift,
+        &mut *tracks.acceleration,
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for i in 0..rows.floors.len() {
+            if !may_exceed(track, &rates.ends[which], scales, MARGIN[which], i) {
+                continue;
+            }
+            let function = match which {
+                0 => {
+                    let (a, b) = span.row(&rows.floors[i], 0.0);
+                    span.displacement(a, b)
+                }
+                1 => {
+                    let (a, b) = span.row(&rows.drifts[i], 0.0);
+                    span.displacement(a, b)
+                }
+                _ => {
+                    if !sampled {
+                        accelerations(scene, span, &mut rates.nodes);
+                        sampled = true;
+                    }
+                    let mut samples: [f64; COEFFICIENTS] =
+                        std::array::from_fn(|n| rows.floors[i].dot(&rates.nodes[n]));
+                    let (c, l) = (i / WIDTH, i % WIDTH);
+                    samples[0] = track.now[c][l];
+                    samples[COEFFICIENTS - 1] = track.next[c][l];
+                    fit(&samples)
+                }
+            };
+            let (c, l) = (i / WIDTH, i % WIDTH);
+            if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
+                take(track, i, top, start + span.clock.offset(theta));
+            }
+        }
+        raise(track, start + length);
+    }
+}
+
+/// Whether the hull of the cubic through both ends exceeds the peak.
+fn may_exceed(
+    track: &Track,
+    rates: &[Vec<Lane>; 2],
+    scales: [f64; 2],
+    margin: f64,
+    floor: usize,
+) -> bool {
+    let (c, l) = (floor / WIDTH, floor % WIDTH);
+    let (a, b) = (track.now[c][l], track.next[c][l]);
+    let inner = [
+        a + rates[0][c][l] * scales[0] / 3.0,
+        b - rates[1][c][l] * scales[1] / 3.0,
+    ];
+    let ends = a.abs().max(b.abs());
+    let hull = inner[0].abs().max(inner[1].abs()).max(ends);
+    hull > track.peak[c][l] * (1.0 - margin) && hull > ends
+}
+
+/// Absolute accelerations of the modes at the inner nodes of a fit.
+fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COEFFICIENTS]) {
+    for (theta, out) in fit_nodes().into_iter().zip(nodes) {
+        if theta <= 0.0 || theta >= 1.0 {
+            continue;
+        }
+        let weights = basis(span, theta);
+        for (c, m) in scene.constants.modes.iter().enumerate() {
+            for l in 0..WIDTH {
+                let omega = m.circular_frequency[l];
+                let (mut q, mut p) = (0.0, 0.0);
+                for (k, w) in weights.iter().enumerate() {
+                    let (a, b) = (span.start.motion[k][c][l], span.end.motion[k][c][l]);
+                    q += w[0] * a + w[1] * b;
+                    p += w[2] * a + w[3] * b;
+                }
+                out[c][l] = -(m.damping[l] * p + omega * omega * q);
+            }
+        }
+        for (k, touch) in scene.touches.iter().enumerate() {
+            let (a, b) = span.touch(k);
+            let delta = value(&span.displacement(a, b), theta);
+            let rate = value(&span.velocity(a, b), theta);
+            let level = &scene.system.levels()[touch.level];
+            let force = touch.contact.force(level, delta, rate).value;
+            scene.rows.levels[touch.level].add(-force, out);
+        }
+    }
+}
+
+/// Weights of displacement, velocity, acceleration and jerk at both ends in displacement
+/// and velocity at `theta`.
+fn basis(span: &Span<'_>, theta: f64) -> [[f64; 4]; 4] {
+    let none = [0.0; 4];
+    let both = |a, b| {
+        (
+            value(&span.displacement(a, b), theta),
+            value(&span.velocity(a, b), theta),
+        )
+    };
+    std::array::from_fn(|k| {
+        let mut unit = none;
+        unit[k] = 1.0;
+        let ((q0, p0), (q1, p1)) = (both(unit, none), both(none, unit));
+        [q0, q1, p0, p1]
+    })
+}

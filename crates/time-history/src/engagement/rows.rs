@@ -1,0 +1,127 @@
+//! Floors, drifts and levels as rows over the modes.
+
+use crate::free_flight::{FreeFlight, Lane, WIDTH};
+use crate::system::System;
+
+/// One linear function of the modal displacements, over the lanes where it is not zero.
+#[derive(Debug, Clone)]
+pub(crate) struct ModalRow {
+    first_lane: usize,
+    weights: Vec<Lane>,
+}
+
+/// Rows of all floors, drifts and levels (left floor less right one).
+#[derive(Debug, Clone)]
+pub(crate) struct LevelRows {
+    pub floors: Vec<ModalRow>,
+    pub drifts: Vec<ModalRow>,
+    pub levels: Vec<ModalRow>,
+    /// Magnitudes of the rows of `levels`.
+    pub reach: Vec<ModalRow>,
+    /// Greatest entry of each mode at any floor.
+    pub size: Vec<Lane>,
+}
+
+impl ModalRow {
+    fn new(parts: &[(Vec<Lane>, usize, f64)]) -> Self {
+        let first = parts.iter().map(|p| p.1).min().unwrap_or(0);
+        let end = parts.iter().map(|p| p.1 + p.0.len()).max().unwrap_or(0);
+        let mut weights = vec![[0.0; WIDTH]; end - first];
+        for (lanes, at, factor) in parts {
+            for (weight, lane) in weights[at - first..].iter_mut().zip(lanes) {
+                for l in 0..WIDTH {
+                    weight[l] += factor * lane[l];
+                }
+            }
+        }
+        Self {
+            first_lane: first,
+            weights,
+        }
+    }
+
+    /// Its value for these modal displacements.
+    #[inline(always)]
+    pub(crate) fn dot(&self, x: &[Lane]) -> f64 {
+        let mut sum = [0.0; WIDTH];
+        for (w, x) in self.weights.iter().zip(&x[self.first_lane..]) {
+            for l in 0..WIDTH {
+                sum[l] += w[l] * x[l];
+            }
+        }
+        total(&sum)
+    }
+
+    /// Adds a multiple of the row.
+    #[inline(always)]
+    pub(crate) fn add(&self, factor: f64, out: &mut [Lane]) {
+        for (w, x) in self.weights.iter().zip(&mut out[self.first_lane..]) {
+            for l in 0..WIDTH {
+                x[l] += factor * w[l];
+            }
+        }
+    }
+
+    fn magnitude(&self) -> Self {
+        let weights = self.weights.iter().map(|w| w.map(f64::abs));
+        Self {
+            first_lane: self.first_lane,
+            weights: weights.collect(),
+        }
+    }
+}
+
+/// Sum of a lane, in pairs: the same bits whatever the instruction set.
+#[inline(always)]
+pub(crate) fn total(x: &Lane) -> f64 {
+    ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+}
+
+impl LevelRows {
+    pub(crate) fn new(constants: &FreeFlight, system: &System) -> Self {
+        let mass = system.mass();
+        // Columns of Phi' M over the masses are the floors' rows of Phi.
+        let floor = |i: usize| -> (Vec<Lane>, usize, f64) {
+            let inverse = &constants.inverse[constants.building[i]];
+            let local = i - inverse.first_mode;
+            let column = (0..inverse.lanes).map(|k| inverse.columns[k * inverse.modes + local]);
+            (column.collect(), inverse.first_lane, 1.0 / mass[i])
+        };
+        let (floors, drifts): (Vec<_>, Vec<_>) = (0..mass.len())
+            .map(|i| {
+                let drift = match i.checked_sub(1) {
+                    Some(b) if constants.building[b] == constants.building[i] => {
+                        let (below, at, factor) = floor(b);
+                        ModalRow::new(&[floor(i), (below, at, -factor)])
+                    }
+                    _ => ModalRow::new(&[floor(i)]),
+                };
+                (ModalRow::new(&[floor(i)]), drift)
+            })
+            .unzip();
+        let levels: Vec<_> = system
+            .levels()
+            .iter()
+            .map(|level| {
+                let left = level.left.map(floor);
+                let right = level.right.map(floor).map(|(x, at, f)| (x, at, -f));
+                ModalRow::new(&left.into_iter().chain(right).collect::<Vec<_>>())
+            })
+            .collect();
+        let mut size = vec![[0.0_f64; WIDTH]; constants.modes.len()];
+        for row in &floors {
+            for (w, s) in row.weights.iter().zip(&mut size[row.first_lane..]) {
+                for l in 0..WIDTH {
+                    s[l] = s[l].max(w[l].abs());
+                }
+            }
+        }
+        Self {
+            reach: levels.iter().map(ModalRow::magnitude).collect(),
+            floors,
+            drifts,
+            levels,
+            size,
+        }
+    }
+}

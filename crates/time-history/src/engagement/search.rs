@@ -1,0 +1,299 @@
+//! The first event of every level inside a step.
+
+use pounding_gap_element::{Direction, Guard, Transition};
+
+use super::pair::Scene;
+use super::rows::LevelRows;
+use super::series::{Series, TouchSeries};
+use super::span::Span;
+use super::tables::Terms;
+use super::touch::Touch;
+use crate::contact::Contacts;
+use crate::events::{Candidate, EventKind};
+use crate::polynomial::{COEFFICIENTS, Polynomial, first_rise, fit, fit_nodes, value};
+use crate::system::System;
+
+/// Relative size of a leading term that is round-off.
+const ROUND_OFF: f64 = 1.0e-13;
+/// Corrections of a root at most.
+const CORRECTIONS: usize = 12;
+
+/// Transitions of a closed level in its phase.
+fn transitions<'a>(system: &'a System, touch: &Touch) -> &'a [Transition] {
+    system.levels()[touch.level]
+        .model
+        .transitions(touch.contact.phase)
+}
+
+/// The guard of a transition, positive once it fires, at a penetration and a rate. Those
+/// of a stuck contact do not come up here.
+fn guard(system: &System, touch: &Touch, transition: Transition, delta: f64, rate: f64) -> f64 {
+    let level = &system.levels()[touch.level];
+    let value = match transition.guard {
+        Guard::Velocity => rate,
+        Guard::RawForce => touch.contact.raw_force(level, delta, rate),
+        Guard::Model(index) => touch.contact.guard(level, index, delta, rate),
+        Guard::StickLower | Guard::StickUpper => f64::NAN,
+    };
+    match transition.direction {
+        Direction::Rising => value,
+        Direction::Falling => -value,
+    }
+}
+
+/// The guard of an event of a closed level.
+pub(crate) fn event_guard(
+    system: &System,
+    touch: &Touch,
+    kind: EventKind,
+    delta: f64,
+    rate: f64,
+) -> f64 {
+    match kind {
+        EventKind::Close => delta,
+        EventKind::Open => -delta,
+        EventKind::Transition(index) => {
+            let transition = transitions(system, touch)[index];
+            guard(system, touch, transition, delta, rate)
+        }
+    }
+}
+
+/// Keeps the earliest event of a level that counts.
+fn keep(
+    first: &mut Option<Candidate>,
+    found: Option<f64>,
+    (level, kind): (usize, EventKind),
+    muted: &impl Fn(usize, f64) -> bool,
+) {
+    if let Some(theta) = found
+        && !muted(level, theta)
+        && first.is_none_or(|f| theta < f.theta)
+    {
+        *first = Some(Candidate { level, kind, theta });
+    }
+}
+
+/// The earliest of all.
+fn earliest(candidates: &[Candidate]) -> Option<Candidate> {
+    candidates
+        .iter()
+        .copied()
+        .reduce(|a, b| if b.theta < a.theta { b } else { a })
+}
+
+/// Events inside a series; `end` and `bend` are the modal displacements at its end and the
+/// bound of their second derivatives. `penetration` holds those at the start.
+pub(crate) fn in_series(
+    (system, contacts, rows): (&System, &Contacts, &LevelRows),
+    (series, touches): (&Series, &[Touch]),
+    (end, penetration): (&[crate::free_flight::Lane], &[f64]),
+    candidates: &mut Vec<Candidate>,
+    muted: impl Fn(usize, f64) -> bool,
+) -> Option<Candidate> {
+    candidates.clear();
+    let mut closed = touches.iter().zip(&series.touches).peekable();
+    for l in 0..system.levels().len() {
+        let mut first = None;
+        if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
+            let open = fall(series, &motion.delta);
+            keep(&mut first, open, (l, EventKind::Open), &muted);
+            for (index, transition) in transitions(system, touch).iter().enumerate() {
+                let found = passage(system, series, (touch, motion), *transition);
+                keep(&mut first, found, (l, EventKind::Transition(index)), &muted);
+            }
+        } else {
+            let over = 0.125 * rows.reach[l].dot(&series.bend);
+            let after = rows.levels[l].dot(end) - contacts.width(l);
+            if penetration[l].max(after) + over > 0.0 {
+                let mut terms = series.row(&rows.levels[l]);
+                terms[0] -= contacts.width(l);
+                keep(
+                    &mut first,
+                    rise(series, &terms),
+                    (l, EventKind::Close),
+                    &muted,
+                );
+            }
+        }
+        candidates.extend(first);
+    }
+    earliest(candidates)
+}
+
+/// First passage of a scalar series to positive values.
+fn rise(series: &Series, terms: &Terms) -> Option<f64> {
+    let (after, bend) = series.end_and_bend(terms);
+    let size: f64 = terms[..=series.terms()].iter().map(|c| c.abs()).sum();
+    if terms[0] < -ROUND_OFF * size {
+        if terms[0].max(after) + bend < 0.0 {
+            return None;
+        }
+    } else {
+        // The step starts on the root: the series over theta decides, whose second
+        // derivative has a smaller bound.
+        let rest = after - terms[0];
+        if terms[1].max(rest) + bend < 0.0 {
+            return None;
+        }
+    }
+    let mut fitted = fit(&series.at_nodes(terms));
+    fitted[0] = terms[0];
+    let theta = first_rise(&fitted)?;
+    if theta <= 0.0 {
+        return Some(theta);
+    }
+    // Floors that were let be may have closed by a trifle: they meet again where they set
+    // out.
+    let target = terms[0].max(0.0);
+    Some(polish(theta, |x| {
+        let (value, slope) = series.at(terms, x);
+        (value - target) / slope
+    }))
+}
+
+/// First passage to negative values.
+fn fall(series: &Series, terms: &Terms) -> Option<f64> {
+    let (after, bend) = series.end_and_bend(terms);
+    let size: f64 = terms[..=series.terms()].iter().map(|c| c.abs()).sum();
+    let inside = if terms[0] > ROUND_OFF * size {
+        terms[0].min(after) - bend > 0.0
+    } else {
+        terms[1].min(after - terms[0]) - bend > 0.0
+    };
+    if inside {
+        return None;
+    }
+    let mut fitted = fit(&series.at_nodes(terms)).map(|c| -c);
+    fitted[0] = -terms[0];
+    let theta = first_rise(&fitted)?;
+    if theta <= 0.0 {
+        return Some(theta);
+    }
+    Some(polish(theta, |x| {
+        let (value, slope) = series.at(terms, x);
+        value / slope
+    }))
+}
+
+/// Newton's method from a root that is nearly right.
+fn polish(theta: f64, correction: impl Fn(f64) -> f64) -> f64 {
+    let mut x = theta;
+    for _ in 0..CORRECTIONS {
+        let step = correction(x);
+        if !step.is_finite() {
+            return theta;
+        }
+        let next = (x - step).clamp(0.5 * x, 1.0_f64.min(1.5 * x));
+        if (next - x).abs() <= 2.0 * f64::EPSILON * x {
+            return next;
+        }
+        x = next;
+    }
+    x
+}
+
+/// First time at which a transition fires.
+fn passage(
+    system: &System,
+    series: &Series,
+    (touch, motion): (&Touch, &TouchSeries),
+    transition: Transition,
+) -> Option<f64> {
+    match (transition.guard, transition.direction) {
+        (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate),
+        (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate),
+        _ => {
+            let delta = series.at_nodes(&motion.delta);
+            let rate = series.at_nodes(&motion.rate);
+            let samples =
+                std::array::from_fn(|i| guard(system, touch, transition, delta[i], rate[i]));
+            let theta = first_rise(&fit(&samples))?;
+            if theta <= 0.0 {
+                return Some(theta);
+            }
+            let at = |x: f64| {
+                let (delta, rate) = (series.at(&motion.delta, x).0, series.at(&motion.rate, x).0);
+                guard(system, touch, transition, delta, rate)
+            };
+            Some(secant(theta, at))
+        }
+    }
+}
+
+/// The secant method from a root that is nearly right.
+fn secant(theta: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let (mut x, mut y) = (theta * (1.0 - 1.0e-4), theta);
+    let (mut f, mut g) = (function(x), function(y));
+    for _ in 0..CORRECTIONS {
+        let next = (y - g * (y - x) / (g - f)).clamp(0.5 * y, 1.0_f64.min(1.5 * y));
+        if !next.is_finite() || (next - y).abs() <= 2.0 * f64::EPSILON * y {
+            return y;
+        }
+        (x, f) = (y, g);
+        (y, g) = (next, function(next));
+    }
+    y
+}
+
+/// Events inside a step of the pair, with `penetration` at its start and `after` at its
+/// end for all open levels.
+pub(crate) fn in_span(
+    scene: &Scene<'_>,
+    contacts: &Contacts,
+    span: &Span<'_>,
+    penetration: &[f64],
+    candidates: &mut Vec<Candidate>,
+    muted: impl Fn(usize, f64) -> bool,
+) -> Option<Candidate> {
+    candidates.clear();
+    let system = scene.system;
+    let length = span.clock.offset(1.0);
+    let mut closed = scene.touches.iter().enumerate().peekable();
+    for l in 0..system.levels().len() {
+        let mut first = None;
+        if let Some((k, touch)) = closed.next_if(|(_, t)| t.level == l) {
+            let (a, b) = span.touch(k);
+            let delta = span.displacement(a, b);
+            let rate = span.velocity(a, b);
+            let open = first_rise(&delta.map(|c| -c));
+            keep(&mut first, open, (l, EventKind::Open), &muted);
+            for (index, transition) in transitions(system, touch).iter().enumerate() {
+                let found = fires(system, touch, *transition, (&delta, &rate));
+                keep(&mut first, found, (l, EventKind::Transition(index)), &muted);
+            }
+        } else {
+            let row = &scene.rows.levels[l];
+            let after = row.dot(&span.end.motion[0]) - contacts.width(l);
+            let speed = [span.start, span.end].map(|p| row.dot(&p.motion[1]).abs());
+            if penetration[l].max(after) + length * speed[0].max(speed[1]) > 0.0 {
+                let (a, b) = span.row(row, contacts.width(l));
+                let closes = first_rise(&span.displacement(a, b));
+                keep(&mut first, closes, (l, EventKind::Close), &muted);
+            }
+        }
+        candidates.extend(first);
+    }
+    earliest(candidates)
+}
+
+/// First theta at which a transition fires within a span.
+fn fires(
+    system: &System,
+    touch: &Touch,
+    transition: Transition,
+    (delta, rate): (&Polynomial, &Polynomial),
+) -> Option<f64> {
+    match (transition.guard, transition.direction) {
+        (Guard::Velocity, Direction::Rising) => first_rise(rate),
+        (Guard::Velocity, Direction::Falling) => first_rise(&rate.map(|c| -c)),
+        _ => {
+            let nodes = fit_nodes();
+            let samples: [f64; COEFFICIENTS] = std::array::from_fn(|i| {
+                let (d, r) = (value(delta, nodes[i]), value(rate, nodes[i]));
+                guard(system, touch, transition, d, r)
+            });
+            first_rise(&fit(&samples))
+        }
+    }
+}

@@ -1,0 +1,423 @@
+//! Taylor series of the modes and of contacts with affine laws, summed to round-off.
+
+use multiversion::multiversion;
+
+use super::rows::{LevelRows, ModalRow, total};
+use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
+use super::touch::Touch;
+use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH};
+use crate::system::System;
+
+/// Greatest product of rate and step.
+const LONGEST: f64 = 1.2;
+/// A remainder below this, relative to the motion, is round-off.
+const NEGLIGIBLE: f64 = 1.0e-17;
+
+/// What a series starts from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeriesStep<'a> {
+    pub displacement: &'a [Lane],
+    pub velocity: &'a [Lane],
+    /// Ground acceleration at the start (m/s2) and its slope (m/s3).
+    pub ground: (f64, f64),
+    /// Length (s).
+    pub step: f64,
+    /// Bound of the rate of the motion (1/s).
+    pub rate: f64,
+}
+
+/// One closed level: penetration, its rate of change and force as series in theta.
+#[derive(Debug, Clone)]
+pub(crate) struct TouchSeries {
+    pub level: usize,
+    pub delta: Terms,
+    pub rate: Terms,
+    pub force: Terms,
+    constant: f64,
+    stiffness: f64,
+    dashpot: f64,
+}
+
+/// Works of a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Works {
+    /// Of the ground motion (J).
+    pub input: f64,
+    /// Of the damping (J).
+    pub viscous: f64,
+}
+
+/// Terms of the series over a step, in theta = time over step.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    lanes: usize,
+    last: usize,
+    step: f64,
+    ground: (f64, f64),
+    /// Term after term.
+    displacement: Vec<Lane>,
+    velocity: Vec<Lane>,
+    pub touches: Vec<TouchSeries>,
+    /// Sums of `k (k - 1) |term k|` of displacement and of acceleration: bounds of
+    /// the second derivatives with respect to theta.
+    pub bend: Vec<Lane>,
+    pub snap: Vec<Lane>,
+    tables: Tables,
+}
+
+impl Series {
+    pub(crate) fn new(lanes: usize, levels: usize) -> Self {
+        let terms = || vec![[0.0; WIDTH]; lanes * TERMS];
+        let empty = TouchSeries {
+            level: 0,
+            delta: [0.0; TERMS],
+            rate: [0.0; TERMS],
+            force: [0.0; TERMS],
+            constant: 0.0,
+            stiffness: 0.0,
+            dashpot: 0.0,
+        };
+        let mut touches = vec![empty; levels];
+        touches.clear();
+        Self {
+            lanes,
+            last: 0,
+            step: 0.0,
+            ground: (0.0, 0.0),
+            displacement: terms(),
+            velocity: terms(),
+            touches,
+            bend: vec![[0.0; WIDTH]; lanes],
+            snap: vec![[0.0; WIDTH]; lanes],
+            tables: Tables::new(),
+        }
+    }
+
+    /// Longest step (s) at a rate (1/s).
+    pub(crate) fn longest(rate: f64) -> f64 {
+        LONGEST / rate
+    }
+
+    /// Takes the laws of the closed levels. Returns a bound of the rate (1/s) of their
+    /// motion: of `sqrt(sum k / m) + sum c / m`.
+    pub(crate) fn take_laws(&mut self, system: &System, touches: &[Touch]) -> f64 {
+        self.touches.clear();
+        let (mut squares, mut damping) = (0.0, 0.0);
+        for touch in touches {
+            let level = &system.levels()[touch.level];
+            let law = touch.contact.force(level, 0.0, 0.0);
+            squares += law.by_penetration.abs() / level.effective_mass;
+            damping += law.by_velocity.abs() / level.effective_mass;
+            self.touches.push(TouchSeries {
+                level: touch.level,
+                delta: [0.0; TERMS],
+                rate: [0.0; TERMS],
+                force: [0.0; TERMS],
+                constant: law.value,
+                stiffness: law.by_penetration,
+                dashpot: law.by_velocity,
+            });
+        }
+        squares.sqrt() + damping
+    }
+
+    /// Expands the motion over a step.
+    pub(crate) fn expand(
+        &mut self,
+        constants: &FreeFlight,
+        rows: &LevelRows,
+        touches: &[Touch],
+        from: &SeriesStep<'_>,
+    ) {
+        let lanes = self.lanes;
+        self.step = from.step;
+        self.ground = from.ground;
+        self.last = last_term(from.rate * from.step);
+        self.displacement[..lanes].copy_from_slice(from.displacement);
+        self.velocity[..lanes].copy_from_slice(from.velocity);
+        for (series, touch) in self.touches.iter_mut().zip(touches) {
+            let row = &rows.levels[touch.level];
+            series.delta[0] = row.dot(from.displacement) - touch.width;
+            series.rate[0] = row.dot(from.velocity);
+            series.force[0] = series.constant
+                + series.stiffness * series.delta[0]
+                + series.dashpot * series.rate[0];
+        }
+        expand(self, &constants.modes, &rows.levels);
+    }
+
+    pub(crate) fn terms(&self) -> usize {
+        self.last
+    }
+
+    /// Length (s).
+    pub(crate) fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Cuts the step at `theta`.
+    pub(crate) fn shorten(&mut self, theta: f64) {
+        let lanes = self.lanes;
+        let mut factor = 1.0;
+        for k in 1..=self.last {
+            factor *= theta;
+            let range = k * lanes..(k + 1) * lanes;
+            for terms in [&mut self.displacement, &mut self.velocity] {
+                for lane in &mut terms[range.clone()] {
+                    for x in lane {
+                        *x *= factor;
+                    }
+                }
+            }
+            for touch in &mut self.touches {
+                touch.delta[k] *= factor;
+                touch.rate[k] *= factor;
+                touch.force[k] *= factor;
+            }
+        }
+        for (bend, snap) in self.bend.iter_mut().zip(&mut self.snap) {
+            for l in 0..WIDTH {
+                bend[l] *= theta * theta;
+                snap[l] *= theta * theta;
+            }
+        }
+        self.step *= theta;
+    }
+
+    /// Displacements, velocities and absolute accelerations of the modes at the end.
+    pub(crate) fn end(
+        &self,
+        modes: &[ModeLanes],
+        displacement: &mut [Lane],
+        velocity: &mut [Lane],
+        absolute: &mut [Lane],
+    ) {
+        end(self, modes, displacement, velocity, absolute);
+    }
+
+    /// Absolute accelerations of the modes at the start.
+    pub(crate) fn start_acceleration(&self, modes: &[ModeLanes], absolute: &mut [Lane]) {
+        for ((absolute, first), m) in absolute
+            .iter_mut()
+            .zip(&self.velocity[self.lanes..])
+            .zip(modes)
+        {
+            for l in 0..WIDTH {
+                absolute[l] = first[l] / self.step + m.participation[l] * self.ground.0;
+            }
+        }
+    }
+
+    /// Works of ground motion and damping over the step, from these ends.
+    pub(crate) fn works(&self, modes: &[ModeLanes], end: &[Lane]) -> Works {
+        works(self, modes, end)
+    }
+
+    /// Work on a contact (J), and its impulse (N s).
+    pub(crate) fn contact_work(&self, touch: &TouchSeries) -> (f64, f64) {
+        let powers = &self.tables.gauss;
+        let force = sample(&touch.force, self.last, powers);
+        let rate = sample(&touch.rate, self.last, powers);
+        let (mut work, mut impulse) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for l in 0..WIDTH {
+            impulse[l] = self.tables.weights[l] * force[l];
+            work[l] = impulse[l] * rate[l];
+        }
+        (self.step * total(&work), self.step * total(&impulse))
+    }
+
+    /// A row's function of theta.
+    pub(crate) fn row(&self, row: &ModalRow) -> Terms {
+        self.along(row, &self.displacement)
+    }
+
+    /// A row's rate of change.
+    pub(crate) fn row_rate(&self, row: &ModalRow) -> Terms {
+        self.along(row, &self.velocity)
+    }
+
+    /// A row of absolute acceleration, for `ground` weighing the ground's part.
+    pub(crate) fn row_acceleration(&self, row: &ModalRow, ground: f64) -> Terms {
+        let rate = self.row_rate(row);
+        let mut terms = [0.0; TERMS];
+        for k in 0..self.last {
+            terms[k] = rate[k + 1] * (k + 1) as f64 / self.step;
+        }
+        terms[0] += ground * self.ground.0;
+        terms[1] += ground * self.ground.1 * self.step;
+        terms
+    }
+
+    fn along(&self, row: &ModalRow, terms: &[Lane]) -> Terms {
+        let mut out = [0.0; TERMS];
+        for (out, lanes) in out[..=self.last].iter_mut().zip(terms.chunks(self.lanes)) {
+            *out = row.dot(lanes);
+        }
+        out
+    }
+
+    /// A scalar series at the nodes of a fit.
+    pub(crate) fn at_nodes(&self, terms: &Terms) -> Lane {
+        sample(terms, self.last, &self.tables.fit)
+    }
+
+    /// Value and derivative with respect to theta.
+    pub(crate) fn at(&self, terms: &Terms, theta: f64) -> (f64, f64) {
+        value_and_slope(terms, self.last, theta)
+    }
+
+    /// Value at the end, and the bound of the distance from the chord.
+    pub(crate) fn end_and_bend(&self, terms: &Terms) -> (f64, f64) {
+        let (mut end, mut bend) = (0.0, 0.0);
+        for k in (0..=self.last).rev() {
+            end += terms[k];
+            bend += (k * k.saturating_sub(1)) as f64 * terms[k].abs();
+        }
+        (end, 0.125 * bend)
+    }
+}
+
+/// Terms after which the remainder is round-off: `x^(k+1) e^x / (k+1)!`.
+fn last_term(x: f64) -> usize {
+    let mut k = 3;
+    let mut remainder = x * x * x * x / 24.0 * x.exp();
+    while remainder > NEGLIGIBLE && k < TERMS - 1 {
+        k += 1;
+        remainder *= x / (k + 1) as f64;
+    }
+    k
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
+    let (lanes, last, h) = (series.lanes, series.last, series.step);
+    for lane in series.bend.iter_mut().chain(&mut series.snap) {
+        *lane = [0.0; WIDTH];
+    }
+    for k in 0..last {
+        let load = match k {
+            0 => series.ground.0,
+            1 => series.ground.1 * h,
+            _ => 0.0,
+        };
+        let (q, q_next) = series.displacement[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
+        let (p, p_next) = series.velocity[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
+        for (c, m) in modes.iter().enumerate() {
+            for l in 0..WIDTH {
+                let omega = m.circular_frequency[l];
+                p_next[c][l] =
+                    -(m.damping[l] * p[c][l] + omega * omega * q[c][l]) - m.participation[l] * load;
+            }
+        }
+        for touch in &series.touches {
+            levels[touch.level].add(-touch.force[k], p_next);
+        }
+        let scale = h / (k + 1) as f64;
+        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
+        for c in 0..lanes {
+            for l in 0..WIDTH {
+                // Terms of the acceleration are those of the velocity before scaling.
+                series.snap[c][l] += next * p_next[c][l].abs();
+                p_next[c][l] *= scale;
+                q_next[c][l] = scale * p[c][l];
+                series.bend[c][l] += order * q_next[c][l].abs();
+            }
+        }
+        for touch in &mut series.touches {
+            touch.delta[k + 1] = scale * touch.rate[k];
+            touch.rate[k + 1] = levels[touch.level].dot(p_next);
+            touch.force[k + 1] =
+                touch.stiffness * touch.delta[k + 1] + touch.dashpot * touch.rate[k + 1];
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn end(
+    series: &Series,
+    modes: &[ModeLanes],
+    displacement: &mut [Lane],
+    velocity: &mut [Lane],
+    absolute: &mut [Lane],
+) {
+    let lanes = series.lanes;
+    for c in 0..lanes {
+        let (mut q, mut p) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let mut slope = [0.0; WIDTH];
+        for k in (0..=series.last).rev() {
+            let (x, v) = (
+                series.displacement[k * lanes + c],
+                series.velocity[k * lanes + c],
+            );
+            let order = k as f64;
+            for l in 0..WIDTH {
+                q[l] += x[l];
+                p[l] += v[l];
+                slope[l] += order * v[l];
+            }
+        }
+        let ground = series.ground.0 + series.ground.1 * series.step;
+        for l in 0..WIDTH {
+            absolute[c][l] = slope[l] / series.step + modes[c].participation[l] * ground;
+        }
+        (displacement[c], velocity[c]) = (q, p);
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
+    let (lanes, last) = (series.lanes, series.last);
+    let (start, slope) = series.ground;
+    let after = start + slope * series.step;
+    let (mut input, mut viscous) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for (c, m) in modes.iter().enumerate() {
+        let mut integral = [0.0; WIDTH];
+        let mut speeds = [[0.0; WIDTH]; 6];
+        for k in (0..=last).rev() {
+            let (x, v) = (
+                series.displacement[k * lanes + c],
+                series.velocity[k * lanes + c],
+            );
+            let part = 1.0 / (k + 1) as f64;
+            for l in 0..WIDTH {
+                integral[l] += part * x[l];
+            }
+            for (node, speed) in speeds.iter_mut().enumerate() {
+                let power = series.tables.gauss[k][node];
+                for l in 0..WIDTH {
+                    speed[l] += power * v[l];
+                }
+            }
+        }
+        let before = series.displacement[c];
+        for l in 0..WIDTH {
+            let moved = end[c][l] * after - before[l] * start - slope * series.step * integral[l];
+            input[l] -= m.participation[l] * moved;
+        }
+        for (node, speed) in speeds.iter().enumerate() {
+            let weight = series.step * series.tables.weights[node];
+            for l in 0..WIDTH {
+                viscous[l] += weight * m.damping[l] * speed[l] * speed[l];
+            }
+        }
+    }
+    Works {
+        input: total(&input),
+        viscous: total(&viscous),
+    }
+}

@@ -1,0 +1,205 @@
+//! How long a step of the pair may be, and in which variable it is taken.
+
+use super::clock::Pace;
+use super::pair::Scene;
+use super::point::Point;
+
+/// What one step tells the next.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StepLength {
+    /// Next step in even time (s).
+    next: f64,
+    /// First step (s) after a closure whose force starts like a power of time.
+    first: f64,
+    /// Time (s) since such a closure, while it matters.
+    since: Option<f64>,
+    /// Step (s) in the variable of the present start.
+    growing: f64,
+}
+
+/// A step to try.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Proposal {
+    pub pace: Pace,
+    pub length: f64,
+    pub since: f64,
+}
+
+/// Steps are hardly longer than what is left of a contact.
+const BEYOND: f64 = 1.5;
+/// An end this far off, in steps, can be stepped to.
+const REACH: f64 = 0.8;
+/// Part of what is left of a contact that an even step may take.
+const CLEAR: f64 = 0.6;
+/// Once steps are shorter than this part of the time since closure, its singularity does
+/// not limit them any more.
+const FAR: f64 = 0.35;
+/// Bounds of the growth of steps.
+const FACTORS: [f64; 2] = [0.2, 4.0];
+/// What is nearer than this (s) is there.
+const SHORTEST: f64 = 1.0e-12;
+/// First guesses (s).
+const GUESS: f64 = 2.0e-4;
+
+impl StepLength {
+    pub(crate) fn new() -> Self {
+        Self {
+            next: GUESS,
+            first: GUESS,
+            since: None,
+            growing: GUESS,
+        }
+    }
+
+    /// The right-hand side changed; `smooth` is false at a closure whose force starts like
+    /// a power of time.
+    pub(crate) fn restart(&mut self, smooth: bool) {
+        self.since = (!smooth).then_some(0.0);
+        self.growing = self.first;
+    }
+
+    /// The next step from a point, within `rest` (s) of the interval.
+    pub(crate) fn propose(&self, scene: &Scene<'_>, point: &Point, rest: f64) -> Proposal {
+        let target = time_to_turn(scene, point);
+        let end = time_to_end(scene, point);
+        let plain = |length: f64, pace: Pace| Proposal {
+            pace,
+            length: length.min(rest),
+            since: self.since.unwrap_or(0.0),
+        };
+        if self.since.is_some() {
+            let length = self.growing;
+            let length = if target < BEYOND * length {
+                target
+            } else {
+                length
+            };
+            return plain(length.min(CLEAR * end), Pace::Start);
+        }
+        if end < REACH * self.next {
+            return Proposal {
+                pace: Pace::End(end),
+                length: end.min(rest),
+                since: 0.0,
+            };
+        }
+        let mut length = self.next.min(CLEAR * end);
+        if target < BEYOND * length {
+            length = target;
+        }
+        if length < rest && length > 0.6 * rest {
+            length = 0.5 * rest;
+        }
+        plain(length, Pace::Plain)
+    }
+
+    /// A step of this error was rejected; returns the shorter one to try.
+    pub(crate) fn reject(&mut self, tried: &Proposal, error: f64) -> Proposal {
+        let factor = factor(error).min(0.7);
+        match tried.pace {
+            Pace::Start => {
+                let s = |t: f64| t.sqrt().sqrt();
+                let from = s(tried.since);
+                let to = from + factor * (s(tried.since + tried.length) - from);
+                let length = to.powi(4) - tried.since;
+                self.growing = length;
+                Proposal { length, ..*tried }
+            }
+            Pace::Plain | Pace::End(_) => {
+                self.next = factor * tried.length;
+                Proposal {
+                    pace: Pace::Plain,
+                    length: self.next,
+                    since: 0.0,
+                }
+            }
+        }
+    }
+
+    /// A step was taken over `length` (s), of the `tried` one or cut short.
+    pub(crate) fn accept(&mut self, tried: &Proposal, length: f64, error: f64) {
+        let factor = factor(error);
+        match tried.pace {
+            Pace::Start => {
+                let s = |t: f64| t.sqrt().sqrt();
+                let since = tried.since + length;
+                let (a, b) = (s(tried.since), s(tried.since + tried.length));
+                if tried.since == 0.0 {
+                    let wanted = (factor * b).powi(4);
+                    self.first = if length < tried.length {
+                        self.first.max(wanted)
+                    } else {
+                        wanted
+                    };
+                }
+                self.growing = (s(since) + factor * (b - a)).powi(4) - since;
+                self.since = Some(since);
+                if self.growing < FAR * since {
+                    self.since = None;
+                    self.next = self.growing;
+                }
+            }
+            Pace::Plain => {
+                let wanted = factor * tried.length;
+                // A step cut short says nothing against a longer one.
+                self.next = if tried.length < self.next {
+                    self.next.max(wanted)
+                } else {
+                    wanted
+                };
+            }
+            Pace::End(_) => {}
+        }
+    }
+}
+
+fn factor(error: f64) -> f64 {
+    if error > 0.0 {
+        (0.9 * error.powf(-0.125)).clamp(FACTORS[0], FACTORS[1])
+    } else {
+        FACTORS[1]
+    }
+}
+
+/// Time (s) until floors in approach stop approaching, by the present motion.
+fn time_to_turn(scene: &Scene<'_>, point: &Point) -> f64 {
+    let mut earliest = f64::INFINITY;
+    for touch in scene.touches.iter().zip(&point.touches) {
+        let [_, v, a, j] = touch.1.motion;
+        // v + a t + j t^2 / 2 = 0 from v > 0.
+        if v > 0.0 && a < 0.0 {
+            let root = (a * a - 2.0 * v * j).max(0.0).sqrt();
+            let time = 2.0 * v / (root - a);
+            if time > SHORTEST {
+                earliest = earliest.min(time);
+            }
+        }
+    }
+    earliest
+}
+
+/// Time (s) until the first contact ends whose force ends like a power of time.
+fn time_to_end(scene: &Scene<'_>, point: &Point) -> f64 {
+    let mut earliest = f64::INFINITY;
+    for (touch, now) in scene.touches.iter().zip(&point.touches) {
+        let model = &scene.system.levels()[touch.level].model;
+        let [d, v, a, j] = now.motion;
+        if model.smooth_at_closure() || v >= 0.0 || d <= 0.0 {
+            continue;
+        }
+        let mut t = d / -v;
+        for _ in 0..20 {
+            let f = d + t * (v + t * (0.5 * a + t * j / 6.0));
+            let slope = v + t * (a + 0.5 * t * j);
+            let next = t - f / slope;
+            if !(next > 0.0 && next.is_finite()) || (next - t).abs() <= 1.0e-12 * t {
+                break;
+            }
+            t = next;
+        }
+        if t > SHORTEST {
+            earliest = earliest.min(t);
+        }
+    }
+    earliest
+}

@@ -1,0 +1,61 @@
+//! Powers of the points at which series are sampled.
+
+use crate::free_flight::{Lane, WIDTH};
+use crate::polynomial::{GAUSS, fit_nodes};
+
+/// Terms of a series at most, that of order zero included.
+pub(super) const TERMS: usize = 28;
+
+/// Terms of a scalar series.
+pub(super) type Terms = [f64; TERMS];
+
+/// Powers of the nodes of a fit, and of Gauss's rule with its weights; the two spare
+/// places of the latter weigh nothing.
+#[derive(Debug, Clone)]
+pub(super) struct Tables {
+    pub fit: [Lane; TERMS],
+    pub gauss: [Lane; TERMS],
+    pub weights: Lane,
+}
+
+impl Tables {
+    pub(super) fn new() -> Self {
+        let mut points = [0.0; WIDTH];
+        let mut weights = [0.0; WIDTH];
+        for (i, (node, weight)) in GAUSS.iter().enumerate() {
+            (points[i], weights[i]) = (*node, *weight);
+        }
+        let powers = |points: Lane| -> [Lane; TERMS] {
+            std::array::from_fn(|k| points.map(|x| x.powi(k as i32)))
+        };
+        Self {
+            fit: powers(fit_nodes()),
+            gauss: powers(points),
+            weights,
+        }
+    }
+}
+
+/// A series at the points of a table.
+#[inline(always)]
+pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane {
+    let mut sums = [[0.0; WIDTH]; 2];
+    for k in 0..=last {
+        let sum = &mut sums[k % 2];
+        for l in 0..WIDTH {
+            sum[l] += terms[k] * powers[k][l];
+        }
+    }
+    std::array::from_fn(|l| sums[0][l] + sums[1][l])
+}
+
+/// Value and derivative of a series at `theta`.
+#[inline(always)]
+pub(super) fn value_and_slope(terms: &Terms, last: usize, theta: f64) -> (f64, f64) {
+    let (mut value, mut slope) = (0.0, 0.0);
+    for k in (0..=last).rev() {
+        slope = slope * theta + value;
+        value = value * theta + terms[k];
+    }
+    (value, slope)
+}

@@ -34,10 +34,16 @@ fn a_contact_that_ended_stays_ended() {
         let truth = solve(&case, Rules::EXACT);
         assert!(truth.impacts.len() > 10, "{law:?}: {}", truth.impacts.len());
         let naive = solve(&case, NAIVE);
-        assert!(naive.gave_up && naive.impacts.len() >= GIVE_UP / 3, "{law:?}");
+        assert!(
+            naive.gave_up && naive.impacts.len() >= GIVE_UP / 3,
+            "{law:?}"
+        );
         // All of them at one instant.
         let last = &naive.impacts[naive.impacts.len() - GIVE_UP / 4..];
-        assert!(last[last.len() - 1].closed - last[0].closed < 1e-12, "{law:?}");
+        assert!(
+            last[last.len() - 1].closed - last[0].closed < 1e-12,
+            "{law:?}"
+        );
         for method in METHODS {
             let outcome = case.run(method);
             agrees(&format!("{law:?}"), &outcome, &truth, 1e-7);

@@ -25,6 +25,8 @@ pub struct Rules {
     pub closes_wherever_closed: bool,
     /// Whether dry friction can hold.
     pub sticks: bool,
+    /// Whether a gap closes only where its penetration was negative before.
+    pub closes_from_apart: bool,
 }
 
 impl Rules {
@@ -35,6 +37,7 @@ impl Rules {
         peaks: true,
         closes_wherever_closed: false,
         sticks: true,
+        closes_from_apart: false,
     };
 
     /// Signs at the ends of steps of this length (s), no more.
@@ -84,7 +87,11 @@ pub struct History {
 }
 
 /// Events after which a run is given up.
-pub const GIVE_UP: usize = 20_000;
+pub const GIVE_UP: usize = 3_000;
+
+/// How long (s) velocities do not count after floors broke loose. They then grow like
+/// the square of time from zero, and stand clear of round-off after so much.
+const DEAF: f64 = 1e-7;
 
 /// Solves a case over its record.
 pub fn solve(case: &Case, rules: Rules) -> History {
@@ -125,7 +132,7 @@ struct Run<'a> {
     y: Vec<f64>,
     time: f64,
     mode: Mode,
-    /// Floors broke loose: velocity and acceleration are round-off for one piece.
+    /// Floors broke loose: velocity and acceleration are round-off at first.
     deaf: bool,
     history: History,
 }
@@ -143,10 +150,10 @@ impl Run<'_> {
             }
             let rest = length - tau;
             let piece = self.plant.piece(self.mode);
-            let step = if self.rules.extrema {
-                piece.min(rest)
-            } else {
-                self.rules.step.min(rest)
+            let step = match (self.deaf, self.rules.extrema) {
+                (true, _) => DEAF.min(rest),
+                (false, true) => piece.min(rest),
+                (false, false) => self.rules.step.min(rest),
             };
             let first = self.first_event(step);
             self.deaf = false;
@@ -186,7 +193,8 @@ impl Run<'_> {
                 low = bisect(|t| slope(t) > 0.0, 0.0, step).1;
             }
         }
-        if value(high) <= 0.0 {
+        let from_apart = self.mode != Mode::Open || watch.value(&self.y) < 0.0;
+        if value(high) <= 0.0 || (self.rules.closes_from_apart && !from_apart) {
             return None;
         }
         let bracket = bisect(|t| value(t) > 0.0, low, high);

@@ -11,6 +11,7 @@ mod case;
 mod chatter;
 mod exact;
 mod flight;
+mod integrate;
 mod peaks;
 mod plant;
 mod singular_start;
@@ -55,11 +56,17 @@ fn agrees(what: &str, ours: &Outcome, truth: &History, relative: f64) {
     assert_eq!(ours.impacts.len(), truth.impacts.len(), "{what}: impacts");
     for (i, (a, b)) in ours.impacts.iter().zip(&truth.impacts).enumerate() {
         let what = format!("{what}: impact {i}");
-        assert!((a.time_closed - b.closed).abs() <= relative, "{what}: {a:?} {b:?}");
+        assert!(
+            (a.time_closed - b.closed).abs() <= relative,
+            "{what}: {a:?} {b:?}"
+        );
         let same_end = a.time_opened.is_nan() && b.opened.is_nan();
         let near_end = (a.time_opened - b.opened).abs() <= relative;
         assert!(same_end || near_end, "{what}: {a:?} {b:?}");
-        assert!((a.approach_velocity - b.approach).abs() <= relative, "{what}: {a:?} {b:?}");
+        assert!(
+            (a.approach_velocity - b.approach).abs() <= relative,
+            "{what}: {a:?} {b:?}"
+        );
     }
     let level = &ours.gaps[0].levels[0];
     assert_eq!(level.sticks, truth.sticks, "{what}: sticks");
@@ -70,7 +77,12 @@ fn agrees(what: &str, ours: &Outcome, truth: &History, relative: f64) {
         same_peak(what, storey.displacement, truth.displacement[i], relative);
         let (drift, height) = (truth.drift[i], 3.0);
         near(what, storey.drift_ratio.value * height, drift.0, relative);
-        same_peak(what, storey.acceleration_absolute, truth.acceleration[i], relative);
+        same_peak(
+            what,
+            storey.acceleration_absolute,
+            truth.acceleration[i],
+            relative,
+        );
     }
     same_peak(what, level.peak_force, truth.force, relative);
     if truth.penetration.0 > 0.0 {

@@ -56,6 +56,8 @@ impl Watch {
 struct Linear {
     matrix: Vec<Row>,
     piece: f64,
+    /// Takes a state over a whole piece.
+    over_piece: Vec<Row>,
     watches: Vec<Watch>,
     observed: Vec<Watch>,
 }
@@ -186,8 +188,13 @@ impl Plant {
         observed.push(force.clone());
         observed.push(self.delta.clone());
         let target = Target::Mode(mode);
+        let piece = (0.25 / fastest).min(case.time_step / 8.0);
+        let columns: Vec<Row> = (0..size).map(|j| series(&matrix, unit(j), piece)).collect();
         Linear {
-            piece: (0.25 / fastest).min(case.time_step / 8.0),
+            piece,
+            over_piece: (0..size)
+                .map(|i| columns.iter().map(|column| column[i]).collect())
+                .collect(),
             watches: watches
                 .into_iter()
                 .map(|(row, target, is_velocity)| watch(row, target, is_velocity))
@@ -277,21 +284,35 @@ impl Plant {
     /// The state a time later, by the exponential series in pieces.
     pub fn advance(&self, mode: Mode, y: &[f64], time: f64) -> Vec<f64> {
         let linear = self.of(mode);
-        let pieces = (time / linear.piece).ceil().max(1.0);
-        let h = time / pieces;
         let mut state = y.to_vec();
-        for _ in 0..pieces as usize {
-            let mut term = state.clone();
-            for order in 1..=20 {
-                let next = linear.matrix.iter().map(|row| dot(row, &term));
-                term = next.map(|x| x * h / f64::from(order)).collect();
-                for (s, t) in state.iter_mut().zip(&term) {
-                    *s += t;
-                }
-            }
+        let mut rest = time;
+        while rest >= linear.piece {
+            state = linear.over_piece.iter().map(|r| dot(r, &state)).collect();
+            rest -= linear.piece;
+        }
+        if rest > 0.0 {
+            state = series(&linear.matrix, state, rest);
         }
         state
     }
+}
+
+/// `exp(matrix h) y` by its series, until the terms vanish in every component.
+fn series(matrix: &[Row], y: Row, h: f64) -> Row {
+    let (mut state, mut term) = (y.clone(), y);
+    for order in 1..=30 {
+        let next = matrix.iter().map(|row| dot(row, &term));
+        term = next.map(|x| x * h / f64::from(order)).collect();
+        let mut vanished = true;
+        for (s, t) in state.iter_mut().zip(&term) {
+            *s += t;
+            vanished &= t.abs() <= 1e-20 * s.abs();
+        }
+        if vanished {
+            break;
+        }
+    }
+    state
 }
 
 /// Floor masses and accelerations without contact.

@@ -170,11 +170,6 @@ impl Case {
         self.chains.iter().map(|c| c.mass.len()).sum()
     }
 
-    /// Duration of the record (s).
-    pub fn duration(&self) -> f64 {
-        self.time_step * (self.ground.len() - 1) as f64
-    }
-
     /// The case as the program takes it.
     pub fn system(&self) -> System {
         self.system_with(self.law.model())

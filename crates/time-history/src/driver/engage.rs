@@ -424,7 +424,7 @@ impl Driver<'_> {
         for candidate in candidates {
             candidate.theta = clock.offset(candidate.theta) / whole;
         }
-        let mut event = None;
+        let (mut step, mut event) = (whole, None);
         if let Some(found) = found {
             let time = clock.offset(found.theta);
             let mut found = Candidate {
@@ -434,7 +434,7 @@ impl Driver<'_> {
             if time <= EVENT_TOLERANCE {
                 return Ok((0.0, Some((found, whole))));
             }
-            let trials = e.pair.reach(
+            let (reached, trials) = e.pair.reach(
                 &scene,
                 &self.contacts,
                 (found.level, found.kind),
@@ -442,14 +442,10 @@ impl Driver<'_> {
                 time,
             );
             self.statistics.location_steps += trials;
-            found.theta = clock.offset(1.0) / whole;
+            found.theta = reached / whole;
             event = Some((found, whole));
+            step = reached;
         }
-        let step = if event.is_some() {
-            clock.offset(1.0)
-        } else {
-            whole
-        };
         e.lengths.accept(&tried, step, error);
         let layout = self.dynamics.layout;
         self.state[layout.input()] += e.pair.works.input;

@@ -34,12 +34,15 @@ impl Clock {
         Self { pace, from, to }
     }
 
-    /// The same step ended at `theta` of it.
-    pub(crate) fn cut(self, theta: f64) -> Self {
-        Self {
-            to: self.from + theta * (self.to - self.from),
-            ..self
-        }
+    /// The same step ended at another time (s) from its start.
+    pub(crate) fn until(self, offset: f64) -> Self {
+        let square = self.from * self.from;
+        let to = match self.pace {
+            Pace::Plain => offset,
+            Pace::Start => fourth_root(square * square + offset),
+            Pace::End(_) => (square - offset).max(0.0).sqrt(),
+        };
+        Self { to, ..self }
     }
 
     /// Length in `s`, negative towards an end.
@@ -59,19 +62,6 @@ impl Clock {
             }
             Pace::End(_) => (self.from - s) * (self.from + s),
         }
-    }
-
-    /// Theta at a time (s) from the start of the step, within it or a little beyond.
-    pub(crate) fn theta(&self, offset: f64) -> f64 {
-        let s = match self.pace {
-            Pace::Plain => offset,
-            Pace::Start => {
-                let square = self.from * self.from;
-                fourth_root(square * square + offset)
-            }
-            Pace::End(_) => (self.from * self.from - offset).max(0.0).sqrt(),
-        };
-        (s - self.from) / self.span()
     }
 
     /// Derivative of time with respect to `s` at `theta`.

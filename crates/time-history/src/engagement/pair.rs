@@ -114,15 +114,17 @@ fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
         let range = stage * lanes..(stage + 1) * lanes;
         let (speeds, accelerations) = (&mut speeds[range.clone()], &mut accelerations[range]);
         for (c, m) in scene.constants.modes.iter().enumerate() {
+            let (x, v) = (q[c], p[c]);
+            let (mut speed, mut a) = ([0.0; WIDTH], [0.0; WIDTH]);
             for l in 0..WIDTH {
-                let omega = m.circular_frequency[l];
-                let dashpot = m.damping[l] * p[c][l];
+                let dashpot = m.damping[l] * v[l];
                 let load = m.participation[l] * ground;
-                accelerations[c][l] = rate * (-(dashpot + omega * omega * q[c][l]) - load);
-                speeds[c][l] = rate * p[c][l];
-                input[l] -= weight * (load * p[c][l]);
-                viscous[l] += weight * (dashpot * p[c][l]);
+                a[l] = rate * (-(dashpot + m.stiffness[l] * x[l]) - load);
+                speed[l] = rate * v[l];
+                input[l] -= weight * (load * v[l]);
+                viscous[l] += weight * (dashpot * v[l]);
             }
+            (speeds[c], accelerations[c]) = (speed, a);
         }
         for (touch, works) in scene.touches.iter().zip(&mut pair.contact_works) {
             let row = &scene.rows.levels[touch.level];
@@ -165,14 +167,16 @@ fn combine(
     for c in 0..lanes {
         let mut sum = [0.0; WIDTH];
         for (j, w) in weights {
-            let stage = &stages[j * lanes + c];
+            let stage = stages[j * lanes + c];
             for l in 0..WIDTH {
                 sum[l] += w * stage[l];
             }
         }
+        let mut end = base[c];
         for l in 0..WIDTH {
-            out[c][l] = base[c][l] + step * sum[l];
+            end[l] += step * sum[l];
         }
+        out[c] = end;
     }
 }
 

@@ -17,7 +17,7 @@ const CORRECTIONS: usize = 16;
 
 impl Pair {
     /// Ends the present step at an event that is expected `time` (s) after its start.
-    /// Returns how many trial steps it took.
+    /// Returns when it was reached (s from the start), and how many trial steps it took.
     pub(crate) fn reach(
         &mut self,
         scene: &Scene<'_>,
@@ -25,12 +25,12 @@ impl Pair {
         (level, kind): (usize, EventKind),
         clock: &mut Clock,
         time: f64,
-    ) -> u64 {
+    ) -> (f64, u64) {
         let whole = clock.offset(1.0);
         let (mut wanted, mut trials) = (time, 0);
         loop {
             if (wanted - clock.offset(1.0)).abs() > NEAR * whole && trials < TRIALS {
-                *clock = clock.cut(clock.theta(wanted));
+                *clock = clock.until(wanted);
                 self.step(scene, clock);
                 self.derive_end(scene, clock.offset(1.0));
                 trials += 1;
@@ -42,7 +42,7 @@ impl Pair {
                 continue;
             }
             self.shift_end(scene, clock, wanted - now);
-            return trials;
+            return (wanted, trials);
         }
     }
 
@@ -91,7 +91,7 @@ impl Pair {
             works.1 += forces[0] * now.force;
         }
         let wanted = clock.offset(1.0) + time;
-        *clock = clock.cut(clock.theta(wanted));
+        *clock = clock.until(wanted);
         self.end.shift(time);
         self.derive_end(scene, wanted);
         let after = self.powers(scene, wanted);

@@ -45,6 +45,7 @@ impl ModalRow {
     pub(crate) fn dot(&self, x: &[Lane]) -> f64 {
         let mut sum = [0.0; WIDTH];
         for (w, x) in self.weights.iter().zip(&x[self.first_lane..]) {
+            let (w, x) = (*w, *x);
             for l in 0..WIDTH {
                 sum[l] += w[l] * x[l];
             }
@@ -56,9 +57,11 @@ impl ModalRow {
     #[inline(always)]
     pub(crate) fn add(&self, factor: f64, out: &mut [Lane]) {
         for (w, x) in self.weights.iter().zip(&mut out[self.first_lane..]) {
+            let (w, mut sum) = (*w, *x);
             for l in 0..WIDTH {
-                x[l] += factor * w[l];
+                sum[l] += factor * w[l];
             }
+            *x = sum;
         }
     }
 
@@ -74,7 +77,9 @@ impl ModalRow {
 /// Sum of a lane, in pairs: the same bits whatever the instruction set.
 #[inline(always)]
 pub(crate) fn total(x: &Lane) -> f64 {
-    ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+    let half: [f64; 4] = std::array::from_fn(|l| x[l] + x[l + 4]);
+    let quarter = [half[0] + half[2], half[1] + half[3]];
+    quarter[0] + quarter[1]
 }
 
 impl LevelRows {

@@ -296,9 +296,8 @@ fn last_term(x: f64) -> usize {
 ))]
 fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
     let (lanes, last, h) = (series.lanes, series.last, series.step);
-    for lane in series.bend.iter_mut().chain(&mut series.snap) {
-        *lane = [0.0; WIDTH];
-    }
+    series.bend.fill([0.0; WIDTH]);
+    series.snap.fill([0.0; WIDTH]);
     for k in 0..last {
         let load = match k {
             0 => series.ground.0,
@@ -308,11 +307,12 @@ fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
         let (q, q_next) = series.displacement[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
         let (p, p_next) = series.velocity[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
         for (c, m) in modes.iter().enumerate() {
+            let (x, v) = (q[c], p[c]);
+            let mut a = [0.0; WIDTH];
             for l in 0..WIDTH {
-                let omega = m.circular_frequency[l];
-                p_next[c][l] =
-                    -(m.damping[l] * p[c][l] + omega * omega * q[c][l]) - m.participation[l] * load;
+                a[l] = -(m.damping[l] * v[l] + m.stiffness[l] * x[l]) - m.participation[l] * load;
             }
+            p_next[c] = a;
         }
         for touch in &series.touches {
             levels[touch.level].add(-touch.force[k], p_next);
@@ -320,13 +320,18 @@ fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
         let scale = h / (k + 1) as f64;
         let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
         for c in 0..lanes {
+            let (v, mut a) = (p[c], p_next[c]);
+            let (mut bend, mut snap) = (series.bend[c], series.snap[c]);
+            let mut x = [0.0; WIDTH];
             for l in 0..WIDTH {
                 // Terms of the acceleration are those of the velocity before scaling.
-                series.snap[c][l] += next * p_next[c][l].abs();
-                p_next[c][l] *= scale;
-                q_next[c][l] = scale * p[c][l];
-                series.bend[c][l] += order * q_next[c][l].abs();
+                snap[l] += next * a[l].abs();
+                a[l] *= scale;
+                x[l] = scale * v[l];
+                bend[l] += order * x[l].abs();
             }
+            (q_next[c], p_next[c]) = (x, a);
+            (series.bend[c], series.snap[c]) = (bend, snap);
         }
         for touch in &mut series.touches {
             touch.delta[k + 1] = scale * touch.rate[k];

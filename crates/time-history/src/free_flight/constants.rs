@@ -188,6 +188,7 @@ impl FreeFlight {
         let (omega, zeta) = (mode.circular_frequency, mode.damping_ratio);
         m.participation[l] = mode.participation;
         m.circular_frequency[l] = omega;
+        m.stiffness[l] = omega * omega;
         m.damping[l] = 2.0 * zeta * omega;
         let gamma = mode.participation.abs();
         let by_size = (1.0 + 2.0 * zeta) * omega;

@@ -22,6 +22,8 @@ pub(crate) struct ModeLanes {
     pub viscous: [Lane; 10],
     pub participation: Lane,
     pub circular_frequency: Lane,
+    /// `omega^2`.
+    pub stiffness: Lane,
     /// `2 zeta omega`.
     pub damping: Lane,
     /// Bounds of the mode's part in floor acceleration, and in the second derivative of

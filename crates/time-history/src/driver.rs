@@ -137,6 +137,8 @@ struct Driver<'a> {
     new_state: Vec<f64>,
     interpolated: Vec<f64>,
     ledger: Ledger,
+    /// Present residual of the energy balance (J), and the largest.
+    residual: f64,
     largest_residual: f64,
     statistics: Statistics,
     /// Events of each level at the present instant.
@@ -179,6 +181,7 @@ impl<'a> Driver<'a> {
             state,
             new_state: zeros(),
             interpolated: zeros(),
+            residual: 0.0,
             largest_residual: 0.0,
             statistics: Statistics::default(),
             at_once: vec![0; layout.levels],
@@ -386,6 +389,7 @@ impl<'a> Driver<'a> {
             &self.state,
         );
         self.ledger.end = energy;
+        self.residual = energy.residual;
         if !energy.residual.is_finite() {
             return Err(self.not_finite(time));
         }

@@ -35,13 +35,10 @@ struct Engagement {
     rates: Rates,
     lengths: StepLength,
     absolute: Vec<Lane>,
-    penetration: Vec<f64>,
     fastest: f64,
     tolerance: f64,
     /// Whether the accelerations at the present start hold.
     derived: bool,
-    /// Whether the floors' accelerations at the present start are known.
-    accelerations_known: bool,
 }
 
 /// Where an engagement ended.
@@ -71,11 +68,9 @@ impl Open {
                 rates: Rates::new(lanes),
                 lengths: StepLength::new(),
                 absolute: zeros(),
-                penetration: vec![0.0; levels],
                 fastest: fastest_rate(system.buildings()),
                 tolerance: relative_tolerance,
                 derived: false,
-                accelerations_known: false,
             },
             constants,
         })
@@ -106,14 +101,23 @@ impl Driver<'_> {
     ) -> Result<Left, TimeHistoryError> {
         let mut sample = first;
         if (0..self.system.levels().len()).any(|l| self.is_rigid(l)) {
+            self.leave(open, sample as f64 * self.system.ground().time_step)?;
             return Ok(Left::Within(sample, 0.0));
         }
-        self.board(open);
-        let mut left = None;
+        let Open {
+            constants,
+            flight,
+            engagement,
+        } = &mut *open;
+        let (system, peaks) = ((self.system, &self.contacts), &self.peaks.storeys);
+        flight.board(constants, system, peaks, &self.state);
+        let [q, p, ..] = &mut engagement.pair.start.motion;
+        q.copy_from_slice(&flight.now.displacement);
+        p.copy_from_slice(&flight.now.velocity);
         while let Some(segment) = segment(self.system, sample, duration) {
             if let Some(tau) = self.engage_segment(open, &segment)? {
-                left = Some(Left::Within(sample, tau));
-                break;
+                self.leave(open, segment.start + tau)?;
+                return Ok(Left::Within(sample, tau));
             }
             sample += 1;
             let quiet = self.mute.iter().all(|m| *m == Mute::No);
@@ -121,31 +125,27 @@ impl Driver<'_> {
                 break;
             }
         }
-        open.flight
-            .write_peaks(self.system, &mut self.peaks.storeys);
-        self.balance(sample as f64 * self.system.ground().time_step)?;
-        self.method.restart(true);
-        Ok(left.unwrap_or(Left::At(sample)))
+        Ok(Left::At(sample))
     }
 
-    /// Takes the state and the peaks over.
-    fn board(&mut self, open: &mut Open) {
-        let n = self.dynamics.layout.dofs;
-        open.flight.board(
-            &open.constants,
-            self.system,
-            &self.peaks.storeys,
-            &self.state,
-        );
-        let engagement = &mut open.engagement;
-        for which in 0..2 {
-            engagement.pair.start.motion[which].copy_from_slice(open.flight.modal(which));
+    /// Leaves the coordinates of the modes.
+    fn leave(&mut self, open: &mut Open, time: f64) -> Result<(), TimeHistoryError> {
+        let peaks = &mut self.peaks.storeys;
+        open.flight
+            .disembark(&open.constants, self.system, peaks, &mut self.state);
+        self.method.restart(true);
+        self.balance(time)
+    }
+
+    /// Leaves the coordinates of the modes at the end of the run.
+    pub(super) fn leave_for_good(&mut self, time: f64) -> Result<(), TimeHistoryError> {
+        if let Some(mut open) = self.open.take() {
+            self.leave(&mut open, time)?;
+            let peaks = &mut self.peaks.storeys;
+            open.flight.finish(&open.constants, self.system, peaks);
+            self.open = Some(open);
         }
-        for (l, penetration) in engagement.penetration.iter_mut().enumerate() {
-            *penetration = self.contacts.penetration(self.system, l, &self.state[..n]);
-        }
-        engagement.derived = false;
-        engagement.accelerations_known = false;
+        Ok(())
     }
 
     /// Integrates over one interval between samples. Returns a time within it (s) if it
@@ -207,7 +207,7 @@ impl Driver<'_> {
         let engagement = &mut open.engagement;
         engagement.lengths.restart(smooth);
         engagement.derived = false;
-        engagement.accelerations_known = false;
+        open.flight.acceleration_known = false;
         Ok(())
     }
 
@@ -221,7 +221,9 @@ impl Driver<'_> {
         let layout = self.dynamics.layout;
         let n = layout.dofs;
         let [q, p, ..] = &engagement.pair.start.motion;
-        flight.land_state(constants, (q, p), &mut self.state[..2 * n]);
+        flight.now.displacement.copy_from_slice(q);
+        flight.now.velocity.copy_from_slice(p);
+        flight.land(constants, &mut self.state[..2 * n]);
         self.statistics.steps += 1;
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
@@ -230,7 +232,7 @@ impl Driver<'_> {
         }
         let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
         self.contacts.commit(self.system, u, v);
-        for (l, penetration) in engagement.penetration.iter_mut().enumerate() {
+        for (l, penetration) in flight.penetration.iter_mut().enumerate() {
             *penetration = self.contacts.penetration(self.system, l, u);
         }
         // The modes hold kinetic and strain energy.
@@ -248,6 +250,7 @@ impl Driver<'_> {
             return Err(self.not_finite(time));
         }
         self.ledger.largest_input = self.ledger.largest_input.max(input.abs());
+        self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
         Ok(())
     }
@@ -279,11 +282,10 @@ impl Driver<'_> {
         };
         e.series.expand(constants, &e.rows, &e.touches, &from);
         self.series_terms += e.series.terms() as u64;
-        let mut tracks = flight.tracks();
-        if !e.accelerations_known {
+        if !flight.acceleration_known {
             e.series
                 .start_acceleration(&constants.modes, &mut e.absolute);
-            begin_acceleration(constants, &e.absolute, &mut tracks, start);
+            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
         }
         let modes = &constants.modes;
         let [q, p, ..] = &mut e.pair.end.motion;
@@ -292,7 +294,7 @@ impl Driver<'_> {
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
             (&e.series, &e.touches),
-            (q, &e.penetration),
+            (q, &flight.penetration),
             &mut self.finder.candidates,
             |level, theta| is_muted(mute[level], theta),
         );
@@ -315,10 +317,10 @@ impl Driver<'_> {
             (constants, &e.rows),
             &e.series,
             (q, &e.absolute),
-            &mut tracks,
+            &mut flight.tracks(),
             start,
         );
-        e.accelerations_known = true;
+        flight.acceleration_known = true;
         for touch in &e.series.touches {
             let (work, impulse) = e.series.contact_work(touch);
             self.state[layout.work(touch.level)] += work;
@@ -366,21 +368,20 @@ impl Driver<'_> {
             ground,
             tolerance: e.tolerance,
         };
-        let mut tracks = flight.tracks();
         if !e.derived {
             e.pair
                 .start
                 .derive(constants, &e.rows, (self.system, &e.touches), ground);
             e.derived = true;
         }
-        if !e.accelerations_known {
+        if !flight.acceleration_known {
             for (c, m) in constants.modes.iter().enumerate() {
                 for l in 0..WIDTH {
                     e.absolute[c][l] = e.pair.start.motion[2][c][l] + m.participation[l] * ground.0;
                 }
             }
-            begin_acceleration(constants, &e.absolute, &mut tracks, start);
-            e.accelerations_known = true;
+            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
+            flight.acceleration_known = true;
         }
         let mut tried = e.lengths.propose(&scene, &e.pair.start, longest);
         let (mut clock, mut error);
@@ -417,7 +418,7 @@ impl Driver<'_> {
                 end: &e.pair.end,
                 clock: &clock,
             },
-            &e.penetration,
+            &flight.penetration,
             candidates,
             |level, theta| is_muted(mute[level], theta),
         );
@@ -455,7 +456,7 @@ impl Driver<'_> {
             end: &e.pair.end,
             clock: &clock,
         };
-        note_floors_of_span(&scene, &span, &mut e.rates, &mut tracks, start);
+        note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
         for (k, (touch, works)) in e.touches.iter().zip(&e.pair.contact_works).enumerate() {
             let l = touch.level;
             self.state[layout.work(l)] += works.0;

@@ -34,19 +34,24 @@ impl Driver<'_> {
         if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
             return Ok(0);
         }
-        let before = self.ledger.end.residual.abs();
+        flight.board(
+            constants,
+            (self.system, &self.contacts),
+            &self.peaks.storeys,
+            &self.state,
+        );
         let mut book = Logbook {
             state: &mut self.state,
-            peaks: &mut self.peaks.storeys,
             largest_input: &mut self.ledger.largest_input,
             residual: 0.0,
         };
         let flown = flight.fly(constants, &leg, &mut book);
-        let residual = before + book.residual;
         if flown > 0 {
+            let residual = self.residual.abs() + book.residual;
+            if !residual.is_finite() {
+                return Err(self.not_finite((sample + flown) as f64 * ground.time_step));
+            }
             self.largest_residual = self.largest_residual.max(residual);
-            self.balance((sample + flown) as f64 * ground.time_step)?;
-            self.method.restart(true);
             self.last_ground = ground.samples[sample + flown];
             self.statistics.steps += flown as u64;
             self.at_once.fill(0);

@@ -12,6 +12,7 @@ impl Driver<'_> {
         duration: f64,
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<Outcome, TimeHistoryError> {
+        self.leave_for_good(duration)?;
         let layout = self.dynamics.layout;
         let n = layout.dofs;
         for l in 0..layout.levels {

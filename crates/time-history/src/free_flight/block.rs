@@ -43,18 +43,31 @@ pub(super) struct Block {
     modal: Vec<Lane>,
 }
 
-/// Greatest values over the block, and the values at its end.
+/// Greatest values over the block, and the values at every sample.
 #[derive(Debug, Clone)]
 pub(super) struct Extremes {
     pub top: Vec<Lane>,
-    pub last: Vec<Lane>,
+    /// Eight lanes, one a sample, for every lane of rows.
+    values: Vec<[Lane; BLOCK]>,
 }
 
 impl Extremes {
     fn new(lanes: usize) -> Self {
         Self {
             top: vec![[0.0; WIDTH]; lanes],
-            last: vec![[0.0; WIDTH]; lanes],
+            values: vec![[[0.0; WIDTH]; BLOCK]; lanes],
+        }
+    }
+
+    /// Value of a row after so many samples, at least one.
+    pub(super) fn after(&self, samples: usize, row: usize) -> f64 {
+        self.values[row / WIDTH][samples - 1][row % WIDTH]
+    }
+
+    /// All rows after so many samples.
+    pub(super) fn copy_after(&self, samples: usize, out: &mut [Lane]) {
+        for (out, values) in out.iter_mut().zip(&self.values) {
+            *out = values[samples - 1];
         }
     }
 }
@@ -125,6 +138,39 @@ pub(super) fn fly(
     overshoots(constants, &block.size, largest, &mut block.modal, over);
 }
 
+/// Advances the modes alone by the first samples of a block; the end is in
+/// [`Block::end`].
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn advance(constants: &FreeFlight, now: &Modal, samples: &[f64], end: &mut Modal) {
+    for (c, m) in constants.modes.iter().enumerate() {
+        let mut state = [
+            now.displacement[c],
+            now.velocity[c],
+            now.input[c],
+            now.viscous[c],
+        ];
+        for pair in samples.windows(2) {
+            let ground = Ground {
+                start: pair[0],
+                end: pair[1],
+                slope: (pair[1] - pair[0]) / constants.step,
+            };
+            (state, _) = step_modes(m, state, ground);
+        }
+        [
+            end.displacement[c],
+            end.velocity[c],
+            end.input[c],
+            end.viscous[c],
+        ] = state;
+    }
+}
+
 /// Extremes of absolute floor acceleration over the block that was flown last.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
@@ -175,8 +221,7 @@ fn modes(
         let [q, p, ..] = state;
         let mut absolute = [0.0; WIDTH];
         for l in 0..WIDTH {
-            let omega = m.circular_frequency[l];
-            absolute[l] = m.damping[l] * p[l] + omega * omega * q[l];
+            absolute[l] = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
             largest[l] = if size[l] > largest[l] {
                 size[l]
             } else {
@@ -191,7 +236,7 @@ fn modes(
 /// Extremes of rows over the block: of their magnitude, or of their value.
 #[inline(always)]
 fn rows(rows: &[Rows], q: &[f64], stride: usize, magnitude: bool, out: &mut Extremes) {
-    for ((row, top), last) in rows.iter().zip(&mut out.top).zip(&mut out.last) {
+    for ((row, top), values) in rows.iter().zip(&mut out.top).zip(&mut out.values) {
         let mut sums = [[0.0; WIDTH]; BLOCK];
         for (j, column) in row.columns.iter().enumerate() {
             let column = *column;
@@ -210,6 +255,6 @@ fn rows(rows: &[Rows], q: &[f64], stride: usize, magnitude: bool, out: &mut Extr
             }
         }
         *top = most;
-        *last = sums[BLOCK - 1];
+        *values = sums;
     }
 }

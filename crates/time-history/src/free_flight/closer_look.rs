@@ -1,12 +1,10 @@
 //! A closer look at one sample of open flight: between points so dense that every
 //! floor moves on a polynomial of degree 7.
 
+use super::candidates::Quantity;
 use super::constants::{Fine, FreeFlight};
-use super::flight::Leg;
-use super::lanes::{Ground, Lane, Modal, Track, WIDTH, restoring, transform};
-use crate::polynomial::{
-    COEFFICIENTS, Polynomial, absolute_maximum, difference, first_rise, septic,
-};
+use super::lanes::{Ground, Lane, Modal, WIDTH, restoring, transform};
+use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
 /// acceleration relative to the ground, and two more.
@@ -126,67 +124,28 @@ impl CloserLook {
         })
     }
 
-    /// Whether a gap closes within the fine step.
-    pub(super) fn touches(&self, leg: &Leg<'_>) -> bool {
-        leg.system.levels().iter().enumerate().any(|(l, level)| {
-            let zero = [0.0; COEFFICIENTS];
-            let one = |floor: Option<usize>| floor.map_or(zero, |i| self.polynomial(i));
-            let mut gap = difference(&one(level.left), &one(level.right));
-            gap[0] -= leg.contacts.width(l);
-            first_rise(&gap).is_some()
-        })
-    }
-
-    pub(super) fn displacement_peaks(
-        &self,
-        constants: &FreeFlight,
-        track: &mut Track,
-        start: f64,
-        step: f64,
-    ) {
-        for i in 0..constants.building.len() {
-            if turns(track, i) {
-                raise(track, i, &self.polynomial(i), start, step);
-            }
-        }
-    }
-
-    pub(super) fn drift_peaks(
-        &self,
-        constants: &FreeFlight,
-        track: &mut Track,
-        start: f64,
-        step: f64,
-    ) {
-        for i in 0..constants.building.len() {
-            if !turns(track, i) {
-                continue;
-            }
-            let lowest = i == 0 || constants.building[i] != constants.building[i - 1];
-            let floor = self.polynomial(i);
-            let drift = if lowest {
-                floor
-            } else {
-                difference(&floor, &self.polynomial(i - 1))
-            };
-            raise(track, i, &drift, start, step);
-        }
-    }
-
-    pub(super) fn acceleration_peaks(
+    /// A floor's function over the fine step: displacement, drift or absolute
+    /// acceleration.
+    pub(super) fn function(
         &mut self,
         constants: &FreeFlight,
-        track: &mut Track,
-        start: f64,
-        step: f64,
-    ) {
-        self.start.derive_absolute(constants, &mut self.modal);
-        self.end.derive_absolute(constants, &mut self.modal);
-        for i in 0..constants.building.len() {
-            if turns(track, i) {
-                let at = |point: &Point| self.scaled(&point.absolute, i);
-                let function = septic(at(&self.start), at(&self.end));
-                raise(track, i, &function, start, step);
+        quantity: Quantity,
+        floor: usize,
+    ) -> Polynomial {
+        match quantity {
+            Quantity::Displacement => self.polynomial(floor),
+            Quantity::Drift => {
+                let below = floor.checked_sub(1);
+                match below.filter(|b| constants.building[*b] == constants.building[floor]) {
+                    None => self.polynomial(floor),
+                    Some(b) => difference(&self.polynomial(floor), &self.polynomial(b)),
+                }
+            }
+            Quantity::Acceleration => {
+                self.start.derive_absolute(constants, &mut self.modal);
+                self.end.derive_absolute(constants, &mut self.modal);
+                let at = |point: &Point| self.scaled(&point.absolute, floor);
+                septic(at(&self.start), at(&self.end))
             }
         }
     }
@@ -197,19 +156,4 @@ fn step(k: &[Lane; 4], q: &Lane, p: &Lane, ground: Ground) -> Lane {
     std::array::from_fn(|l| {
         k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
     })
-}
-
-/// Whether this floor is in doubt.
-fn turns(track: &Track, floor: usize) -> bool {
-    let (c, l) = (floor / WIDTH, floor % WIDTH);
-    let (a, b, over) = (track.now[c][l], track.next[c][l], track.overshoot[c][l]);
-    a.abs().max(b.abs()) + over > track.peak[c][l] && (b - a).abs() <= 4.0 * over
-}
-
-fn raise(track: &mut Track, floor: usize, function: &Polynomial, start: f64, step: f64) {
-    let (c, l) = (floor / WIDTH, floor % WIDTH);
-    if let Some((theta, top)) = absolute_maximum(function, track.peak[c][l]) {
-        track.peak[c][l] = top;
-        track.time[c][l] = start + theta * step;
-    }
 }

@@ -28,11 +28,11 @@ pub(crate) struct FreeFlight {
     pub drift_rows: Vec<Rows>,
     pub level_rows: Vec<Rows>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
-    pub fine: Option<Fine>,
+    pub fine: Fine,
 }
 
 /// A sample in equal parts.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Fine {
     pub parts: usize,
     pub step: f64,
@@ -55,7 +55,7 @@ impl FreeFlight {
         this.add_rows(system);
         let fastest = fastest_rate(system.buildings());
         let parts = (fastest * step / FINE).ceil().max(1.0);
-        this.fine = Some(Fine {
+        this.fine = Fine {
             parts: parts as usize,
             step: step / parts,
             modes: if parts == 1.0 {
@@ -63,7 +63,7 @@ impl FreeFlight {
             } else {
                 Self::with_step(system, step / parts).modes
             },
-        });
+        };
         Some(this)
     }
 
@@ -80,7 +80,7 @@ impl FreeFlight {
             floor_rows: Vec::new(),
             drift_rows: Vec::new(),
             level_rows: Vec::new(),
-            fine: None,
+            fine: Fine::default(),
         };
         for (index, building) in system.buildings().iter().enumerate() {
             let first = system.offsets()[index];

@@ -74,15 +74,6 @@ pub(crate) struct Track {
     pub overshoot: Vec<Lane>,
 }
 
-/// What [`advance`] leaves behind.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Advance {
-    pub next: Modal,
-    /// `|q'| + omega |q|` of every mode at the start.
-    size: Vec<Lane>,
-    modal: Vec<Lane>,
-}
-
 impl Modal {
     pub(crate) fn new(lanes: usize) -> Self {
         let zeros = || vec![[0.0; WIDTH]; lanes];
@@ -91,16 +82,6 @@ impl Modal {
             velocity: zeros(),
             input: zeros(),
             viscous: zeros(),
-        }
-    }
-}
-
-impl Advance {
-    pub(crate) fn new(lanes: usize) -> Self {
-        Self {
-            next: Modal::new(lanes),
-            size: vec![[0.0; WIDTH]; lanes],
-            modal: vec![[0.0; WIDTH]; lanes],
         }
     }
 }
@@ -116,41 +97,6 @@ impl Track {
             overshoot: zeros(),
         }
     }
-}
-
-/// Advances all modes by a step, transforms to floor displacements and drifts, and
-/// bounds what lies between. Returns whether a turning point of either inside the step
-/// could exceed its peak.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-pub(crate) fn advance(
-    constants: &FreeFlight,
-    now: &Modal,
-    ground: Ground,
-    out: &mut Advance,
-    displacement: &mut Track,
-    drift: &mut Track,
-) -> bool {
-    modal_step(&constants.modes, now, ground, out);
-    to_floors(
-        &constants.shapes,
-        &out.next.displacement,
-        &mut displacement.next,
-    );
-    drifts(&constants.shapes, &displacement.next, &mut drift.next);
-    let largest = ground.start.abs().max(ground.end.abs());
-    overshoots(
-        constants,
-        &out.size,
-        largest,
-        &mut out.modal,
-        (&mut displacement.overshoot, &mut drift.overshoot),
-    );
-    turns_above(displacement) | turns_above(drift)
 }
 
 /// Bounds of what displacements and drifts can do between samples beyond their values
@@ -205,23 +151,6 @@ pub(crate) fn is_low(constants: &FreeFlight, displacement: &[Lane], peak: &[Lane
     let eighth = constants.eighth();
     let pairs = displacement.as_flattened().iter().zip(peak.as_flattened());
     pairs.fold(true, |all, (over, peak)| all & (*over <= eighth * peak))
-}
-
-#[inline(always)]
-fn modal_step(modes: &[ModeLanes], now: &Modal, ground: Ground, out: &mut Advance) {
-    for (c, m) in modes.iter().enumerate() {
-        let start = [
-            now.displacement[c],
-            now.velocity[c],
-            now.input[c],
-            now.viscous[c],
-        ];
-        let ([q, p, input, viscous], size) = step_modes(m, start, ground);
-        let next = &mut out.next;
-        (next.displacement[c], next.velocity[c]) = (q, p);
-        (next.input[c], next.viscous[c]) = (input, viscous);
-        out.size[c] = size;
-    }
 }
 
 /// Displacement, velocity, input and viscous work of eight modes after a step, and their
@@ -322,30 +251,6 @@ pub(crate) fn turns_above(track: &Track) -> bool {
         }
     }
     any.iter().fold(0, |all, x| all | x) != 0
-}
-
-/// [`turns_above`] for the absolute acceleration, after [`advance`].
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-pub(crate) fn acceleration_turns(
-    constants: &FreeFlight,
-    out: &mut Advance,
-    ground: Ground,
-    acceleration: &mut Track,
-) -> bool {
-    let largest = (ground.start.abs().max(ground.end.abs()), ground.slope.abs());
-    acceleration_overshoots(
-        constants,
-        &out.size,
-        largest,
-        &mut out.modal,
-        &mut acceleration.overshoot,
-    );
-    turns_above(acceleration)
 }
 
 /// Takes the values at the end of the step as peaks.

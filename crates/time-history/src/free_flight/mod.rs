@@ -10,6 +10,7 @@
 //! the driver, which brackets and locates.
 
 mod block;
+mod candidates;
 mod closer_look;
 mod constants;
 mod flight;

@@ -1,0 +1,197 @@
+//! Peaks between samples, put off.
+//!
+//! While a response grows, every swing has a higher peak than the last, and a look
+//! between the samples of each would be wasted. What could be a peak is noted with a
+//! rigorous upper bound; what lies below the greatest sample in the end never needs a
+//! look.
+
+use super::block::{self, BLOCK};
+use super::closer_look::CloserLook;
+use super::constants::FreeFlight;
+use super::lanes::{Ground, Modal, Track, WIDTH};
+use crate::polynomial::absolute_maximum;
+use crate::system::System;
+
+/// What has peaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Displacement,
+    Drift,
+    Acceleration,
+}
+
+/// A sample in which a floor's function could turn above its peak.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    quantity: Quantity,
+    floor: usize,
+    /// Number of the sample at its start.
+    sample: usize,
+    /// Bound of the function in it.
+    upper: f64,
+    /// Index of the state it is reached from.
+    snapshot: usize,
+}
+
+/// A state at a sample.
+#[derive(Debug, Clone)]
+struct Snapshot {
+    sample: usize,
+    state: Modal,
+}
+
+/// All of them, with their work space.
+#[derive(Debug, Clone)]
+pub(super) struct Candidates {
+    list: Vec<Candidate>,
+    capacity: usize,
+    snapshots: Vec<Snapshot>,
+    /// Snapshots in use: the first ones.
+    used: usize,
+    scratch: Modal,
+    look: CloserLook,
+}
+
+/// Candidates kept at least, and states at most.
+const CANDIDATES: usize = 512;
+const SNAPSHOTS: usize = 64;
+
+/// Tracks of displacement, drift and acceleration.
+pub(super) type Three<'a> = [&'a mut Track; 3];
+
+impl Candidates {
+    pub(super) fn new(lanes: usize, dofs: usize) -> Self {
+        let capacity = CANDIDATES.max(2 * 3 * BLOCK * dofs);
+        let snapshot = Snapshot {
+            sample: 0,
+            state: Modal::new(lanes),
+        };
+        Self {
+            list: Vec::with_capacity(capacity),
+            capacity,
+            snapshots: vec![snapshot; SNAPSHOTS],
+            used: 0,
+            scratch: Modal::new(lanes),
+            look: CloserLook::new(lanes),
+        }
+    }
+
+    /// Makes room for those of one more block.
+    pub(super) fn make_room(
+        &mut self,
+        (constants, system): (&FreeFlight, &System),
+        tracks: &mut Three<'_>,
+        wanted: usize,
+    ) {
+        if self.list.len() + wanted <= self.capacity && self.used < SNAPSHOTS {
+            return;
+        }
+        self.prune(tracks);
+        if self.list.len() + wanted > self.capacity || self.used > SNAPSHOTS / 2 {
+            self.settle((constants, system), tracks);
+        }
+    }
+
+    /// Notes a candidate in a block that starts at `first` from the state `now`.
+    pub(super) fn note(
+        &mut self,
+        (first, now): (usize, &Modal),
+        (quantity, floor): (Quantity, usize),
+        (sample, upper): (usize, f64),
+    ) {
+        let last = self.used.checked_sub(1);
+        let snapshot = match last.filter(|s| self.snapshots[*s].sample == first) {
+            Some(snapshot) => snapshot,
+            None => {
+                let snapshot = &mut self.snapshots[self.used];
+                snapshot.sample = first;
+                snapshot
+                    .state
+                    .displacement
+                    .copy_from_slice(&now.displacement);
+                snapshot.state.velocity.copy_from_slice(&now.velocity);
+                self.used += 1;
+                self.used - 1
+            }
+        };
+        self.list.push(Candidate {
+            quantity,
+            floor,
+            sample,
+            upper,
+            snapshot,
+        });
+    }
+
+    /// Drops what lies below the peaks by now.
+    fn prune(&mut self, tracks: &Three<'_>) {
+        self.list.retain(|c| {
+            let peak = tracks[c.quantity as usize].peak[c.floor / WIDTH][c.floor % WIDTH];
+            c.upper > peak
+        });
+        // Candidates are in order of their snapshots: close the gaps between those.
+        let (mut kept, mut last) = (0, usize::MAX);
+        for candidate in &mut self.list {
+            if candidate.snapshot != last {
+                last = candidate.snapshot;
+                self.snapshots.swap(kept, last);
+                kept += 1;
+            }
+            candidate.snapshot = kept - 1;
+        }
+        self.used = kept;
+    }
+
+    /// Looks at all that are left, and forgets them.
+    pub(super) fn settle(
+        &mut self,
+        (constants, system): (&FreeFlight, &System),
+        tracks: &mut Three<'_>,
+    ) {
+        let list = std::mem::take(&mut self.list);
+        for candidate in &list {
+            let place = (candidate.floor / WIDTH, candidate.floor % WIDTH);
+            let peak = tracks[candidate.quantity as usize].peak[place.0][place.1];
+            if candidate.upper > peak {
+                self.look_at((constants, system), candidate, tracks);
+            }
+        }
+        self.list = list;
+        self.list.clear();
+        self.used = 0;
+    }
+
+    fn look_at(
+        &mut self,
+        (constants, system): (&FreeFlight, &System),
+        candidate: &Candidate,
+        tracks: &mut Three<'_>,
+    ) {
+        let samples = &system.ground().samples;
+        let snapshot = &self.snapshots[candidate.snapshot];
+        let before = &samples[snapshot.sample..=candidate.sample];
+        block::advance(constants, &snapshot.state, before, &mut self.scratch);
+        self.look.begin(&self.scratch);
+        let (start, end) = (samples[candidate.sample], samples[candidate.sample + 1]);
+        let fine = &constants.fine;
+        let track = &mut tracks[candidate.quantity as usize];
+        let (c, l) = (candidate.floor / WIDTH, candidate.floor % WIDTH);
+        for part in 0..fine.parts {
+            let at = |k: usize| start + (end - start) * (k as f64 / fine.parts as f64);
+            let ground = Ground {
+                start: at(part),
+                end: at(part + 1),
+                slope: (end - start) / constants.step,
+            };
+            self.look.advance(constants, fine, ground);
+            let function = self
+                .look
+                .function(constants, candidate.quantity, candidate.floor);
+            if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
+                track.peak[c][l] = top;
+                track.time[c][l] =
+                    candidate.sample as f64 * constants.step + (part as f64 + theta) * fine.step;
+            }
+        }
+    }
+}

@@ -102,15 +102,24 @@ impl Contacts {
 
     /// Lets every model take the accepted state into its memory.
     pub(crate) fn commit(&mut self, system: &System, u: &[f64], v: &[f64]) {
-        for &l in &self.closed {
+        for k in 0..self.closed.len() {
+            let l = self.closed[k];
             let level = &system.levels()[l];
             let delta = level.relative(u) - self.widths[l];
-            if let Mode::Closed(contact) = &mut self.modes[l] {
-                let velocity = level.relative(v);
-                level
-                    .model
-                    .commit(&mut contact.memory, contact.phase, delta, velocity);
-            }
+            self.commit_level(system, l, (delta, level.relative(v)));
+        }
+    }
+
+    /// The same for one level, by its penetration (m) and its rate (m/s).
+    pub(crate) fn commit_level(
+        &mut self,
+        system: &System,
+        level: usize,
+        (delta, velocity): (f64, f64),
+    ) {
+        if let Mode::Closed(contact) = &mut self.modes[level] {
+            let model = &system.levels()[level].model;
+            model.commit(&mut contact.memory, contact.phase, delta, velocity);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP, SIMULTANEOUS, segment}
 use crate::dynamics::Segment;
 use crate::engagement::{
     Clock, LevelRows, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch, are_affine,
-    begin_acceleration, in_series, in_span, list, note_floors_of_series, note_floors_of_span,
+    begin_acceleration, in_series, in_span, list, refresh, note_floors_of_series, note_floors_of_span,
     total,
 };
 use crate::error::TimeHistoryError;
@@ -37,6 +37,9 @@ struct Engagement {
     absolute: Vec<Lane>,
     fastest: f64,
     tolerance: f64,
+    /// Whether the list of closed levels holds, and whether they all are affine.
+    listed: bool,
+    affine: bool,
     /// Whether the accelerations at the present start hold.
     derived: bool,
 }
@@ -70,10 +73,21 @@ impl Open {
                 absolute: zeros(),
                 fastest: fastest_rate(system.buildings()),
                 tolerance: relative_tolerance,
+                listed: false,
+                affine: false,
                 derived: false,
             },
             constants,
         })
+    }
+}
+
+impl Open {
+    /// Gives the motion back to flight.
+    fn put_back(&mut self) {
+        let [q, p, ..] = &self.engagement.pair.start.motion;
+        self.flight.now.displacement.copy_from_slice(q);
+        self.flight.now.velocity.copy_from_slice(p);
     }
 }
 
@@ -112,10 +126,12 @@ impl Driver<'_> {
         let (system, peaks) = ((self.system, &self.contacts), &self.peaks.storeys);
         flight.board(constants, system, peaks, &self.state);
         let [q, p, ..] = &mut engagement.pair.start.motion;
+        engagement.listed = false;
         q.copy_from_slice(&flight.now.displacement);
         p.copy_from_slice(&flight.now.velocity);
         while let Some(segment) = segment(self.system, sample, duration) {
             if let Some(tau) = self.engage_segment(open, &segment)? {
+                open.put_back();
                 self.leave(open, segment.start + tau)?;
                 return Ok(Left::Within(sample, tau));
             }
@@ -125,7 +141,14 @@ impl Driver<'_> {
                 break;
             }
         }
+        open.put_back();
         Ok(Left::At(sample))
+    }
+
+    /// Evaluations, or terms of series, in the coordinates of the modes.
+    pub(super) fn evaluations_in_modes(&self) -> u64 {
+        let open = self.open.as_ref();
+        self.series_terms + open.map_or(0, |o| o.engagement.pair.evaluations)
     }
 
     /// Leaves the coordinates of the modes.
@@ -158,9 +181,18 @@ impl Driver<'_> {
         let mut tau = 0.0;
         open.engagement.derived = false;
         while tau < segment.length {
-            if !list(&self.contacts, &mut open.engagement.touches) {
-                return Ok(Some(tau));
+            let e = &mut open.engagement;
+            if !e.listed {
+                if !list(&self.contacts, &mut e.touches) {
+                    return Ok(Some(tau));
+                }
+                e.affine = are_affine(&e.touches, self.system);
+                if e.affine {
+                    e.series.take_laws(self.system, &e.touches);
+                }
+                e.listed = true;
             }
+            let affine = e.affine;
             let mut quiet = f64::INFINITY;
             for (mute, step) in self.mute.iter().zip(&self.quiet) {
                 if *mute != Mute::No {
@@ -169,7 +201,6 @@ impl Driver<'_> {
             }
             let rest = segment.length - tau;
             let longest = rest.min(quiet);
-            let affine = are_affine(&open.engagement.touches, self.system);
             let (step, event) = if affine {
                 self.by_series(open, segment, tau, longest)
             } else {
@@ -203,9 +234,18 @@ impl Driver<'_> {
         tau: f64,
         (event, whole): (Candidate, f64),
     ) -> Result<(), TimeHistoryError> {
+        let Open {
+            constants,
+            flight,
+            engagement,
+        } = &mut *open;
+        let n = self.dynamics.layout.dofs;
+        let [q, p, ..] = &engagement.pair.start.motion;
+        flight.land_from(constants, (q, p), &mut self.state[..2 * n]);
         let smooth = self.process(segment, tau, event, whole)?;
         let engagement = &mut open.engagement;
         engagement.lengths.restart(smooth);
+        engagement.listed = false;
         engagement.derived = false;
         open.flight.acceleration_known = false;
         Ok(())
@@ -219,21 +259,24 @@ impl Driver<'_> {
             engagement,
         } = open;
         let layout = self.dynamics.layout;
-        let n = layout.dofs;
         let [q, p, ..] = &engagement.pair.start.motion;
-        flight.now.displacement.copy_from_slice(q);
-        flight.now.velocity.copy_from_slice(p);
-        flight.land(constants, &mut self.state[..2 * n]);
         self.statistics.steps += 1;
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
             self.mute.fill(Mute::No);
             self.stalled = 0;
         }
-        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
-        self.contacts.commit(self.system, u, v);
+        let rows = &engagement.rows.levels;
         for (l, penetration) in flight.penetration.iter_mut().enumerate() {
-            *penetration = self.contacts.penetration(self.system, l, u);
+            *penetration = rows[l].dot(q) - self.contacts.width(l);
+        }
+        for touch in &engagement.touches {
+            let l = touch.level;
+            let motion = (flight.penetration[l], rows[l].dot(p));
+            self.contacts.commit_level(self.system, l, motion);
+        }
+        if !engagement.affine {
+            refresh(&self.contacts, &mut engagement.touches);
         }
         // The modes hold kinetic and strain energy.
         let mut energies = [0.0; WIDTH];
@@ -268,7 +311,7 @@ impl Driver<'_> {
             flight,
             engagement: e,
         } = open;
-        let rate = e.series.take_laws(self.system, &e.touches);
+        let rate = e.series.rate();
         let rate = (e.fastest * e.fastest + rate * rate).sqrt();
         let parts = (longest / Series::longest(rate)).ceil().max(1.0);
         let whole = longest / parts;
@@ -330,13 +373,8 @@ impl Driver<'_> {
                 (&touch.force, &mut self.peaks.force[touch.level]),
             ];
             for (terms, peak) in peaks {
-                let (after, bend) = e.series.end_and_bend(terms);
-                if terms[0].max(after) + bend <= peak.value {
-                    continue;
-                }
-                let fitted = fit(&e.series.at_nodes(terms));
-                if let Some((theta, _)) = maximum_above(&fitted, peak.value) {
-                    peak.raise(e.series.at(terms, theta).0, start + theta * step);
+                if let Some((theta, top)) = e.series.maximum(terms, peak.value) {
+                    peak.raise(top, start + theta * step);
                 }
             }
         }

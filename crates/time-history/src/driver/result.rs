@@ -38,7 +38,7 @@ impl Driver<'_> {
             });
         }
         let counts = self.method.counts();
-        self.statistics.evaluations = counts.evaluations;
+        self.statistics.evaluations = counts.evaluations + self.evaluations_in_modes();
         self.statistics.newton_iterations = counts.newton_iterations;
         let buildings = self
             .system

@@ -30,4 +30,4 @@ pub(crate) use search::{in_series, in_span};
 pub(crate) use series::{Series, SeriesStep};
 pub(crate) use span::Span;
 pub(crate) use step_length::StepLength;
-pub(crate) use touch::{Touch, are_affine, list};
+pub(crate) use touch::{Touch, are_affine, list, refresh};

@@ -1,11 +1,11 @@
 //! Peaks of floors inside a step.
 
 use super::pair::Scene;
-use super::rows::LevelRows;
+use super::rows::{LevelRows, total};
 use super::series::Series;
 use super::span::Span;
 use crate::free_flight::{
-    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform, turns_above,
+    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform,
 };
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
@@ -40,31 +40,9 @@ pub(crate) fn note_floors_of_series(
     transform(shapes, displacement, &mut tracks.displacement.next);
     drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
     transform(shapes, absolute, &mut tracks.acceleration.next);
-    let bounds = [
-        (
-            &constants.magnitudes,
-            &series.bend,
-            &mut *tracks.displacement,
-        ),
-        (
-            &constants.drift_magnitudes,
-            &series.bend,
-            &mut *tracks.drift,
-        ),
-        (
-            &constants.magnitudes,
-            &series.snap,
-            &mut *tracks.acceleration,
-        ),
-    ];
-    for (shapes, bound, track) in bounds {
-        transform(shapes, bound, &mut track.overshoot);
-        for lane in &mut track.overshoot {
-            for x in lane {
-                *x *= 0.125;
-            }
-        }
-    }
+    let bend = 0.125 * reach(rows, &series.bend);
+    // A drift is a difference of two floors.
+    let bounds = [bend, 2.0 * bend, 0.125 * reach(rows, &series.snap)];
     let step = series.step();
     for (which, track) in [
         &mut *tracks.displacement,
@@ -74,29 +52,69 @@ pub(crate) fn note_floors_of_series(
     .into_iter()
     .enumerate()
     {
-        if turns_above(track) {
-            for i in 0..rows.floors.len() {
-                if !turns(track, i) {
-                    continue;
-                }
-                let terms = match which {
-                    0 => series.row(&rows.floors[i]),
-                    1 => series.row(&rows.drifts[i]),
-                    _ => series.row_acceleration(&rows.floors[i], 1.0),
-                };
-                let fitted = fit(&series.at_nodes(&terms));
-                let (c, l) = (i / WIDTH, i % WIDTH);
-                if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
-                    take(
-                        track,
-                        i,
-                        series.at(&terms, theta).0.abs(),
-                        start + theta * step,
-                    );
-                }
+        if exceeds(track, bounds[which]) {
+            let (shapes, bound) = match which {
+                0 => (&constants.magnitudes, &series.bend),
+                1 => (&constants.drift_magnitudes, &series.bend),
+                _ => (&constants.magnitudes, &series.snap),
+            };
+            transform(shapes, bound, &mut track.overshoot);
+            for lane in &mut track.overshoot {
+                *lane = lane.map(|x| 0.125 * x);
             }
+            inside_series(rows, series, which, track, start);
         }
         raise(track, start + step);
+    }
+}
+
+/// Bound of a function of any floor whose modal parts have these magnitudes.
+fn reach(rows: &LevelRows, magnitudes: &[Lane]) -> f64 {
+    let mut sum = [0.0; WIDTH];
+    for (size, part) in rows.size.iter().zip(magnitudes) {
+        for l in 0..WIDTH {
+            sum[l] += size[l] * part[l];
+        }
+    }
+    total(&sum)
+}
+
+/// Whether any floor could exceed its peak inside, for this bound of the overshoot.
+fn exceeds(track: &Track, over: f64) -> bool {
+    let mut any = false;
+    for c in 0..track.now.len() {
+        let (a, b, peak) = (track.now[c], track.next[c], track.peak[c]);
+        for l in 0..WIDTH {
+            let (a, b) = (a[l].abs(), b[l].abs());
+            any |= (if a > b { a } else { b }) + over > peak[l];
+        }
+    }
+    any
+}
+
+/// Peaks of displacement (0), drift (1) or absolute acceleration (2) inside a series.
+fn inside_series(
+    rows: &LevelRows,
+    series: &Series,
+    which: usize,
+    track: &mut Track,
+    start: f64,
+) {
+    for i in 0..rows.floors.len() {
+        if !turns(track, i) {
+            continue;
+        }
+        let terms = match which {
+            0 => series.row(&rows.floors[i]),
+            1 => series.row(&rows.drifts[i]),
+            _ => series.row_acceleration(&rows.floors[i], 1.0),
+        };
+        let fitted = fit(&series.at_nodes(&terms));
+        let (c, l) = (i / WIDTH, i % WIDTH);
+        if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
+            let value = series.at(&terms, theta).0.abs();
+            take(track, i, value, start + theta * series.step());
+        }
     }
 }
 

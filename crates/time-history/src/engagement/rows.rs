@@ -10,6 +10,18 @@ pub(crate) struct ModalRow {
     weights: Vec<Lane>,
 }
 
+impl ModalRow {
+    /// Its weights on all of the first `LANES` lanes.
+    #[inline(always)]
+    pub(super) fn spread<const LANES: usize>(&self) -> [Lane; LANES] {
+        std::array::from_fn(|c| {
+            let place = c.checked_sub(self.first_lane);
+            let lane = place.and_then(|c| self.weights.get(c));
+            lane.copied().unwrap_or([0.0; WIDTH])
+        })
+    }
+}
+
 /// Rows of all floors, drifts and levels (left floor less right one).
 #[derive(Debug, Clone)]
 pub(crate) struct LevelRows {

@@ -6,6 +6,7 @@ use super::rows::{LevelRows, ModalRow, total};
 use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
 use super::touch::Touch;
 use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH};
+use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
 /// Greatest product of rate and step.
@@ -51,6 +52,7 @@ pub(crate) struct Works {
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     lanes: usize,
+    rate: f64,
     last: usize,
     step: f64,
     ground: (f64, f64),
@@ -81,6 +83,7 @@ impl Series {
         touches.clear();
         Self {
             lanes,
+            rate: 0.0,
             last: 0,
             step: 0.0,
             ground: (0.0, 0.0),
@@ -93,14 +96,19 @@ impl Series {
         }
     }
 
+    /// Bound of the rate (1/s) of the motion of the closed levels, of
+    /// `sqrt(sum k / m) + sum c / m`.
+    pub(crate) fn rate(&self) -> f64 {
+        self.rate
+    }
+
     /// Longest step (s) at a rate (1/s).
     pub(crate) fn longest(rate: f64) -> f64 {
         LONGEST / rate
     }
 
-    /// Takes the laws of the closed levels. Returns a bound of the rate (1/s) of their
-    /// motion: of `sqrt(sum k / m) + sum c / m`.
-    pub(crate) fn take_laws(&mut self, system: &System, touches: &[Touch]) -> f64 {
+    /// Takes the laws of the closed levels.
+    pub(crate) fn take_laws(&mut self, system: &System, touches: &[Touch]) {
         self.touches.clear();
         let (mut squares, mut damping) = (0.0, 0.0);
         for touch in touches {
@@ -118,7 +126,7 @@ impl Series {
                 dashpot: law.by_velocity,
             });
         }
-        squares.sqrt() + damping
+        self.rate = squares.sqrt() + damping;
     }
 
     /// Expands the motion over a step.
@@ -266,6 +274,24 @@ impl Series {
         value_and_slope(terms, self.last, theta)
     }
 
+    /// Greatest value above `floor`, with its theta.
+    pub(crate) fn maximum(&self, terms: &Terms, floor: f64) -> Option<(f64, f64)> {
+        let (after, bend) = self.end_and_bend(terms);
+        if terms[0].max(after) + bend <= floor {
+            return None;
+        }
+        let ends = match after > terms[0] {
+            true => (1.0, after),
+            false => (0.0, terms[0]),
+        };
+        // A larger change excludes a turning point inside.
+        if (after - terms[0]).abs() > 4.0 * bend {
+            return (ends.1 > floor).then_some(ends);
+        }
+        let (theta, _) = maximum_above(&fit(&self.at_nodes(terms)), floor)?;
+        Some((theta, self.at(terms, theta).0))
+    }
+
     /// Value at the end, and the bound of the distance from the chord.
     pub(crate) fn end_and_bend(&self, terms: &Terms) -> (f64, f64) {
         let (mut end, mut bend) = (0.0, 0.0);
@@ -295,6 +321,84 @@ fn last_term(x: f64) -> usize {
     "aarch64+neon"
 ))]
 fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
+    match series.lanes {
+        1 => expand_in_place::<1>(series, modes, levels),
+        2 => expand_in_place::<2>(series, modes, levels),
+        3 => expand_in_place::<3>(series, modes, levels),
+        4 => expand_in_place::<4>(series, modes, levels),
+        _ => expand_many(series, modes, levels),
+    }
+}
+
+/// The same bits as [`expand_many`], with the present terms in registers.
+#[inline(always)]
+fn expand_in_place<const LANES: usize>(
+    series: &mut Series,
+    modes: &[ModeLanes],
+    levels: &[ModalRow],
+) {
+    let (last, h) = (series.last, series.step);
+    let (mut q, mut p) = ([[0.0; WIDTH]; LANES], [[0.0; WIDTH]; LANES]);
+    q.copy_from_slice(&series.displacement[..LANES]);
+    p.copy_from_slice(&series.velocity[..LANES]);
+    let (mut bend, mut snap) = ([[0.0; WIDTH]; LANES], [[0.0; WIDTH]; LANES]);
+    for k in 0..last {
+        let load = match k {
+            0 => series.ground.0,
+            1 => series.ground.1 * h,
+            _ => 0.0,
+        };
+        let mut a = [[0.0; WIDTH]; LANES];
+        for c in 0..LANES {
+            let m = &modes[c];
+            for l in 0..WIDTH {
+                a[c][l] = -(m.damping[l] * p[c][l] + m.stiffness[l] * q[c][l])
+                    - m.participation[l] * load;
+            }
+        }
+        for touch in &series.touches {
+            let (force, row) = (-touch.force[k], levels[touch.level].spread::<LANES>());
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    a[c][l] += force * row[c][l];
+                }
+            }
+        }
+        let scale = h / (k + 1) as f64;
+        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
+        for c in 0..LANES {
+            for l in 0..WIDTH {
+                // Terms of the acceleration are those of the velocity before scaling.
+                snap[c][l] += next * a[c][l].abs();
+                q[c][l] = scale * p[c][l];
+                p[c][l] = scale * a[c][l];
+                bend[c][l] += order * q[c][l].abs();
+            }
+        }
+        let range = (k + 1) * LANES..(k + 2) * LANES;
+        series.displacement[range.clone()].copy_from_slice(&q);
+        series.velocity[range].copy_from_slice(&p);
+        for touch in &mut series.touches {
+            let row = levels[touch.level].spread::<LANES>();
+            let mut sum = [0.0; WIDTH];
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    sum[l] += row[c][l] * p[c][l];
+                }
+            }
+            touch.delta[k + 1] = scale * touch.rate[k];
+            touch.rate[k + 1] = total(&sum);
+            touch.force[k + 1] =
+                touch.stiffness * touch.delta[k + 1] + touch.dashpot * touch.rate[k + 1];
+        }
+    }
+    series.bend.copy_from_slice(&bend);
+    series.snap.copy_from_slice(&snap);
+}
+
+/// Any number of lanes.
+#[inline(always)]
+fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
     let (lanes, last, h) = (series.lanes, series.last, series.step);
     series.bend.fill([0.0; WIDTH]);
     series.snap.fill([0.0; WIDTH]);

@@ -39,14 +39,21 @@ impl Tables {
 /// A series at the points of a table.
 #[inline(always)]
 pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane {
-    let mut sums = [[0.0; WIDTH]; 2];
-    for k in 0..=last {
-        let sum = &mut sums[k % 2];
+    // Even and odd terms apart: two chains of additions, not one.
+    let (mut even, mut odd) = ([0.0; WIDTH], [0.0; WIDTH]);
+    let pairs = terms[..=last].chunks_exact(2).zip(powers.chunks_exact(2));
+    for (t, p) in pairs {
         for l in 0..WIDTH {
-            sum[l] += terms[k] * powers[k][l];
+            even[l] += t[0] * p[0][l];
+            odd[l] += t[1] * p[1][l];
         }
     }
-    std::array::from_fn(|l| sums[0][l] + sums[1][l])
+    if last % 2 == 0 {
+        for l in 0..WIDTH {
+            even[l] += terms[last] * powers[last][l];
+        }
+    }
+    std::array::from_fn(|l| even[l] + odd[l])
 }
 
 /// Value and derivative of a series at `theta`.

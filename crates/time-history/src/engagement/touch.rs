@@ -32,6 +32,15 @@ pub(crate) fn list(contacts: &Contacts, out: &mut Vec<Touch>) -> bool {
     true
 }
 
+/// Takes over what the models remember by now.
+pub(crate) fn refresh(contacts: &Contacts, touches: &mut [Touch]) {
+    for touch in touches {
+        if let Some(contact) = contacts.contact(touch.level) {
+            touch.contact.memory = contact.memory;
+        }
+    }
+}
+
 /// Whether all of them are affine in their phase.
 pub(crate) fn are_affine(touches: &[Touch], system: &System) -> bool {
     touches.iter().all(|t| {

@@ -111,7 +111,10 @@ impl Flight {
         if self.aboard {
             self.aboard = false;
             let n = system.degrees_of_freedom();
-            self.land(constants, &mut state[..2 * n]);
+            for (modal, place) in [(&self.now.displacement, 0), (&self.now.velocity, n)] {
+                transform(&constants.shapes, modal, &mut self.modal);
+                state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
+            }
             self.write_peaks(system, peaks);
         }
     }
@@ -133,10 +136,15 @@ impl Flight {
         self.write_peaks(system, peaks);
     }
 
-    /// Floor displacements and velocities.
-    pub(crate) fn land(&mut self, constants: &FreeFlight, state: &mut [f64]) {
+    /// Floor displacements and velocities from those of the modes.
+    pub(crate) fn land_from(
+        &mut self,
+        constants: &FreeFlight,
+        (q, p): (&[Lane], &[Lane]),
+        state: &mut [f64],
+    ) {
         let n = state.len() / 2;
-        for (modal, place) in [(&self.now.displacement, 0), (&self.now.velocity, n)] {
+        for (modal, place) in [(q, 0), (p, n)] {
             transform(&constants.shapes, modal, &mut self.modal);
             state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
         }

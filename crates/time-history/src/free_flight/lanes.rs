@@ -234,25 +234,6 @@ pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {
     }
 }
 
-/// Whether a turning point inside the step could exceed the peak: a change of more
-/// than `h^2 / 2` times the bound of the second derivative excludes one.
-#[inline(always)]
-pub(crate) fn turns_above(track: &Track) -> bool {
-    let count = track.now.len();
-    let (now, next) = (&track.now[..count], &track.next[..count]);
-    let (peak, overshoot) = (&track.peak[..count], &track.overshoot[..count]);
-    let mut any = [0_u64; WIDTH];
-    for c in 0..count {
-        for l in 0..WIDTH {
-            let (a, b, over) = (now[c][l], next[c][l], overshoot[c][l]);
-            let top = a.abs().max(b.abs()) + over;
-            let turns = (top > peak[c][l]) & ((b - a).abs() <= 4.0 * over);
-            any[l] |= u64::from(turns);
-        }
-    }
-    any.iter().fold(0, |all, x| all | x) != 0
-}
-
 /// Takes the values at the end of the step as peaks.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",

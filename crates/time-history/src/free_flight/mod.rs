@@ -20,5 +20,5 @@ mod mode_step;
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
 pub(crate) use lanes::{
-    Lane, ModeLanes, Track, WIDTH, drifts, raise, raise_now, transform, turns_above,
+    Lane, ModeLanes, Track, WIDTH, drifts, raise, raise_now, transform,
 };

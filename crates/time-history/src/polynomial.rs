@@ -163,6 +163,11 @@ fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
 /// at `theta = 0` and divided out: the same root is not found again, while a
 /// function that truly leaves through it is reported at once.
 pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
+    first_rise_near(p, 1.0e-15)
+}
+
+/// The same to this precision only, for what is corrected by the function itself.
+pub(crate) fn first_rise_near(p: &Polynomial, precision: f64) -> Option<f64> {
     let mut q = *p;
     for level in 0..COEFFICIENTS {
         let largest = q.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -174,7 +179,8 @@ pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
             if q[0].max(end) + sagitta(&q) < 0.0 {
                 return None;
             }
-            return search_rise(&bernstein(&q), 0.0, 1.0).map(|theta| polish(&q, theta));
+            let bracket = search_rise(&bernstein(&q), 0.0, 1.0);
+            return bracket.map(|bracket| polish(&q, bracket, precision));
         }
         // The deflated function decides; only its first clear sign counts.
         if q[0] > ROUND_OFF * largest && level > 0 {
@@ -220,7 +226,7 @@ fn sign_changes(b: &Polynomial) -> usize {
 }
 
 /// Root in a bracket (negative left, positive right) by Newton kept inside it.
-fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
+fn polish(q: &Polynomial, bracket: (f64, f64), precision: f64) -> f64 {
     let (mut low, mut high) = bracket;
     let d = derivative(q);
     let mut x = 0.5 * (low + high);
@@ -237,7 +243,7 @@ fn polish(q: &Polynomial, bracket: (f64, f64)) -> f64 {
         } else {
             0.5 * (low + high)
         };
-        if (next - x).abs() <= 1.0e-15 || high - low <= 1.0e-15 {
+        if (next - x).abs() <= precision || high - low <= precision {
             return next;
         }
         x = next;
@@ -312,7 +318,8 @@ impl Search<'_> {
         match (sign_changes(&slopes), rising) {
             (0, _) => {}
             (1, Some(first)) if *first < 0.0 => {
-                let theta = polish(self.falling, (left, right));
+                // At a maximum the value errs by the square of this.
+                let theta = polish(self.falling, (left, right), 1.0e-9);
                 self.take(value(self.function, theta), theta);
             }
             // It falls and rises: an end is the greatest.

@@ -528,8 +528,18 @@ fn note_contact(
     let level = &scene.system.levels()[touch.level];
     let (a, b) = span.touch(k);
     let (delta, rate) = (span.displacement(a, b), span.velocity(a, b));
-    if let Some((theta, top)) = maximum_above(&delta, penetration.value) {
+    let end = start + span.clock.offset(1.0);
+    penetration.raise(b[0], end);
+    if a[1] * b[1] <= 0.0
+        && let Some((theta, top)) = maximum_above(&delta, penetration.value)
+    {
         penetration.raise(top, start + span.clock.offset(theta));
+    }
+    let (first, last) = (&span.start.touches[k], &span.end.touches[k]);
+    force.raise(first.force, start);
+    force.raise(last.force, end);
+    if first.force_rate * last.force_rate > 0.0 {
+        return;
     }
     let at = |theta: f64| {
         let (delta, rate) = (value(&delta, theta), value(&rate, theta));

@@ -30,9 +30,12 @@ pub(crate) struct Scene<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct Pair {
     lanes: usize,
-    /// Derivatives of displacements and velocities with respect to `s`, stage after stage.
-    stages: [Vec<Lane>; 2],
-    trial: [Vec<Lane>; 2],
+    /// Derivatives of displacements, then of velocities, with respect to `s`, stage after
+    /// stage.
+    stages: Vec<Lane>,
+    /// Displacements, then velocities.
+    trial: Vec<Lane>,
+    base: Vec<Lane>,
     pub start: Point,
     pub end: Point,
     pub works: Works,
@@ -43,12 +46,12 @@ pub(crate) struct Pair {
 
 impl Pair {
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
-        let stages = || vec![[0.0; WIDTH]; lanes * STAGES];
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = |count: usize| vec![[0.0; WIDTH]; count];
         Self {
             lanes,
-            stages: [stages(), stages()],
-            trial: [zeros(), zeros()],
+            stages: zeros(2 * lanes * STAGES),
+            trial: zeros(2 * lanes),
+            base: zeros(2 * lanes),
             start: Point::new(lanes, levels),
             end: Point::new(lanes, levels),
             works: Works::default(),
@@ -61,6 +64,9 @@ impl Pair {
     /// and velocities it sets. Returns the error over what is allowed.
     pub(crate) fn step(&mut self, scene: &Scene<'_>, clock: &Clock) -> f64 {
         self.evaluations += STAGES as u64 - 1;
+        let lanes = self.lanes;
+        self.base[..lanes].copy_from_slice(&self.start.motion[0]);
+        self.base[lanes..].copy_from_slice(&self.start.motion[1]);
         step(self, scene, clock)
     }
 }
@@ -83,6 +89,18 @@ const SOLUTION: [f64; STAGES] = {
     "aarch64+neon"
 ))]
 fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
+    match pair.lanes {
+        1 => step_of::<2>(pair, scene, clock),
+        2 => step_of::<4>(pair, scene, clock),
+        3 => step_of::<6>(pair, scene, clock),
+        4 => step_of::<8>(pair, scene, clock),
+        _ => step_of::<0>(pair, scene, clock),
+    }
+}
+
+/// For `LANES` lanes of displacements and velocities together; zero is any number.
+#[inline(always)]
+fn step_of<const LANES: usize>(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
     let (lanes, span) = (pair.lanes, clock.span());
     pair.contact_works.clear();
     pair.contact_works.resize(scene.touches.len(), (0.0, 0.0));
@@ -93,27 +111,13 @@ fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
         let ground = scene.ground.0 + scene.ground.1 * clock.offset(theta);
         let weight = SOLUTION[stage] * span * rate;
         if stage > 0 {
-            for which in 0..2 {
-                let (stages, base) = (&pair.stages[which], &pair.start.motion[which]);
-                combine(
-                    stages,
-                    lanes,
-                    ROWS[stage],
-                    base,
-                    span,
-                    &mut pair.trial[which],
-                );
-            }
+            combine::<LANES>(&pair.stages, ROWS[stage], &pair.base, span, &mut pair.trial);
         }
-        let [q, p] = if stage > 0 {
-            [&pair.trial[0], &pair.trial[1]]
-        } else {
-            [&pair.start.motion[0], &pair.start.motion[1]]
-        };
-        let [speeds, accelerations] = &mut pair.stages;
-        let range = stage * lanes..(stage + 1) * lanes;
-        let (speeds, accelerations) = (&mut speeds[range.clone()], &mut accelerations[range]);
-        for (c, m) in scene.constants.modes.iter().enumerate() {
+        let state = if stage > 0 { &pair.trial } else { &pair.base };
+        let (q, p) = state.split_at(lanes);
+        let range = 2 * stage * lanes..2 * (stage + 1) * lanes;
+        let (speeds, accelerations) = pair.stages[range].split_at_mut(lanes);
+        for (c, m) in scene.constants.modes[..lanes].iter().enumerate() {
             let (x, v) = (q[c], p[c]);
             let (mut speed, mut a) = ([0.0; WIDTH], [0.0; WIDTH]);
             for l in 0..WIDTH {
@@ -136,17 +140,10 @@ fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
             works.1 += weight * force;
         }
     }
-    for which in 0..2 {
-        let (stages, base) = (&pair.stages[which], &pair.start.motion[which]);
-        combine(
-            stages,
-            lanes,
-            &WEIGHTS,
-            base,
-            span,
-            &mut pair.end.motion[which],
-        );
-    }
+    combine::<LANES>(&pair.stages, &WEIGHTS, &pair.base, span, &mut pair.trial);
+    let (q, p) = pair.trial.split_at(lanes);
+    pair.end.motion[0].copy_from_slice(q);
+    pair.end.motion[1].copy_from_slice(p);
     pair.works = Works {
         input: total(&input),
         viscous: total(&viscous),
@@ -156,25 +153,45 @@ fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
 
 /// `out = base + step * sum(weight * stage)`.
 #[inline(always)]
-fn combine(
+fn combine<const LANES: usize>(
     stages: &[Lane],
-    lanes: usize,
     weights: &[(usize, f64)],
     base: &[Lane],
     step: f64,
     out: &mut [Lane],
 ) {
-    for c in 0..lanes {
-        let mut sum = [0.0; WIDTH];
-        for (j, w) in weights {
-            let stage = stages[j * lanes + c];
+    if LANES == 0 {
+        let lanes = base.len();
+        for c in 0..lanes {
+            let mut sum = [0.0; WIDTH];
+            for (j, w) in weights {
+                let stage = stages[j * lanes + c];
+                for l in 0..WIDTH {
+                    sum[l] += w * stage[l];
+                }
+            }
+            let mut end = base[c];
             for l in 0..WIDTH {
-                sum[l] += w * stage[l];
+                end[l] += step * sum[l];
+            }
+            out[c] = end;
+        }
+        return;
+    }
+    let mut sums = [[0.0; WIDTH]; LANES];
+    for (j, w) in weights {
+        let stage = &stages[j * LANES..(j + 1) * LANES];
+        for c in 0..LANES {
+            for l in 0..WIDTH {
+                sums[c][l] += w * stage[c][l];
             }
         }
+    }
+    let (base, out) = (&base[..LANES], &mut out[..LANES]);
+    for c in 0..LANES {
         let mut end = base[c];
         for l in 0..WIDTH {
-            end[l] += step * sum[l];
+            end[l] += step * sums[c][l];
         }
         out[c] = end;
     }
@@ -186,33 +203,27 @@ fn combine(
 fn error(pair: &Pair, scene: &Scene<'_>, span: f64) -> f64 {
     let lanes = pair.lanes;
     let mut largest = [0.0_f64; WIDTH];
-    for which in 0..2 {
-        let stages = &pair.stages[which];
-        for c in 0..lanes {
-            let (mut fifth, mut third) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for ((j, w), (_, x)) in ERROR_5.iter().zip(&ERROR_3) {
-                let stage = &stages[j * lanes + c];
-                for l in 0..WIDTH {
-                    fifth[l] += w * stage[l];
-                    third[l] += x * stage[l];
-                }
-            }
-            let (before, after) = (&pair.start.motion[which][c], &pair.end.motion[which][c]);
+    for c in 0..2 * lanes {
+        let (mut fifth, mut third) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for ((j, w), (_, x)) in ERROR_5.iter().zip(&ERROR_3) {
+            let stage = pair.stages[2 * j * lanes + c];
             for l in 0..WIDTH {
-                let size = scene.rows.size[c][l];
-                let reach = before[l].abs().max(after[l].abs());
-                let allowed = scene.tolerance * (SIZE[which] + size * reach);
-                let square = fifth[l] * fifth[l];
-                let blend = (square + 0.01 * third[l] * third[l]).sqrt();
-                let error = span.abs() * size * square / (blend + f64::MIN_POSITIVE);
-                let ratio = error / allowed;
-                // A NaN must not be lost in the comparison.
-                largest[l] = if ratio <= largest[l] {
-                    largest[l]
-                } else {
-                    ratio
-                };
+                fifth[l] += w * stage[l];
+                third[l] += x * stage[l];
             }
+        }
+        let (before, after) = (pair.base[c], pair.trial[c]);
+        let (size, floor) = (scene.rows.size[c % lanes], SIZE[c / lanes]);
+        for l in 0..WIDTH {
+            let (a, b) = (before[l].abs(), after[l].abs());
+            let reach = if a > b { a } else { b };
+            let allowed = scene.tolerance * (floor + size[l] * reach);
+            let square = fifth[l] * fifth[l];
+            let blend = (square + 0.01 * third[l] * third[l]).sqrt();
+            let error = span.abs() * size[l] * square / (blend + f64::MIN_POSITIVE);
+            let ratio = error / allowed;
+            // A NaN must not be lost in the comparison.
+            largest[l] = if ratio <= largest[l] { largest[l] } else { ratio };
         }
     }
     let mut most = 0.0;

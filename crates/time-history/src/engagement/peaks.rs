@@ -73,7 +73,7 @@ fn reach(rows: &LevelRows, magnitudes: &[Lane]) -> f64 {
     let mut sum = [0.0; WIDTH];
     for (size, part) in rows.size.iter().zip(magnitudes) {
         for l in 0..WIDTH {
-            sum[l] += size[l] * part[l];
+            sum[l] += size[l] * part[l].abs();
         }
     }
     total(&sum)
@@ -192,9 +192,16 @@ pub(crate) fn note_floors_of_span(
         }
     }
     transform(shapes, &rates.modal, &mut tracks.acceleration.next);
-    rates.take(constants, span, scene.ground.1, 0);
-    rates.take(constants, span, scene.ground.1, 1);
     let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
+    let bend = |k: usize| {
+        let [a, b] = [span.start, span.end].map(|p| reach(rows, &p.motion[k]));
+        a.max(b)
+    };
+    // What lies between can differ from the chord by this much, and half as much again for
+    // safety.
+    let over = 0.1875 * length * length * bend(2);
+    let bounds = [over, 2.0 * over, 0.75 * length * bend(3)];
+    let mut taken = false;
     let mut sampled = false;
     for (which, track) in [
         &mut *tracks.displacement,
@@ -204,6 +211,15 @@ pub(crate) fn note_floors_of_span(
     .into_iter()
     .enumerate()
     {
+        if !exceeds(track, bounds[which]) {
+            raise(track, start + length);
+            continue;
+        }
+        if !taken {
+            rates.take(constants, span, scene.ground.1, 0);
+            rates.take(constants, span, scene.ground.1, 1);
+            taken = true;
+        }
         for i in 0..rows.floors.len() {
             if !may_exceed(track, &rates.ends[which], scales, MARGIN[which], i) {
                 continue;

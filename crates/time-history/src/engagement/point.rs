@@ -7,11 +7,13 @@ use super::touch::Touch;
 use crate::free_flight::{FreeFlight, Lane, WIDTH};
 use crate::system::System;
 
-/// A closed level at one time: penetration (m) and three derivatives, and force (N).
+/// A closed level at one time: penetration (m) and three derivatives, force (N) and its
+/// rate of change (N/s).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TouchPoint {
     pub motion: [f64; 4],
     pub force: f64,
+    pub force_rate: f64,
 }
 
 /// Modal displacement, velocity, acceleration relative to the ground and jerk.
@@ -90,6 +92,7 @@ fn derive(
         point.touches.push(TouchPoint {
             motion: [delta, rate, 0.0, 0.0],
             force: law.value,
+            force_rate: 0.0,
         });
     }
     for (c, m) in constants.modes.iter().enumerate() {
@@ -114,6 +117,7 @@ fn derive(
             }
         };
         let change = by_penetration * now.motion[1] + by_velocity * now.motion[2];
+        now.force_rate = change;
         row.add(-change, j);
     }
     for (now, touch) in point.touches.iter_mut().zip(touches) {

@@ -89,6 +89,8 @@ impl ModalRow {
 /// Sum of a lane, in pairs: the same bits whatever the instruction set.
 #[inline(always)]
 pub(crate) fn total(x: &Lane) -> f64 {
+    // Keeps the compiler from taking the vectors before it apart for the sake of the sum.
+    let x = std::hint::black_box(x);
     let half: [f64; 4] = std::array::from_fn(|l| x[l] + x[l + 4]);
     let quarter = [half[0] + half[2], half[1] + half[3]];
     quarter[0] + quarter[1]

@@ -10,13 +10,18 @@ use super::tables::Terms;
 use super::touch::Touch;
 use crate::contact::Contacts;
 use crate::events::{Candidate, EventKind};
-use crate::polynomial::{COEFFICIENTS, Polynomial, first_rise, fit, fit_nodes, value};
+use crate::polynomial::{COEFFICIENTS, Polynomial, first_rise_near, fit, fit_nodes, value};
 use crate::system::System;
 
 /// Relative size of a leading term that is round-off.
 const ROUND_OFF: f64 = 1.0e-13;
 /// Corrections of a root at most.
 const CORRECTIONS: usize = 12;
+
+/// First rise of a polynomial that only leads near the root.
+fn near(p: &Polynomial) -> Option<f64> {
+    first_rise_near(p, 1.0e-6)
+}
 
 /// Transitions of a closed level in its phase.
 fn transitions<'a>(system: &'a System, touch: &Touch) -> &'a [Transition] {
@@ -139,7 +144,7 @@ fn rise(series: &Series, terms: &Terms) -> Option<f64> {
     }
     let mut fitted = fit(&series.at_nodes(terms));
     fitted[0] = terms[0];
-    let theta = first_rise(&fitted)?;
+    let theta = near(&fitted)?;
     if theta <= 0.0 {
         return Some(theta);
     }
@@ -166,7 +171,7 @@ fn fall(series: &Series, terms: &Terms) -> Option<f64> {
     }
     let mut fitted = fit(&series.at_nodes(terms)).map(|c| -c);
     fitted[0] = -terms[0];
-    let theta = first_rise(&fitted)?;
+    let theta = near(&fitted)?;
     if theta <= 0.0 {
         return Some(theta);
     }
@@ -208,7 +213,7 @@ fn passage(
             let rate = series.at_nodes(&motion.rate);
             let samples =
                 std::array::from_fn(|i| guard(system, touch, transition, delta[i], rate[i]));
-            let theta = first_rise(&fit(&samples))?;
+            let theta = near(&fit(&samples))?;
             if theta <= 0.0 {
                 return Some(theta);
             }
@@ -256,7 +261,7 @@ pub(crate) fn in_span(
             let (a, b) = span.touch(k);
             let delta = span.displacement(a, b);
             let rate = span.velocity(a, b);
-            let open = first_rise(&delta.map(|c| -c));
+            let open = near(&delta.map(|c| -c));
             keep(&mut first, open, (l, EventKind::Open), &muted);
             for (index, transition) in transitions(system, touch).iter().enumerate() {
                 let found = fires(system, touch, *transition, (&delta, &rate));
@@ -268,7 +273,7 @@ pub(crate) fn in_span(
             let speed = [span.start, span.end].map(|p| row.dot(&p.motion[1]).abs());
             if penetration[l].max(after) + length * speed[0].max(speed[1]) > 0.0 {
                 let (a, b) = span.row(row, contacts.width(l));
-                let closes = first_rise(&span.displacement(a, b));
+                let closes = near(&span.displacement(a, b));
                 keep(&mut first, closes, (l, EventKind::Close), &muted);
             }
         }
@@ -285,15 +290,15 @@ fn fires(
     (delta, rate): (&Polynomial, &Polynomial),
 ) -> Option<f64> {
     match (transition.guard, transition.direction) {
-        (Guard::Velocity, Direction::Rising) => first_rise(rate),
-        (Guard::Velocity, Direction::Falling) => first_rise(&rate.map(|c| -c)),
+        (Guard::Velocity, Direction::Rising) => near(rate),
+        (Guard::Velocity, Direction::Falling) => near(&rate.map(|c| -c)),
         _ => {
             let nodes = fit_nodes();
             let samples: [f64; COEFFICIENTS] = std::array::from_fn(|i| {
                 let (d, r) = (value(delta, nodes[i]), value(rate, nodes[i]));
                 guard(system, touch, transition, d, r)
             });
-            first_rise(&fit(&samples))
+            near(&fit(&samples))
         }
     }
 }

@@ -188,11 +188,11 @@ fn time_to_end(scene: &Scene<'_>, point: &Point) -> f64 {
             continue;
         }
         let mut t = d / -v;
-        for _ in 0..20 {
+        for _ in 0..8 {
             let f = d + t * (v + t * (0.5 * a + t * j / 6.0));
             let slope = v + t * (a + 0.5 * t * j);
             let next = t - f / slope;
-            if !(next > 0.0 && next.is_finite()) || (next - t).abs() <= 1.0e-12 * t {
+            if !(next > 0.0 && next.is_finite()) || (next - t).abs() <= 1.0e-9 * t {
                 break;
             }
             t = next;

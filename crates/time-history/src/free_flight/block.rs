@@ -125,9 +125,9 @@ pub(super) fn fly(
     }
     let q = block.displacement.as_flattened();
     let stride = count * WIDTH;
-    rows(&constants.floor_rows, q, stride, true, &mut block.floors);
-    rows(&constants.drift_rows, q, stride, true, &mut block.drifts);
-    rows(&constants.level_rows, q, stride, false, &mut block.levels);
+    rows(&constants.floor_rows, q, stride, &mut block.floors);
+    drifts(&constants.above, &block.floors, &mut block.drifts);
+    levels(&constants.between, &block.floors, &mut block.levels);
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let slope = samples
         .windows(2)
@@ -181,13 +181,7 @@ pub(super) fn advance(constants: &FreeFlight, now: &Modal, samples: &[f64], end:
 pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
     let a = block.acceleration.as_flattened();
     let stride = constants.modes.len() * WIDTH;
-    rows(
-        &constants.floor_rows,
-        a,
-        stride,
-        true,
-        &mut block.accelerations,
-    );
+    rows(&constants.floor_rows, a, stride, &mut block.accelerations);
     acceleration_overshoots(
         constants,
         &block.size,
@@ -233,9 +227,9 @@ fn modes(
     (state, largest)
 }
 
-/// Extremes of rows over the block: of their magnitude, or of their value.
+/// Extremes of the magnitude of rows over the block.
 #[inline(always)]
-fn rows(rows: &[Rows], q: &[f64], stride: usize, magnitude: bool, out: &mut Extremes) {
+fn rows(rows: &[Rows], q: &[f64], stride: usize, out: &mut Extremes) {
     for ((row, top), values) in rows.iter().zip(&mut out.top).zip(&mut out.values) {
         let mut sums = [[0.0; WIDTH]; BLOCK];
         for (j, column) in row.columns.iter().enumerate() {
@@ -247,14 +241,59 @@ fn rows(rows: &[Rows], q: &[f64], stride: usize, magnitude: bool, out: &mut Extr
                 }
             }
         }
-        let mut most = [f64::NEG_INFINITY; WIDTH];
-        for sum in &sums {
+        *top = greatest(&sums);
+        *values = sums;
+    }
+}
+
+/// Greatest magnitudes of eight lanes.
+#[inline(always)]
+fn greatest(values: &[Lane; BLOCK]) -> Lane {
+    let mut most = [0.0; WIDTH];
+    for value in values {
+        for l in 0..WIDTH {
+            let value = value[l].abs();
+            most[l] = if value > most[l] { value } else { most[l] };
+        }
+    }
+    most
+}
+
+/// Storey drifts from floor displacements; `above` is one where a floor has another one
+/// below it.
+#[inline(always)]
+fn drifts(above: &[Lane], floors: &Extremes, out: &mut Extremes) {
+    let mut last = [0.0; BLOCK];
+    for (c, above) in above.iter().enumerate() {
+        let mut drifts = [[0.0; WIDTH]; BLOCK];
+        for s in 0..BLOCK {
+            let u = floors.values[c][s];
+            let mut below = [last[s]; WIDTH];
+            below[1..].copy_from_slice(&u[..WIDTH - 1]);
+            last[s] = u[WIDTH - 1];
             for l in 0..WIDTH {
-                let value = if magnitude { sum[l].abs() } else { sum[l] };
-                most[l] = if value > most[l] { value } else { most[l] };
+                drifts[s][l] = u[l] - above[l] * below[l];
             }
         }
-        *top = most;
-        *values = sums;
+        out.top[c] = greatest(&drifts);
+        out.values[c] = drifts;
+    }
+}
+
+/// Closings of levels from floor displacements, one level after another.
+#[inline(always)]
+fn levels(between: &[(Option<usize>, Option<usize>)], floors: &Extremes, out: &mut Extremes) {
+    let at = |s: usize, floor: Option<usize>| match floor {
+        Some(i) => floors.values[i / WIDTH][s][i % WIDTH],
+        None => 0.0,
+    };
+    for (l, (left, right)) in between.iter().enumerate() {
+        let mut most = f64::NEG_INFINITY;
+        for s in 0..BLOCK {
+            let closing = at(s, *left) - at(s, *right);
+            most = if closing > most { closing } else { most };
+            out.values[l / WIDTH][s][l % WIDTH] = closing;
+        }
+        out.top[l / WIDTH][l % WIDTH] = most;
     }
 }

@@ -23,10 +23,12 @@ pub(crate) struct FreeFlight {
     pub drift_magnitudes: Vec<Shapes>,
     /// Building of every degree of freedom.
     pub building: Vec<usize>,
-    /// Floors, drifts and the closing of levels from modes, for blocks.
+    /// Floors from modes, for blocks.
     pub floor_rows: Vec<Rows>,
-    pub drift_rows: Vec<Rows>,
-    pub level_rows: Vec<Rows>,
+    /// One where a floor has another one below it.
+    pub above: Vec<Lane>,
+    /// Left and right floor of every level.
+    pub between: Vec<(Option<usize>, Option<usize>)>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,
 }
@@ -78,8 +80,8 @@ impl FreeFlight {
             drift_magnitudes: Vec::new(),
             building: Vec::new(),
             floor_rows: Vec::new(),
-            drift_rows: Vec::new(),
-            level_rows: Vec::new(),
+            above: vec![[0.0; WIDTH]; dofs.div_ceil(WIDTH)],
+            between: Vec::new(),
             fine: Fine::default(),
         };
         for (index, building) in system.buildings().iter().enumerate() {
@@ -118,55 +120,41 @@ impl FreeFlight {
         0.125 * self.step * self.step
     }
 
-    /// Every row is a sum over the modes of the buildings that it belongs to.
+    /// What blocks need: every floor is a sum over the modes of its building.
     fn add_rows(&mut self, system: &System) {
-        let entry = |floor: Option<usize>, mode: usize| -> f64 {
-            let Some(i) = floor else { return 0.0 };
-            let shapes = &self.shapes[self.building[i]];
-            if !(shapes.first_mode..shapes.first_mode + shapes.modes).contains(&mode) {
-                return 0.0;
-            }
-            let lane = i / WIDTH - shapes.first_lane;
-            shapes.columns[lane * shapes.modes + mode - shapes.first_mode][i % WIDTH]
-        };
-        let modes = |floor: Option<usize>| {
-            floor.map(|i| {
+        let dofs = self.building.len();
+        let rows = (0..self.modes.len()).map(|lane| {
+            let floors = lane * WIDTH..dofs.min((lane + 1) * WIDTH);
+            let shapes = floors.clone().map(|i| &self.shapes[self.building[i]]);
+            let (first, end) = shapes.fold((usize::MAX, 0), |(a, b), s| {
+                (a.min(s.first_mode), b.max(s.first_mode + s.modes))
+            });
+            let entry = |i: usize, mode: usize| -> f64 {
                 let shapes = &self.shapes[self.building[i]];
-                (shapes.first_mode, shapes.first_mode + shapes.modes)
-            })
-        };
-        let below = |i: usize| (i > 0 && self.building[i] == self.building[i - 1]).then(|| i - 1);
-        let floors: Vec<_> = (0..self.building.len()).map(|i| (Some(i), None)).collect();
-        let drifts: Vec<_> = floors
-            .iter()
-            .map(|(i, _)| (*i, i.and_then(below)))
-            .collect();
-        let levels = system.levels().iter().map(|l| (l.left, l.right));
-        let levels: Vec<_> = levels.collect();
-        let lanes = |pairs: &[(Option<usize>, Option<usize>)]| -> Vec<Rows> {
-            let chunks = pairs.chunks(WIDTH);
-            chunks
-                .map(|chunk| {
-                    let ranges = chunk.iter().flat_map(|p| [modes(p.0), modes(p.1)]);
-                    let (first, end) = ranges
-                        .flatten()
-                        .fold((usize::MAX, 0), |(a, b), (c, d)| (a.min(c), b.max(d)));
-                    let column = |mode: usize| -> Lane {
-                        std::array::from_fn(|l| {
-                            chunk
-                                .get(l)
-                                .map_or(0.0, |p| entry(p.0, mode) - entry(p.1, mode))
-                        })
-                    };
-                    Rows {
-                        first_mode: first,
-                        columns: (first..end).map(column).collect(),
-                    }
+                if !(shapes.first_mode..shapes.first_mode + shapes.modes).contains(&mode) {
+                    return 0.0;
+                }
+                let place = lane - shapes.first_lane;
+                shapes.columns[place * shapes.modes + mode - shapes.first_mode][i % WIDTH]
+            };
+            let column = |mode: usize| -> Lane {
+                std::array::from_fn(|l| {
+                    let floor = floors.clone().nth(l);
+                    floor.map_or(0.0, |i| entry(i, mode))
                 })
-                .collect()
-        };
-        let (floors, drifts, levels) = (lanes(&floors), lanes(&drifts), lanes(&levels));
-        (self.floor_rows, self.drift_rows, self.level_rows) = (floors, drifts, levels);
+            };
+            Rows {
+                first_mode: first,
+                columns: (first..end).map(column).collect(),
+            }
+        });
+        self.floor_rows = rows.collect();
+        for i in 1..dofs {
+            let same = self.building[i] == self.building[i - 1];
+            self.above[i / WIDTH][i % WIDTH] = f64::from(u8::from(same));
+        }
+        let levels = system.levels().iter();
+        self.between = levels.map(|l| (l.left, l.right)).collect();
     }
 
     /// Bounds, with `e = |q'| + omega |q|` and `e* = e + |gamma| h A` for the sample:

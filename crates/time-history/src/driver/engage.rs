@@ -3,9 +3,9 @@
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP, SIMULTANEOUS, segment};
 use crate::dynamics::Segment;
 use crate::engagement::{
-    Clock, LevelRows, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch, are_affine,
-    begin_acceleration, in_series, in_span, list, refresh, note_floors_of_series, note_floors_of_span,
-    total,
+    Clock, LevelRows, NEAR, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch,
+    are_affine, begin_acceleration, in_series, in_span, list, note_floors_of_series,
+    note_floors_of_span, refresh, soon_after, total,
 };
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -448,39 +448,49 @@ impl Driver<'_> {
             .derive(constants, &e.rows, (self.system, &e.touches), end);
         let mute = &self.mute;
         let candidates = &mut self.finder.candidates;
+        let span = Span {
+            start: &e.pair.start,
+            end: &e.pair.end,
+            clock: &clock,
+        };
         let found = in_span(
             &scene,
             &self.contacts,
-            &Span {
-                start: &e.pair.start,
-                end: &e.pair.end,
-                clock: &clock,
-            },
+            &span,
             &flight.penetration,
             candidates,
             |level, theta| is_muted(mute[level], theta),
         );
-        for candidate in candidates {
+        for candidate in candidates.iter_mut() {
             candidate.theta = clock.offset(candidate.theta) / whole;
         }
+        let found = match found {
+            Some(found) => {
+                let time = clock.offset(found.theta);
+                let theta = time / whole;
+                Some((Candidate { theta, ..found }, time))
+            }
+            None => {
+                let limit = (NEAR * whole).min(longest - whole);
+                let soon = soon_after(&scene, &span, limit);
+                let soon = soon.filter(|(event, _)| mute[event.level] == Mute::No);
+                candidates.extend(soon.map(|(event, _)| event));
+                soon.map(|(event, time)| (event, whole + time))
+            }
+        };
         let (mut step, mut event) = (whole, None);
-        if let Some(found) = found {
-            let time = clock.offset(found.theta);
-            let mut found = Candidate {
-                theta: time / whole,
-                ..found
-            };
+        if let Some((mut found, time)) = found {
             if time <= EVENT_TOLERANCE {
                 return Ok((0.0, Some((found, whole))));
             }
-            let (reached, trials) = e.pair.reach(
-                &scene,
-                &self.contacts,
-                (found.level, found.kind),
-                &mut clock,
-                time,
-            );
+            let (place, contacts) = ((found.level, found.kind), &self.contacts);
+            let (reached, trials) = e.pair.reach(&scene, contacts, place, &mut clock, time);
             self.statistics.location_steps += trials;
+            for candidate in &mut self.finder.candidates {
+                if candidate.level == found.level {
+                    candidate.theta = reached / whole;
+                }
+            }
             found.theta = reached / whole;
             event = Some((found, whole));
             step = reached;

@@ -223,7 +223,11 @@ fn error(pair: &Pair, scene: &Scene<'_>, span: f64) -> f64 {
             let error = span.abs() * size[l] * square / (blend + f64::MIN_POSITIVE);
             let ratio = error / allowed;
             // A NaN must not be lost in the comparison.
-            largest[l] = if ratio <= largest[l] { largest[l] } else { ratio };
+            largest[l] = if ratio <= largest[l] {
+                largest[l]
+            } else {
+                ratio
+            };
         }
     }
     let mut most = 0.0;

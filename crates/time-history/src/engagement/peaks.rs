@@ -4,9 +4,7 @@ use super::pair::Scene;
 use super::rows::{LevelRows, total};
 use super::series::Series;
 use super::span::Span;
-use crate::free_flight::{
-    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform,
-};
+use crate::free_flight::{FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform};
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
 /// Displacement, drift and absolute acceleration of all floors.
@@ -93,13 +91,7 @@ fn exceeds(track: &Track, over: f64) -> bool {
 }
 
 /// Peaks of displacement (0), drift (1) or absolute acceleration (2) inside a series.
-fn inside_series(
-    rows: &LevelRows,
-    series: &Series,
-    which: usize,
-    track: &mut Track,
-    start: f64,
-) {
+fn inside_series(rows: &LevelRows, series: &Series, which: usize, track: &mut Track, start: f64) {
     for i in 0..rows.floors.len() {
         if !turns(track, i) {
             continue;

@@ -9,7 +9,7 @@ use crate::free_flight::{Lane, WIDTH};
 
 /// An event this close to the end of a trial step, as a part of it, needs no other one:
 /// the state is moved there by its own derivatives.
-const NEAR: f64 = 2.0e-3;
+pub(crate) const NEAR: f64 = 2.0e-3;
 /// Trials at most.
 const TRIALS: u64 = 6;
 /// Corrections of a root at most.
@@ -37,7 +37,7 @@ impl Pair {
             }
             let now = clock.offset(1.0);
             let shift = self.time_to_root(scene, contacts, (level, kind));
-            wanted = (now + shift).clamp(0.0, whole * (1.0 + NEAR));
+            wanted = (now + shift).clamp(0.0, whole * (1.0 + 2.0 * NEAR));
             if (wanted - now).abs() > NEAR * whole && trials < TRIALS {
                 continue;
             }

@@ -282,6 +282,36 @@ pub(crate) fn in_span(
     earliest(candidates)
 }
 
+/// An event so soon after the end of a span, within `limit` (s), that the derivatives there
+/// reach it: the end of an approach or of a contact that the step was meant for. Returns it
+/// with its time (s) after the end; theta is one.
+pub(crate) fn soon_after(
+    scene: &Scene<'_>,
+    span: &Span<'_>,
+    limit: f64,
+) -> Option<(Candidate, f64)> {
+    let mut first: Option<(Candidate, f64)> = None;
+    for (touch, now) in scene.touches.iter().zip(&span.end.touches) {
+        let [delta, rate, acceleration, _] = now.motion;
+        let turns = |t: &Transition| {
+            t.guard == Guard::Velocity && t.direction == Direction::Falling && rate > 0.0
+        };
+        let (kind, time) = if rate < 0.0 {
+            (EventKind::Open, delta / -rate)
+        } else {
+            let place = transitions(scene.system, touch).iter().position(turns);
+            let Some(index) = place else { continue };
+            (EventKind::Transition(index), rate / -acceleration)
+        };
+        let level = touch.level;
+        let theta = 1.0;
+        if time >= 0.0 && time <= limit && first.is_none_or(|f| time < f.1) {
+            first = Some((Candidate { level, kind, theta }, time));
+        }
+    }
+    first
+}
+
 /// First theta at which a transition fires within a span.
 fn fires(
     system: &System,

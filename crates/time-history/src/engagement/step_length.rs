@@ -36,6 +36,8 @@ const CLEAR: f64 = 0.6;
 const FAR: f64 = 0.35;
 /// Bounds of the growth of steps.
 const FACTORS: [f64; 2] = [0.2, 4.0];
+/// Growth of the first step from start to start.
+const CAREFUL: f64 = 1.2;
 /// What is nearer than this (s) is there.
 const SHORTEST: f64 = 1.0e-12;
 /// First guesses (s).
@@ -83,12 +85,12 @@ impl StepLength {
                 since: 0.0,
             };
         }
-        let mut length = self.next.min(CLEAR * end);
+        let length = self.next.min(CLEAR * end);
         if target < BEYOND * length {
-            length = target;
+            return plain(target, Pace::Plain);
         }
         if length < rest && length > 0.6 * rest {
-            length = 0.5 * rest;
+            return plain(0.5 * rest, Pace::Plain);
         }
         plain(length, Pace::Plain)
     }
@@ -125,7 +127,8 @@ impl StepLength {
                 let since = tried.since + length;
                 let (a, b) = (s(tried.since), s(tried.since + tried.length));
                 if tried.since == 0.0 {
-                    let wanted = (factor * b).powi(4);
+                    // One start is not quite like the next.
+                    let wanted = (factor.min(CAREFUL) * b).powi(4);
                     self.first = if length < tried.length {
                         self.first.max(wanted)
                     } else {

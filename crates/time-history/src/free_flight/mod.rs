@@ -19,6 +19,4 @@ mod mode_step;
 
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
-pub(crate) use lanes::{
-    Lane, ModeLanes, Track, WIDTH, drifts, raise, raise_now, transform,
-};
+pub(crate) use lanes::{Lane, ModeLanes, Track, WIDTH, drifts, raise, raise_now, transform};

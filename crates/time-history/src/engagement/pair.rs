@@ -8,7 +8,7 @@ use super::point::Point;
 use super::rows::{LevelRows, total};
 use super::series::Works;
 use super::touch::Touch;
-use crate::free_flight::{FreeFlight, Lane, WIDTH};
+use crate::free_flight::{FreeFlight, Lane, WIDTH, add, mul, scale};
 use crate::system::System;
 
 /// Sizes (m, m/s) below which displacements and velocities are controlled absolutely.
@@ -119,16 +119,12 @@ fn step_of<const LANES: usize>(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock
         let (speeds, accelerations) = pair.stages[range].split_at_mut(lanes);
         for (c, m) in scene.constants.modes[..lanes].iter().enumerate() {
             let (x, v) = (q[c], p[c]);
-            let (mut speed, mut a) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for l in 0..WIDTH {
-                let dashpot = m.damping[l] * v[l];
-                let load = m.participation[l] * ground;
-                a[l] = rate * (-(dashpot + m.stiffness[l] * x[l]) - load);
-                speed[l] = rate * v[l];
-                input[l] -= weight * (load * v[l]);
-                viscous[l] += weight * (dashpot * v[l]);
-            }
-            (speeds[c], accelerations[c]) = (speed, a);
+            let (dashpot, spring) = (mul(m.damping, v), mul(m.stiffness, x));
+            let load = scale(ground, m.participation);
+            accelerations[c] = scale(-rate, add(add(dashpot, spring), load));
+            speeds[c] = scale(rate, v);
+            input = add(input, scale(-weight, mul(load, v)));
+            viscous = add(viscous, scale(weight, mul(dashpot, v)));
         }
         for (touch, works) in scene.touches.iter().zip(&mut pair.contact_works) {
             let row = &scene.rows.levels[touch.level];

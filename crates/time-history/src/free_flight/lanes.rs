@@ -13,6 +13,36 @@ pub(crate) type Lane = [f64; 8];
 /// Number of values in a lane.
 pub(crate) const WIDTH: usize = 8;
 
+/// Sum, place by place.
+#[inline(always)]
+pub(crate) fn add(a: Lane, b: Lane) -> Lane {
+    let mut out = [0.0; WIDTH];
+    for l in 0..WIDTH {
+        out[l] = a[l] + b[l];
+    }
+    out
+}
+
+/// Product, place by place.
+#[inline(always)]
+pub(crate) fn mul(a: Lane, b: Lane) -> Lane {
+    let mut out = [0.0; WIDTH];
+    for l in 0..WIDTH {
+        out[l] = a[l] * b[l];
+    }
+    out
+}
+
+/// Multiple.
+#[inline(always)]
+pub(crate) fn scale(factor: f64, a: Lane) -> Lane {
+    let mut out = [0.0; WIDTH];
+    for l in 0..WIDTH {
+        out[l] = factor * a[l];
+    }
+    out
+}
+
 /// Constants of eight modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ModeLanes {

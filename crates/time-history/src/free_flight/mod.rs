@@ -19,4 +19,6 @@ mod mode_step;
 
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
-pub(crate) use lanes::{Lane, ModeLanes, Track, WIDTH, drifts, raise, raise_now, transform};
+pub(crate) use lanes::{
+    Lane, ModeLanes, Track, WIDTH, add, drifts, mul, raise, raise_now, scale, transform,
+};

@@ -60,7 +60,7 @@ impl Open {
         let MethodChoice::EventDriven { relative_tolerance } = *method else {
             return None;
         };
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Some(Self {
             flight: Flight::new(system),
             engagement: Engagement {
@@ -279,7 +279,7 @@ impl Driver<'_> {
             refresh(&self.contacts, &mut engagement.touches);
         }
         // The modes hold kinetic and strain energy.
-        let mut energies = [0.0; WIDTH];
+        let mut energies = Lane::ZERO;
         for (c, m) in constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let x = m.circular_frequency[l] * q[c][l];

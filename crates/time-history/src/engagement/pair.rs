@@ -46,7 +46,7 @@ pub(crate) struct Pair {
 
 impl Pair {
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
-        let zeros = |count: usize| vec![[0.0; WIDTH]; count];
+        let zeros = |count: usize| vec![Lane::ZERO; count];
         Self {
             lanes,
             stages: zeros(2 * lanes * STAGES),
@@ -104,7 +104,7 @@ fn step_of<const LANES: usize>(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock
     let (lanes, span) = (pair.lanes, clock.span());
     pair.contact_works.clear();
     pair.contact_works.resize(scene.touches.len(), (0.0, 0.0));
-    let (mut input, mut viscous) = ([0.0; WIDTH], [0.0; WIDTH]);
+    let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for stage in 0..STAGES {
         let theta = NODES[stage];
         let rate = clock.rate(theta);
@@ -159,7 +159,7 @@ fn combine<const LANES: usize>(
     if LANES == 0 {
         let lanes = base.len();
         for c in 0..lanes {
-            let mut sum = [0.0; WIDTH];
+            let mut sum = Lane::ZERO;
             for (j, w) in weights {
                 let stage = stages[j * lanes + c];
                 for l in 0..WIDTH {
@@ -174,7 +174,7 @@ fn combine<const LANES: usize>(
         }
         return;
     }
-    let mut sums = [[0.0; WIDTH]; LANES];
+    let mut sums = [Lane::ZERO; LANES];
     for (j, w) in weights {
         let stage = &stages[j * LANES..(j + 1) * LANES];
         for c in 0..LANES {
@@ -198,9 +198,9 @@ fn combine<const LANES: usize>(
 #[inline(always)]
 fn error(pair: &Pair, scene: &Scene<'_>, span: f64) -> f64 {
     let lanes = pair.lanes;
-    let mut largest = [0.0_f64; WIDTH];
+    let mut largest = Lane::ZERO;
     for c in 0..2 * lanes {
-        let (mut fifth, mut third) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let (mut fifth, mut third) = (Lane::ZERO, Lane::ZERO);
         for ((j, w), (_, x)) in ERROR_5.iter().zip(&ERROR_3) {
             let stage = pair.stages[2 * j * lanes + c];
             for l in 0..WIDTH {
@@ -227,7 +227,7 @@ fn error(pair: &Pair, scene: &Scene<'_>, span: f64) -> f64 {
         }
     }
     let mut most = 0.0;
-    for ratio in largest {
+    for ratio in largest.0 {
         most = if ratio <= most { most } else { ratio };
     }
     most

@@ -68,7 +68,7 @@ pub(crate) fn note_floors_of_series(
 
 /// Bound of a function of any floor whose modal parts have these magnitudes.
 fn reach(rows: &LevelRows, magnitudes: &[Lane]) -> f64 {
-    let mut sum = [0.0; WIDTH];
+    let mut sum = Lane::ZERO;
     for (size, part) in rows.size.iter().zip(magnitudes) {
         for l in 0..WIDTH {
             sum[l] += size[l] * part[l].abs();
@@ -140,7 +140,7 @@ const MARGIN: [f64; 3] = [1.0e-3, 1.0e-3, 2.0e-2];
 
 impl Rates {
     pub(crate) fn new(lanes: usize) -> Self {
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             ends: std::array::from_fn(|_| [zeros(), zeros()]),
             modal: zeros(),

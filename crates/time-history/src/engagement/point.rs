@@ -26,7 +26,7 @@ pub(crate) struct Point {
 impl Point {
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
         Self {
-            motion: std::array::from_fn(|_| vec![[0.0; WIDTH]; lanes]),
+            motion: std::array::from_fn(|_| vec![Lane::ZERO; lanes]),
             touches: Vec::with_capacity(levels),
         }
     }

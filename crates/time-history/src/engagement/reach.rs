@@ -106,7 +106,7 @@ impl Pair {
     /// Powers of ground motion and damping at the end (W).
     fn powers(&self, scene: &Scene<'_>, offset: f64) -> (f64, f64) {
         let ground = scene.ground.0 + scene.ground.1 * offset;
-        let (mut input, mut viscous): (Lane, Lane) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let (mut input, mut viscous): (Lane, Lane) = (Lane::ZERO, Lane::ZERO);
         for (p, m) in self.end.motion[1].iter().zip(&scene.constants.modes) {
             for l in 0..WIDTH {
                 input[l] -= m.participation[l] * ground * p[l];

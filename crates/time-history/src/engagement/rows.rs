@@ -17,7 +17,7 @@ impl ModalRow {
         std::array::from_fn(|c| {
             let place = c.checked_sub(self.first_lane);
             let lane = place.and_then(|c| self.weights.get(c));
-            lane.copied().unwrap_or([0.0; WIDTH])
+            lane.copied().unwrap_or(Lane::ZERO)
         })
     }
 }
@@ -38,7 +38,7 @@ impl ModalRow {
     fn new(parts: &[(Vec<Lane>, usize, f64)]) -> Self {
         let first = parts.iter().map(|p| p.1).min().unwrap_or(0);
         let end = parts.iter().map(|p| p.1 + p.0.len()).max().unwrap_or(0);
-        let mut weights = vec![[0.0; WIDTH]; end - first];
+        let mut weights = vec![Lane::ZERO; end - first];
         for (lanes, at, factor) in parts {
             for (weight, lane) in weights[at - first..].iter_mut().zip(lanes) {
                 for l in 0..WIDTH {
@@ -55,7 +55,7 @@ impl ModalRow {
     /// Its value for these modal displacements.
     #[inline(always)]
     pub(crate) fn dot(&self, x: &[Lane]) -> f64 {
-        let mut sum = [0.0; WIDTH];
+        let mut sum = Lane::ZERO;
         for (w, x) in self.weights.iter().zip(&x[self.first_lane..]) {
             let (w, x) = (*w, *x);
             for l in 0..WIDTH {
@@ -127,7 +127,7 @@ impl LevelRows {
                 ModalRow::new(&left.into_iter().chain(right).collect::<Vec<_>>())
             })
             .collect();
-        let mut size = vec![[0.0_f64; WIDTH]; constants.modes.len()];
+        let mut size = vec![Lane::ZERO; constants.modes.len()];
         for row in &floors {
             for (w, s) in row.weights.iter().zip(&mut size[row.first_lane..]) {
                 for l in 0..WIDTH {

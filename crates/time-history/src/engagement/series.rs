@@ -5,7 +5,7 @@ use multiversion::multiversion;
 use super::rows::{LevelRows, ModalRow, total};
 use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
 use super::touch::Touch;
-use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH};
+use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH, scale};
 use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
@@ -69,7 +69,7 @@ pub(crate) struct Series {
 
 impl Series {
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
-        let terms = || vec![[0.0; WIDTH]; lanes * TERMS];
+        let terms = || vec![Lane::ZERO; lanes * TERMS];
         let empty = TouchSeries {
             level: 0,
             delta: [0.0; TERMS],
@@ -90,8 +90,8 @@ impl Series {
             displacement: terms(),
             velocity: terms(),
             touches,
-            bend: vec![[0.0; WIDTH]; lanes],
-            snap: vec![[0.0; WIDTH]; lanes],
+            bend: vec![Lane::ZERO; lanes],
+            snap: vec![Lane::ZERO; lanes],
             tables: Tables::new(),
         }
     }
@@ -172,9 +172,7 @@ impl Series {
             let range = k * lanes..(k + 1) * lanes;
             for terms in [&mut self.displacement, &mut self.velocity] {
                 for lane in &mut terms[range.clone()] {
-                    for x in lane {
-                        *x *= factor;
-                    }
+                    *lane = scale(factor, *lane);
                 }
             }
             for touch in &mut self.touches {
@@ -226,7 +224,7 @@ impl Series {
         let powers = &self.tables.gauss;
         let force = sample(&touch.force, self.last, powers);
         let rate = sample(&touch.rate, self.last, powers);
-        let (mut work, mut impulse) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
         for l in 0..WIDTH {
             impulse[l] = self.tables.weights[l] * force[l];
             work[l] = impulse[l] * rate[l];
@@ -265,8 +263,8 @@ impl Series {
     }
 
     /// A scalar series at the nodes of a fit.
-    pub(crate) fn at_nodes(&self, terms: &Terms) -> Lane {
-        sample(terms, self.last, &self.tables.fit)
+    pub(crate) fn at_nodes(&self, terms: &Terms) -> [f64; WIDTH] {
+        sample(terms, self.last, &self.tables.fit).0
     }
 
     /// Value and derivative with respect to theta.
@@ -338,17 +336,17 @@ fn expand_in_place<const LANES: usize>(
     levels: &[ModalRow],
 ) {
     let (last, h) = (series.last, series.step);
-    let (mut q, mut p) = ([[0.0; WIDTH]; LANES], [[0.0; WIDTH]; LANES]);
+    let (mut q, mut p) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
     q.copy_from_slice(&series.displacement[..LANES]);
     p.copy_from_slice(&series.velocity[..LANES]);
-    let (mut bend, mut snap) = ([[0.0; WIDTH]; LANES], [[0.0; WIDTH]; LANES]);
+    let (mut bend, mut snap) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
     for k in 0..last {
         let load = match k {
             0 => series.ground.0,
             1 => series.ground.1 * h,
             _ => 0.0,
         };
-        let mut a = [[0.0; WIDTH]; LANES];
+        let mut a = [Lane::ZERO; LANES];
         for c in 0..LANES {
             let m = &modes[c];
             for l in 0..WIDTH {
@@ -380,7 +378,7 @@ fn expand_in_place<const LANES: usize>(
         series.velocity[range].copy_from_slice(&p);
         for touch in &mut series.touches {
             let row = levels[touch.level].spread::<LANES>();
-            let mut sum = [0.0; WIDTH];
+            let mut sum = Lane::ZERO;
             for c in 0..LANES {
                 for l in 0..WIDTH {
                     sum[l] += row[c][l] * p[c][l];
@@ -400,8 +398,8 @@ fn expand_in_place<const LANES: usize>(
 #[inline(always)]
 fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
     let (lanes, last, h) = (series.lanes, series.last, series.step);
-    series.bend.fill([0.0; WIDTH]);
-    series.snap.fill([0.0; WIDTH]);
+    series.bend.fill(Lane::ZERO);
+    series.snap.fill(Lane::ZERO);
     for k in 0..last {
         let load = match k {
             0 => series.ground.0,
@@ -412,7 +410,7 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
         let (p, p_next) = series.velocity[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
         for (c, m) in modes.iter().enumerate() {
             let (x, v) = (q[c], p[c]);
-            let mut a = [0.0; WIDTH];
+            let mut a = Lane::ZERO;
             for l in 0..WIDTH {
                 a[l] = -(m.damping[l] * v[l] + m.stiffness[l] * x[l]) - m.participation[l] * load;
             }
@@ -426,7 +424,7 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
         for c in 0..lanes {
             let (v, mut a) = (p[c], p_next[c]);
             let (mut bend, mut snap) = (series.bend[c], series.snap[c]);
-            let mut x = [0.0; WIDTH];
+            let mut x = Lane::ZERO;
             for l in 0..WIDTH {
                 // Terms of the acceleration are those of the velocity before scaling.
                 snap[l] += next * a[l].abs();
@@ -461,8 +459,8 @@ fn end(
 ) {
     let lanes = series.lanes;
     for c in 0..lanes {
-        let (mut q, mut p) = ([0.0; WIDTH], [0.0; WIDTH]);
-        let mut slope = [0.0; WIDTH];
+        let (mut q, mut p) = (Lane::ZERO, Lane::ZERO);
+        let mut slope = Lane::ZERO;
         for k in (0..=series.last).rev() {
             let (x, v) = (
                 series.displacement[k * lanes + c],
@@ -493,10 +491,10 @@ fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
     let (lanes, last) = (series.lanes, series.last);
     let (start, slope) = series.ground;
     let after = start + slope * series.step;
-    let (mut input, mut viscous) = ([0.0; WIDTH], [0.0; WIDTH]);
+    let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
-        let mut integral = [0.0; WIDTH];
-        let mut speeds = [[0.0; WIDTH]; 6];
+        let mut integral = Lane::ZERO;
+        let mut speeds = [Lane::ZERO; 6];
         for k in (0..=last).rev() {
             let (x, v) = (
                 series.displacement[k * lanes + c],

@@ -20,8 +20,8 @@ pub(super) struct Tables {
 
 impl Tables {
     pub(super) fn new() -> Self {
-        let mut points = [0.0; WIDTH];
-        let mut weights = [0.0; WIDTH];
+        let mut points = Lane::ZERO;
+        let mut weights = Lane::ZERO;
         for (i, (node, weight)) in GAUSS.iter().enumerate() {
             (points[i], weights[i]) = (*node, *weight);
         }
@@ -29,7 +29,7 @@ impl Tables {
             std::array::from_fn(|k| points.map(|x| x.powi(k as i32)))
         };
         Self {
-            fit: powers(fit_nodes()),
+            fit: powers(Lane(fit_nodes())),
             gauss: powers(points),
             weights,
         }
@@ -40,7 +40,7 @@ impl Tables {
 #[inline(always)]
 pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane {
     // Even and odd terms apart: two chains of additions, not one.
-    let (mut even, mut odd) = ([0.0; WIDTH], [0.0; WIDTH]);
+    let (mut even, mut odd) = (Lane::ZERO, Lane::ZERO);
     let pairs = terms[..=last].chunks_exact(2).zip(powers.chunks_exact(2));
     for (t, p) in pairs {
         for l in 0..WIDTH {
@@ -53,7 +53,7 @@ pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane
             even[l] += terms[last] * powers[last][l];
         }
     }
-    std::array::from_fn(|l| even[l] + odd[l])
+    Lane::from_fn(|l| even[l] + odd[l])
 }
 
 /// Value and derivative of a series at `theta`.

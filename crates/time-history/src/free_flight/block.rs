@@ -5,7 +5,7 @@ use multiversion::multiversion;
 
 use super::constants::FreeFlight;
 use super::lanes::{
-    Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, overshoots, step_modes,
+    Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, at, overshoots, step_modes,
 };
 
 /// Samples of a block.
@@ -54,8 +54,8 @@ pub(super) struct Extremes {
 impl Extremes {
     fn new(lanes: usize) -> Self {
         Self {
-            top: vec![[0.0; WIDTH]; lanes],
-            values: vec![[[0.0; WIDTH]; BLOCK]; lanes],
+            top: vec![Lane::ZERO; lanes],
+            values: vec![[Lane::ZERO; BLOCK]; lanes],
         }
     }
 
@@ -74,12 +74,12 @@ impl Extremes {
 
 impl Block {
     pub(super) fn new(lanes: usize, levels: usize) -> Self {
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             end: Modal::new(lanes),
-            displacement: vec![[0.0; WIDTH]; lanes * BLOCK],
-            acceleration: vec![[0.0; WIDTH]; lanes * BLOCK],
-            size: vec![[0.0; WIDTH]; lanes],
+            displacement: vec![Lane::ZERO; lanes * BLOCK],
+            acceleration: vec![Lane::ZERO; lanes * BLOCK],
+            size: vec![Lane::ZERO; lanes],
             floors: Extremes::new(lanes),
             drifts: Extremes::new(lanes),
             levels: Extremes::new(levels.div_ceil(WIDTH)),
@@ -123,9 +123,8 @@ pub(super) fn fly(
         (block.end.displacement[c], block.end.velocity[c]) = (q, p);
         (block.end.input[c], block.end.viscous[c]) = (input, viscous);
     }
-    let q = block.displacement.as_flattened();
-    let stride = count * WIDTH;
-    rows(&constants.floor_rows, q, stride, &mut block.floors);
+    let q = &block.displacement;
+    rows(&constants.floor_rows, q, count, &mut block.floors);
     drifts(&constants.above, &block.floors, &mut block.drifts);
     levels(&constants.between, &block.floors, &mut block.levels);
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
@@ -179,9 +178,8 @@ pub(super) fn advance(constants: &FreeFlight, now: &Modal, samples: &[f64], end:
     "aarch64+neon"
 ))]
 pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
-    let a = block.acceleration.as_flattened();
-    let stride = constants.modes.len() * WIDTH;
-    rows(&constants.floor_rows, a, stride, &mut block.accelerations);
+    let (a, count) = (&block.acceleration, constants.modes.len());
+    rows(&constants.floor_rows, a, count, &mut block.accelerations);
     acceleration_overshoots(
         constants,
         &block.size,
@@ -202,7 +200,7 @@ fn modes(
     mut store: impl FnMut(usize, Lane, Lane),
 ) -> ([Lane; 4], Lane) {
     let mut state = start;
-    let mut largest = [0.0; WIDTH];
+    let mut largest = Lane::ZERO;
     for s in 0..BLOCK {
         let (start, end) = (samples[s], samples[s + 1]);
         let ground = Ground {
@@ -213,7 +211,7 @@ fn modes(
         let (next, size) = step_modes(m, state, ground);
         state = next;
         let [q, p, ..] = state;
-        let mut absolute = [0.0; WIDTH];
+        let mut absolute = Lane::ZERO;
         for l in 0..WIDTH {
             absolute[l] = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
             largest[l] = if size[l] > largest[l] {
@@ -229,13 +227,13 @@ fn modes(
 
 /// Extremes of the magnitude of rows over the block.
 #[inline(always)]
-fn rows(rows: &[Rows], q: &[f64], stride: usize, out: &mut Extremes) {
+fn rows(rows: &[Rows], q: &[Lane], stride: usize, out: &mut Extremes) {
     for ((row, top), values) in rows.iter().zip(&mut out.top).zip(&mut out.values) {
-        let mut sums = [[0.0; WIDTH]; BLOCK];
+        let mut sums = [Lane::ZERO; BLOCK];
         for (j, column) in row.columns.iter().enumerate() {
             let column = *column;
             for (s, sum) in sums.iter_mut().enumerate() {
-                let x = q[s * stride + row.first_mode + j];
+                let x = at(&q[s * stride..(s + 1) * stride], row.first_mode + j);
                 for l in 0..WIDTH {
                     sum[l] += column[l] * x;
                 }
@@ -249,7 +247,7 @@ fn rows(rows: &[Rows], q: &[f64], stride: usize, out: &mut Extremes) {
 /// Greatest magnitudes of eight lanes.
 #[inline(always)]
 fn greatest(values: &[Lane; BLOCK]) -> Lane {
-    let mut most = [0.0; WIDTH];
+    let mut most = Lane::ZERO;
     for value in values {
         for l in 0..WIDTH {
             let value = value[l].abs();
@@ -265,11 +263,11 @@ fn greatest(values: &[Lane; BLOCK]) -> Lane {
 fn drifts(above: &[Lane], floors: &Extremes, out: &mut Extremes) {
     let mut last = [0.0; BLOCK];
     for (c, above) in above.iter().enumerate() {
-        let mut drifts = [[0.0; WIDTH]; BLOCK];
+        let mut drifts = [Lane::ZERO; BLOCK];
         for s in 0..BLOCK {
             let u = floors.values[c][s];
             let mut below = [last[s]; WIDTH];
-            below[1..].copy_from_slice(&u[..WIDTH - 1]);
+            below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
             last[s] = u[WIDTH - 1];
             for l in 0..WIDTH {
                 drifts[s][l] = u[l] - above[l] * below[l];

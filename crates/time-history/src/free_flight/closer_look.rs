@@ -29,7 +29,7 @@ pub(super) struct CloserLook {
 
 impl Point {
     fn new(lanes: usize) -> Self {
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             modes: std::array::from_fn(|_| zeros()),
             floors: std::array::from_fn(|_| zeros()),
@@ -78,7 +78,7 @@ impl CloserLook {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
-            modal: vec![[0.0; WIDTH]; lanes],
+            modal: vec![Lane::ZERO; lanes],
             fresh: false,
         }
     }
@@ -153,7 +153,7 @@ impl CloserLook {
 
 /// One component of all modes of a lane after a step.
 fn step(k: &[Lane; 4], q: &Lane, p: &Lane, ground: Ground) -> Lane {
-    std::array::from_fn(|l| {
+    Lane::from_fn(|l| {
         k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
     })
 }

@@ -80,7 +80,7 @@ impl FreeFlight {
             drift_magnitudes: Vec::new(),
             building: Vec::new(),
             floor_rows: Vec::new(),
-            above: vec![[0.0; WIDTH]; dofs.div_ceil(WIDTH)],
+            above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             between: Vec::new(),
             fine: Fine::default(),
         };
@@ -138,7 +138,7 @@ impl FreeFlight {
                 shapes.columns[place * shapes.modes + mode - shapes.first_mode][i % WIDTH]
             };
             let column = |mode: usize| -> Lane {
-                std::array::from_fn(|l| {
+                Lane::from_fn(|l| {
                     let floor = floors.clone().nth(l);
                     floor.map_or(0.0, |i| entry(i, mode))
                 })
@@ -197,7 +197,7 @@ impl FreeFlight {
 fn spread(first: usize, count: usize, entry: impl Fn(usize, usize) -> f64) -> Shapes {
     let first_lane = first / WIDTH;
     let lanes = (first + count).div_ceil(WIDTH) - first_lane;
-    let mut columns: Vec<Lane> = vec![[0.0; WIDTH]; lanes * count];
+    let mut columns: Vec<Lane> = vec![Lane::ZERO; lanes * count];
     for row in 0..count {
         let place = first + row;
         let lane = place / WIDTH - first_lane;

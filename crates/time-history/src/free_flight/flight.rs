@@ -3,7 +3,9 @@
 use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
 use super::constants::FreeFlight;
-use super::lanes::{Lane, Modal, Track, WIDTH, balance, drifts, is_low, restoring, transform};
+use super::lanes::{
+    Lane, Modal, Track, WIDTH, at, balance, drifts, gather, is_low, restoring, spread, transform,
+};
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
 use crate::engagement::Tracks;
@@ -52,7 +54,7 @@ impl Flight {
     pub(crate) fn new(system: &System) -> Self {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
             displacement: Track::new(lanes),
@@ -86,10 +88,10 @@ impl Flight {
             (&mut self.now.displacement, &state[..n]),
             (&mut self.now.velocity, &state[n..2 * n]),
         ] {
-            self.modal.as_flattened_mut()[..n].copy_from_slice(from);
+            spread(from, &mut self.modal);
             transform(&constants.inverse, &self.modal, modal);
         }
-        self.displacement.now.as_flattened_mut()[..n].copy_from_slice(&state[..n]);
+        spread(&state[..n], &mut self.displacement.now);
         let u = &self.displacement.now;
         drifts(&constants.shapes, u, &mut self.drift.now);
         self.acceleration_known = false;
@@ -113,7 +115,7 @@ impl Flight {
             let n = system.degrees_of_freedom();
             for (modal, place) in [(&self.now.displacement, 0), (&self.now.velocity, n)] {
                 transform(&constants.shapes, modal, &mut self.modal);
-                state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
+                gather(&self.modal, &mut state[place..place + n]);
             }
             self.write_peaks(system, peaks);
         }
@@ -146,7 +148,7 @@ impl Flight {
         let n = state.len() / 2;
         for (modal, place) in [(q, 0), (p, n)] {
             transform(&constants.shapes, modal, &mut self.modal);
-            state[place..place + n].copy_from_slice(&self.modal.as_flattened()[..n]);
+            gather(&self.modal, &mut state[place..place + n]);
         }
     }
 
@@ -183,7 +185,7 @@ impl Flight {
             }
         }
         let layout = Layout::of(leg.system);
-        let sum = |lanes: &[Lane]| lanes.as_flattened().iter().sum::<f64>();
+        let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
         book.state[layout.input()] += sum(&self.now.input);
         book.state[layout.viscous()] += sum(&self.now.viscous);
         book.residual = sum(&self.drifted);
@@ -196,11 +198,11 @@ impl Flight {
             &mut self.now.viscous,
             &mut self.drifted,
         ] {
-            field.fill([0.0; WIDTH]);
+            field.fill(Lane::ZERO);
         }
         for (c, m) in constants.modes.iter().enumerate() {
             let (q, p) = (self.now.displacement[c], self.now.velocity[c]);
-            let mut energy = [0.0; WIDTH];
+            let mut energy = Lane::ZERO;
             for l in 0..WIDTH {
                 let x = m.circular_frequency[l] * q[l];
                 energy[l] = 0.5 * (p[l] * p[l] + x * x);
@@ -370,13 +372,11 @@ fn below(values: &Extremes, track: &Track, overshoot: &[Lane]) -> bool {
 
 /// Number of the first samples of the block in which no gap can close.
 fn clear_samples(leg: &Leg<'_>, block: &Block, penetration: &[f64], count: usize) -> usize {
-    let overshoot = block.over[0].as_flattened();
-    let top = block.levels.top.as_flattened();
     let mut clear = count;
     for (l, level) in leg.system.levels().iter().enumerate() {
-        let over = |floor: Option<usize>| floor.map_or(0.0, |i| overshoot[i]);
+        let over = |floor: Option<usize>| floor.map_or(0.0, |i| at(&block.over[0], i));
         let (width, over) = (leg.contacts.width(l), over(level.left) + over(level.right));
-        if (top[l] - width).max(penetration[l]) + over <= 0.0 {
+        if (at(&block.levels.top, l) - width).max(penetration[l]) + over <= 0.0 {
             continue;
         }
         let mut start = penetration[l];

@@ -4,11 +4,64 @@
 //! (`multiversion`); without fused operations their bits are the same on all.
 
 use multiversion::multiversion;
+use std::ops::{Index, IndexMut};
 
 use super::constants::FreeFlight;
 
-/// Eight values side by side.
-pub(crate) type Lane = [f64; 8];
+/// Eight values side by side, in one line of the cache.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Lane(pub [f64; 8]);
+
+impl Lane {
+    pub(crate) const ZERO: Self = Self([0.0; 8]);
+
+    /// Made place by place.
+    pub(crate) fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+
+    /// A function of every place.
+    pub(crate) fn map(self, function: impl FnMut(f64) -> f64) -> Self {
+        Self(self.0.map(function))
+    }
+}
+
+impl Index<usize> for Lane {
+    type Output = f64;
+
+    #[inline(always)]
+    fn index(&self, place: usize) -> &f64 {
+        &self.0[place]
+    }
+}
+
+impl IndexMut<usize> for Lane {
+    #[inline(always)]
+    fn index_mut(&mut self, place: usize) -> &mut f64 {
+        &mut self.0[place]
+    }
+}
+
+/// A value by its number in a row of lanes.
+#[inline(always)]
+pub(crate) fn at(lanes: &[Lane], i: usize) -> f64 {
+    lanes[i / WIDTH][i % WIDTH]
+}
+
+/// Copies values into a row of lanes.
+pub(crate) fn spread(values: &[f64], lanes: &mut [Lane]) {
+    for (values, lane) in values.chunks(WIDTH).zip(lanes) {
+        lane.0[..values.len()].copy_from_slice(values);
+    }
+}
+
+/// Copies values out of a row of lanes.
+pub(crate) fn gather(lanes: &[Lane], values: &mut [f64]) {
+    for (values, lane) in values.chunks_mut(WIDTH).zip(lanes) {
+        values.copy_from_slice(&lane.0[..values.len()]);
+    }
+}
 
 /// Number of values in a lane.
 pub(crate) const WIDTH: usize = 8;
@@ -16,7 +69,7 @@ pub(crate) const WIDTH: usize = 8;
 /// Sum, place by place.
 #[inline(always)]
 pub(crate) fn add(a: Lane, b: Lane) -> Lane {
-    let mut out = [0.0; WIDTH];
+    let mut out = Lane::ZERO;
     for l in 0..WIDTH {
         out[l] = a[l] + b[l];
     }
@@ -26,7 +79,7 @@ pub(crate) fn add(a: Lane, b: Lane) -> Lane {
 /// Product, place by place.
 #[inline(always)]
 pub(crate) fn mul(a: Lane, b: Lane) -> Lane {
-    let mut out = [0.0; WIDTH];
+    let mut out = Lane::ZERO;
     for l in 0..WIDTH {
         out[l] = a[l] * b[l];
     }
@@ -36,7 +89,7 @@ pub(crate) fn mul(a: Lane, b: Lane) -> Lane {
 /// Multiple.
 #[inline(always)]
 pub(crate) fn scale(factor: f64, a: Lane) -> Lane {
-    let mut out = [0.0; WIDTH];
+    let mut out = Lane::ZERO;
     for l in 0..WIDTH {
         out[l] = factor * a[l];
     }
@@ -106,7 +159,7 @@ pub(crate) struct Track {
 
 impl Modal {
     pub(crate) fn new(lanes: usize) -> Self {
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             displacement: zeros(),
             velocity: zeros(),
@@ -118,7 +171,7 @@ impl Modal {
 
 impl Track {
     pub(crate) fn new(lanes: usize) -> Self {
-        let zeros = || vec![[0.0; WIDTH]; lanes];
+        let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: zeros(),
             next: zeros(),
@@ -142,7 +195,7 @@ pub(crate) fn overshoots(
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
         let (size, [by_size, by_ground]) = (size[c], m.acceleration_bound);
-        let mut sum = [0.0; WIDTH];
+        let mut sum = Lane::ZERO;
         for l in 0..WIDTH {
             sum[l] = eighth * (by_size[l] * size[l] + by_ground[l] * largest);
         }
@@ -164,7 +217,7 @@ pub(crate) fn acceleration_overshoots(
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
         let (size, [by_size, by_ground, by_slope]) = (size[c], m.snap_bound);
-        let mut sum = [0.0; WIDTH];
+        let mut sum = Lane::ZERO;
         for l in 0..WIDTH {
             let ground = by_ground[l] * largest + by_slope[l] * slope;
             sum[l] = eighth * (by_size[l] * size[l] + ground);
@@ -179,8 +232,13 @@ pub(crate) fn acceleration_overshoots(
 #[inline(always)]
 pub(crate) fn is_low(constants: &FreeFlight, displacement: &[Lane], peak: &[Lane]) -> bool {
     let eighth = constants.eighth();
-    let pairs = displacement.as_flattened().iter().zip(peak.as_flattened());
-    pairs.fold(true, |all, (over, peak)| all & (*over <= eighth * peak))
+    let mut low = true;
+    for (over, peak) in displacement.iter().zip(peak) {
+        for l in 0..WIDTH {
+            low &= over[l] <= eighth * peak[l];
+        }
+    }
+    low
 }
 
 /// Displacement, velocity, input and viscous work of eight modes after a step, and their
@@ -193,7 +251,7 @@ pub(super) fn step_modes(
 ) -> ([Lane; 4], Lane) {
     let (a, b, slope) = (ground.start, ground.end, ground.slope);
     let linear = |k: &[Lane; 4]| -> Lane {
-        let mut out = [0.0; WIDTH];
+        let mut out = Lane::ZERO;
         for l in 0..WIDTH {
             out[l] = k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b);
         }
@@ -205,7 +263,7 @@ pub(super) fn step_modes(
         linear(&m.integral),
     );
     let k = &m.viscous;
-    let mut size = [0.0; WIDTH];
+    let mut size = Lane::ZERO;
     for l in 0..WIDTH {
         let moved = end[l] * b - x[l] * a - slope * integral[l];
         input[l] -= m.participation[l] * moved;
@@ -231,16 +289,15 @@ pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
 #[inline(always)]
 fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
     for lane in floors.iter_mut() {
-        *lane = [0.0; WIDTH];
+        *lane = Lane::ZERO;
     }
-    let modal = modal.as_flattened();
     for building in shapes {
-        let coordinates = &modal[building.first_mode..building.first_mode + building.modes];
         for k in 0..building.lanes {
             let columns = &building.columns[k * building.modes..(k + 1) * building.modes];
             let floor = &mut floors[building.first_lane + k];
             let mut sum = *floor;
-            for (column, x) in columns.iter().zip(coordinates) {
+            for (j, column) in columns.iter().enumerate() {
+                let x = at(modal, building.first_mode + j);
                 for l in 0..WIDTH {
                     sum[l] += column[l] * x;
                 }
@@ -253,13 +310,12 @@ fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
 /// Storey drifts from floor displacements.
 #[inline(always)]
 pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {
-    let (u, d) = (floors.as_flattened(), drifts.as_flattened_mut());
     for building in shapes {
-        let range = building.first_mode..building.first_mode + building.modes;
-        let (u, d) = (&u[range.clone()], &mut d[range]);
-        d[0] = u[0];
-        for (drift, pair) in d[1..].iter_mut().zip(u.windows(2)) {
-            *drift = pair[1] - pair[0];
+        let mut below = 0.0;
+        for i in building.first_mode..building.first_mode + building.modes {
+            let u = at(floors, i);
+            drifts[i / WIDTH][i % WIDTH] = u - below;
+            below = u;
         }
     }
 }
@@ -314,7 +370,7 @@ pub(crate) fn balance(
     start: &[Lane],
     drifted: &mut [Lane],
 ) -> f64 {
-    let mut input = [0.0; WIDTH];
+    let mut input = Lane::ZERO;
     for (c, m) in modes.iter().enumerate() {
         let (q, p) = (&now.displacement[c], &now.velocity[c]);
         for l in 0..WIDTH {
@@ -325,7 +381,7 @@ pub(crate) fn balance(
             input[l] += now.input[c][l];
         }
     }
-    input.iter().sum()
+    input.0.iter().sum()
 }
 
 /// Absolute accelerations of the modes, `-(2 zeta omega q' + omega^2 q)`.

@@ -68,6 +68,20 @@ pub struct Force {
     pub by_velocity: f64,
 }
 
+/// A law in powers of a positive penetration,
+/// `F = stiffness delta^exponent + dashpot delta^dashpot_exponent v`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerLaw {
+    /// Contact stiffness (N/m^exponent).
+    pub stiffness: f64,
+    /// Exponent of the penetration (-).
+    pub exponent: f64,
+    /// Dashpot coefficient (N s/m^(1 + dashpot_exponent)).
+    pub dashpot: f64,
+    /// Exponent of the penetration in the dashpot (-).
+    pub dashpot_exponent: f64,
+}
+
 /// The function whose sign change ends a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Guard {
@@ -195,6 +209,14 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     fn is_affine(&self, collision: &Collision, phase: Phase) -> bool {
         let _ = (collision, phase);
         false
+    }
+
+    /// The law of this phase in powers of the penetration, where it is one: an integrator
+    /// may then expand it into a series. Equal to [`ImpactModel::force`] at every positive
+    /// penetration.
+    fn power_law(&self, collision: &Collision, phase: Phase) -> Option<PowerLaw> {
+        let _ = (collision, phase);
+        None
     }
 
     /// A smooth function with the sign of the law's force before any cut of

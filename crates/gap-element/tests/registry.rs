@@ -44,6 +44,34 @@ tangents! {
     near_zero_penetration: 1e-9..1e-6_f64, -1.0..1.0_f64;
 }
 
+proptest! {
+    /// What a model says of its law in powers is what it computes, in every phase.
+    #[test]
+    fn power_laws_are_the_laws(
+        delta in 1e-7..2e-2_f64,
+        v in -1.0..1.0_f64,
+        v0 in 1e-2..1.5_f64,
+        e in 0.2..1.0_f64,
+    ) {
+        let mut compared = 0;
+        for d in registry::descriptors() {
+            let model = sample(d, e, 1e9);
+            let collision = model.begin(v0, 2.0e4);
+            for phase in [Phase::Approach, Phase::Restitution, Phase::Released] {
+                let Some(law) = model.power_law(&collision, phase) else { continue };
+                let force = model.force(&collision, &Memory::default(), phase, delta, v).value;
+                let spring = law.stiffness * delta.powf(law.exponent);
+                let dashpot = law.dashpot * delta.powf(law.dashpot_exponent) * v;
+                let error = (force - (spring + dashpot)).abs();
+                let size = spring.abs() + dashpot.abs();
+                prop_assert!(error <= 1e-13 * size, "{} {phase:?}: {error:e}", d.name);
+                compared += 1;
+            }
+        }
+        prop_assert!(compared > 40, "{compared}");
+    }
+}
+
 fn check_tangent(model: &dyn ImpactModel, delta: f64, v: f64, v0: f64) {
     let collision = model.begin(v0, 2.0e4);
     let memory = Memory {

@@ -4,8 +4,8 @@
 use super::{elastic_time_factor, hunt_crossley};
 use crate::descriptor::ModelDescriptor;
 use crate::model::{
-    ClosedForm, Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, SeparationRule,
-    Target, Transition,
+    ClosedForm, Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, PowerLaw,
+    SeparationRule, Target, Transition,
 };
 
 const APPROACH: [Transition; 1] = [Transition {
@@ -109,6 +109,19 @@ impl ImpactModel for DryFriction {
     }
     fn is_affine(&self, _: &Collision, phase: Phase) -> bool {
         self.exponent == 1.0 && self.rate == 0.0 && phase != Phase::Stuck
+    }
+    fn power_law(&self, _: &Collision, phase: Phase) -> Option<PowerLaw> {
+        let dry = match phase {
+            Phase::Approach => 1.0 + self.friction,
+            Phase::Restitution => 1.0 - self.friction,
+            _ => return None,
+        };
+        Some(PowerLaw {
+            stiffness: self.stiffness * dry,
+            exponent: self.exponent,
+            dashpot: self.stiffness * self.rate,
+            dashpot_exponent: self.exponent,
+        })
     }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)

@@ -4,7 +4,7 @@ use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP, SIMULTANEOUS, segment}
 use crate::dynamics::Segment;
 use crate::engagement::{
     Clock, LevelRows, NEAR, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch,
-    are_affine, begin_acceleration, in_series, in_span, list, note_floors_of_series,
+    are_affine, are_powers, begin_acceleration, in_series, in_span, list, note_floors_of_series,
     note_floors_of_span, refresh, soon_after, total,
 };
 use crate::error::TimeHistoryError;
@@ -18,6 +18,9 @@ use crate::system::System;
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
 const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
+
+/// Size (m) of penetrations beside which the last terms of a series of powers are small.
+const SERIES_SIZE: f64 = 1.0e-4;
 
 /// Exact open flight, and contacts between flights.
 pub(super) struct Open {
@@ -37,9 +40,13 @@ struct Engagement {
     absolute: Vec<Lane>,
     fastest: f64,
     tolerance: f64,
+    /// Terms of a series of powers.
+    terms: usize,
     /// Whether the list of closed levels holds, and whether they all are affine.
     listed: bool,
     affine: bool,
+    /// Whether they all can be expanded into series.
+    powers: bool,
     /// Whether the accelerations at the present start hold.
     derived: bool,
 }
@@ -73,8 +80,10 @@ impl Open {
                 absolute: zeros(),
                 fastest: fastest_rate(system.buildings()),
                 tolerance: relative_tolerance,
+                terms: series_terms(relative_tolerance),
                 listed: false,
                 affine: false,
+                powers: false,
                 derived: false,
             },
             constants,
@@ -187,12 +196,12 @@ impl Driver<'_> {
                     return Ok(Some(tau));
                 }
                 e.affine = are_affine(&e.touches, self.system);
-                if e.affine {
+                e.powers = e.affine || are_powers(&e.touches, self.system);
+                if e.powers {
                     e.series.take_laws(self.system, &e.touches);
                 }
                 e.listed = true;
             }
-            let affine = e.affine;
             let mut quiet = f64::INFINITY;
             for (mute, step) in self.mute.iter().zip(&self.quiet) {
                 if *mute != Mute::No {
@@ -201,8 +210,21 @@ impl Driver<'_> {
             }
             let rest = segment.length - tau;
             let longest = rest.min(quiet);
-            let (step, event) = if affine {
-                self.by_series(open, segment, tau, longest)
+            let e = &open.engagement;
+            let series = if e.affine {
+                Some(longest)
+            } else if e.powers {
+                let p = &e.pair.start.motion[1];
+                let touches = e.touches.iter().map(|t| {
+                    let rate = e.rows.levels[t.level].dot(p);
+                    (open.flight.penetration[t.level], rate)
+                });
+                e.lengths.of_series(touches, longest)
+            } else {
+                None
+            };
+            let (step, event) = if let Some(length) = series {
+                self.by_series(open, segment, tau, length)
             } else {
                 self.by_pair(open, segment, tau, longest)?
             };
@@ -322,6 +344,7 @@ impl Driver<'_> {
             ground: (segment.ground(tau), segment.slope),
             step: whole,
             rate,
+            terms: if e.affine { 0 } else { e.terms },
         };
         e.series.expand(constants, &e.rows, &e.touches, &from);
         self.series_terms += e.series.terms() as u64;
@@ -329,6 +352,14 @@ impl Driver<'_> {
             e.series
                 .start_acceleration(&constants.modes, &mut e.absolute);
             begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
+        }
+        let mut whole = whole;
+        if !e.affine {
+            let reach = e.series.reach(SERIES_SIZE * e.tolerance);
+            if reach < 1.0 {
+                e.series.shorten(reach);
+                whole *= reach;
+            }
         }
         let modes = &constants.modes;
         let [q, p, ..] = &mut e.pair.end.motion;
@@ -380,6 +411,9 @@ impl Driver<'_> {
         }
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         e.derived = false;
+        if !e.affine {
+            e.lengths.accept_series(step);
+        }
         (step, event.map(|event| (event, whole)))
     }
 
@@ -515,6 +549,11 @@ impl Driver<'_> {
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         Ok((step, event))
     }
+}
+
+/// Terms of a series of powers: more are worth while where more digits are asked for.
+fn series_terms(tolerance: f64) -> usize {
+    (10.0 - tolerance.log10()).clamp(14.0, 22.0) as usize
 }
 
 /// Whether an event of a level does not count.

@@ -2,6 +2,7 @@
 
 use multiversion::multiversion;
 
+use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow, total};
 use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
 use super::touch::Touch;
@@ -25,6 +26,8 @@ pub(crate) struct SeriesStep<'a> {
     pub step: f64,
     /// Bound of the rate of the motion (1/s).
     pub rate: f64,
+    /// Terms at least.
+    pub terms: usize,
 }
 
 /// One closed level: penetration, its rate of change and force as series in theta.
@@ -34,9 +37,33 @@ pub(crate) struct TouchSeries {
     pub delta: Terms,
     pub rate: Terms,
     pub force: Terms,
-    constant: f64,
-    stiffness: f64,
-    dashpot: f64,
+    law: Law,
+    powers: Powers,
+}
+
+impl TouchSeries {
+    /// Takes the next term of the rate in.
+    #[inline(always)]
+    fn push(&mut self, k: usize, scale: f64, rate: f64) {
+        self.delta[k + 1] = scale * self.rate[k];
+        self.rate[k + 1] = rate;
+        self.force[k + 1] = self.next_force(k + 1);
+    }
+
+    #[inline(always)]
+    fn next_force(&mut self, k: usize) -> f64 {
+        match &self.law {
+            Law::Affine {
+                constant,
+                stiffness,
+                dashpot,
+            } => {
+                let constant = if k == 0 { *constant } else { 0.0 };
+                constant + stiffness * self.delta[k] + dashpot * self.rate[k]
+            }
+            Law::Powers(law) => self.powers.term(law, k, &self.delta, &self.rate),
+        }
+    }
 }
 
 /// Works of a step.
@@ -75,9 +102,12 @@ impl Series {
             delta: [0.0; TERMS],
             rate: [0.0; TERMS],
             force: [0.0; TERMS],
-            constant: 0.0,
-            stiffness: 0.0,
-            dashpot: 0.0,
+            law: Law::Affine {
+                constant: 0.0,
+                stiffness: 0.0,
+                dashpot: 0.0,
+            },
+            powers: Powers::NONE,
         };
         let mut touches = vec![empty; levels];
         touches.clear();
@@ -113,17 +143,28 @@ impl Series {
         let (mut squares, mut damping) = (0.0, 0.0);
         for touch in touches {
             let level = &system.levels()[touch.level];
-            let law = touch.contact.force(level, 0.0, 0.0);
-            squares += law.by_penetration.abs() / level.effective_mass;
-            damping += law.by_velocity.abs() / level.effective_mass;
+            let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
+            let powers = level.model.power_law(collision, phase);
+            let law = match powers {
+                Some(law) if !level.model.is_affine(collision, phase) => Law::Powers(law),
+                _ => {
+                    let law = touch.contact.force(level, 0.0, 0.0);
+                    squares += law.by_penetration.abs() / level.effective_mass;
+                    damping += law.by_velocity.abs() / level.effective_mass;
+                    Law::Affine {
+                        constant: law.value,
+                        stiffness: law.by_penetration,
+                        dashpot: law.by_velocity,
+                    }
+                }
+            };
             self.touches.push(TouchSeries {
                 level: touch.level,
                 delta: [0.0; TERMS],
                 rate: [0.0; TERMS],
                 force: [0.0; TERMS],
-                constant: law.value,
-                stiffness: law.by_penetration,
-                dashpot: law.by_velocity,
+                law,
+                powers: Powers::NONE,
             });
         }
         self.rate = squares.sqrt() + damping;
@@ -140,18 +181,31 @@ impl Series {
         let lanes = self.lanes;
         self.step = from.step;
         self.ground = from.ground;
-        self.last = last_term(from.rate * from.step);
+        self.last = last_term(from.rate * from.step).max(from.terms);
         self.displacement[..lanes].copy_from_slice(from.displacement);
         self.velocity[..lanes].copy_from_slice(from.velocity);
         for (series, touch) in self.touches.iter_mut().zip(touches) {
             let row = &rows.levels[touch.level];
             series.delta[0] = row.dot(from.displacement) - touch.width;
             series.rate[0] = row.dot(from.velocity);
-            series.force[0] = series.constant
-                + series.stiffness * series.delta[0]
-                + series.dashpot * series.rate[0];
+            series.force[0] = series.next_force(0);
         }
         expand(self, &constants.modes, &rows.levels);
+    }
+
+    /// Part of the step over which the series of all levels end in terms below `allowed`
+    /// (m); more than one if the step could be longer.
+    pub(crate) fn reach(&self, allowed: f64) -> f64 {
+        let mut reach = f64::INFINITY;
+        for touch in &self.touches {
+            for k in [self.last - 1, self.last] {
+                let term = touch.delta[k].abs();
+                if term > 0.0 {
+                    reach = reach.min((allowed / term).powf(1.0 / k as f64));
+                }
+            }
+        }
+        reach
     }
 
     pub(crate) fn terms(&self) -> usize {
@@ -384,10 +438,7 @@ fn expand_in_place<const LANES: usize>(
                     sum[l] += row[c][l] * p[c][l];
                 }
             }
-            touch.delta[k + 1] = scale * touch.rate[k];
-            touch.rate[k + 1] = total(&sum);
-            touch.force[k + 1] =
-                touch.stiffness * touch.delta[k + 1] + touch.dashpot * touch.rate[k + 1];
+            touch.push(k, scale, total(&sum));
         }
     }
     series.bend.copy_from_slice(&bend);
@@ -436,10 +487,8 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             (series.bend[c], series.snap[c]) = (bend, snap);
         }
         for touch in &mut series.touches {
-            touch.delta[k + 1] = scale * touch.rate[k];
-            touch.rate[k + 1] = levels[touch.level].dot(p_next);
-            touch.force[k + 1] =
-                touch.stiffness * touch.delta[k + 1] + touch.dashpot * touch.rate[k + 1];
+            let rate = levels[touch.level].dot(p_next);
+            touch.push(k, scale, rate);
         }
     }
 }

@@ -34,10 +34,16 @@ const CLEAR: f64 = 0.6;
 /// Once steps are shorter than this part of the time since closure, its singularity does
 /// not limit them any more.
 const FAR: f64 = 0.35;
+/// Part of the time from a zero of the penetration that a series may span, and the part of
+/// a step of the pair from which on it is worth while.
+const CONVERGENT: f64 = 0.7;
+const WORTH: f64 = 0.4;
 /// Bounds of the growth of steps.
 const FACTORS: [f64; 2] = [0.2, 4.0];
 /// Growth of the first step from start to start.
 const CAREFUL: f64 = 1.2;
+/// Growth of steps in the variable of a start.
+const GROWING: f64 = 1.5;
 /// What is nearer than this (s) is there.
 const SHORTEST: f64 = 1.0e-12;
 /// First guesses (s).
@@ -95,6 +101,39 @@ impl StepLength {
         plain(length, Pace::Plain)
     }
 
+    /// Longest step (s) of a series of powers, which must keep clear of the times at which
+    /// penetrations are zero; `None` where the pair gets further. `penetrations` come with
+    /// their rates.
+    pub(crate) fn of_series(
+        &self,
+        penetrations: impl Iterator<Item = (f64, f64)>,
+        rest: f64,
+    ) -> Option<f64> {
+        let mut longest = rest;
+        for (delta, rate) in penetrations {
+            if delta <= 0.0 {
+                return None;
+            }
+            let away = delta / rate.abs();
+            // The end is near: the pair can reach it at once.
+            if rate < 0.0 && away < self.next.min(rest) {
+                return None;
+            }
+            longest = longest.min(CONVERGENT * away);
+        }
+        let pair = match self.since {
+            Some(_) => self.growing,
+            None => self.next,
+        };
+        (longest >= WORTH * pair.min(rest)).then_some(longest)
+    }
+
+    /// A series was taken over `length` (s).
+    pub(crate) fn accept_series(&mut self, length: f64) {
+        self.since = None;
+        self.next = self.next.max(length);
+    }
+
     /// A step of this error was rejected; returns the shorter one to try.
     pub(crate) fn reject(&mut self, tried: &Proposal, error: f64) -> Proposal {
         let factor = factor(error).min(0.7);
@@ -105,6 +144,9 @@ impl StepLength {
                 let to = from + factor * (s(tried.since + tried.length) - from);
                 let length = to.powi(4) - tried.since;
                 self.growing = length;
+                if tried.since == 0.0 {
+                    self.first = length;
+                }
                 Proposal { length, ..*tried }
             }
             Pace::Plain | Pace::End(_) => {
@@ -129,13 +171,16 @@ impl StepLength {
                 if tried.since == 0.0 {
                     // One start is not quite like the next.
                     let wanted = (factor.min(CAREFUL) * b).powi(4);
-                    self.first = if length < tried.length {
+                    // A step cut short says nothing against a longer one.
+                    let short = length < tried.length || tried.length < self.first;
+                    let wanted = if short {
                         self.first.max(wanted)
                     } else {
                         wanted
                     };
+                    self.first = wanted;
                 }
-                self.growing = (s(since) + factor * (b - a)).powi(4) - since;
+                self.growing = (s(since) + factor.min(GROWING) * (b - a)).powi(4) - since;
                 self.since = Some(since);
                 if self.growing < FAR * since {
                     self.since = None;

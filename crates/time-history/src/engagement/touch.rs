@@ -41,6 +41,15 @@ pub(crate) fn refresh(contacts: &Contacts, touches: &mut [Touch]) {
     }
 }
 
+/// Whether all of them are affine or powers of the penetration in their phase.
+pub(crate) fn are_powers(touches: &[Touch], system: &System) -> bool {
+    touches.iter().all(|t| {
+        let model = &system.levels()[t.level].model;
+        let (collision, phase) = (&t.contact.collision, t.contact.phase);
+        model.is_affine(collision, phase) || model.power_law(collision, phase).is_some()
+    })
+}
+
 /// Whether all of them are affine in their phase.
 pub(crate) fn are_affine(touches: &[Touch], system: &System) -> bool {
     touches.iter().all(|t| {

@@ -8,7 +8,7 @@ use crate::descriptor::{
 };
 use crate::error::GapElementError;
 use crate::model::{
-    APPROACH_VELOCITY_FLOOR, ClosedForm, Collision, Force, ImpactModel, Memory, Phase,
+    APPROACH_VELOCITY_FLOOR, ClosedForm, Collision, Force, ImpactModel, Memory, Phase, PowerLaw,
     SeparationRule, Transition,
 };
 use crate::parameters::{
@@ -158,6 +158,16 @@ impl ImpactModel for HuntCrossley {
         let damped = self.phases == DampingPhases::Both || phase == Phase::Approach;
         let elastic = !damped || collision.constants[1] == 0.0;
         (self.exponent == 1.0 && elastic) || phase == Phase::Released
+    }
+    fn power_law(&self, collision: &Collision, phase: Phase) -> Option<PowerLaw> {
+        let damped = self.phases == DampingPhases::Both || phase == Phase::Approach;
+        let rate = if damped { collision.constants[1] } else { 0.0 };
+        (phase != Phase::Released).then_some(PowerLaw {
+            stiffness: self.stiffness,
+            exponent: self.exponent,
+            dashpot: self.stiffness * rate,
+            dashpot_exponent: self.exponent,
+        })
     }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         super::stored_energy(self.stiffness, self.exponent, delta)

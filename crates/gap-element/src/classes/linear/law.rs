@@ -10,7 +10,7 @@ use crate::descriptor::{
 };
 use crate::error::GapElementError;
 use crate::model::{
-    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, SeparationRule, Transition,
+    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, PowerLaw, SeparationRule, Transition,
 };
 use crate::parameters::{
     DAMPING_RATIO, EXPONENT, LINEAR_STIFFNESS, ModelParameters, POWER_STIFFNESS, RESTITUTION,
@@ -156,6 +156,15 @@ impl ImpactModel for LinearClass {
     }
     fn is_affine(&self, _: &Collision, phase: Phase) -> bool {
         self.exponent == 1.0 || phase == Phase::Released
+    }
+    fn power_law(&self, collision: &Collision, phase: Phase) -> Option<PowerLaw> {
+        let damped = self.phases == DampingPhases::Both || phase == Phase::Approach;
+        (self.exponent != 1.0 && phase != Phase::Released).then(|| PowerLaw {
+            stiffness: self.stiffness,
+            exponent: self.exponent,
+            dashpot: if damped { collision.constants[2] } else { 0.0 },
+            dashpot_exponent: 0.5 * (self.exponent - 1.0),
+        })
     }
     fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
         if phase == Phase::Released {

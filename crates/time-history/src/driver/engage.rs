@@ -21,6 +21,8 @@ const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
 
 /// Size (m) of penetrations beside which the last terms of a series of powers are small.
 const SERIES_SIZE: f64 = 1.0e-4;
+/// Part of the step tried from which on such a series is worth its while.
+const FAR_ENOUGH: f64 = 0.3;
 
 /// Exact open flight, and contacts between flights.
 pub(super) struct Open {
@@ -223,10 +225,10 @@ impl Driver<'_> {
             } else {
                 None
             };
-            let (step, event) = if let Some(length) = series {
-                self.by_series(open, segment, tau, length)
-            } else {
-                self.by_pair(open, segment, tau, longest)?
+            let taken = series.and_then(|length| self.by_series(open, segment, tau, length));
+            let (step, event) = match taken {
+                Some(taken) => taken,
+                None => self.by_pair(open, segment, tau, longest)?,
             };
             if let Some((event, whole)) = event
                 && event.theta * whole <= EVENT_TOLERANCE
@@ -320,14 +322,15 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// A step by the series, cut at its first event.
+    /// A step by the series, cut at its first event; `None` where a series of powers does
+    /// not reach far.
     fn by_series(
         &mut self,
         open: &mut Open,
         segment: &Segment,
         tau: f64,
         longest: f64,
-    ) -> (f64, Option<(Candidate, f64)>) {
+    ) -> Option<(f64, Option<(Candidate, f64)>)> {
         let Open {
             constants,
             flight,
@@ -356,6 +359,9 @@ impl Driver<'_> {
         let mut whole = whole;
         if !e.affine {
             let reach = e.series.reach(SERIES_SIZE * e.tolerance);
+            if reach < FAR_ENOUGH {
+                return None;
+            }
             if reach < 1.0 {
                 e.series.shorten(reach);
                 whole *= reach;
@@ -375,7 +381,7 @@ impl Driver<'_> {
         let mut step = whole;
         if let Some(event) = event {
             if event.theta * whole <= EVENT_TOLERANCE {
-                return (0.0, Some((event, whole)));
+                return Some((0.0, Some((event, whole))));
             }
             if event.theta < 1.0 {
                 step = event.theta * whole;
@@ -414,7 +420,7 @@ impl Driver<'_> {
         if !e.affine {
             e.lengths.accept_series(step);
         }
-        (step, event.map(|event| (event, whole)))
+        Some((step, event.map(|event| (event, whole))))
     }
 
     /// A step by the pair, cut at its first event.

@@ -1,7 +1,8 @@
 //! Series of laws in powers of the penetration.
 //!
 //! `p = delta^a` solves `delta p' = a p delta'`, which gives every term of its series from
-//! those before it (Knuth, The Art of Computer Programming, volume 2, section 4.7).
+//! those before it (Knuth, The Art of Computer Programming, volume 2, section 4.7):
+//! `k delta_0 p_k = sum (a (k - j) - j) delta_(k-j) p_j` over `j < k`.
 
 use pounding_gap_element::PowerLaw;
 
@@ -19,53 +20,137 @@ pub(super) enum Law {
     Powers(PowerLaw),
 }
 
-/// Series of the powers in a law.
+/// One power: its terms, and these times their number.
+#[derive(Debug, Clone, Copy)]
+struct Power {
+    terms: Terms,
+    weighted: Terms,
+}
+
+/// Series of the powers in a law. Those of the penetration and of its rate stand in
+/// reverse, so that sums of products run the same way through both.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Powers {
-    spring: Terms,
-    dashpot: Terms,
+    spring: Power,
+    dashpot: Power,
+    delta: Terms,
+    /// Terms of the penetration times their number.
+    weighted: Terms,
+    rate: Terms,
 }
 
 impl Powers {
-    pub(super) const NONE: Self = Self {
-        spring: [0.0; TERMS],
-        dashpot: [0.0; TERMS],
+    pub(super) const NONE: Self = {
+        let none = Power {
+            terms: [0.0; TERMS],
+            weighted: [0.0; TERMS],
+        };
+        Self {
+            spring: none,
+            dashpot: none,
+            delta: [0.0; TERMS],
+            weighted: [0.0; TERMS],
+            rate: [0.0; TERMS],
+        }
     };
 
-    /// Term `k` of the force, from the penetration and its rate up to that term.
+    /// Term `k` of the force, from that of the penetration and of its rate.
     #[inline(always)]
-    pub(super) fn term(&mut self, law: &PowerLaw, k: usize, delta: &Terms, rate: &Terms) -> f64 {
-        self.spring[k] = power(&self.spring, law.exponent, k, delta);
-        let force = law.stiffness * self.spring[k];
+    pub(super) fn term(&mut self, law: &PowerLaw, k: usize, (delta, rate): (f64, f64)) -> f64 {
+        let place = TERMS - 1 - k;
+        self.delta[place] = delta;
+        self.weighted[place] = k as f64 * delta;
+        self.rate[place] = rate;
+        let motion = (&self.delta[place..], &self.weighted[place..]);
+        let force = law.stiffness * self.spring.term(law.exponent, k, motion);
         if law.dashpot == 0.0 {
             return force;
         }
-        if law.dashpot_exponent == law.exponent {
-            self.dashpot[k] = self.spring[k];
+        let powers = if law.dashpot_exponent == law.exponent {
+            &self.spring.terms
         } else {
-            self.dashpot[k] = power(&self.dashpot, law.dashpot_exponent, k, delta);
-        }
-        let mut sum = 0.0;
-        for j in 0..=k {
-            sum += self.dashpot[j] * rate[k - j];
-        }
-        force + law.dashpot * sum
+            self.dashpot.term(law.dashpot_exponent, k, motion);
+            &self.dashpot.terms
+        };
+        force + law.dashpot * dot(&self.rate[place..], &powers[..=k])
     }
 }
 
-/// Term `k` of `delta^exponent`.
-#[inline(always)]
-fn power(terms: &Terms, exponent: f64, k: usize, delta: &Terms) -> f64 {
-    if k == 0 {
-        return match exponent {
-            1.5 => delta[0] * delta[0].sqrt(),
-            0.25 => delta[0].sqrt().sqrt(),
-            _ => delta[0].powf(exponent),
+impl Power {
+    /// Term `k` of `delta^exponent`, for the reversed terms of the penetration.
+    #[inline(always)]
+    fn term(&mut self, exponent: f64, k: usize, (delta, weighted): (&[f64], &[f64])) -> f64 {
+        let first = delta[k];
+        let term = if k > 0 {
+            let rising = dot(weighted, &self.terms[..k]);
+            let falling = dot(delta, &self.weighted[..k]);
+            (exponent * rising - falling) / (k as f64 * first)
+        } else if exponent == 1.5 {
+            first * first.sqrt()
+        } else if exponent == 0.25 {
+            first.sqrt().sqrt()
+        } else {
+            first.powf(exponent)
         };
+        self.terms[k] = term;
+        self.weighted[k] = k as f64 * term;
+        term
+    }
+}
+
+/// Sum of products in four chains.
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (fours, rest) = b.as_chunks::<4>();
+    for (x, y) in a.chunks_exact(4).zip(fours) {
+        for l in 0..4 {
+            sums[l] += x[l] * y[l];
+        }
     }
     let mut sum = 0.0;
-    for j in 0..k {
-        sum += (exponent * (k - j) as f64 - j as f64) * delta[k - j] * terms[j];
+    for (x, y) in a[4 * fours.len()..].iter().zip(rest) {
+        sum += x * y;
     }
-    sum / (k as f64 * delta[0])
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the binomial series of `(d + v t)^a` and its products.
+    #[test]
+    fn agrees_with_the_binomial_series() {
+        let (d, v) = (2.0e-3, 0.3e-3);
+        let law = PowerLaw {
+            stiffness: 3.0,
+            exponent: 1.5,
+            dashpot: 0.7,
+            dashpot_exponent: 0.25,
+        };
+        let mut powers = Powers::NONE;
+        let binomial = |a: f64, k: usize| -> f64 {
+            let ratio = v / d;
+            (0..k).fold(d.powf(a), |c, j| {
+                c * (a - j as f64) / (j + 1) as f64 * ratio
+            })
+        };
+        for k in 0..20 {
+            let motion = match k {
+                0 => (d, 0.4),
+                1 => (v, -0.9),
+                _ => (0.0, 0.0),
+            };
+            let term = powers.term(&law, k, motion);
+            let before = if k > 0 { binomial(0.25, k - 1) } else { 0.0 };
+            let dashpot = 0.4 * binomial(0.25, k) - 0.9 * before;
+            let expected = 3.0 * binomial(1.5, k) + 0.7 * dashpot;
+            let size = 3.0 * binomial(1.5, k).abs() + 0.7 * before.abs();
+            assert!(
+                (term - expected).abs() <= 1e-13 * size,
+                "{k}: {term} {expected}"
+            );
+        }
+    }
 }

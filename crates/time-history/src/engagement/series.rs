@@ -61,7 +61,10 @@ impl TouchSeries {
                 let constant = if k == 0 { *constant } else { 0.0 };
                 constant + stiffness * self.delta[k] + dashpot * self.rate[k]
             }
-            Law::Powers(law) => self.powers.term(law, k, &self.delta, &self.rate),
+            Law::Powers(law) => {
+                let motion = (self.delta[k], self.rate[k]);
+                self.powers.term(law, k, motion)
+            }
         }
     }
 }

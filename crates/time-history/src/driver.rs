@@ -150,7 +150,7 @@ struct Driver<'a> {
     last_ground: f64,
     rigid: RigidImpacts,
     /// Exact open flight, where the method and the buildings allow it.
-    open: Option<Open>,
+    open: Option<Open<'a>>,
     /// Terms of Taylor series in the coordinates of the modes.
     series_terms: u64,
 }
@@ -271,10 +271,22 @@ impl<'a> Driver<'a> {
                 self.process(segment, next, event, whole)?;
             }
             tau = next;
-            for impact in self.log.finished() {
-                for recorder in recorders.iter_mut() {
-                    recorder.impact(impact)?;
-                }
+            self.hand_out_impacts(recorders)?;
+        }
+        Ok(())
+    }
+
+    /// Tells recorders of the impacts that are over.
+    fn hand_out_impacts(
+        &mut self,
+        recorders: &mut [&mut dyn Recorder],
+    ) -> Result<(), TimeHistoryError> {
+        if recorders.is_empty() {
+            return Ok(());
+        }
+        for impact in self.log.finished() {
+            for recorder in recorders.iter_mut() {
+                recorder.impact(impact)?;
             }
         }
         Ok(())

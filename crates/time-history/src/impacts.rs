@@ -1,6 +1,6 @@
 //! The log of impacts and what they sum up to at every level.
 
-use pounding_gap_element::Collision;
+use pounding_gap_element::{Collision, MAXIMUM_CONSTANTS};
 
 use crate::dynamics::Layout;
 use crate::outcome::{Impact, LevelOutcome, Peak};
@@ -16,6 +16,9 @@ struct Open {
     lasting: bool,
 }
 
+/// Room for impacts before the log has to grow.
+const IMPACTS: usize = 1024;
+
 /// Impacts in order of closure.
 #[derive(Debug)]
 pub(crate) struct ImpactLog {
@@ -25,7 +28,10 @@ pub(crate) struct ImpactLog {
     /// Sums of squared approach and separation velocities of finished impacts.
     squares: Vec<(f64, f64)>,
     places: Vec<(usize, usize)>,
-    constants: Vec<usize>,
+    /// Number of constants of each level's model, and those of all impacts: handed over
+    /// with the impact, so that nothing is allocated while it lasts.
+    count: Vec<usize>,
+    constants: Vec<[f64; MAXIMUM_CONSTANTS]>,
     /// Levels whose impacts are velocity jumps.
     rigid: Vec<bool>,
     finished: Vec<usize>,
@@ -53,12 +59,13 @@ impl ImpactLog {
             gap_widening: 0.0,
         };
         Self {
-            impacts: Vec::new(),
+            impacts: Vec::with_capacity(IMPACTS),
             present: vec![None; count],
             levels: vec![empty; count],
             squares: vec![(0.0, 0.0); count],
             places,
-            constants: system
+            constants: Vec::with_capacity(IMPACTS),
+            count: system
                 .levels()
                 .iter()
                 .map(|l| l.model.descriptor().constants.len())
@@ -68,7 +75,7 @@ impl ImpactLog {
                 .iter()
                 .map(|l| l.model.rigid_restitution().is_some())
                 .collect(),
-            finished: Vec::new(),
+            finished: Vec::with_capacity(IMPACTS),
             handed_out: Vec::new(),
         }
     }
@@ -100,8 +107,9 @@ impl ImpactLog {
             peak_penetration: Peak::default(),
             impulse: 0.0,
             energy_dissipated: 0.0,
-            constants: collision.constants[..self.constants[l]].to_vec(),
+            constants: Vec::new(),
         });
+        self.constants.push(collision.constants);
         let outcome = &mut self.levels[l];
         outcome.impacts += 1;
         outcome.first_contact.get_or_insert(time);
@@ -194,10 +202,21 @@ impl ImpactLog {
     /// Impacts that ended since the last call.
     pub(crate) fn finished(&mut self) -> &[Impact] {
         self.handed_out.clear();
-        for index in self.finished.drain(..) {
-            self.handed_out.push(self.impacts[index].clone());
+        for index in std::mem::take(&mut self.finished) {
+            let mut impact = self.impacts[index].clone();
+            impact.constants = self.constants_of(index);
+            self.handed_out.push(impact);
         }
         &self.handed_out
+    }
+
+    /// Constants of a collision, as many as its model has on its card.
+    fn constants_of(&self, index: usize) -> Vec<f64> {
+        let impact = &self.impacts[index];
+        let place = (impact.gap, impact.level);
+        let level = self.places.iter().position(|p| *p == place);
+        let count = level.map_or(0, |l| self.count[l]);
+        self.constants[index][..count].to_vec()
     }
 
     pub(crate) fn into_outcome(mut self) -> (Vec<LevelOutcome>, Vec<Impact>) {
@@ -205,6 +224,9 @@ impl ImpactLog {
             if *rigid && level.impacts > 0 && level.sticks == 0 {
                 level.peak_force.value = f64::NAN;
             }
+        }
+        for index in 0..self.impacts.len() {
+            self.impacts[index].constants = self.constants_of(index);
         }
         (self.levels, self.impacts)
     }

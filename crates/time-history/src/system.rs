@@ -2,10 +2,11 @@
 
 use pounding_gap_element::ImpactModel;
 use pounding_shear_building::ShearBuilding;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::bands::Bands;
 use crate::error::TimeHistoryError;
+use crate::free_flight::FreeFlight;
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
 #[derive(Debug, Clone)]
@@ -76,6 +77,9 @@ pub struct System {
     /// Displacements, then velocities at time zero.
     initial: Vec<f64>,
     bands: Option<Bands>,
+    /// What open flight needs, made when it is first asked for; shared by all systems with
+    /// these buildings and this step.
+    free_flight: Arc<OnceLock<Option<FreeFlight>>>,
 }
 
 impl System {
@@ -95,6 +99,7 @@ impl System {
             ground,
             initial: vec![0.0; 2 * mass.len()],
             bands: Bands::of(&buildings),
+            free_flight: Arc::default(),
             buildings,
             mass,
         }
@@ -222,13 +227,23 @@ impl System {
         })
     }
 
-    /// The same buildings and ground motion without gaps: the isolated run.
+    /// The same buildings and ground motion without gaps: the isolated run. What depends on
+    /// them alone is computed once for all systems made this way from one another, so that
+    /// a sweep over gaps should make its systems by this and [`System::add_gap`].
     #[must_use]
     pub fn isolated(&self) -> Self {
         Self {
-            initial: self.initial.clone(),
-            ..Self::new(self.buildings.clone(), self.ground.clone())
+            gaps: Vec::new(),
+            levels: Vec::new(),
+            ..self.clone()
         }
+    }
+
+    /// Constants of open flight; `None` if the damping of a building couples its modes.
+    pub(crate) fn free_flight(&self) -> Option<&FreeFlight> {
+        let step = self.ground.time_step;
+        let constants = self.free_flight.get_or_init(|| FreeFlight::new(self, step));
+        constants.as_ref()
     }
 
     /// Buildings from the left.

@@ -13,20 +13,19 @@ use crate::free_flight::{Flight, FreeFlight, Lane, WIDTH};
 use crate::options::MethodChoice;
 use crate::outcome::Peak;
 use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
-use crate::rates::fastest_rate;
 use crate::system::System;
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
 const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
 
 /// Size (m) of penetrations beside which the last terms of a series of powers are small.
-const SERIES_SIZE: f64 = 1.0e-4;
+const SERIES_SIZE: f64 = 1.0e-5;
 /// Part of the step tried from which on such a series is worth its while.
 const FAR_ENOUGH: f64 = 0.3;
 
 /// Exact open flight, and contacts between flights.
-pub(super) struct Open {
-    pub constants: FreeFlight,
+pub(super) struct Open<'a> {
+    pub constants: &'a FreeFlight,
     pub flight: Flight,
     engagement: Engagement,
 }
@@ -40,7 +39,6 @@ struct Engagement {
     rates: Rates,
     lengths: StepLength,
     absolute: Vec<Lane>,
-    fastest: f64,
     tolerance: f64,
     /// Terms of a series of powers.
     terms: usize,
@@ -61,9 +59,9 @@ pub(super) enum Left {
     Within(usize, f64),
 }
 
-impl Open {
-    pub(super) fn new(system: &System, method: &MethodChoice) -> Option<Self> {
-        let constants = FreeFlight::new(system, system.ground().time_step)?;
+impl<'a> Open<'a> {
+    pub(super) fn new(system: &'a System, method: &MethodChoice) -> Option<Self> {
+        let constants = system.free_flight()?;
         let lanes = constants.modes.len();
         let levels = system.levels().len();
         let MethodChoice::EventDriven { relative_tolerance } = *method else {
@@ -73,14 +71,13 @@ impl Open {
         Some(Self {
             flight: Flight::new(system),
             engagement: Engagement {
-                rows: LevelRows::new(&constants, system),
+                rows: LevelRows::new(constants, system),
                 touches: Vec::with_capacity(levels),
                 series: Series::new(lanes, levels),
                 pair: Pair::new(lanes, levels),
                 rates: Rates::new(lanes),
                 lengths: StepLength::new(),
                 absolute: zeros(),
-                fastest: fastest_rate(system.buildings()),
                 tolerance: relative_tolerance,
                 terms: series_terms(relative_tolerance),
                 listed: false,
@@ -93,7 +90,7 @@ impl Open {
     }
 }
 
-impl Open {
+impl Open<'_> {
     /// Gives the motion back to flight.
     fn put_back(&mut self) {
         let [q, p, ..] = &self.engagement.pair.start.motion;
@@ -120,7 +117,7 @@ impl Driver<'_> {
 
     fn engage_with(
         &mut self,
-        open: &mut Open,
+        open: &mut Open<'_>,
         first: usize,
         duration: f64,
     ) -> Result<Left, TimeHistoryError> {
@@ -163,10 +160,10 @@ impl Driver<'_> {
     }
 
     /// Leaves the coordinates of the modes.
-    fn leave(&mut self, open: &mut Open, time: f64) -> Result<(), TimeHistoryError> {
+    fn leave(&mut self, open: &mut Open<'_>, time: f64) -> Result<(), TimeHistoryError> {
         let peaks = &mut self.peaks.storeys;
         open.flight
-            .disembark(&open.constants, self.system, peaks, &mut self.state);
+            .disembark(open.constants, self.system, peaks, &mut self.state);
         self.method.restart(true);
         self.balance(time)
     }
@@ -176,7 +173,7 @@ impl Driver<'_> {
         if let Some(mut open) = self.open.take() {
             self.leave(&mut open, time)?;
             let peaks = &mut self.peaks.storeys;
-            open.flight.finish(&open.constants, self.system, peaks);
+            open.flight.finish(open.constants, self.system, peaks);
             self.open = Some(open);
         }
         Ok(())
@@ -186,7 +183,7 @@ impl Driver<'_> {
     /// cannot go on from there.
     fn engage_segment(
         &mut self,
-        open: &mut Open,
+        open: &mut Open<'_>,
         segment: &Segment,
     ) -> Result<Option<f64>, TimeHistoryError> {
         let mut tau = 0.0;
@@ -253,7 +250,7 @@ impl Driver<'_> {
 
     fn fire_all(
         &mut self,
-        open: &mut Open,
+        open: &mut Open<'_>,
         segment: &Segment,
         tau: f64,
         (event, whole): (Candidate, f64),
@@ -276,7 +273,12 @@ impl Driver<'_> {
     }
 
     /// Common to all steps: the new state has been put in place.
-    fn arrive(&mut self, open: &mut Open, time: f64, step: f64) -> Result<(), TimeHistoryError> {
+    fn arrive(
+        &mut self,
+        open: &mut Open<'_>,
+        time: f64,
+        step: f64,
+    ) -> Result<(), TimeHistoryError> {
         let Open {
             constants,
             flight,
@@ -326,7 +328,7 @@ impl Driver<'_> {
     /// not reach far.
     fn by_series(
         &mut self,
-        open: &mut Open,
+        open: &mut Open<'_>,
         segment: &Segment,
         tau: f64,
         longest: f64,
@@ -337,7 +339,7 @@ impl Driver<'_> {
             engagement: e,
         } = open;
         let rate = e.series.rate();
-        let rate = (e.fastest * e.fastest + rate * rate).sqrt();
+        let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
         let parts = (longest / Series::longest(rate)).ceil().max(1.0);
         let whole = longest / parts;
         let start = segment.start + tau;
@@ -394,7 +396,7 @@ impl Driver<'_> {
         self.state[layout.input()] += works.input;
         self.state[layout.viscous()] += works.viscous;
         note_floors_of_series(
-            (constants, &e.rows),
+            constants,
             &e.series,
             (q, &e.absolute),
             &mut flight.tracks(),
@@ -426,7 +428,7 @@ impl Driver<'_> {
     /// A step by the pair, cut at its first event.
     fn by_pair(
         &mut self,
-        open: &mut Open,
+        open: &mut Open<'_>,
         segment: &Segment,
         tau: f64,
         longest: f64,

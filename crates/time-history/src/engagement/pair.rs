@@ -209,7 +209,7 @@ fn error(pair: &Pair, scene: &Scene<'_>, span: f64) -> f64 {
             }
         }
         let (before, after) = (pair.base[c], pair.trial[c]);
-        let (size, floor) = (scene.rows.size[c % lanes], SIZE[c / lanes]);
+        let (size, floor) = (scene.constants.rows.size[c % lanes], SIZE[c / lanes]);
         for l in 0..WIDTH {
             let (a, b) = (before[l].abs(), after[l].abs());
             let reach = if a > b { a } else { b };

@@ -1,7 +1,7 @@
 //! Peaks of floors inside a step.
 
 use super::pair::Scene;
-use super::rows::{LevelRows, total};
+use super::rows::{FloorRows, total};
 use super::series::Series;
 use super::span::Span;
 use crate::free_flight::{FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform};
@@ -28,7 +28,7 @@ pub(crate) fn begin_acceleration(
 /// Takes the peaks within a series; `absolute` are the modal absolute accelerations and
 /// `displacement` the modal displacements at its end.
 pub(crate) fn note_floors_of_series(
-    (constants, rows): (&FreeFlight, &LevelRows),
+    constants: &FreeFlight,
     series: &Series,
     (displacement, absolute): (&[Lane], &[Lane]),
     tracks: &mut Tracks<'_>,
@@ -38,6 +38,7 @@ pub(crate) fn note_floors_of_series(
     transform(shapes, displacement, &mut tracks.displacement.next);
     drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
     transform(shapes, absolute, &mut tracks.acceleration.next);
+    let rows = &constants.rows;
     let bend = 0.125 * reach(rows, &series.bend);
     // A drift is a difference of two floors.
     let bounds = [bend, 2.0 * bend, 0.125 * reach(rows, &series.snap)];
@@ -67,7 +68,7 @@ pub(crate) fn note_floors_of_series(
 }
 
 /// Bound of a function of any floor whose modal parts have these magnitudes.
-fn reach(rows: &LevelRows, magnitudes: &[Lane]) -> f64 {
+fn reach(rows: &FloorRows, magnitudes: &[Lane]) -> f64 {
     let mut sum = Lane::ZERO;
     for (size, part) in rows.size.iter().zip(magnitudes) {
         for l in 0..WIDTH {
@@ -91,7 +92,7 @@ fn exceeds(track: &Track, over: f64) -> bool {
 }
 
 /// Peaks of displacement (0), drift (1) or absolute acceleration (2) inside a series.
-fn inside_series(rows: &LevelRows, series: &Series, which: usize, track: &mut Track, start: f64) {
+fn inside_series(rows: &FloorRows, series: &Series, which: usize, track: &mut Track, start: f64) {
     for i in 0..rows.floors.len() {
         if !turns(track, i) {
             continue;
@@ -172,7 +173,7 @@ pub(crate) fn note_floors_of_span(
     tracks: &mut Tracks<'_>,
     start: f64,
 ) {
-    let (constants, rows) = (scene.constants, scene.rows);
+    let (constants, rows) = (scene.constants, &scene.constants.rows);
     let shapes = &constants.shapes;
     let length = span.clock.offset(1.0);
     let ground = scene.ground.0 + scene.ground.1 * length;

@@ -119,22 +119,23 @@ impl Pair {
 
 /// Root near zero by the secant method, with a first probe of this size.
 fn root(function: impl Fn(f64) -> f64, probe: f64) -> f64 {
-    let (mut x, mut f) = (0.0, function(0.0));
-    if f == 0.0 {
-        return 0.0;
+    let (mut x, mut f) = (probe, function(probe));
+    let (mut y, mut g) = (0.0, function(0.0));
+    if f.abs() < g.abs() {
+        (x, f, y, g) = (y, g, x, f);
     }
-    let mut y = probe;
-    let mut g = function(y);
     for _ in 0..CORRECTIONS {
         let next = y - g * (y - x) / (g - f);
-        if !next.is_finite() {
-            return if f.abs() < g.abs() { x } else { y };
+        if !next.is_finite() || (next - y).abs() <= 1.0e-18 + 1.0e-15 * y.abs() {
+            return y;
         }
-        if (next - y).abs() <= 1.0e-18 + 1.0e-15 * y.abs() {
-            return next;
+        let value = function(next);
+        if value.abs() >= g.abs() {
+            // Down to round-off, which must not throw the root away.
+            return y;
         }
         (x, f) = (y, g);
-        (y, g) = (next, function(next));
+        (y, g) = (next, value);
     }
     y
 }

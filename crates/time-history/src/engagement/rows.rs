@@ -1,7 +1,7 @@
 //! Floors, drifts and levels as rows over the modes.
 
 use crate::free_flight::{FreeFlight, Lane, WIDTH};
-use crate::system::System;
+use crate::system::{ContactLevel, System};
 
 /// One linear function of the modal displacements, over the lanes where it is not zero.
 #[derive(Debug, Clone)]
@@ -22,16 +22,21 @@ impl ModalRow {
     }
 }
 
-/// Rows of all floors, drifts and levels (left floor less right one).
-#[derive(Debug, Clone)]
-pub(crate) struct LevelRows {
+/// Rows of all floors and drifts: what they are does not depend on the gaps.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct FloorRows {
     pub floors: Vec<ModalRow>,
     pub drifts: Vec<ModalRow>,
-    pub levels: Vec<ModalRow>,
-    /// Magnitudes of the rows of `levels`.
-    pub reach: Vec<ModalRow>,
     /// Greatest entry of each mode at any floor.
     pub size: Vec<Lane>,
+}
+
+/// Rows of all levels: left floor less right one.
+#[derive(Debug, Clone)]
+pub(crate) struct LevelRows {
+    pub levels: Vec<ModalRow>,
+    /// Their magnitudes.
+    pub reach: Vec<ModalRow>,
 }
 
 impl ModalRow {
@@ -96,36 +101,25 @@ pub(crate) fn total(x: &Lane) -> f64 {
     quarter[0] + quarter[1]
 }
 
-impl LevelRows {
-    pub(crate) fn new(constants: &FreeFlight, system: &System) -> Self {
-        let mass = system.mass();
+impl FloorRows {
+    pub(crate) fn new(constants: &FreeFlight, mass: &[f64]) -> Self {
         // Columns of Phi' M over the masses are the floors' rows of Phi.
-        let floor = |i: usize| -> (Vec<Lane>, usize, f64) {
+        let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
             let inverse = &constants.inverse[constants.building[i]];
             let local = i - inverse.first_mode;
             let column = (0..inverse.lanes).map(|k| inverse.columns[k * inverse.modes + local]);
-            (column.collect(), inverse.first_lane, 1.0 / mass[i])
+            (column.collect(), inverse.first_lane, sign / mass[i])
         };
-        let (floors, drifts): (Vec<_>, Vec<_>) = (0..mass.len())
-            .map(|i| {
-                let drift = match i.checked_sub(1) {
-                    Some(b) if constants.building[b] == constants.building[i] => {
-                        let (below, at, factor) = floor(b);
-                        ModalRow::new(&[floor(i), (below, at, -factor)])
-                    }
-                    _ => ModalRow::new(&[floor(i)]),
-                };
-                (ModalRow::new(&[floor(i)]), drift)
-            })
-            .unzip();
-        let levels: Vec<_> = system
-            .levels()
-            .iter()
-            .map(|level| {
-                let left = level.left.map(floor);
-                let right = level.right.map(floor).map(|(x, at, f)| (x, at, -f));
-                ModalRow::new(&left.into_iter().chain(right).collect::<Vec<_>>())
-            })
+        let drift = |i: usize| match i.checked_sub(1) {
+            Some(b) if constants.building[b] == constants.building[i] => {
+                ModalRow::new(&[floor(i, 1.0), floor(b, -1.0)])
+            }
+            _ => ModalRow::new(&[floor(i, 1.0)]),
+        };
+        let rows = 0..mass.len();
+        let floors: Vec<_> = rows
+            .clone()
+            .map(|i| ModalRow::new(&[floor(i, 1.0)]))
             .collect();
         let mut size = vec![Lane::ZERO; constants.modes.len()];
         for row in &floors {
@@ -136,11 +130,28 @@ impl LevelRows {
             }
         }
         Self {
-            reach: levels.iter().map(ModalRow::magnitude).collect(),
+            drifts: rows.map(drift).collect(),
             floors,
-            drifts,
-            levels,
             size,
+        }
+    }
+}
+
+impl LevelRows {
+    pub(crate) fn new(constants: &FreeFlight, system: &System) -> Self {
+        let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
+            let row = &constants.rows.floors[i];
+            (row.weights.clone(), row.first_lane, sign)
+        };
+        let row = |level: &ContactLevel| {
+            let left = level.left.map(|i| floor(i, 1.0));
+            let right = level.right.map(|i| floor(i, -1.0));
+            ModalRow::new(&left.into_iter().chain(right).collect::<Vec<_>>())
+        };
+        let levels: Vec<_> = system.levels().iter().map(row).collect();
+        Self {
+            reach: levels.iter().map(ModalRow::magnitude).collect(),
+            levels,
         }
     }
 }

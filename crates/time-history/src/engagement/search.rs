@@ -230,13 +230,21 @@ fn passage(
 fn secant(theta: f64, function: impl Fn(f64) -> f64) -> f64 {
     let (mut x, mut y) = (theta * (1.0 - 1.0e-4), theta);
     let (mut f, mut g) = (function(x), function(y));
+    if f.abs() < g.abs() {
+        (x, f, y, g) = (y, g, x, f);
+    }
     for _ in 0..CORRECTIONS {
-        let next = (y - g * (y - x) / (g - f)).clamp(0.5 * y, 1.0_f64.min(1.5 * y));
-        if !next.is_finite() || (next - y).abs() <= 2.0 * f64::EPSILON * y {
+        let next = y - g * (y - x) / (g - f);
+        if !(next > 0.0 && next <= 1.0) || (next - y).abs() <= 2.0 * f64::EPSILON * y {
+            return y;
+        }
+        let value = function(next);
+        if value.abs() >= g.abs() {
+            // Down to round-off, which must not throw the root away.
             return y;
         }
         (x, f) = (y, g);
-        (y, g) = (next, function(next));
+        (y, g) = (next, value);
     }
     y
 }

@@ -546,7 +546,7 @@ fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
     let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
         let mut integral = Lane::ZERO;
-        let mut speeds = [Lane::ZERO; 6];
+        let mut speeds = [Lane::ZERO; WIDTH];
         for k in (0..=last).rev() {
             let (x, v) = (
                 series.displacement[k * lanes + c],

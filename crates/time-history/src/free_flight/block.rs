@@ -8,6 +8,8 @@ use super::lanes::{
     Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, at, overshoots, step_modes,
 };
 
+use crate::system::System;
+
 /// Samples of a block.
 pub(super) const BLOCK: usize = 8;
 
@@ -34,6 +36,8 @@ pub(super) struct Block {
     pub floors: Extremes,
     pub drifts: Extremes,
     pub levels: Extremes,
+    /// Left and right floor of every level.
+    between: Vec<(Option<usize>, Option<usize>)>,
     /// Absolute floor acceleration, after [`accelerations`].
     pub accelerations: Extremes,
     /// Overshoots of displacement, drift and absolute acceleration.
@@ -73,7 +77,9 @@ impl Extremes {
 }
 
 impl Block {
-    pub(super) fn new(lanes: usize, levels: usize) -> Self {
+    pub(super) fn new(system: &System) -> Self {
+        let lanes = system.degrees_of_freedom().div_ceil(WIDTH);
+        let levels = system.levels().len();
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             end: Modal::new(lanes),
@@ -83,6 +89,7 @@ impl Block {
             floors: Extremes::new(lanes),
             drifts: Extremes::new(lanes),
             levels: Extremes::new(levels.div_ceil(WIDTH)),
+            between: system.levels().iter().map(|l| (l.left, l.right)).collect(),
             accelerations: Extremes::new(lanes),
             over: [zeros(), zeros(), zeros()],
             largest: (0.0, 0.0),
@@ -126,7 +133,7 @@ pub(super) fn fly(
     let q = &block.displacement;
     rows(&constants.floor_rows, q, count, &mut block.floors);
     drifts(&constants.above, &block.floors, &mut block.drifts);
-    levels(&constants.between, &block.floors, &mut block.levels);
+    levels(&block.between, &block.floors, &mut block.levels);
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let slope = samples
         .windows(2)

@@ -5,6 +5,7 @@ use pounding_shear_building::{Damping, ShearBuilding};
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
+use crate::engagement::FloorRows;
 use crate::rates::fastest_rate;
 use crate::system::System;
 
@@ -13,7 +14,11 @@ use crate::system::System;
 pub(crate) struct FreeFlight {
     /// Length of a step (s).
     pub step: f64,
+    /// Rate of the fastest mode of all buildings (1/s).
+    pub fastest: f64,
     pub modes: Vec<ModeLanes>,
+    /// Floors and drifts as rows over the modes.
+    pub rows: FloorRows,
     /// Floors from modes.
     pub shapes: Vec<Shapes>,
     /// Modes from floors: `q = Phi' M u`.
@@ -27,8 +32,6 @@ pub(crate) struct FreeFlight {
     pub floor_rows: Vec<Rows>,
     /// One where a floor has another one below it.
     pub above: Vec<Lane>,
-    /// Left and right floor of every level.
-    pub between: Vec<(Option<usize>, Option<usize>)>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,
 }
@@ -54,9 +57,10 @@ impl FreeFlight {
             return None;
         }
         let mut this = Self::with_step(system, step);
-        this.add_rows(system);
-        let fastest = fastest_rate(system.buildings());
-        let parts = (fastest * step / FINE).ceil().max(1.0);
+        this.add_rows();
+        this.fastest = fastest_rate(system.buildings());
+        this.rows = FloorRows::new(&this, system.mass());
+        let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {
             parts: parts as usize,
             step: step / parts,
@@ -73,6 +77,8 @@ impl FreeFlight {
         let dofs = system.degrees_of_freedom();
         let mut this = Self {
             step,
+            fastest: 0.0,
+            rows: FloorRows::default(),
             modes: vec![ModeLanes::default(); dofs.div_ceil(WIDTH)],
             shapes: Vec::new(),
             inverse: Vec::new(),
@@ -81,7 +87,6 @@ impl FreeFlight {
             building: Vec::new(),
             floor_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
-            between: Vec::new(),
             fine: Fine::default(),
         };
         for (index, building) in system.buildings().iter().enumerate() {
@@ -121,7 +126,7 @@ impl FreeFlight {
     }
 
     /// What blocks need: every floor is a sum over the modes of its building.
-    fn add_rows(&mut self, system: &System) {
+    fn add_rows(&mut self) {
         let dofs = self.building.len();
         let rows = (0..self.modes.len()).map(|lane| {
             let floors = lane * WIDTH..dofs.min((lane + 1) * WIDTH);
@@ -153,8 +158,6 @@ impl FreeFlight {
             let same = self.building[i] == self.building[i - 1];
             self.above[i / WIDTH][i % WIDTH] = f64::from(u8::from(same));
         }
-        let levels = system.levels().iter();
-        self.between = levels.map(|l| (l.left, l.right)).collect();
     }
 
     /// Bounds, with `e = |q'| + omega |q|` and `e* = e + |gamma| h A` for the sample:

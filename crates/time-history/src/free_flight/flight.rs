@@ -66,7 +66,7 @@ impl Flight {
             modal: zeros(),
             start_energy: zeros(),
             drifted: zeros(),
-            block: Block::new(lanes, system.levels().len()),
+            block: Block::new(system),
             candidates: Candidates::new(lanes, dofs),
         }
     }

@@ -1,14 +1,11 @@
 //! Cases as our systems and as files of the compiled peer.
 
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
-use std::path::Path;
-use std::sync::Arc;
-
-use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{
     Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
 };
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
 use verification::{Failure, ReferenceBuilding, ReferenceCase, ReferenceLink};
 
 /// Runs a system; fixed steps that are too coarse are to show their error, not to fail.
@@ -53,11 +50,11 @@ pub(crate) fn write_peer_case(
 pub(crate) fn vary(
     case: &ReferenceCase,
     model: &str,
-    buildings: &[Arc<ShearBuilding>],
-    ground: &GroundAcceleration,
+    base: &System,
     (width, stiffness): (f64, f64),
 ) -> Result<System, Failure> {
-    let mut system = System::new(buildings.to_vec(), ground.clone());
+    let mut system = base.isolated();
+    let buildings = base.buildings();
     let mut place = Vec::new();
     for (index, b) in buildings.iter().enumerate() {
         place.extend((0..b.storeys()).map(|storey| (index, storey)));

@@ -17,6 +17,21 @@ pub(crate) fn thread_seconds() -> f64 {
         .as_secs_f64()
 }
 
+/// Processor time of all threads of this process (s); elapsed time where the system does
+/// not tell.
+#[cfg(unix)]
+pub(crate) fn process_seconds() -> f64 {
+    let now = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    now.tv_sec as f64 + 1.0e-9 * now.tv_nsec as f64
+}
+
+/// Processor time of all threads of this process (s); elapsed time where the system does
+/// not tell.
+#[cfg(not(unix))]
+pub(crate) fn process_seconds() -> f64 {
+    thread_seconds()
+}
+
 /// The least.
 pub(crate) fn least(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)

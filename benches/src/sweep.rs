@@ -1,13 +1,14 @@
 //! Many runs in one process: gaps times contact stiffnesses.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use pounding_time_history::{GroundAcceleration, MethodChoice};
+use pounding_time_history::{
+    GroundAcceleration, MethodChoice, RunOptions, TimeHistoryError, run_many,
+};
 use verification::{Failure, ReferenceCase};
 
-use crate::cases::{integrate, vary};
-use crate::clock::thread_seconds;
+use crate::cases::vary;
+use crate::clock::process_seconds;
 
 /// A grid of gaps and stiffnesses; that of 1,000 runs is the compiled peer's.
 #[derive(Debug, Clone, Copy)]
@@ -61,38 +62,35 @@ pub(crate) fn sweep(
     threads: usize,
 ) -> Result<Swept, Failure> {
     let base = verification::reference_system(case, model, ground.clone(), 1.0)?;
-    let next = AtomicUsize::new(0);
-    let work = || -> Result<(f64, f64), String> {
-        let start = thread_seconds();
-        let mut force = 0.0;
-        loop {
-            let run = next.fetch_add(1, Ordering::Relaxed);
-            if run >= grid.runs() {
-                return Ok((thread_seconds() - start, force));
-            }
-            let one = || -> Result<f64, Failure> {
-                let factors = grid.factors(run);
-                let system = vary(case, model, base.buildings(), ground, factors)?;
-                let outcome = integrate(&system, method)?;
-                let levels = outcome.gaps.iter().flat_map(|g| &g.levels);
-                Ok(levels.fold(0.0, |most, l| l.peak_force.value.max(most)))
-            };
-            force += one().map_err(|e| e.to_string())?;
-        }
+    let options = RunOptions {
+        method,
+        duration: None,
+        energy_tolerance: Some(1.0e9),
     };
-    let start = Instant::now();
-    let parts = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-        let mut parts = vec![work()];
-        let join = |t: std::thread::ScopedJoinHandle<'_, _>| {
-            t.join().unwrap_or_else(|_| Err("a thread failed".into()))
-        };
-        parts.extend(others.into_iter().map(join));
-        parts.into_iter().collect::<Result<Vec<_>, String>>()
-    })?;
+    let (start, processor) = (Instant::now(), process_seconds());
+    let forces = run_many(
+        grid.runs(),
+        threads,
+        &options,
+        |run| {
+            let varied = vary(case, model, &base, grid.factors(run));
+            varied.map_err(|e| TimeHistoryError::GapDefinition {
+                gap: "sweep".to_owned(),
+                reason: e.to_string(),
+            })
+        },
+        |_, outcome| {
+            let levels = outcome.map(|o| o.gaps.into_iter().flat_map(|g| g.levels));
+            levels.map(|l| l.fold(0.0, |most, l| l.peak_force.value.max(most)))
+        },
+    );
+    let mut force = 0.0;
+    for peak in forces {
+        force += peak?;
+    }
     Ok(Swept {
         elapsed: start.elapsed().as_secs_f64(),
-        processor: parts.iter().map(|p| p.0).sum(),
-        force: parts.iter().map(|p| p.1).sum(),
+        processor: process_seconds() - processor,
+        force,
     })
 }

@@ -63,6 +63,9 @@ impl Segment {
     }
 }
 
+/// Room for this many levels that are stuck at one time; more make it grow.
+const STUCK_TOGETHER: usize = 32;
+
 /// Right-hand side with its work space.
 #[derive(Debug, Clone)]
 pub(crate) struct Dynamics<'a> {
@@ -81,6 +84,7 @@ pub(crate) struct Dynamics<'a> {
 impl<'a> Dynamics<'a> {
     pub(crate) fn new(system: &'a System) -> Self {
         let layout = Layout::of(system);
+        let together = layout.levels.min(STUCK_TOGETHER);
         Self {
             system,
             layout,
@@ -88,9 +92,9 @@ impl<'a> Dynamics<'a> {
             damping: vec![0.0; layout.dofs],
             net: vec![0.0; layout.dofs],
             stuck: Vec::with_capacity(layout.levels),
-            matrix: Vec::new(),
-            right: Vec::new(),
-            solver: SmallSolver::default(),
+            matrix: Vec::with_capacity(together * together),
+            right: Vec::with_capacity(together),
+            solver: SmallSolver::with_room(together),
         }
     }
 

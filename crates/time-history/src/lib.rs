@@ -2,6 +2,7 @@
 
 mod assemble;
 mod bands;
+mod batch;
 mod complementarity;
 mod contact;
 mod dimension;
@@ -25,6 +26,7 @@ mod small_solver;
 mod system;
 
 pub use assemble::{Assembly, assemble};
+pub use batch::run_many;
 pub use dimension::parameter_dimension;
 pub use driver::run;
 pub use error::TimeHistoryError;

@@ -15,6 +15,15 @@ pub(crate) struct SmallSolver {
 }
 
 impl SmallSolver {
+    /// With room for systems of this size.
+    pub(crate) fn with_room(size: usize) -> Self {
+        Self {
+            matrix: Vec::with_capacity(size * size),
+            forward: Vec::with_capacity(size),
+            backward: Vec::with_capacity(size),
+        }
+    }
+
     /// Solves `matrix x = x`, row by row storage, in place of `x`. Returns false
     /// if the matrix is singular or holds a NaN; `x` is then unchanged.
     pub(crate) fn solve(&mut self, matrix: &[f64], x: &mut [f64]) -> bool {

@@ -22,7 +22,9 @@ fn the_number_of_threads_does_not_matter() {
         .collect();
     assert!(alone.iter().all(|o| !o.impacts.is_empty()));
     for threads in [1, 2, 4] {
-        let many = run_many(18, threads, &options, make, |n, outcome| (n, outcome.unwrap()));
+        let many = run_many(18, threads, &options, make, |n, outcome| {
+            (n, outcome.unwrap())
+        });
         for (n, (number, outcome)) in many.iter().enumerate() {
             assert_eq!(n, *number);
             assert_eq!(*outcome, alone[n], "run {n} on {threads} threads");

@@ -3,6 +3,7 @@
 mod assemble;
 mod bands;
 mod batch;
+mod bernstein;
 mod complementarity;
 mod contact;
 mod dimension;

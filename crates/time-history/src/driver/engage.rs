@@ -93,6 +93,7 @@ impl<'a> Open<'a> {
 impl Open<'_> {
     /// Gives the motion back to flight.
     fn put_back(&mut self) {
+        self.flight.moved = true;
         let [q, p, ..] = &self.engagement.pair.start.motion;
         self.flight.now.displacement.copy_from_slice(q);
         self.flight.now.velocity.copy_from_slice(p);
@@ -139,7 +140,9 @@ impl Driver<'_> {
         p.copy_from_slice(&flight.now.velocity);
         while let Some(segment) = segment(self.system, sample, duration) {
             if let Some(tau) = self.engage_segment(open, &segment)? {
-                open.put_back();
+                if sample > first || tau > 0.0 {
+                    open.put_back();
+                }
                 self.leave(open, segment.start + tau)?;
                 return Ok(Left::Within(sample, tau));
             }

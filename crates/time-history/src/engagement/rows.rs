@@ -70,6 +70,18 @@ impl ModalRow {
         total(&sum)
     }
 
+    /// Sum of the magnitudes that [`ModalRow::dot`] adds.
+    #[inline(always)]
+    pub(crate) fn dot_magnitudes(&self, x: &[Lane]) -> f64 {
+        let mut sum = Lane::ZERO;
+        for (w, x) in self.weights.iter().zip(&x[self.first_lane..]) {
+            for l in 0..WIDTH {
+                sum[l] += (w[l] * x[l]).abs();
+            }
+        }
+        total(&sum)
+    }
+
     /// Adds a multiple of the row.
     #[inline(always)]
     pub(crate) fn add(&self, factor: f64, out: &mut [Lane]) {

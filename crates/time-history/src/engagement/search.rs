@@ -3,17 +3,19 @@
 use pounding_gap_element::{Direction, Guard, Transition};
 
 use super::pair::Scene;
-use super::rows::LevelRows;
+use super::rows::{LevelRows, ModalRow};
 use super::series::{Series, TouchSeries};
 use super::span::Span;
-use super::tables::Terms;
+use super::tables::{TERMS, Terms};
 use super::touch::Touch;
+use crate::bernstein::first_rise_of_series;
 use crate::contact::Contacts;
 use crate::events::{Candidate, EventKind};
 use crate::polynomial::{COEFFICIENTS, Polynomial, first_rise_near, fit, fit_nodes, value};
 use crate::system::System;
 
-/// Relative size of a leading term that is round-off.
+/// A function that passes its root by less than this part of its size only touches it: as
+/// much round-off has the motion gathered by then.
 const ROUND_OFF: f64 = 1.0e-13;
 /// Corrections of a root at most.
 const CORRECTIONS: usize = 12;
@@ -101,10 +103,12 @@ pub(crate) fn in_series(
     for l in 0..system.levels().len() {
         let mut first = None;
         if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
-            let open = fall(series, &motion.delta);
+            let row = &rows.levels[l];
+            let zeros = series.leading_zeros((row, false), &motion.delta, touch.width);
+            let open = fall(series, &motion.delta, zeros);
             keep(&mut first, open, (l, EventKind::Open), &muted);
             for (index, transition) in transitions(system, touch).iter().enumerate() {
-                let found = passage(system, series, (touch, motion), *transition);
+                let found = passage((system, row), series, (touch, motion), *transition);
                 keep(&mut first, found, (l, EventKind::Transition(index)), &muted);
             }
         } else {
@@ -113,12 +117,10 @@ pub(crate) fn in_series(
             if penetration[l].max(after) + over > 0.0 {
                 let mut terms = series.row(&rows.levels[l]);
                 terms[0] -= contacts.width(l);
-                keep(
-                    &mut first,
-                    rise(series, &terms),
-                    (l, EventKind::Close),
-                    &muted,
-                );
+                let zeros =
+                    series.leading_zeros((&rows.levels[l], false), &terms, contacts.width(l));
+                let closes = rise(series, &terms, zeros);
+                keep(&mut first, closes, (l, EventKind::Close), &muted);
             }
         }
         candidates.extend(first);
@@ -126,59 +128,57 @@ pub(crate) fn in_series(
     earliest(candidates)
 }
 
-/// First passage of a scalar series to positive values.
-fn rise(series: &Series, terms: &Terms) -> Option<f64> {
-    let (after, bend) = series.end_and_bend(terms);
-    let size: f64 = terms[..=series.terms()].iter().map(|c| c.abs()).sum();
-    if terms[0] < -ROUND_OFF * size {
-        if terms[0].max(after) + bend < 0.0 {
-            return None;
-        }
-    } else {
-        // The step starts on the root: the series over theta decides, whose second
-        // derivative has a smaller bound.
-        let rest = after - terms[0];
-        if terms[1].max(rest) + bend < 0.0 {
-            return None;
-        }
+/// First passage of a scalar series to positive values, known to start on the other side or
+/// on the root. Terms that are `zeros` are divided out: the same root is not found again,
+/// while a function that leaves through it is reported at once.
+fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
+    let mut rest = *terms;
+    rest.copy_within(zeros.., 0);
+    rest[TERMS - zeros..].fill(0.0);
+    if zeros > 0 && rest[0] > 0.0 {
+        return Some(0.0);
     }
-    let mut fitted = fit(&series.at_nodes(terms));
-    fitted[0] = terms[0];
+    let (after, bend) = series.end_and_bend(&rest);
+    if rest[0].max(after) + bend < 0.0 {
+        return None;
+    }
+    let mut fitted = fit(&series.at_nodes(&rest));
+    fitted[0] = rest[0];
     let theta = near(&fitted)?;
     if theta <= 0.0 {
         return Some(theta);
     }
     // Floors that were let be may have closed by a trifle: they meet again where they set
     // out.
-    let target = terms[0].max(0.0);
-    Some(polish(theta, |x| {
-        let (value, slope) = series.at(terms, x);
+    let target = rest[0].max(0.0);
+    let root = polish(theta, |x| {
+        let (value, slope) = series.at(&rest, x);
         (value - target) / slope
-    }))
+    });
+    let noise = ROUND_OFF * rest.iter().map(|c| c.abs()).sum::<f64>();
+    let (value, slope) = series.at(&rest, root);
+    // Beyond a root it rises at least this far.
+    let clear = slope * slope > 16.0 * bend * noise;
+    if (value - target).abs() <= noise && slope > 0.0 && clear {
+        return Some(root);
+    }
+    // The fit has a root where the function itself may only come close to one.
+    rest[0] -= noise;
+    first_rise_of_series(&rest[..=series.terms()])
 }
 
 /// First passage to negative values.
-fn fall(series: &Series, terms: &Terms) -> Option<f64> {
+fn fall(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
+    let first = terms[zeros];
     let (after, bend) = series.end_and_bend(terms);
-    let size: f64 = terms[..=series.terms()].iter().map(|c| c.abs()).sum();
-    let inside = if terms[0] > ROUND_OFF * size {
-        terms[0].min(after) - bend > 0.0
-    } else {
-        terms[1].min(after - terms[0]) - bend > 0.0
-    };
-    if inside {
+    if zeros == 0 && terms[0].min(after) - bend > 0.0 {
         return None;
     }
-    let mut fitted = fit(&series.at_nodes(terms)).map(|c| -c);
-    fitted[0] = -terms[0];
-    let theta = near(&fitted)?;
-    if theta <= 0.0 {
-        return Some(theta);
+    // Over theta, the second derivative has a smaller bound.
+    if zeros == 1 && first.min(after - terms[0]) - bend > 0.0 {
+        return None;
     }
-    Some(polish(theta, |x| {
-        let (value, slope) = series.at(terms, x);
-        value / slope
-    }))
+    rise(series, &terms.map(|c| -c), zeros)
 }
 
 /// Newton's method from a root that is nearly right.
@@ -200,14 +200,15 @@ fn polish(theta: f64, correction: impl Fn(f64) -> f64) -> f64 {
 
 /// First time at which a transition fires.
 fn passage(
-    system: &System,
+    (system, row): (&System, &ModalRow),
     series: &Series,
     (touch, motion): (&Touch, &TouchSeries),
     transition: Transition,
 ) -> Option<f64> {
+    let zeros = || series.leading_zeros((row, true), &motion.rate, 0.0);
     match (transition.guard, transition.direction) {
-        (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate),
-        (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate),
+        (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate, zeros()),
+        (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate, zeros()),
         _ => {
             let delta = series.at_nodes(&motion.delta);
             let rate = series.at_nodes(&motion.rate);

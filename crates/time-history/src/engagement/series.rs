@@ -15,6 +15,14 @@ const LONGEST: f64 = 1.2;
 /// A remainder below this, relative to the motion, is round-off.
 const NEGLIGIBLE: f64 = 1.0e-17;
 
+/// Relative size below which a leading term is what a root that was just passed leaves.
+const NEGLIGIBLE_START: f64 = 1.0e-13;
+/// Part of the magnitudes in a sum that its round-off may have.
+const ROUND_OFF: f64 = 4.0e-16;
+/// Terms that can be round-off at a root: floors at rest in touch move apart, or together,
+/// like the fourth power of time.
+const LEADING: usize = 5;
+
 /// What a series starts from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SeriesStep<'a> {
@@ -317,6 +325,33 @@ impl Series {
             *out = row.dot(lanes);
         }
         out
+    }
+
+    /// Number of the first terms of a row that are round-off: of sums that cancel, beside an
+    /// `offset` of the term of order zero.
+    pub(crate) fn leading_zeros(
+        &self,
+        (row, rate): (&ModalRow, bool),
+        terms: &Terms,
+        offset: f64,
+    ) -> usize {
+        let lanes = if rate {
+            &self.velocity
+        } else {
+            &self.displacement
+        };
+        let mut zeros = 0;
+        for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(LEADING) {
+            let offset = if k == 0 { offset } else { 0.0 };
+            let largest = terms[k..].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+            let noise = ROUND_OFF * (row.dot_magnitudes(lanes) + offset);
+            let noise = noise.max(NEGLIGIBLE_START * largest);
+            if terms[k].abs() > noise {
+                break;
+            }
+            zeros = k + 1;
+        }
+        zeros
     }
 
     /// A scalar series at the nodes of a fit.

@@ -44,6 +44,8 @@ const FACTORS: [f64; 2] = [0.2, 4.0];
 const CAREFUL: f64 = 1.2;
 /// Growth of steps in the variable of a start.
 const GROWING: f64 = 1.5;
+/// A penetration (m) as small as this has just begun.
+const CLOSED: f64 = 1.0e-15;
 /// What is nearer than this (s) is there.
 const SHORTEST: f64 = 1.0e-12;
 /// First guesses (s).
@@ -67,9 +69,14 @@ impl StepLength {
     }
 
     /// The next step from a point, within `rest` (s) of the interval.
-    pub(crate) fn propose(&self, scene: &Scene<'_>, point: &Point, rest: f64) -> Proposal {
+    pub(crate) fn propose(&mut self, scene: &Scene<'_>, point: &Point, rest: f64) -> Proposal {
         let target = time_to_turn(scene, point);
         let end = time_to_end(scene, point);
+        if self.since == Some(0.0) && closes_slowly(point, self.growing) {
+            // Penetration starts like a square: no power of `s` is the better variable.
+            self.since = None;
+            self.next = self.growing;
+        }
         let plain = |length: f64, pace: Pace| Proposal {
             pace,
             length: length.min(rest),
@@ -207,6 +214,15 @@ fn factor(error: f64) -> f64 {
     } else {
         FACTORS[1]
     }
+}
+
+/// Whether a contact that begins gains more penetration from acceleration than from its
+/// approach velocity within this time (s).
+fn closes_slowly(point: &Point, time: f64) -> bool {
+    point.touches.iter().any(|touch| {
+        let [delta, rate, acceleration, _] = touch.motion;
+        delta.abs() < CLOSED && rate < 0.5 * acceleration.abs() * time
+    })
 }
 
 /// Time (s) until floors in approach stop approaching, by the present motion.

@@ -41,8 +41,10 @@ pub(crate) struct Flight {
     pub acceleration_known: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
-    /// Whether state and peaks are those of the run.
+    /// Whether state and peaks are those of the run, and whether the state has changed
+    /// since it came aboard.
     aboard: bool,
+    pub moved: bool,
     modal: Vec<Lane>,
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
@@ -63,6 +65,7 @@ impl Flight {
             acceleration_known: false,
             penetration: vec![0.0; system.levels().len()],
             aboard: false,
+            moved: false,
             modal: zeros(),
             start_energy: zeros(),
             drifted: zeros(),
@@ -83,6 +86,7 @@ impl Flight {
             return;
         }
         self.aboard = true;
+        self.moved = false;
         let n = system.degrees_of_freedom();
         for (modal, from) in [
             (&mut self.now.displacement, &state[..n]),
@@ -113,7 +117,9 @@ impl Flight {
         if self.aboard {
             self.aboard = false;
             let n = system.degrees_of_freedom();
-            for (modal, place) in [(&self.now.displacement, 0), (&self.now.velocity, n)] {
+            // There and back again would be round-off, which matters to floors in touch.
+            let back = [(&self.now.displacement, 0), (&self.now.velocity, n)];
+            for (modal, place) in back.into_iter().filter(|_| self.moved) {
                 transform(&constants.shapes, modal, &mut self.modal);
                 gather(&self.modal, &mut state[place..place + n]);
             }
@@ -175,6 +181,7 @@ impl Flight {
             let count = BLOCK.min(leg.to - sample);
             let flown = self.fly_block(constants, leg, (sample, count));
             if flown > 0 {
+                self.moved = true;
                 sample += flown;
                 let (modes, start) = (&constants.modes, &self.start_energy);
                 let input = balance(modes, &self.now, start, &mut self.drifted);

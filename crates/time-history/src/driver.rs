@@ -1,6 +1,7 @@
 //! The run: steps, events, peaks, ledger.
 
 mod engage;
+mod engaged_steps;
 mod event_handling;
 mod open_flight;
 mod result;
@@ -75,7 +76,7 @@ pub fn run(
             driver.segment(&segment, from, duration, recorders)?;
             sample += 1;
         }
-        let done = (segment.start + segment.length) / duration;
+        let done = (sample as f64 * system.ground().time_step / duration).min(1.0);
         if done - told >= 0.004 {
             told = done;
             progress(done);

@@ -1,54 +1,42 @@
 //! Following contacts in the coordinates of the modes.
 
-use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP, SIMULTANEOUS, segment};
+use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
 use crate::dynamics::Segment;
 use crate::engagement::{
-    Clock, LevelRows, NEAR, Pair, Rates, Scene, Series, SeriesStep, Span, StepLength, Touch,
-    are_affine, are_powers, begin_acceleration, in_series, in_span, list, note_floors_of_series,
-    note_floors_of_span, refresh, soon_after, total,
+    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh, total,
 };
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::free_flight::{Flight, FreeFlight, Lane, WIDTH};
 use crate::options::MethodChoice;
-use crate::outcome::Peak;
-use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
 use crate::system::System;
-
-/// Part of the present peak below which a fitted maximum is not looked at closer.
-const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
-
-/// Size (m) of penetrations beside which the last terms of a series of powers are small.
-const SERIES_SIZE: f64 = 1.0e-5;
-/// Part of the step tried from which on such a series is worth its while.
-const FAR_ENOUGH: f64 = 0.3;
 
 /// Exact open flight, and contacts between flights.
 pub(super) struct Open<'a> {
     pub constants: &'a FreeFlight,
     pub flight: Flight,
-    engagement: Engagement,
+    pub engagement: Engagement,
 }
 
 /// Work space of contacts.
-struct Engagement {
-    rows: LevelRows,
-    touches: Vec<Touch>,
-    series: Series,
-    pair: Pair,
-    rates: Rates,
-    lengths: StepLength,
-    absolute: Vec<Lane>,
-    tolerance: f64,
+pub(super) struct Engagement {
+    pub rows: LevelRows,
+    pub touches: Vec<Touch>,
+    pub series: Series,
+    pub pair: Pair,
+    pub rates: Rates,
+    pub lengths: StepLength,
+    pub absolute: Vec<Lane>,
+    pub tolerance: f64,
     /// Terms of a series of powers.
-    terms: usize,
+    pub terms: usize,
     /// Whether the list of closed levels holds, and whether they all are affine.
     listed: bool,
-    affine: bool,
+    pub affine: bool,
     /// Whether they all can be expanded into series.
     powers: bool,
     /// Whether the accelerations at the present start hold.
-    derived: bool,
+    pub derived: bool,
 }
 
 /// Where an engagement ended.
@@ -326,297 +314,9 @@ impl Driver<'_> {
         self.largest_residual = self.largest_residual.max(residual.abs());
         Ok(())
     }
-
-    /// A step by the series, cut at its first event; `None` where a series of powers does
-    /// not reach far.
-    fn by_series(
-        &mut self,
-        open: &mut Open<'_>,
-        segment: &Segment,
-        tau: f64,
-        longest: f64,
-    ) -> Option<(f64, Option<(Candidate, f64)>)> {
-        let Open {
-            constants,
-            flight,
-            engagement: e,
-        } = open;
-        let rate = e.series.rate();
-        let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
-        let parts = (longest / Series::longest(rate)).ceil().max(1.0);
-        let whole = longest / parts;
-        let start = segment.start + tau;
-        let from = SeriesStep {
-            displacement: &e.pair.start.motion[0],
-            velocity: &e.pair.start.motion[1],
-            ground: (segment.ground(tau), segment.slope),
-            step: whole,
-            rate,
-            terms: if e.affine { 0 } else { e.terms },
-        };
-        e.series.expand(constants, &e.rows, &e.touches, &from);
-        self.series_terms += e.series.terms() as u64;
-        if !flight.acceleration_known {
-            e.series
-                .start_acceleration(&constants.modes, &mut e.absolute);
-            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
-        }
-        let mut whole = whole;
-        if !e.affine {
-            let reach = e.series.reach(SERIES_SIZE * e.tolerance);
-            if reach < FAR_ENOUGH {
-                return None;
-            }
-            if reach < 1.0 {
-                e.series.shorten(reach);
-                whole *= reach;
-            }
-        }
-        let modes = &constants.modes;
-        let [q, p, ..] = &mut e.pair.end.motion;
-        e.series.end(modes, q, p, &mut e.absolute);
-        let mute = &self.mute;
-        let event = in_series(
-            (self.system, &self.contacts, &e.rows),
-            (&e.series, &e.touches),
-            (q, &flight.penetration),
-            &mut self.finder.candidates,
-            |level, theta| is_muted(mute[level], theta),
-        );
-        let mut step = whole;
-        if let Some(event) = event {
-            if event.theta * whole <= EVENT_TOLERANCE {
-                return Some((0.0, Some((event, whole))));
-            }
-            if event.theta < 1.0 {
-                step = event.theta * whole;
-                e.series.shorten(event.theta);
-                e.series.end(modes, q, p, &mut e.absolute);
-            }
-        }
-        let works = e.series.works(modes, q);
-        let layout = self.dynamics.layout;
-        self.state[layout.input()] += works.input;
-        self.state[layout.viscous()] += works.viscous;
-        note_floors_of_series(
-            constants,
-            &e.series,
-            (q, &e.absolute),
-            &mut flight.tracks(),
-            start,
-        );
-        flight.acceleration_known = true;
-        for touch in &e.series.touches {
-            let (work, impulse) = e.series.contact_work(touch);
-            self.state[layout.work(touch.level)] += work;
-            self.state[layout.impulse(touch.level)] += impulse;
-            let peaks = [
-                (&touch.delta, &mut self.peaks.penetration[touch.level]),
-                (&touch.force, &mut self.peaks.force[touch.level]),
-            ];
-            for (terms, peak) in peaks {
-                if let Some((theta, top)) = e.series.maximum(terms, peak.value) {
-                    peak.raise(top, start + theta * step);
-                }
-            }
-        }
-        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
-        e.derived = false;
-        if !e.affine {
-            e.lengths.accept_series(step);
-        }
-        Some((step, event.map(|event| (event, whole))))
-    }
-
-    /// A step by the pair, cut at its first event.
-    fn by_pair(
-        &mut self,
-        open: &mut Open<'_>,
-        segment: &Segment,
-        tau: f64,
-        longest: f64,
-    ) -> Result<(f64, Option<(Candidate, f64)>), TimeHistoryError> {
-        let Open {
-            constants,
-            flight,
-            engagement: e,
-        } = open;
-        let start = segment.start + tau;
-        let ground = (segment.ground(tau), segment.slope);
-        let scene = Scene {
-            constants,
-            rows: &e.rows,
-            system: self.system,
-            touches: &e.touches,
-            ground,
-            tolerance: e.tolerance,
-        };
-        if !e.derived {
-            e.pair
-                .start
-                .derive(constants, &e.rows, (self.system, &e.touches), ground);
-            e.derived = true;
-        }
-        if !flight.acceleration_known {
-            for (c, m) in constants.modes.iter().enumerate() {
-                for l in 0..WIDTH {
-                    e.absolute[c][l] = e.pair.start.motion[2][c][l] + m.participation[l] * ground.0;
-                }
-            }
-            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
-            flight.acceleration_known = true;
-        }
-        let mut tried = e.lengths.propose(&scene, &e.pair.start, longest);
-        let (mut clock, mut error);
-        loop {
-            clock = Clock::new(tried.pace, tried.since, tried.length);
-            error = e.pair.step(&scene, &clock);
-            if error <= 1.0 {
-                break;
-            }
-            self.statistics.rejected += 1;
-            tried = e.lengths.reject(&tried, error);
-            // A NaN must end here too.
-            if !(tried.length >= SHORTEST_STEP) {
-                return Err(TimeHistoryError::StepTooSmall {
-                    time: start,
-                    step: tried.length,
-                    method: self.method.information().title,
-                    place: self.places_in_touch(),
-                });
-            }
-        }
-        let whole = tried.length;
-        let end = (segment.ground(tau + whole), segment.slope);
-        e.pair
-            .end
-            .derive(constants, &e.rows, (self.system, &e.touches), end);
-        let mute = &self.mute;
-        let candidates = &mut self.finder.candidates;
-        let span = Span {
-            start: &e.pair.start,
-            end: &e.pair.end,
-            clock: &clock,
-        };
-        let found = in_span(
-            &scene,
-            &self.contacts,
-            &span,
-            &flight.penetration,
-            candidates,
-            |level, theta| is_muted(mute[level], theta),
-        );
-        for candidate in candidates.iter_mut() {
-            candidate.theta = clock.offset(candidate.theta) / whole;
-        }
-        let found = match found {
-            Some(found) => {
-                let time = clock.offset(found.theta);
-                let theta = time / whole;
-                Some((Candidate { theta, ..found }, time))
-            }
-            None => {
-                let limit = (NEAR * whole).min(longest - whole);
-                let soon = soon_after(&scene, &span, limit);
-                let soon = soon.filter(|(event, _)| mute[event.level] == Mute::No);
-                candidates.extend(soon.map(|(event, _)| event));
-                soon.map(|(event, time)| (event, whole + time))
-            }
-        };
-        let (mut step, mut event) = (whole, None);
-        if let Some((mut found, time)) = found {
-            if time <= EVENT_TOLERANCE {
-                return Ok((0.0, Some((found, whole))));
-            }
-            let (place, contacts) = ((found.level, found.kind), &self.contacts);
-            let (reached, trials) = e.pair.reach(&scene, contacts, place, &mut clock, time);
-            self.statistics.location_steps += trials;
-            for candidate in &mut self.finder.candidates {
-                if candidate.level == found.level {
-                    candidate.theta = reached / whole;
-                }
-            }
-            found.theta = reached / whole;
-            event = Some((found, whole));
-            step = reached;
-        }
-        e.lengths.accept(&tried, step, error);
-        let layout = self.dynamics.layout;
-        self.state[layout.input()] += e.pair.works.input;
-        self.state[layout.viscous()] += e.pair.works.viscous;
-        let span = Span {
-            start: &e.pair.start,
-            end: &e.pair.end,
-            clock: &clock,
-        };
-        note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
-        for (k, (touch, works)) in e.touches.iter().zip(&e.pair.contact_works).enumerate() {
-            let l = touch.level;
-            self.state[layout.work(l)] += works.0;
-            self.state[layout.impulse(l)] += works.1;
-            let peaks = (&mut self.peaks.penetration[l], &mut self.peaks.force[l]);
-            note_contact(&scene, &span, k, peaks, start);
-        }
-        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
-        Ok((step, event))
-    }
 }
 
 /// Terms of a series of powers: more are worth while where more digits are asked for.
 fn series_terms(tolerance: f64) -> usize {
     (10.0 - tolerance.log10()).clamp(14.0, 22.0) as usize
-}
-
-/// Whether an event of a level does not count.
-fn is_muted(mute: Mute, theta: f64) -> bool {
-    match mute {
-        Mute::No => false,
-        Mute::Start => theta == 0.0,
-        Mute::Step => true,
-    }
-}
-
-/// Takes the peaks of one closed level.
-fn note_contact(
-    scene: &Scene<'_>,
-    span: &Span<'_>,
-    k: usize,
-    (penetration, force): (&mut Peak, &mut Peak),
-    start: f64,
-) {
-    let touch = &scene.touches[k];
-    let level = &scene.system.levels()[touch.level];
-    let (a, b) = span.touch(k);
-    let (delta, rate) = (span.displacement(a, b), span.velocity(a, b));
-    let end = start + span.clock.offset(1.0);
-    penetration.raise(b[0], end);
-    if a[1] * b[1] <= 0.0
-        && let Some((theta, top)) = maximum_above(&delta, penetration.value)
-    {
-        penetration.raise(top, start + span.clock.offset(theta));
-    }
-    let (first, last) = (&span.start.touches[k], &span.end.touches[k]);
-    force.raise(first.force, start);
-    force.raise(last.force, end);
-    if first.force_rate * last.force_rate > 0.0 {
-        return;
-    }
-    let at = |theta: f64| {
-        let (delta, rate) = (value(&delta, theta), value(&rate, theta));
-        touch.contact.force(level, delta, rate).value
-    };
-    let nodes = fit_nodes();
-    let mut samples = nodes.map(at);
-    samples[0] = span.start.touches[k].force;
-    samples[nodes.len() - 1] = span.end.touches[k].force;
-    let fitted = fit(&samples);
-    if bound(&fitted) <= force.value * BELOW_PEAK {
-        return;
-    }
-    for (theta, sample) in nodes.iter().zip(samples) {
-        force.raise(sample, start + span.clock.offset(*theta));
-    }
-    if let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) {
-        force.raise(at(theta), start + span.clock.offset(theta));
-    }
 }

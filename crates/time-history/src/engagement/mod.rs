@@ -8,6 +8,7 @@
 //! ([`clock`]).
 
 mod clock;
+mod expansion;
 mod pair;
 mod peaks;
 mod point;
@@ -31,5 +32,5 @@ pub(crate) use rows::{FloorRows, LevelRows, total};
 pub(crate) use search::{in_series, in_span, soon_after};
 pub(crate) use series::{Series, SeriesStep};
 pub(crate) use span::Span;
-pub(crate) use step_length::StepLength;
+pub(crate) use step_length::{Proposal, StepLength};
 pub(crate) use touch::{Touch, are_affine, are_powers, list, refresh};

@@ -46,7 +46,15 @@ impl Pair {
         }
     }
 
-    fn derive_end(&mut self, scene: &Scene<'_>, offset: f64) {
+    /// Accelerations and jerks at the start of a step.
+    pub(crate) fn derive_start(&mut self, scene: &Scene<'_>) {
+        let system = (scene.system, scene.touches);
+        let (constants, rows) = (scene.constants, scene.rows);
+        self.start.derive(constants, rows, system, scene.ground);
+    }
+
+    /// Accelerations and jerks at the end of a step, `offset` (s) after its start.
+    pub(crate) fn derive_end(&mut self, scene: &Scene<'_>, offset: f64) {
         let ground = (scene.ground.0 + scene.ground.1 * offset, scene.ground.1);
         let system = (scene.system, scene.touches);
         self.end.derive(scene.constants, scene.rows, system, ground);

@@ -1,7 +1,6 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
-use multiversion::multiversion;
-
+use super::expansion;
 use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow, total};
 use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
@@ -12,8 +11,6 @@ use crate::system::System;
 
 /// Greatest product of rate and step.
 const LONGEST: f64 = 1.2;
-/// A remainder below this, relative to the motion, is round-off.
-const NEGLIGIBLE: f64 = 1.0e-17;
 
 /// Relative size below which a leading term is what a root that was just passed leaves.
 const NEGLIGIBLE_START: f64 = 1.0e-13;
@@ -52,7 +49,7 @@ pub(crate) struct TouchSeries {
 impl TouchSeries {
     /// Takes the next term of the rate in.
     #[inline(always)]
-    fn push(&mut self, k: usize, scale: f64, rate: f64) {
+    pub(super) fn push(&mut self, k: usize, scale: f64, rate: f64) {
         self.delta[k + 1] = scale * self.rate[k];
         self.rate[k + 1] = rate;
         self.force[k + 1] = self.next_force(k + 1);
@@ -89,20 +86,21 @@ pub(crate) struct Works {
 /// Terms of the series over a step, in theta = time over step.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
-    lanes: usize,
+    pub(super) lanes: usize,
     rate: f64,
-    last: usize,
-    step: f64,
-    ground: (f64, f64),
+    /// Number of the last term.
+    pub(super) last: usize,
+    pub(super) step: f64,
+    pub(super) ground: (f64, f64),
     /// Term after term.
-    displacement: Vec<Lane>,
-    velocity: Vec<Lane>,
+    pub(super) displacement: Vec<Lane>,
+    pub(super) velocity: Vec<Lane>,
     pub touches: Vec<TouchSeries>,
     /// Sums of `k (k - 1) |term k|` of displacement and of acceleration: bounds of
     /// the second derivatives with respect to theta.
     pub bend: Vec<Lane>,
     pub snap: Vec<Lane>,
-    tables: Tables,
+    pub(super) tables: Tables,
 }
 
 impl Series {
@@ -192,7 +190,7 @@ impl Series {
         let lanes = self.lanes;
         self.step = from.step;
         self.ground = from.ground;
-        self.last = last_term(from.rate * from.step).max(from.terms);
+        self.last = expansion::last_term(from.rate * from.step).max(from.terms);
         self.displacement[..lanes].copy_from_slice(from.displacement);
         self.velocity[..lanes].copy_from_slice(from.velocity);
         for (series, touch) in self.touches.iter_mut().zip(touches) {
@@ -201,7 +199,7 @@ impl Series {
             series.rate[0] = row.dot(from.velocity);
             series.force[0] = series.next_force(0);
         }
-        expand(self, &constants.modes, &rows.levels);
+        expansion::expand(self, &constants.modes, &rows.levels);
     }
 
     /// Part of the step over which the series of all levels end in terms below `allowed`
@@ -263,7 +261,7 @@ impl Series {
         velocity: &mut [Lane],
         absolute: &mut [Lane],
     ) {
-        end(self, modes, displacement, velocity, absolute);
+        expansion::end(self, modes, displacement, velocity, absolute);
     }
 
     /// Absolute accelerations of the modes at the start.
@@ -281,7 +279,7 @@ impl Series {
 
     /// Works of ground motion and damping over the step, from these ends.
     pub(crate) fn works(&self, modes: &[ModeLanes], end: &[Lane]) -> Works {
-        works(self, modes, end)
+        expansion::works(self, modes, end)
     }
 
     /// Work on a contact (J), and its impulse (N s).
@@ -390,228 +388,5 @@ impl Series {
             bend += (k * k.saturating_sub(1)) as f64 * terms[k].abs();
         }
         (end, 0.125 * bend)
-    }
-}
-
-/// Terms after which the remainder is round-off: `x^(k+1) e^x / (k+1)!`.
-fn last_term(x: f64) -> usize {
-    let mut k = 3;
-    let mut remainder = x * x * x * x / 24.0 * x.exp();
-    while remainder > NEGLIGIBLE && k < TERMS - 1 {
-        k += 1;
-        remainder *= x / (k + 1) as f64;
-    }
-    k
-}
-
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
-    match series.lanes {
-        1 => expand_in_place::<1>(series, modes, levels),
-        2 => expand_in_place::<2>(series, modes, levels),
-        3 => expand_in_place::<3>(series, modes, levels),
-        4 => expand_in_place::<4>(series, modes, levels),
-        _ => expand_many(series, modes, levels),
-    }
-}
-
-/// The same bits as [`expand_many`], with the present terms in registers.
-#[inline(always)]
-fn expand_in_place<const LANES: usize>(
-    series: &mut Series,
-    modes: &[ModeLanes],
-    levels: &[ModalRow],
-) {
-    let (last, h) = (series.last, series.step);
-    let (mut q, mut p) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
-    q.copy_from_slice(&series.displacement[..LANES]);
-    p.copy_from_slice(&series.velocity[..LANES]);
-    let (mut bend, mut snap) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
-    for k in 0..last {
-        let load = match k {
-            0 => series.ground.0,
-            1 => series.ground.1 * h,
-            _ => 0.0,
-        };
-        let mut a = [Lane::ZERO; LANES];
-        for c in 0..LANES {
-            let m = &modes[c];
-            for l in 0..WIDTH {
-                a[c][l] = -(m.damping[l] * p[c][l] + m.stiffness[l] * q[c][l])
-                    - m.participation[l] * load;
-            }
-        }
-        for touch in &series.touches {
-            let (force, row) = (-touch.force[k], levels[touch.level].spread::<LANES>());
-            for c in 0..LANES {
-                for l in 0..WIDTH {
-                    a[c][l] += force * row[c][l];
-                }
-            }
-        }
-        let scale = h / (k + 1) as f64;
-        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
-        for c in 0..LANES {
-            for l in 0..WIDTH {
-                // Terms of the acceleration are those of the velocity before scaling.
-                snap[c][l] += next * a[c][l].abs();
-                q[c][l] = scale * p[c][l];
-                p[c][l] = scale * a[c][l];
-                bend[c][l] += order * q[c][l].abs();
-            }
-        }
-        let range = (k + 1) * LANES..(k + 2) * LANES;
-        series.displacement[range.clone()].copy_from_slice(&q);
-        series.velocity[range].copy_from_slice(&p);
-        for touch in &mut series.touches {
-            let row = levels[touch.level].spread::<LANES>();
-            let mut sum = Lane::ZERO;
-            for c in 0..LANES {
-                for l in 0..WIDTH {
-                    sum[l] += row[c][l] * p[c][l];
-                }
-            }
-            touch.push(k, scale, total(&sum));
-        }
-    }
-    series.bend.copy_from_slice(&bend);
-    series.snap.copy_from_slice(&snap);
-}
-
-/// Any number of lanes.
-#[inline(always)]
-fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
-    let (lanes, last, h) = (series.lanes, series.last, series.step);
-    series.bend.fill(Lane::ZERO);
-    series.snap.fill(Lane::ZERO);
-    for k in 0..last {
-        let load = match k {
-            0 => series.ground.0,
-            1 => series.ground.1 * h,
-            _ => 0.0,
-        };
-        let (q, q_next) = series.displacement[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
-        let (p, p_next) = series.velocity[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
-        for (c, m) in modes.iter().enumerate() {
-            let (x, v) = (q[c], p[c]);
-            let mut a = Lane::ZERO;
-            for l in 0..WIDTH {
-                a[l] = -(m.damping[l] * v[l] + m.stiffness[l] * x[l]) - m.participation[l] * load;
-            }
-            p_next[c] = a;
-        }
-        for touch in &series.touches {
-            levels[touch.level].add(-touch.force[k], p_next);
-        }
-        let scale = h / (k + 1) as f64;
-        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
-        for c in 0..lanes {
-            let (v, mut a) = (p[c], p_next[c]);
-            let (mut bend, mut snap) = (series.bend[c], series.snap[c]);
-            let mut x = Lane::ZERO;
-            for l in 0..WIDTH {
-                // Terms of the acceleration are those of the velocity before scaling.
-                snap[l] += next * a[l].abs();
-                a[l] *= scale;
-                x[l] = scale * v[l];
-                bend[l] += order * x[l].abs();
-            }
-            (q_next[c], p_next[c]) = (x, a);
-            (series.bend[c], series.snap[c]) = (bend, snap);
-        }
-        for touch in &mut series.touches {
-            let rate = levels[touch.level].dot(p_next);
-            touch.push(k, scale, rate);
-        }
-    }
-}
-
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn end(
-    series: &Series,
-    modes: &[ModeLanes],
-    displacement: &mut [Lane],
-    velocity: &mut [Lane],
-    absolute: &mut [Lane],
-) {
-    let lanes = series.lanes;
-    for c in 0..lanes {
-        let (mut q, mut p) = (Lane::ZERO, Lane::ZERO);
-        let mut slope = Lane::ZERO;
-        for k in (0..=series.last).rev() {
-            let (x, v) = (
-                series.displacement[k * lanes + c],
-                series.velocity[k * lanes + c],
-            );
-            let order = k as f64;
-            for l in 0..WIDTH {
-                q[l] += x[l];
-                p[l] += v[l];
-                slope[l] += order * v[l];
-            }
-        }
-        let ground = series.ground.0 + series.ground.1 * series.step;
-        for l in 0..WIDTH {
-            absolute[c][l] = slope[l] / series.step + modes[c].participation[l] * ground;
-        }
-        (displacement[c], velocity[c]) = (q, p);
-    }
-}
-
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
-    let (lanes, last) = (series.lanes, series.last);
-    let (start, slope) = series.ground;
-    let after = start + slope * series.step;
-    let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
-    for (c, m) in modes.iter().enumerate() {
-        let mut integral = Lane::ZERO;
-        let mut speeds = [Lane::ZERO; WIDTH];
-        for k in (0..=last).rev() {
-            let (x, v) = (
-                series.displacement[k * lanes + c],
-                series.velocity[k * lanes + c],
-            );
-            let part = 1.0 / (k + 1) as f64;
-            for l in 0..WIDTH {
-                integral[l] += part * x[l];
-            }
-            for (node, speed) in speeds.iter_mut().enumerate() {
-                let power = series.tables.gauss[k][node];
-                for l in 0..WIDTH {
-                    speed[l] += power * v[l];
-                }
-            }
-        }
-        let before = series.displacement[c];
-        for l in 0..WIDTH {
-            let moved = end[c][l] * after - before[l] * start - slope * series.step * integral[l];
-            input[l] -= m.participation[l] * moved;
-        }
-        for (node, speed) in speeds.iter().enumerate() {
-            let weight = series.step * series.tables.weights[node];
-            for l in 0..WIDTH {
-                viscous[l] += weight * m.damping[l] * speed[l] * speed[l];
-            }
-        }
-    }
-    Works {
-        input: total(&input),
-        viscous: total(&viscous),
     }
 }

@@ -1,0 +1,351 @@
+//! Steps in the coordinates of the modes: by the series, or by the pair.
+
+use super::engage::Open;
+use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
+use crate::dynamics::Segment;
+use crate::engagement::{
+    Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
+    in_series, in_span, note_floors_of_series, note_floors_of_span, soon_after,
+};
+use crate::error::TimeHistoryError;
+use crate::events::Candidate;
+use crate::free_flight::{Flight, Lane, add, scale};
+use crate::outcome::Peak;
+use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
+
+/// Part of the present peak below which a fitted maximum is not looked at closer.
+const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
+
+/// Size (m) of penetrations beside which the last terms of a series of powers are small.
+const SERIES_SIZE: f64 = 1.0e-5;
+/// Part of the step tried from which on such a series is worth its while.
+const FAR_ENOUGH: f64 = 0.3;
+
+/// Length of a step (s), and the event that ended it with the length that it was cut from.
+pub(super) type Taken = (f64, Option<(Candidate, f64)>);
+
+/// A trial of the pair that is accurate.
+struct Trial {
+    tried: Proposal,
+    clock: Clock,
+    error: f64,
+}
+
+impl Driver<'_> {
+    /// A step by the series, cut at its first event; `None` where a series of powers does
+    /// not reach far.
+    pub(super) fn by_series(
+        &mut self,
+        open: &mut Open<'_>,
+        segment: &Segment,
+        tau: f64,
+        longest: f64,
+    ) -> Option<Taken> {
+        let Open {
+            constants,
+            flight,
+            engagement: e,
+        } = open;
+        let rate = e.series.rate();
+        let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
+        let parts = (longest / Series::longest(rate)).ceil().max(1.0);
+        let whole = longest / parts;
+        let start = segment.start + tau;
+        let from = SeriesStep {
+            displacement: &e.pair.start.motion[0],
+            velocity: &e.pair.start.motion[1],
+            ground: (segment.ground(tau), segment.slope),
+            step: whole,
+            rate,
+            terms: if e.affine { 0 } else { e.terms },
+        };
+        e.series.expand(constants, &e.rows, &e.touches, &from);
+        self.series_terms += e.series.terms() as u64;
+        if !flight.acceleration_known {
+            e.series
+                .start_acceleration(&constants.modes, &mut e.absolute);
+            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
+        }
+        let mut whole = whole;
+        if !e.affine {
+            let reach = e.series.reach(SERIES_SIZE * e.tolerance);
+            if reach < FAR_ENOUGH {
+                return None;
+            }
+            if reach < 1.0 {
+                e.series.shorten(reach);
+                whole *= reach;
+            }
+        }
+        let modes = &constants.modes;
+        let [q, p, ..] = &mut e.pair.end.motion;
+        e.series.end(modes, q, p, &mut e.absolute);
+        let mute = &self.mute;
+        let event = in_series(
+            (self.system, &self.contacts, &e.rows),
+            (&e.series, &e.touches),
+            (q, &flight.penetration),
+            &mut self.finder.candidates,
+            |level, theta| is_muted(mute[level], theta),
+        );
+        let mut step = whole;
+        if let Some(event) = event {
+            if event.theta * whole <= EVENT_TOLERANCE {
+                return Some((0.0, Some((event, whole))));
+            }
+            if event.theta < 1.0 {
+                step = event.theta * whole;
+                e.series.shorten(event.theta);
+                e.series.end(modes, q, p, &mut e.absolute);
+            }
+        }
+        let works = e.series.works(modes, q);
+        let layout = self.dynamics.layout;
+        self.state[layout.input()] += works.input;
+        self.state[layout.viscous()] += works.viscous;
+        note_floors_of_series(
+            constants,
+            &e.series,
+            (q, &e.absolute),
+            &mut flight.tracks(),
+            start,
+        );
+        flight.acceleration_known = true;
+        for touch in &e.series.touches {
+            let (work, impulse) = e.series.contact_work(touch);
+            self.state[layout.work(touch.level)] += work;
+            self.state[layout.impulse(touch.level)] += impulse;
+            let peaks = [
+                (&touch.delta, &mut self.peaks.penetration[touch.level]),
+                (&touch.force, &mut self.peaks.force[touch.level]),
+            ];
+            for (terms, peak) in peaks {
+                if let Some((theta, top)) = e.series.maximum(terms, peak.value) {
+                    peak.raise(top, start + theta * step);
+                }
+            }
+        }
+        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        e.derived = false;
+        if !e.affine {
+            e.lengths.accept_series(step);
+        }
+        Some((step, event.map(|event| (event, whole))))
+    }
+
+    /// A step by the pair, cut at its first event.
+    pub(super) fn by_pair(
+        &mut self,
+        open: &mut Open<'_>,
+        segment: &Segment,
+        tau: f64,
+        longest: f64,
+    ) -> Result<Taken, TimeHistoryError> {
+        let Open {
+            constants,
+            flight,
+            engagement: e,
+        } = open;
+        let start = segment.start + tau;
+        let scene = Scene {
+            constants,
+            rows: &e.rows,
+            system: self.system,
+            touches: &e.touches,
+            ground: (segment.ground(tau), segment.slope),
+            tolerance: e.tolerance,
+        };
+        if !e.derived {
+            e.pair.derive_start(&scene);
+            e.derived = true;
+        }
+        begin(&scene, &e.pair, flight, &mut e.absolute, start);
+        let mut trial = self.accurate(&scene, &mut e.pair, &mut e.lengths, (start, longest))?;
+        let whole = trial.tried.length;
+        e.pair.derive_end(&scene, whole);
+        let mut step = whole;
+        let event = self.event_of(&scene, &e.pair, flight, &trial.clock, longest);
+        if let Some((found, time)) = &event {
+            if *time <= EVENT_TOLERANCE {
+                return Ok((0.0, Some((*found, whole))));
+            }
+            let (place, contacts) = ((found.level, found.kind), &self.contacts);
+            let clock = &mut trial.clock;
+            let (reached, trials) = e.pair.reach(&scene, contacts, place, clock, *time);
+            self.statistics.location_steps += trials;
+            step = reached;
+        }
+        let event = event.map(|(found, _)| {
+            let theta = step / whole;
+            for candidate in &mut self.finder.candidates {
+                if candidate.level == found.level {
+                    candidate.theta = theta;
+                }
+            }
+            (Candidate { theta, ..found }, whole)
+        });
+        e.lengths.accept(&trial.tried, step, trial.error);
+        let span = Span {
+            start: &e.pair.start,
+            end: &e.pair.end,
+            clock: &trial.clock,
+        };
+        note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
+        self.note_contacts(&scene, &span, &e.pair, start);
+        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        Ok((step, event))
+    }
+
+    /// Tries steps of the pair, ever shorter, until one is accurate.
+    fn accurate(
+        &mut self,
+        scene: &Scene<'_>,
+        pair: &mut Pair,
+        lengths: &mut StepLength,
+        (start, longest): (f64, f64),
+    ) -> Result<Trial, TimeHistoryError> {
+        let mut tried = lengths.propose(scene, &pair.start, longest);
+        loop {
+            let clock = Clock::new(tried.pace, tried.since, tried.length);
+            let error = pair.step(scene, &clock);
+            if error <= 1.0 {
+                return Ok(Trial {
+                    tried,
+                    clock,
+                    error,
+                });
+            }
+            self.statistics.rejected += 1;
+            tried = lengths.reject(&tried, error);
+            // A NaN must end here too.
+            if !(tried.length >= SHORTEST_STEP) {
+                return Err(TimeHistoryError::StepTooSmall {
+                    time: start,
+                    step: tried.length,
+                    method: self.method.information().title,
+                    place: self.places_in_touch(),
+                });
+            }
+        }
+    }
+
+    /// The first event of the step that was tried, with its time (s) after the start.
+    fn event_of(
+        &mut self,
+        scene: &Scene<'_>,
+        pair: &Pair,
+        flight: &Flight,
+        clock: &Clock,
+        longest: f64,
+    ) -> Option<(Candidate, f64)> {
+        let (mute, whole) = (&self.mute, clock.offset(1.0));
+        let candidates = &mut self.finder.candidates;
+        let span = Span {
+            start: &pair.start,
+            end: &pair.end,
+            clock,
+        };
+        let found = in_span(
+            scene,
+            &self.contacts,
+            &span,
+            &flight.penetration,
+            candidates,
+            |level, theta| is_muted(mute[level], theta),
+        );
+        for candidate in candidates.iter_mut() {
+            candidate.theta = clock.offset(candidate.theta) / whole;
+        }
+        if let Some(found) = found {
+            let time = clock.offset(found.theta);
+            let theta = time / whole;
+            return Some((Candidate { theta, ..found }, time));
+        }
+        let limit = (NEAR * whole).min(longest - whole);
+        let soon = soon_after(scene, &span, limit);
+        let (event, time) = soon.filter(|(event, _)| mute[event.level] == Mute::No)?;
+        candidates.push(event);
+        Some((event, whole + time))
+    }
+
+    /// Takes works and peaks of the closed levels.
+    fn note_contacts(&mut self, scene: &Scene<'_>, span: &Span<'_>, pair: &Pair, start: f64) {
+        let layout = self.dynamics.layout;
+        self.state[layout.input()] += pair.works.input;
+        self.state[layout.viscous()] += pair.works.viscous;
+        for (k, (touch, works)) in scene.touches.iter().zip(&pair.contact_works).enumerate() {
+            let l = touch.level;
+            self.state[layout.work(l)] += works.0;
+            self.state[layout.impulse(l)] += works.1;
+            let peaks = (&mut self.peaks.penetration[l], &mut self.peaks.force[l]);
+            note_contact(scene, span, k, peaks, start);
+        }
+    }
+}
+
+/// Takes the floors' accelerations at the start of a step, where they may have jumped.
+fn begin(scene: &Scene<'_>, pair: &Pair, flight: &mut Flight, absolute: &mut [Lane], start: f64) {
+    if flight.acceleration_known {
+        return;
+    }
+    let modes = pair.start.motion[2].iter().zip(&scene.constants.modes);
+    for ((a, m), absolute) in modes.zip(absolute.iter_mut()) {
+        *absolute = add(*a, scale(scene.ground.0, m.participation));
+    }
+    begin_acceleration(scene.constants, absolute, &mut flight.tracks(), start);
+    flight.acceleration_known = true;
+}
+
+/// Whether an event of a level does not count.
+fn is_muted(mute: Mute, theta: f64) -> bool {
+    match mute {
+        Mute::No => false,
+        Mute::Start => theta == 0.0,
+        Mute::Step => true,
+    }
+}
+
+/// Takes the peaks of one closed level.
+fn note_contact(
+    scene: &Scene<'_>,
+    span: &Span<'_>,
+    k: usize,
+    (penetration, force): (&mut Peak, &mut Peak),
+    start: f64,
+) {
+    let touch = &scene.touches[k];
+    let level = &scene.system.levels()[touch.level];
+    let (a, b) = span.touch(k);
+    let (delta, rate) = (span.displacement(a, b), span.velocity(a, b));
+    let end = start + span.clock.offset(1.0);
+    penetration.raise(b[0], end);
+    if a[1] * b[1] <= 0.0
+        && let Some((theta, top)) = maximum_above(&delta, penetration.value)
+    {
+        penetration.raise(top, start + span.clock.offset(theta));
+    }
+    let (first, last) = (&span.start.touches[k], &span.end.touches[k]);
+    force.raise(first.force, start);
+    force.raise(last.force, end);
+    if first.force_rate * last.force_rate > 0.0 {
+        return;
+    }
+    let at = |theta: f64| {
+        let (delta, rate) = (value(&delta, theta), value(&rate, theta));
+        touch.contact.force(level, delta, rate).value
+    };
+    let nodes = fit_nodes();
+    let mut samples = nodes.map(at);
+    samples[0] = span.start.touches[k].force;
+    samples[nodes.len() - 1] = span.end.touches[k].force;
+    let fitted = fit(&samples);
+    if bound(&fitted) <= force.value * BELOW_PEAK {
+        return;
+    }
+    for (theta, sample) in nodes.iter().zip(samples) {
+        force.raise(sample, start + span.clock.offset(*theta));
+    }
+    if let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) {
+        force.raise(at(theta), start + span.clock.offset(theta));
+    }
+}

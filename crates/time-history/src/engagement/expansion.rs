@@ -1,0 +1,234 @@
+//! Sums over the terms of a series, in lanes.
+
+use multiversion::multiversion;
+
+use super::rows::{ModalRow, total};
+use super::series::{Series, Works};
+use super::tables::TERMS;
+use crate::free_flight::{Lane, ModeLanes, WIDTH};
+
+/// A remainder below this, relative to the motion, is round-off.
+const NEGLIGIBLE: f64 = 1.0e-17;
+
+/// Terms after which the remainder is round-off: `x^(k+1) e^x / (k+1)!`.
+pub(super) fn last_term(x: f64) -> usize {
+    let mut k = 3;
+    let mut remainder = x * x * x * x / 24.0 * x.exp();
+    while remainder > NEGLIGIBLE && k < TERMS - 1 {
+        k += 1;
+        remainder *= x / (k + 1) as f64;
+    }
+    k
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
+    match series.lanes {
+        1 => expand_in_place::<1>(series, modes, levels),
+        2 => expand_in_place::<2>(series, modes, levels),
+        3 => expand_in_place::<3>(series, modes, levels),
+        4 => expand_in_place::<4>(series, modes, levels),
+        _ => expand_many(series, modes, levels),
+    }
+}
+
+/// The same bits as [`expand_many`], with the present terms in registers.
+#[inline(always)]
+fn expand_in_place<const LANES: usize>(
+    series: &mut Series,
+    modes: &[ModeLanes],
+    levels: &[ModalRow],
+) {
+    let (last, h) = (series.last, series.step);
+    let (mut q, mut p) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
+    q.copy_from_slice(&series.displacement[..LANES]);
+    p.copy_from_slice(&series.velocity[..LANES]);
+    let (mut bend, mut snap) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
+    for k in 0..last {
+        let load = match k {
+            0 => series.ground.0,
+            1 => series.ground.1 * h,
+            _ => 0.0,
+        };
+        let mut a = [Lane::ZERO; LANES];
+        for c in 0..LANES {
+            let m = &modes[c];
+            for l in 0..WIDTH {
+                a[c][l] = -(m.damping[l] * p[c][l] + m.stiffness[l] * q[c][l])
+                    - m.participation[l] * load;
+            }
+        }
+        for touch in &series.touches {
+            let (force, row) = (-touch.force[k], levels[touch.level].spread::<LANES>());
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    a[c][l] += force * row[c][l];
+                }
+            }
+        }
+        let scale = h / (k + 1) as f64;
+        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
+        for c in 0..LANES {
+            for l in 0..WIDTH {
+                // Terms of the acceleration are those of the velocity before scaling.
+                snap[c][l] += next * a[c][l].abs();
+                q[c][l] = scale * p[c][l];
+                p[c][l] = scale * a[c][l];
+                bend[c][l] += order * q[c][l].abs();
+            }
+        }
+        let range = (k + 1) * LANES..(k + 2) * LANES;
+        series.displacement[range.clone()].copy_from_slice(&q);
+        series.velocity[range].copy_from_slice(&p);
+        for touch in &mut series.touches {
+            let row = levels[touch.level].spread::<LANES>();
+            let mut sum = Lane::ZERO;
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    sum[l] += row[c][l] * p[c][l];
+                }
+            }
+            touch.push(k, scale, total(&sum));
+        }
+    }
+    series.bend.copy_from_slice(&bend);
+    series.snap.copy_from_slice(&snap);
+}
+
+/// Any number of lanes.
+#[inline(always)]
+fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
+    let (lanes, last, h) = (series.lanes, series.last, series.step);
+    series.bend.fill(Lane::ZERO);
+    series.snap.fill(Lane::ZERO);
+    for k in 0..last {
+        let load = match k {
+            0 => series.ground.0,
+            1 => series.ground.1 * h,
+            _ => 0.0,
+        };
+        let (q, q_next) = series.displacement[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
+        let (p, p_next) = series.velocity[k * lanes..(k + 2) * lanes].split_at_mut(lanes);
+        for (c, m) in modes.iter().enumerate() {
+            let (x, v) = (q[c], p[c]);
+            let mut a = Lane::ZERO;
+            for l in 0..WIDTH {
+                a[l] = -(m.damping[l] * v[l] + m.stiffness[l] * x[l]) - m.participation[l] * load;
+            }
+            p_next[c] = a;
+        }
+        for touch in &series.touches {
+            levels[touch.level].add(-touch.force[k], p_next);
+        }
+        let scale = h / (k + 1) as f64;
+        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
+        for c in 0..lanes {
+            let (v, mut a) = (p[c], p_next[c]);
+            let (mut bend, mut snap) = (series.bend[c], series.snap[c]);
+            let mut x = Lane::ZERO;
+            for l in 0..WIDTH {
+                // Terms of the acceleration are those of the velocity before scaling.
+                snap[l] += next * a[l].abs();
+                a[l] *= scale;
+                x[l] = scale * v[l];
+                bend[l] += order * x[l].abs();
+            }
+            (q_next[c], p_next[c]) = (x, a);
+            (series.bend[c], series.snap[c]) = (bend, snap);
+        }
+        for touch in &mut series.touches {
+            let rate = levels[touch.level].dot(p_next);
+            touch.push(k, scale, rate);
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn end(
+    series: &Series,
+    modes: &[ModeLanes],
+    displacement: &mut [Lane],
+    velocity: &mut [Lane],
+    absolute: &mut [Lane],
+) {
+    let lanes = series.lanes;
+    for c in 0..lanes {
+        let (mut q, mut p) = (Lane::ZERO, Lane::ZERO);
+        let mut slope = Lane::ZERO;
+        for k in (0..=series.last).rev() {
+            let (x, v) = (
+                series.displacement[k * lanes + c],
+                series.velocity[k * lanes + c],
+            );
+            let order = k as f64;
+            for l in 0..WIDTH {
+                q[l] += x[l];
+                p[l] += v[l];
+                slope[l] += order * v[l];
+            }
+        }
+        let ground = series.ground.0 + series.ground.1 * series.step;
+        for l in 0..WIDTH {
+            absolute[c][l] = slope[l] / series.step + modes[c].participation[l] * ground;
+        }
+        (displacement[c], velocity[c]) = (q, p);
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
+    let (lanes, last) = (series.lanes, series.last);
+    let (start, slope) = series.ground;
+    let after = start + slope * series.step;
+    let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
+    for (c, m) in modes.iter().enumerate() {
+        let mut integral = Lane::ZERO;
+        let mut speeds = [Lane::ZERO; WIDTH];
+        for k in (0..=last).rev() {
+            let (x, v) = (
+                series.displacement[k * lanes + c],
+                series.velocity[k * lanes + c],
+            );
+            let part = 1.0 / (k + 1) as f64;
+            for l in 0..WIDTH {
+                integral[l] += part * x[l];
+            }
+            for (node, speed) in speeds.iter_mut().enumerate() {
+                let power = series.tables.gauss[k][node];
+                for l in 0..WIDTH {
+                    speed[l] += power * v[l];
+                }
+            }
+        }
+        let before = series.displacement[c];
+        for l in 0..WIDTH {
+            let moved = end[c][l] * after - before[l] * start - slope * series.step * integral[l];
+            input[l] -= m.participation[l] * moved;
+        }
+        for (node, speed) in speeds.iter().enumerate() {
+            let weight = series.step * series.tables.weights[node];
+            for l in 0..WIDTH {
+                viscous[l] += weight * m.damping[l] * speed[l] * speed[l];
+            }
+        }
+    }
+    Works {
+        input: total(&input),
+        viscous: total(&viscous),
+    }
+}

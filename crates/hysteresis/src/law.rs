@@ -1,0 +1,145 @@
+//! The contract of a force-deformation law with memory.
+
+use crate::descriptor::LawDescriptor;
+use crate::history::History;
+
+/// Greatest number of guards that one branch watches.
+pub const MAXIMUM_GUARDS: usize = 3;
+
+/// Deformation of the element and its rate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// Deformation (m).
+    pub deformation: f64,
+    /// Rate of deformation (m/s).
+    pub velocity: f64,
+}
+
+/// Force of the element and its partial derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Response {
+    /// Force (N), positive resists a positive deformation.
+    pub force: f64,
+    /// Derivative by the deformation (N/m).
+    pub by_deformation: f64,
+    /// Derivative by the velocity (N s/m).
+    pub by_velocity: f64,
+}
+
+/// A function that ends a branch when it becomes positive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Guard {
+    /// The velocity against the direction of the branch (m/s): a turning point.
+    Turning,
+    /// Deformation beyond the upper end of the branch (m): yield, slip, closure
+    /// of a gap, or the meeting of two branches.
+    Above,
+    /// Deformation beyond the lower end of the branch (m).
+    Below,
+    /// Velocity beyond the upper end of the branch (m/s).
+    Faster,
+    /// Velocity beyond the lower end of the branch (m/s).
+    Slower,
+    /// Sign of the internal variable of this number against the one held.
+    Variable(u8),
+}
+
+/// The guards of one branch, unused places `None`.
+pub type Guards = [Option<Guard>; MAXIMUM_GUARDS];
+
+/// A force-deformation law with its parameters: a pure function of its arguments.
+///
+/// **Implicit seam.** [`HysteresisLaw::trial`] follows the straight path from the
+/// committed state to a trial point over a step, through every change of branch on
+/// the way, and gives force and tangents there. It leaves the committed history
+/// alone and writes what would follow into a second one;
+/// [`History::commit`] makes that the committed one.
+///
+/// **Explicit seam.** Within a step the branch in the history is held: its law
+/// ([`HysteresisLaw::force`], [`HysteresisLaw::rates`]) continues smoothly past its
+/// end. The method watches [`HysteresisLaw::guards`], cuts the step where one of
+/// them becomes positive and calls [`HysteresisLaw::pass`] there, again until none
+/// is positive; [`HysteresisLaw::accept`] takes each accepted state. The internal
+/// variables are part of the method's own state vector.
+pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
+    /// The card of the law: names, citation, parameters, verification.
+    fn descriptor(&self) -> &'static LawDescriptor;
+
+    /// Whether the force is a linear function of deformation and velocity.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    /// Derivative of the force by the deformation before anything happened (N/m):
+    /// for a rate-dependent law that of an infinitely fast start.
+    fn initial_stiffness(&self) -> f64;
+
+    /// Derivative of the force by the velocity at rest (N s/m).
+    fn initial_damping(&self) -> f64 {
+        0.0
+    }
+
+    /// Number of internal variables, at most
+    /// [`crate::MAXIMUM_INTERNAL_VARIABLES`].
+    fn internal_variables(&self) -> usize {
+        0
+    }
+
+    /// The history of an element that was never deformed.
+    fn virgin(&self) -> History;
+
+    /// Force and tangents at the end of a step of `step` seconds on a straight path
+    /// of deformations from the committed state. The tangents are those of the
+    /// returned force by the components of `end`. `candidate` receives the history
+    /// that a commit would establish; its former content does not matter.
+    fn trial(
+        &self,
+        committed: &History,
+        candidate: &mut History,
+        end: Motion,
+        step: f64,
+    ) -> Response;
+
+    /// Force on the held branch at these internal variables, and its partial
+    /// derivatives with the internal variables fixed.
+    fn force(&self, history: &History, motion: Motion, variables: &[f64]) -> Response;
+
+    /// Rates of the internal variables on the held branch (their unit per second).
+    fn rates(&self, history: &History, motion: Motion, variables: &[f64], rates: &mut [f64]) {
+        let _ = (history, motion, variables, rates);
+    }
+
+    /// The guards of the held branch.
+    fn guards(&self, history: &History) -> Guards;
+
+    /// Value of a guard: positive beyond the end of the branch, smooth around it.
+    fn guard(&self, history: &History, guard: Guard, motion: Motion, variables: &[f64]) -> f64 {
+        let branch = &history.branch;
+        match guard {
+            Guard::Turning => -branch.direction * motion.velocity,
+            Guard::Above => motion.deformation - branch.upper,
+            Guard::Below => branch.lower - motion.deformation,
+            Guard::Faster => motion.velocity - branch.upper,
+            Guard::Slower => branch.lower - motion.velocity,
+            Guard::Variable(i) => -branch.side * variables.get(usize::from(i)).unwrap_or(&0.0),
+        }
+    }
+
+    /// Passes a guard that fired at this located state: switches the branch.
+    fn pass(&self, history: &mut History, guard: Guard, motion: Motion, variables: &[f64]);
+
+    /// Takes an accepted state into the history, on the held branch.
+    fn accept(&self, history: &mut History, motion: Motion, variables: &[f64]) {
+        history.deformation = motion.deformation;
+        history.velocity = motion.velocity;
+        let n = variables.len().min(history.variables.len());
+        history.variables[..n].copy_from_slice(&variables[..n]);
+    }
+
+    /// Recoverable energy (J): what the element would give back on unloading.
+    fn stored_energy(&self, history: &History, motion: Motion, variables: &[f64]) -> f64;
+
+    /// Energy dissipated since the element was new (J). With
+    /// [`HysteresisLaw::stored_energy`] it adds up to the work of the force.
+    fn dissipated_energy(&self, history: &History, motion: Motion, variables: &[f64]) -> f64;
+}

@@ -1,0 +1,22 @@
+//! One law a file.
+
+use crate::descriptor::LawDescriptor;
+
+/// Declares the files of the laws and lists their cards: one line a law.
+macro_rules! laws {
+    ($($name:ident)*) => {
+        $(pub(crate) mod $name;)*
+        /// Cards of all laws, in the order in which users see them.
+        pub(crate) static ALL: &[&LawDescriptor] = &[$(&$name::DESCRIPTOR),*];
+    };
+}
+
+laws! {
+    linear
+    bilinear
+    elastic_perfectly_plastic
+    ramberg_osgood
+    iwan_six_parameter
+    segalman_2005
+    song_2004
+}

@@ -1,0 +1,314 @@
+//! What every law of the registry must satisfy, in one loop each.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use common::{Explicit, example, motion, times};
+use pounding_hysteresis::{Guard, History, HysteresisLaw, LawDescriptor, Motion, descriptors};
+
+const END: f64 = 40.0;
+
+/// Least distance to the nearest guard of the held branch, in deformation and in
+/// velocity.
+fn room(law: &dyn HysteresisLaw, history: &History, at: Motion) -> (f64, f64) {
+    let mut room = (f64::INFINITY, f64::INFINITY);
+    for guard in law.guards(history).into_iter().flatten() {
+        let distance = -law.guard(history, guard, at, history.variables());
+        match guard {
+            Guard::Turning | Guard::Faster | Guard::Slower => room.1 = room.1.min(distance),
+            _ => room.0 = room.0.min(distance),
+        }
+    }
+    room
+}
+
+/// Whether a slope agrees with the central difference of a function, to the
+/// truncation and rounding errors of the latter: it halves the width until it does.
+fn slope_agrees(f: impl Fn(f64) -> f64, slope: f64, width: f64, scale: f64) -> Result<(), f64> {
+    let mut least = f64::INFINITY;
+    let mut h = width;
+    for _ in 0..9 {
+        let difference = (f(h) - f(-h)) / (2.0 * h);
+        least = least.min((difference - slope).abs());
+        if least <= 2e-6 * scale {
+            return Ok(());
+        }
+        h *= 0.5;
+    }
+    Err(least)
+}
+
+fn check_trial_tangents(card: &'static LawDescriptor) {
+    let law = example(card);
+    let mut committed = law.virgin();
+    let mut candidate = committed.clone();
+    let (mut visited, mut tested) = (BTreeSet::new(), BTreeSet::new());
+    let amplitude = card.example_amplitude;
+    let mut scale = law.initial_stiffness();
+    let instants = times(END, 0.05);
+    for pair in instants.windows(2) {
+        let (end, step) = (motion(amplitude, pair[1]), pair[1] - pair[0]);
+        let response = law.trial(&committed, &mut candidate, end, step);
+        scale = scale.max(response.by_deformation.abs());
+        let width = 1e-4 * amplitude;
+        let moved = (end.deformation - committed.motion().deformation).abs();
+        let (room, room_velocity) = room(law.as_ref(), &candidate, end);
+        visited.insert(candidate.branch());
+        if moved > 2.0 * width && room > 2.0 * width {
+            let f = |h: f64| {
+                let shifted = Motion {
+                    deformation: end.deformation + h,
+                    ..end
+                };
+                law.trial(&committed, &mut law.virgin(), shifted, step)
+                    .force
+            };
+            slope_agrees(f, response.by_deformation, width, scale)
+                .unwrap_or_else(|e| panic!("{}: {response:?} at {end:?}, off by {e}", card.name));
+            tested.insert(candidate.branch());
+        }
+        let width = 1e-4 * end.velocity.abs();
+        if width > 0.0 && room_velocity > 2.0 * width {
+            let f = |h: f64| {
+                let shifted = Motion {
+                    velocity: end.velocity + h,
+                    ..end
+                };
+                law.trial(&committed, &mut law.virgin(), shifted, step)
+                    .force
+            };
+            let scale = response.by_velocity.abs().max(1e-6 * scale);
+            slope_agrees(f, response.by_velocity, width, scale)
+                .unwrap_or_else(|e| panic!("{}: {response:?} at {end:?}, off by {e}", card.name));
+        }
+        committed.commit(&mut candidate);
+    }
+    assert_eq!(visited, tested, "{}: branches not tested", card.name);
+}
+
+#[test]
+fn tangents_of_trials_agree_with_finite_differences_on_all_branches() {
+    for card in descriptors() {
+        check_trial_tangents(card);
+    }
+}
+
+#[test]
+fn tangents_of_held_branches_agree_with_finite_differences_inside_and_past_the_end() {
+    for card in descriptors() {
+        let law = example(card);
+        let amplitude = card.example_amplitude;
+        let mut driver = Explicit::new(law.as_ref(), amplitude);
+        for time in times(END, 0.05) {
+            driver.advance(time);
+            let at = motion(amplitude, time);
+            // Some laws have a power as their slope where a branch begins: no
+            // difference converges there.
+            if at.velocity.abs() < 0.02 * amplitude || time == 0.0 {
+                continue;
+            }
+            let response = law.force(&driver.history, at, &driver.variables);
+            let force = |x: f64, v: f64| {
+                let shifted = Motion {
+                    deformation: at.deformation + x,
+                    velocity: at.velocity + v,
+                };
+                law.force(&driver.history, shifted, &driver.variables).force
+            };
+            let scale = law.initial_stiffness().max(response.by_deformation.abs());
+            let width = 1e-5 * amplitude;
+            slope_agrees(|x| force(x, 0.0), response.by_deformation, width, scale)
+                .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", card.name));
+            let width = 1e-5 * at.velocity.abs();
+            if width > 0.0 {
+                let scale = response.by_velocity.abs().max(1e-6 * scale);
+                slope_agrees(|v| force(0.0, v), response.by_velocity, width, scale)
+                    .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", card.name));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_trial_without_commit_leaves_no_trace() {
+    for card in descriptors() {
+        let law = example(card);
+        let amplitude = card.example_amplitude;
+        let (mut plain, mut disturbed) = (law.virgin(), law.virgin());
+        let (mut spare, mut candidate) = (plain.clone(), plain.clone());
+        let instants = times(END, 0.05);
+        for (i, pair) in instants.windows(2).enumerate() {
+            let (end, step) = (motion(amplitude, pair[1]), pair[1] - pair[0]);
+            for wild in [-1.7, 0.9, 2.3] {
+                let elsewhere = Motion {
+                    deformation: wild * amplitude * (1.0 + i as f64 * 0.01),
+                    velocity: -wild * amplitude,
+                };
+                let before = disturbed.clone();
+                law.trial(&disturbed, &mut candidate, elsewhere, step);
+                assert_eq!(before, disturbed, "{}", card.name);
+            }
+            let response = law.trial(&disturbed, &mut candidate, end, step);
+            disturbed.commit(&mut candidate);
+            assert_eq!(
+                response,
+                law.trial(&plain, &mut spare, end, step),
+                "{}",
+                card.name
+            );
+            plain.commit(&mut spare);
+            assert_eq!(plain, disturbed, "{}", card.name);
+        }
+    }
+}
+
+/// Greatest difference of force and of energy between the two seams, over the
+/// greatest force and the greatest energy.
+fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
+    let law = example(card);
+    let amplitude = card.example_amplitude;
+    let mut driver = Explicit::new(law.as_ref(), amplitude);
+    let mut committed = law.virgin();
+    let mut candidate = committed.clone();
+    let (mut force_off, mut energy_off) = (0.0_f64, 0.0_f64);
+    let (mut force_max, mut energy_max) = (0.0_f64, 0.0_f64);
+    let instants = times(END, step);
+    for pair in instants.windows(2) {
+        let end = motion(amplitude, pair[1]);
+        let implicit = law
+            .trial(&committed, &mut candidate, end, pair[1] - pair[0])
+            .force;
+        committed.commit(&mut candidate);
+        driver.advance(pair[1]);
+        force_off = force_off.max((implicit - driver.force()).abs());
+        force_max = force_max.max(implicit.abs());
+        let (stored, dissipated) = driver.energies();
+        let variables = committed.variables();
+        let other = law.dissipated_energy(&committed, end, variables);
+        energy_off = energy_off.max((other - dissipated).abs());
+        energy_off = energy_off.max((law.stored_energy(&committed, end, variables) - stored).abs());
+        energy_max = energy_max.max(stored.abs()).max(dissipated.abs());
+    }
+    assert!(card.name == "linear" || driver.passed > 5, "{}", card.name);
+    (force_off / force_max, energy_off / energy_max)
+}
+
+#[test]
+fn implicit_trials_and_located_branches_agree_on_the_same_path() {
+    for card in descriptors() {
+        let (force, energy) = seams_differ(card, 0.005);
+        if card.rate_dependent && force.max(energy) > 1e-9 {
+            // A trial goes straight through its step: second order in time.
+            let (force_half, energy_half) = seams_differ(card, 0.0025);
+            assert!(
+                force < 1e-3 && energy < 1e-3,
+                "{}: {force} {energy}",
+                card.name
+            );
+            assert!(
+                force < 1e-9 || force / force_half > 3.6,
+                "{}: {force} {force_half}",
+                card.name
+            );
+            assert!(
+                energy < 1e-9 || energy / energy_half > 3.6,
+                "{}: {energy} {energy_half}",
+                card.name
+            );
+        } else {
+            assert!(
+                force < 1e-9 && energy < 1e-9,
+                "{}: {force} {energy}",
+                card.name
+            );
+        }
+    }
+}
+
+#[test]
+fn work_is_stored_or_dissipated() {
+    for card in descriptors() {
+        let law = example(card);
+        let amplitude = card.example_amplitude;
+        let balance = |step: f64| {
+            let mut driver = Explicit::new(law.as_ref(), amplitude);
+            let (mut work, mut off, mut greatest) = (0.0, 0.0_f64, 0.0_f64);
+            let instants = times(END, step);
+            for pair in instants.windows(2) {
+                // Simpson's rule in time.
+                let mut power = |time: f64| {
+                    driver.advance(time);
+                    driver.force() * motion(amplitude, time).velocity
+                };
+                let middle = 0.5 * (pair[0] + pair[1]);
+                let sum = power(pair[0]) + 4.0 * power(middle) + power(pair[1]);
+                work += (pair[1] - pair[0]) / 6.0 * sum;
+                let (stored, dissipated) = driver.energies();
+                off = off.max((stored + dissipated - work).abs());
+                greatest = greatest.max(stored.abs()).max(dissipated);
+            }
+            off / greatest
+        };
+        let (coarse, fine) = (balance(0.02), balance(0.005));
+        // Corners of the force inside a step leave errors of second order.
+        assert!(fine < 3e-6, "{}: {coarse:e} {fine:e}", card.name);
+        assert!(
+            fine < 1e-9 || coarse / fine > 6.0,
+            "{}: {coarse:e} {fine:e}",
+            card.name
+        );
+    }
+}
+
+/// Laws that act differently on the two sides.
+const ONE_SIDED: [&str; 2] = ["gap_hook", "elastoplastic_gap"];
+
+#[test]
+fn the_mirrored_path_gives_the_mirrored_force_bit_for_bit() {
+    for card in descriptors()
+        .iter()
+        .filter(|c| !ONE_SIDED.contains(&c.name))
+    {
+        let law = example(card);
+        let run = |sign: f64| -> Vec<f64> {
+            let path: Vec<f64> = times(END, 0.05)
+                .iter()
+                .map(|t| sign * motion(card.example_amplitude, *t).deformation)
+                .collect();
+            let points = pounding_hysteresis::laboratory::history(law.as_ref(), &path, 0.05);
+            points.iter().map(|p| p.force).collect()
+        };
+        let (there, mirrored) = (run(1.0), run(-1.0));
+        for (a, b) in there.iter().zip(&mirrored) {
+            assert_eq!(*a, -*b, "{}", card.name);
+        }
+    }
+}
+
+#[test]
+fn cards_are_complete_and_examples_build() {
+    let mut names = BTreeSet::new();
+    for card in descriptors() {
+        assert!(names.insert(card.name), "{} twice", card.name);
+        for alias in card.aliases {
+            assert!(names.insert(alias.name), "{} twice", alias.name);
+        }
+        let law = example(card);
+        assert_eq!(law.descriptor().name, card.name);
+        assert!(law.virgin().variables().len() == law.internal_variables());
+        assert!(law.initial_stiffness().is_finite() && law.initial_stiffness() >= 0.0);
+        assert!(!card.formula.is_empty() && !card.citation.is_empty());
+        for parameter in card.parameters {
+            if let Some(default) = parameter.default {
+                assert!(
+                    parameter.allows(default),
+                    "{} {}",
+                    card.name,
+                    parameter.name
+                );
+            }
+        }
+    }
+}

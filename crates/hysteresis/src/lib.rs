@@ -23,6 +23,7 @@ mod laws;
 mod masing;
 mod path;
 mod power_integral;
+mod stiffness_degrading;
 
 pub use descriptor::*;
 pub use error::HysteresisError;

@@ -16,6 +16,13 @@ laws! {
     bilinear
     elastic_perfectly_plastic
     ramberg_osgood
+    modified_clough
+    peak_oriented
+    origin_oriented
+    takeda
+    coulomb_friction
+    gap_hook
+    elastoplastic_gap
     iwan_six_parameter
     segalman_2005
     song_2004

@@ -73,6 +73,8 @@ pub struct Explicit<'a> {
     pub time: f64,
     pub variables: Vec<f64>,
     pub passed: usize,
+    /// Work of the force, by Simpson's rule between located events.
+    pub work: f64,
 }
 
 impl<'a> Explicit<'a> {
@@ -87,6 +89,7 @@ impl<'a> Explicit<'a> {
             time: 0.0,
             variables,
             passed: 0,
+            work: 0.0,
         };
         driver.pass_all(0.0);
         driver
@@ -171,7 +174,18 @@ impl<'a> Explicit<'a> {
         }
     }
 
+    /// Power of the force on the held branch.
+    fn power(&self, time: f64, variables: &[f64]) -> f64 {
+        let motion = self.motion(time);
+        self.law.force(&self.history, motion, variables).force * motion.velocity
+    }
+
     fn accept(&mut self, time: f64, variables: Vec<f64>) {
+        let middle = 0.5 * (self.time + time);
+        let sum = self.power(self.time, &self.variables)
+            + 4.0 * self.power(middle, &self.trial(middle))
+            + self.power(time, &variables);
+        self.work += (time - self.time) / 6.0 * sum;
         self.time = time;
         self.variables = variables;
         let motion = self.motion(time);

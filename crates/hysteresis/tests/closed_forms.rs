@@ -1,0 +1,295 @@
+//! Laws on paths that can be worked out by hand from their rules.
+#![allow(clippy::unwrap_used)]
+
+use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, history};
+use pounding_hysteresis::{HysteresisLaw, LawParameters, build};
+
+fn law(name: &str, parameters: &[(&str, f64)]) -> Box<dyn HysteresisLaw> {
+    build(name, &LawParameters::from_pairs(parameters)).unwrap()
+}
+
+/// Forces along a path against expected ones, to `1e-13` of the greatest.
+fn follows(law: &dyn HysteresisLaw, steps: &[(f64, f64)]) {
+    let path: Vec<f64> = steps.iter().map(|s| s.0).collect();
+    let greatest = steps.iter().fold(0.0_f64, |m, s| m.max(s.1.abs()));
+    for (point, (x, force)) in history(law, &path, 1.0).iter().zip(steps) {
+        assert!(
+            (point.force - force).abs() < 1e-13 * greatest,
+            "{} at {x}: {} for {force}",
+            law.descriptor().name,
+            point.force
+        );
+    }
+}
+
+const YIELDING: [(&str, f64); 3] = [
+    ("stiffness", 100.0),
+    ("yield_force", 1.0),
+    ("hardening_ratio", 0.05),
+];
+
+/// The backbone of [`YIELDING`]: slope 100 to 0.01, then 5.
+fn backbone(x: f64) -> f64 {
+    1.0 + 5.0 * (x - 0.01)
+}
+
+#[test]
+fn bilinear_law_yields_on_two_parallel_lines() {
+    let law = law("bilinear", &YIELDING);
+    let top = backbone(0.03);
+    follows(
+        law.as_ref(),
+        &[
+            (0.005, 0.5),
+            (0.03, top),
+            (0.02, top - 1.0),
+            (0.025, top - 0.5),
+            (0.04, backbone(0.04)),
+            // The lower line is the upper one less twice (1 - 0.05).
+            (-0.03, -backbone(0.03)),
+            (0.0, 0.95),
+        ],
+    );
+    // 4 (1-r) Fy (A - xy), Fy = 1, xy = 0.01, r = 0.05.
+    for (amplitude, expected) in [
+        (0.01, 0.0),
+        (0.03, 4.0 * 0.95 * 0.02),
+        (0.1, 4.0 * 0.95 * 0.09),
+    ] {
+        let cycle = cycle_dissipation(law.as_ref(), amplitude, Cycling::default());
+        assert!((cycle - expected).abs() < 1e-14, "{amplitude}: {cycle}");
+    }
+}
+
+#[test]
+fn plastic_and_friction_laws_hold_their_force() {
+    let plastic = law(
+        "elastic_perfectly_plastic",
+        &[("stiffness", 100.0), ("yield_force", 1.0)],
+    );
+    let friction = law(
+        "coulomb_friction",
+        &[("sticking_stiffness", 100.0), ("friction_force", 1.0)],
+    );
+    for law in [plastic, friction] {
+        follows(
+            law.as_ref(),
+            &[
+                (0.03, 1.0),
+                (0.025, 0.5),
+                (0.03, 1.0),
+                (0.01, -1.0),
+                (0.02, 0.0),
+                (0.1, 1.0),
+            ],
+        );
+        let cycle = cycle_dissipation(law.as_ref(), 0.05, Cycling::default());
+        assert!((cycle - 4.0 * (0.05 - 0.01)).abs() < 1e-14, "{cycle}");
+    }
+}
+
+#[test]
+fn peak_oriented_and_clough_laws_aim_at_the_farthest_point() {
+    let top = backbone(0.03);
+    // Unloading with 100 reaches zero force here.
+    let zero = 0.03 - top / 100.0;
+    // The other side never yielded: its target is (-0.01, -1).
+    let slope = 1.0 / (zero + 0.01);
+    let common = [
+        (0.03, top),
+        (0.025, top - 0.5),
+        (zero, 0.0),
+        (0.0, -slope * zero),
+        (-0.01, -1.0),
+        (-0.02, -backbone(0.02)),
+    ];
+    let low = backbone(0.02);
+    let zero_low = -0.02 + low / 100.0;
+    let reload = top / (0.03 - zero_low);
+    // Reloading towards (0.03, top), a small unloading at 0.01, back up.
+    let at = reload * (0.01 - zero_low);
+    let dip = at - 0.3;
+    let clough = law("modified_clough", &YIELDING);
+    let retraced = [
+        (0.01, at),
+        (0.007, dip),
+        (0.0085, dip + 0.15),
+        (0.01, at),
+        (0.02, reload * (0.02 - zero_low)),
+        (0.04, backbone(0.04)),
+    ];
+    follows(clough.as_ref(), &[&common[..], &retraced[..]].concat());
+    let peak = law("peak_oriented", &YIELDING);
+    let direct = (top - dip) / (0.03 - 0.007);
+    let aimed = [
+        (0.01, at),
+        (0.007, dip),
+        (0.01, dip + direct * 0.003),
+        (0.03, top),
+        (0.04, backbone(0.04)),
+    ];
+    follows(peak.as_ref(), &[&common[..], &aimed[..]].concat());
+}
+
+#[test]
+fn takeda_law_unloads_softer_and_reloads_to_a_nearer_target() {
+    let mut parameters = YIELDING.to_vec();
+    parameters.extend([("unloading_exponent", 0.5), ("reloading_factor", 0.25)]);
+    let law = law("takeda", &parameters);
+    // Ductility 4: half the stiffness.
+    let top = backbone(0.04);
+    let zero = 0.04 - top / 50.0;
+    let slope = 1.0 / (zero + 0.01);
+    let low = backbone(0.0225);
+    // Ductility 2.25: two thirds of the stiffness.
+    let zero_low = -0.0225 + low / (100.0 / 1.5);
+    // The target lies a quarter of 0.03 before the peak.
+    let target = 0.04 - 0.25 * 0.03;
+    let reload = backbone(target) / (target - zero_low);
+    follows(
+        law.as_ref(),
+        &[
+            (0.04, top),
+            (0.03, top - 0.5),
+            (0.0, -slope * zero),
+            (-0.0225, -low),
+            (zero_low, 0.0),
+            (0.02, reload * (0.02 - zero_low)),
+            (target, backbone(target)),
+            (0.036, backbone(0.036)),
+            // The unloading stiffness is still that of the farthest point.
+            (0.03, backbone(0.036) - 0.3),
+            (0.05, backbone(0.05)),
+        ],
+    );
+}
+
+#[test]
+fn takeda_law_whose_target_lies_behind_rises_with_the_unloading_stiffness() {
+    let mut parameters = YIELDING.to_vec();
+    parameters.extend([("unloading_exponent", 0.0), ("reloading_factor", 0.9)]);
+    let law = law("takeda", &parameters);
+    let top = backbone(0.1);
+    let zero = 0.1 - top / 100.0;
+    let aim = 1.0 / (zero + 0.01);
+    // A small loop below zero force next to the peak; the target (0.019) is behind.
+    let (turn, force) = (zero - 0.001, -aim * 0.001);
+    let again = turn - force / 100.0;
+    let meets = again + (backbone(again)) / (100.0 - 5.0);
+    follows(
+        law.as_ref(),
+        &[
+            (0.1, top),
+            (turn, force),
+            (again, 0.0),
+            (again + 0.002, 0.2),
+            (meets, backbone(meets)),
+            (meets + 0.001, backbone(meets + 0.001)),
+        ],
+    );
+}
+
+#[test]
+fn origin_oriented_law_returns_through_zero_and_keeps_sides_apart() {
+    let law = law("origin_oriented", &YIELDING);
+    let top = backbone(0.03);
+    let secant = top / 0.03;
+    follows(
+        law.as_ref(),
+        &[
+            (0.03, top),
+            (0.01, secant * 0.01),
+            (-0.01, -1.0),
+            (-0.02, -backbone(0.02)),
+            (0.02, secant * 0.02),
+            (0.05, backbone(0.05)),
+        ],
+    );
+    // Area under the backbone less the triangle to the origin.
+    let path = history(law.as_ref(), &[0.03, 0.0, 0.02, 0.0], 1.0);
+    let area = 0.5 * 0.01 + 0.5 * (1.0 + top) * 0.02;
+    for point in path {
+        assert!((point.dissipated - (area - 0.5 * top * 0.03)).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn ramberg_osgood_backbone_and_cycle_satisfy_their_equations() {
+    let (alpha, n) = (0.5, 7.0);
+    let parameters = [
+        ("stiffness", 100.0),
+        ("yield_force", 1.0),
+        ("alpha", alpha),
+        ("exponent", n),
+    ];
+    let law = law("ramberg_osgood", &parameters);
+    for y in [1e-3, 0.3, 0.99, 1.7, 4.0_f64] {
+        // x(F) of the paper.
+        let x = 0.01 * (y + alpha * y.powf(n));
+        let force = history(law.as_ref(), &[x], 1.0)[0].force;
+        assert!((force / y - 1.0).abs() < 1e-14, "{force} for {y}");
+        // Jennings 1964: the loop of Masing's rule.
+        let expected = 4.0 * 0.01 * alpha * (n - 1.0) / (n + 1.0) * y.powf(n + 1.0);
+        let cycle = cycle_dissipation(law.as_ref(), x, Cycling::default());
+        assert!(
+            (cycle / expected - 1.0).abs() < 1e-11,
+            "{cycle} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn gap_and_hook_act_beyond_their_gaps_only() {
+    let law = law(
+        "gap_hook",
+        &[
+            ("compression_stiffness", 1000.0),
+            ("compression_gap", 0.01),
+            ("tension_stiffness", 100.0),
+            ("tension_gap", 0.02),
+        ],
+    );
+    follows(
+        law.as_ref(),
+        &[
+            (0.02, 0.0),
+            (0.03, 1.0),
+            (-0.01, 0.0),
+            (-0.011, -1.0),
+            (0.04, 2.0),
+            (0.0, 0.0),
+        ],
+    );
+}
+
+#[test]
+fn a_yielding_bumper_leaves_a_wider_gap() {
+    let law = law(
+        "elastoplastic_gap",
+        &[
+            ("stiffness", 100.0),
+            ("yield_force", 1.0),
+            ("hardening_ratio", 0.05),
+            ("gap", 0.02),
+        ],
+    );
+    // Closes at 0.02, yields at 0.03; at 0.05 the force is 1.1.
+    let top = 1.0 + 5.0 * 0.02;
+    let gap = 0.05 - top / 100.0;
+    follows(
+        law.as_ref(),
+        &[
+            (-0.02, 0.0),
+            (-0.025, -0.5),
+            (-0.05, -top),
+            (-0.045, -(top - 0.5)),
+            (0.03, 0.0),
+            (-gap, 0.0),
+            (-0.045, -(top - 0.5)),
+            (-0.06, -(top + 0.05)),
+        ],
+    );
+    let points = history(law.as_ref(), &[-0.05, 0.0], 1.0);
+    let area = 0.5 * 0.01 + 0.5 * (1.0 + top) * 0.02 - 0.5 * top * top / 100.0;
+    assert!((points[1].dissipated - area).abs() < 1e-15);
+}

@@ -93,8 +93,7 @@ impl IwanDensity {
         chi: f64,
         beta: f64,
     ) -> Result<Self, HysteresisError> {
-        if !(slip_force > 0.0 && initial_stiffness > 0.0 && beta >= 0.0)
-            || !(chi > -1.0 && chi <= 0.0)
+        if !(slip_force > 0.0 && initial_stiffness > 0.0 && beta >= 0.0 && chi > -1.0 && chi <= 0.0)
         {
             return Err(HysteresisError::Inconsistent {
                 law: "segalman_2005",

@@ -18,12 +18,14 @@ pub mod law;
 pub mod parameters;
 pub mod registry;
 
+mod bouc_wen_family;
 mod iwan_fit;
 mod laws;
 mod masing;
 mod path;
 mod power_integral;
 mod stiffness_degrading;
+mod substeps;
 
 pub use descriptor::*;
 pub use error::HysteresisError;

@@ -191,7 +191,8 @@ fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
         energy_off = energy_off.max((law.stored_energy(&committed, end, variables) - stored).abs());
         energy_max = energy_max.max(stored.abs()).max(dissipated.abs());
     }
-    assert!(card.name == "linear" || driver.passed > 5, "{}", card.name);
+    let smooth = law.guards(&law.virgin()).iter().all(Option::is_none);
+    assert!(smooth || driver.passed > 5, "{}", card.name);
     (force_off / force_max, energy_off / energy_max)
 }
 
@@ -199,28 +200,25 @@ fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
 fn implicit_trials_and_located_branches_agree_on_the_same_path() {
     for card in descriptors() {
         let (force, energy) = seams_differ(card, 0.005);
-        if card.rate_dependent && force.max(energy) > 1e-9 {
-            // A trial goes straight through its step: second order in time.
-            let (force_half, energy_half) = seams_differ(card, 0.0025);
+        // A trial of a rate-dependent law goes straight through its step: second order
+        // in time. A broken power of an internal variable costs the explicit steps
+        // that start at its zero a little. Both must vanish with the step.
+        let bound = if card.rate_dependent { 1e-3 } else { 1e-8 };
+        assert!(
+            force < bound && energy < bound,
+            "{}: {force} {energy}",
+            card.name
+        );
+        if force.max(energy) > 1e-9 {
+            let (finer, finer_energy) = seams_differ(card, 0.0025);
             assert!(
-                force < 1e-3 && energy < 1e-3,
-                "{}: {force} {energy}",
+                force < 1e-9 || force / finer > 3.6,
+                "{}: {force} {finer}",
                 card.name
             );
             assert!(
-                force < 1e-9 || force / force_half > 3.6,
-                "{}: {force} {force_half}",
-                card.name
-            );
-            assert!(
-                energy < 1e-9 || energy / energy_half > 3.6,
-                "{}: {energy} {energy_half}",
-                card.name
-            );
-        } else {
-            assert!(
-                force < 1e-9 && energy < 1e-9,
-                "{}: {force} {energy}",
+                energy < 1e-9 || energy / finer_energy > 3.6,
+                "{}: {energy} {finer_energy}",
                 card.name
             );
         }

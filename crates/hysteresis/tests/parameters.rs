@@ -28,6 +28,11 @@ fn values_outside_their_range_are_refused_by_name() {
         ("segalman_2005", "chi", -1.0),
         ("segalman_2005", "chi", 0.1),
         ("song_2004", "residual_ratio", 1.0),
+        ("bouc_wen", "exponent", 0.9),
+        ("viscous_damper", "exponent", 0.0),
+        ("viscous_damper", "transition_velocity", 0.0),
+        ("maxwell", "damping", 0.0),
+        ("baber_noori_1985", "pinching", 1.0),
         ("linear", "stiffness", f64::NAN),
         ("linear", "stiffness", f64::INFINITY),
     ] {
@@ -55,6 +60,8 @@ fn values_that_contradict_one_another_are_refused_with_the_reason() {
             "initial stiffness",
         ),
         ("song_2004", &[("phi_1", 1e-3)], "phi_1"),
+        ("bouc_wen", &[("gamma", 0.6)], "create energy"),
+        ("bouc_wen", &[("gamma", -0.5)], "create energy"),
         (
             "gap_hook",
             &[("compression_stiffness", 0.0), ("tension_stiffness", 0.0)],

@@ -16,11 +16,15 @@ laws! {
     bilinear
     elastic_perfectly_plastic
     ramberg_osgood
+    bouc_wen
+    baber_noori_1985
     modified_clough
     peak_oriented
     origin_oriented
     takeda
     coulomb_friction
+    viscous_damper
+    maxwell
     gap_hook
     elastoplastic_gap
     iwan_six_parameter

@@ -1,7 +1,9 @@
 //! What several tests share: smooth paths and an explicit, event-located driver.
 #![allow(dead_code)]
+#![allow(clippy::unwrap_used)]
 
 use pounding_hysteresis::{Guard, History, HysteresisLaw, LawDescriptor, Motion, build};
+use pounding_runge_kutta::Dop853;
 
 /// The example of a card.
 pub fn example(card: &LawDescriptor) -> Box<dyn HysteresisLaw> {
@@ -64,8 +66,7 @@ pub fn motion(amplitude: f64, time: f64) -> Motion {
 }
 
 /// Drives a law explicitly along a path: the branch is held within a step, internal
-/// variables go by the classical fourth-order method, guards are located by
-/// bisection.
+/// variables and the work go by a method of order 8, guards are located by bisection.
 pub struct Explicit<'a> {
     pub law: &'a dyn HysteresisLaw,
     pub amplitude: f64,
@@ -73,7 +74,7 @@ pub struct Explicit<'a> {
     pub time: f64,
     pub variables: Vec<f64>,
     pub passed: usize,
-    /// Work of the force, by Simpson's rule between located events.
+    /// Work of the force.
     pub work: f64,
 }
 
@@ -99,34 +100,21 @@ impl<'a> Explicit<'a> {
         motion(self.amplitude, time)
     }
 
-    /// Internal variables after a step from the present time.
-    fn trial(&self, to: f64) -> Vec<f64> {
-        let h = to - self.time;
+    /// Internal variables and work after a step from the present time.
+    fn trial(&self, to: f64) -> (Vec<f64>, f64) {
         let n = self.variables.len();
-        let rates = |offset: f64, at: &[f64]| {
-            let mut rates = vec![0.0; n];
-            self.law.rates(
-                &self.history,
-                self.motion(self.time + offset),
-                at,
-                &mut rates,
-            );
-            rates
+        let mut start = self.variables.clone();
+        start.push(self.work);
+        let mut end = vec![0.0; n + 1];
+        let mut slope = |offset: f64, state: &[f64], out: &mut [f64]| {
+            let motion = self.motion(self.time + offset);
+            let held = &self.history;
+            self.law.rates(held, motion, &state[..n], &mut out[..n]);
+            out[n] = self.law.force(held, motion, &state[..n]).force * motion.velocity;
         };
-        let moved = |by: &[f64], share: f64| -> Vec<f64> {
-            self.variables
-                .iter()
-                .zip(by)
-                .map(|(z, r)| z + share * h * r)
-                .collect()
-        };
-        let k1 = rates(0.0, &self.variables);
-        let k2 = rates(0.5 * h, &moved(&k1, 0.5));
-        let k3 = rates(0.5 * h, &moved(&k2, 0.5));
-        let k4 = rates(h, &moved(&k3, 1.0));
-        (0..n)
-            .map(|i| self.variables[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
-            .collect()
+        Dop853::new(n + 1).step(&mut slope, &start, to - self.time, &mut end);
+        let work = end.pop().unwrap();
+        (end, work)
     }
 
     fn fired(&self, time: f64, variables: &[f64]) -> Option<Guard> {
@@ -152,7 +140,7 @@ impl<'a> Explicit<'a> {
     pub fn advance(&mut self, to: f64) {
         while self.time < to {
             let after = self.trial(to);
-            if self.fired(to, &after).is_none() {
+            if self.fired(to, &after.0).is_none() {
                 self.accept(to, after);
                 return;
             }
@@ -162,7 +150,7 @@ impl<'a> Explicit<'a> {
                 if middle <= low || middle >= high {
                     break;
                 }
-                if self.fired(middle, &self.trial(middle)).is_some() {
+                if self.fired(middle, &self.trial(middle).0).is_some() {
                     high = middle;
                 } else {
                     low = middle;
@@ -174,18 +162,8 @@ impl<'a> Explicit<'a> {
         }
     }
 
-    /// Power of the force on the held branch.
-    fn power(&self, time: f64, variables: &[f64]) -> f64 {
-        let motion = self.motion(time);
-        self.law.force(&self.history, motion, variables).force * motion.velocity
-    }
-
-    fn accept(&mut self, time: f64, variables: Vec<f64>) {
-        let middle = 0.5 * (self.time + time);
-        let sum = self.power(self.time, &self.variables)
-            + 4.0 * self.power(middle, &self.trial(middle))
-            + self.power(time, &variables);
-        self.work += (time - self.time) / 6.0 * sum;
+    fn accept(&mut self, time: f64, (variables, work): (Vec<f64>, f64)) {
+        self.work = work;
         self.time = time;
         self.variables = variables;
         let motion = self.motion(time);

@@ -84,7 +84,8 @@ impl Branch {
     }
 }
 
-/// What a degrading law remembers of one side, mirrored to the positive side.
+/// What a degrading law remembers of one side, mirrored to the positive side. Each
+/// law uses what it needs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Side {
     /// Farthest point reached on the backbone, or the yield point before that.
@@ -97,8 +98,10 @@ pub(crate) struct Side {
     pub cap_intercept: f64,
     /// Greatest force (N) that the side can still reach.
     pub force_limit: f64,
-    /// Greatest residual deformation (m).
+    /// Greatest residual deformation (m) after unloading from this side.
     pub residual: f64,
+    /// Where the two legs of pinched reloading meet.
+    pub break_point: Point,
 }
 
 /// Everything that an element remembers.
@@ -115,8 +118,10 @@ pub struct History {
     pub(crate) sides: [Side; 2],
     /// Unloading stiffness (N/m) of a law that degrades.
     pub(crate) unloading_stiffness: f64,
-    /// Work (J) done when the last excursion was reckoned up.
+    /// Energy (J) dissipated when the last excursion was reckoned up.
     pub(crate) reckoned: f64,
+    /// Energy (J) dissipated when the unloading stiffness last fell.
+    pub(crate) reckoned_unloading: f64,
     /// Energy (J) dissipated before the branch: together with the law's dissipation
     /// along it, the whole.
     pub(crate) dissipated: f64,
@@ -136,6 +141,7 @@ impl History {
             sides: [Side::default(); 2],
             unloading_stiffness: 0.0,
             reckoned: 0.0,
+            reckoned_unloading: 0.0,
             dissipated: 0.0,
             reversals: Vec::new(),
         }
@@ -202,6 +208,7 @@ impl Clone for History {
         self.sides = source.sides;
         self.unloading_stiffness = source.unloading_stiffness;
         self.reckoned = source.reckoned;
+        self.reckoned_unloading = source.reckoned_unloading;
         self.dissipated = source.dissipated;
         self.reversals.clone_from(&source.reversals);
     }

@@ -19,6 +19,7 @@ pub mod parameters;
 pub mod registry;
 
 mod bouc_wen_family;
+mod deteriorating;
 mod iwan_fit;
 mod laws;
 mod masing;

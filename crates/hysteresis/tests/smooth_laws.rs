@@ -257,8 +257,7 @@ fn viscous_dampers_dissipate_as_the_closed_form() {
     // int over a cycle of c |v|^(a+1) dt = c A^(a+1) w^a * int_0^(2 pi) |cos|^(a+1),
     // the integral 4, pi, 8/3 for a = 0, 1, 2; for a = 1/2 it is
     // 2 sqrt(pi) Gamma(5/4) / Gamma(7/4) = 3.496 076 76...
-    let half =
-        2.0 * std::f64::consts::PI.sqrt() * 0.906_402_477_055_477 / 0.919_062_526_848_883_2;
+    let half = 2.0 * std::f64::consts::PI.sqrt() * 0.906_402_477_055_477 / 0.919_062_526_848_883_2;
     let cases = [(0.5, half), (1.0, std::f64::consts::PI), (2.0, 8.0 / 3.0)];
     for (a, integral) in cases {
         let parameters = [

@@ -22,6 +22,9 @@ laws! {
     peak_oriented
     origin_oriented
     takeda
+    ibarra_medina_krawinkler_2005_bilinear
+    ibarra_medina_krawinkler_2005_peak_oriented
+    ibarra_medina_krawinkler_2005_pinching
     coulomb_friction
     viscous_damper
     maxwell

@@ -1,0 +1,446 @@
+//! The deteriorating laws of Ibarra, Medina and Krawinkler (Earthquake Engineering
+//! and Structural Dynamics 34 (2005) 1489): an envelope that hardens, is capped,
+//! softens and ends in a residual strength; three rules of reloading; four modes of
+//! cyclic deterioration, driven by dissipated energy.
+//!
+//! All rules are written for the positive side and mirrored.
+
+mod envelope;
+
+use crate::descriptor::{LawDescriptor, ParameterDescriptor, ParameterUnit};
+use crate::error::HysteresisError;
+use crate::history::{Branch, History, Point, Side};
+use crate::law::HysteresisLaw;
+use crate::parameters::{
+    HARDENING_RATIO, LawParameters, STIFFNESS, YIELD_FORCE, non_negative, positive,
+};
+use crate::path::PathLaw;
+use envelope::{Envelope, Stretch};
+
+/// How the element reloads after zero force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Reloading {
+    /// Straight on to the envelope with the unloading stiffness.
+    Bilinear,
+    /// Towards the target on the envelope.
+    PeakOriented,
+    /// First towards a break point with little force, then towards the target.
+    Pinching {
+        /// Force to head for over the force at the target.
+        force: f64,
+        /// Share of the residual deformation by which the break lies before it.
+        deformation: f64,
+    },
+}
+
+const ELASTIC: u8 = 0;
+/// Stretches of the envelope, in the order of [`Stretch`].
+const ENVELOPE: u8 = 1;
+const FROM_ENVELOPE: u8 = 6;
+const FROM_FIRST_LEG: u8 = 7;
+const FROM_SECOND_LEG: u8 = 8;
+const FIRST_LEG: u8 = 9;
+const SECOND_LEG: u8 = 10;
+const FAILED: u8 = 11;
+
+/// Energy capacities of the modes of deterioration over `Fy xy`; zero for none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Capacities {
+    strength: f64,
+    capping: f64,
+    unloading: f64,
+    reloading: f64,
+    exponent: f64,
+}
+
+/// A law of the family.
+#[derive(Debug)]
+pub(crate) struct Deteriorating {
+    card: &'static LawDescriptor,
+    reloading: Reloading,
+    stiffness: f64,
+    yield_force: f64,
+    hardening_ratio: f64,
+    capping_deformation: f64,
+    softening: f64,
+    residual_force: f64,
+    capacities: Capacities,
+}
+
+const fn capacity(name: &'static str, explanation: &'static str) -> ParameterDescriptor {
+    non_negative(name, ParameterUnit::One, explanation).default_to(0.0)
+}
+
+/// Parameters of all three laws, then those of pinching.
+pub(crate) const PARAMETERS: [ParameterDescriptor; 13] = [
+    STIFFNESS,
+    YIELD_FORCE,
+    HARDENING_RATIO,
+    positive(
+        "capping_deformation",
+        ParameterUnit::Metre,
+        "Deformation at which the strength begins to fall on first loading, beyond yield",
+    ),
+    positive(
+        "softening_ratio",
+        ParameterUnit::One,
+        "Fall of the strength beyond the cap over the elastic stiffness",
+    ),
+    capacity(
+        "residual_ratio",
+        "Strength that remains over the yield force",
+    )
+    .within((0.0, true), (1.0, false)),
+    capacity(
+        "strength_capacity",
+        "Energy capacity of the strength over Fy xy; zero for no cyclic deterioration",
+    ),
+    capacity(
+        "capping_capacity",
+        "Energy capacity of the falling line over Fy xy; zero for no cyclic deterioration",
+    ),
+    capacity(
+        "unloading_capacity",
+        "Energy capacity of the unloading stiffness over Fy xy; zero for no cyclic deterioration",
+    ),
+    positive(
+        "deterioration_exponent",
+        ParameterUnit::One,
+        "Exponent c of the rate of deterioration, from 1 to 2",
+    )
+    .within((1.0, true), (2.0, true))
+    .default_to(1.0),
+    capacity(
+        "reloading_capacity",
+        "Energy capacity of the reloading stiffness over Fy xy; zero for no cyclic deterioration",
+    ),
+    positive(
+        "pinching_force",
+        ParameterUnit::One,
+        "Force that the first leg heads for over the force at the target",
+    )
+    .within((0.0, false), (1.0, true))
+    .default_to(0.25),
+    non_negative(
+        "pinching_deformation",
+        ParameterUnit::One,
+        "Share of the greatest residual deformation by which the legs meet before it",
+    )
+    .within((0.0, true), (1.0, true))
+    .default_to(0.5),
+];
+
+/// The law of a card from its parameters.
+pub(crate) fn build(
+    card: &'static LawDescriptor,
+    reloading: Reloading,
+    parameters: &LawParameters,
+) -> Result<Box<dyn HysteresisLaw>, HysteresisError> {
+    let get = |name| parameters.get(card, name);
+    let (stiffness, yield_force) = (get("stiffness")?, get("yield_force")?);
+    let capping_deformation = get("capping_deformation")?;
+    if !(capping_deformation > yield_force / stiffness) {
+        return Err(HysteresisError::Inconsistent {
+            law: card.name,
+            reason: format!(
+                "the cap at {capping_deformation} m does not lie beyond yield at {} m",
+                yield_force / stiffness
+            ),
+            remedy: "take a capping deformation beyond yield_force / stiffness",
+        });
+    }
+    let accelerated = match reloading {
+        Reloading::Bilinear => 0.0,
+        _ => get("reloading_capacity")?,
+    };
+    Ok(Box::new(Deteriorating {
+        card,
+        reloading,
+        stiffness,
+        yield_force,
+        hardening_ratio: get("hardening_ratio")?,
+        capping_deformation,
+        softening: get("softening_ratio")? * stiffness,
+        residual_force: get("residual_ratio")? * yield_force,
+        capacities: Capacities {
+            strength: get("strength_capacity")?,
+            capping: get("capping_capacity")?,
+            unloading: get("unloading_capacity")?,
+            reloading: accelerated,
+            exponent: get("deterioration_exponent")?,
+        },
+    }))
+}
+
+impl Deteriorating {
+    fn yield_deformation(&self) -> f64 {
+        self.yield_force / self.stiffness
+    }
+
+    fn envelope(&self, side: &Side) -> Envelope {
+        Envelope {
+            start: side.yield_force * (1.0 - side.hardening / self.stiffness),
+            hardening: side.hardening,
+            cap: side.cap_intercept,
+            softening: self.softening,
+            limit: side.force_limit,
+            residual: self.residual_force,
+        }
+    }
+
+    /// Rate of deterioration of a mode after `energy` (J) since it last acted, with
+    /// `total` dissipated in all; `None` where the capacity is exhausted.
+    fn rate(&self, capacity: f64, energy: f64, total: f64) -> Option<f64> {
+        if capacity == 0.0 || !(energy > 0.0) {
+            return Some(0.0);
+        }
+        let left = capacity * self.yield_force * self.yield_deformation() - total;
+        let rate = (energy / left).powf(self.capacities.exponent);
+        (left > 0.0 && rate < 1.0).then_some(rate)
+    }
+
+    /// Weakens the side that is about to be loaded, at zero force. `None`: failed.
+    fn deteriorate(&self, history: &mut History, side: f64, dissipated: f64) -> Option<()> {
+        let energy = dissipated - history.reckoned;
+        history.reckoned = dissipated;
+        let modes = self.capacities;
+        let strength = self.rate(modes.strength, energy, dissipated)?;
+        let capping = self.rate(modes.capping, energy, dissipated)?;
+        let reloading = self.rate(modes.reloading, energy, dissipated)?;
+        let side = history.side_mut(side);
+        side.yield_force *= 1.0 - strength;
+        side.hardening *= 1.0 - strength;
+        side.cap_intercept *= 1.0 - capping;
+        side.peak.deformation *= 1.0 + reloading;
+        Some(())
+    }
+
+    /// The stretch of the envelope that holds at this mirrored deformation.
+    fn on_envelope(&self, history: &History, side: f64, deformation: f64) -> Branch {
+        let envelope = self.envelope(history.side(side));
+        let stretch = envelope.stretch(deformation);
+        self.stretch(&envelope, stretch, side, deformation)
+    }
+
+    fn stretch(&self, envelope: &Envelope, stretch: Stretch, side: f64, from: f64) -> Branch {
+        let (force, slope) = envelope.line(stretch, from);
+        if stretch == Stretch::Residual && self.residual_force == 0.0 {
+            return failed(side, from);
+        }
+        let start = Point {
+            deformation: from,
+            force,
+        };
+        Branch::line(ENVELOPE + stretch as u8, side, start.mirrored(side), slope)
+            .towards(side)
+            .between(f64::NEG_INFINITY, envelope.end(stretch))
+    }
+
+    /// Unloading from a mirrored point, retraced if it turns.
+    fn unloading(&self, history: &History, kind: u8, side: f64, from: Point) -> Branch {
+        let slope = history.unloading_stiffness;
+        Branch::line(kind, side, from.mirrored(side), slope)
+            .between(from.deformation - from.force / slope, from.deformation)
+    }
+
+    /// Straight on with the unloading stiffness, up to the envelope.
+    fn straight(&self, history: &History, side: f64, from: Point) -> Branch {
+        let slope = history.unloading_stiffness;
+        let end = self.envelope(history.side(side)).meets(from, slope);
+        Branch::line(SECOND_LEG, side, from.mirrored(side), slope)
+            .towards(side)
+            .between(f64::NEG_INFINITY, end)
+    }
+
+    /// Towards the target on the envelope.
+    fn second_leg(&self, history: &History, side: f64, from: Point) -> Branch {
+        if self.reloading == Reloading::Bilinear {
+            return self.straight(history, side, from);
+        }
+        let memory = history.side(side);
+        let target = memory.peak.deformation;
+        let force = self.envelope(memory).force(target);
+        let way = target - from.deformation;
+        let slope = (force - from.force) / way;
+        if !(way > 0.0) || slope > history.unloading_stiffness {
+            return self.straight(history, side, from);
+        }
+        Branch::line(SECOND_LEG, side, from.mirrored(side), slope)
+            .towards(side)
+            .between(f64::NEG_INFINITY, target)
+    }
+
+    /// Towards the break point.
+    fn first_leg(&self, history: &History, side: f64, from: Point) -> Branch {
+        let to = history.side(side).break_point;
+        let slope = (to.force - from.force) / (to.deformation - from.deformation);
+        Branch::line(FIRST_LEG, side, from.mirrored(side), slope)
+            .towards(side)
+            .between(f64::NEG_INFINITY, to.deformation)
+    }
+
+    /// Loading of a side from zero force at this mirrored deformation.
+    fn reload(&self, history: &mut History, side: f64, at: f64) -> Branch {
+        let from = Point {
+            deformation: at,
+            force: 0.0,
+        };
+        let memory = history.side(side);
+        let target = memory.peak.deformation;
+        let strength = self.envelope(memory).force(target);
+        if self.reloading != Reloading::Bilinear && !(strength > 0.0) {
+            return failed(side, at);
+        }
+        if let Reloading::Pinching { force, deformation } = self.reloading {
+            let meet = (1.0 - deformation) * memory.residual;
+            if at < meet && meet < target {
+                let slope = force * strength / (target - at);
+                history.side_mut(side).break_point = Point {
+                    deformation: meet,
+                    force: slope * (meet - at),
+                };
+                return self.first_leg(history, side, from);
+            }
+        }
+        self.second_leg(history, side, from)
+    }
+
+    /// Zero force reached on unloading from the other side.
+    fn cross(&self, history: &mut History, side: f64, at: f64) -> Branch {
+        let dissipated = self.work(history, side * at);
+        let behind = history.side_mut(-side);
+        behind.residual = behind.residual.max(-at);
+        match self.deteriorate(history, side, dissipated) {
+            Some(()) => self.reload(history, side, at),
+            None => failed(side, at),
+        }
+    }
+
+    /// Unloading stiffness if the path turned here; `None` where its capacity is
+    /// exhausted. It falls on the envelope only.
+    fn stiffness_on_turning(&self, history: &History, deformation: f64) -> Option<f64> {
+        let present = history.unloading_stiffness;
+        if !(ENVELOPE..FROM_ENVELOPE).contains(&history.branch.kind) {
+            return Some(present);
+        }
+        let force = history.branch.force(deformation);
+        let dissipated = self.work(history, deformation) - 0.5 * force * force / present;
+        let energy = dissipated - history.reckoned_unloading;
+        let rate = self.rate(self.capacities.unloading, energy, dissipated)?;
+        Some(present * (1.0 - rate))
+    }
+
+    /// A turning point on the envelope: what the side and the unloading stiffness
+    /// learn from it. Whether the element survives.
+    fn learn(&self, history: &mut History, side: f64, at: Point, stretch: u8) -> bool {
+        let deformation = side * at.deformation;
+        let dissipated = self.dissipated(history, deformation);
+        let Some(stiffness) = self.stiffness_on_turning(history, deformation) else {
+            return false;
+        };
+        history.unloading_stiffness = stiffness;
+        // With the new stiffness: a turning point right after this one adds nothing.
+        history.reckoned_unloading = dissipated;
+        let memory = history.side_mut(side);
+        memory.peak.deformation = memory.peak.deformation.max(at.deformation);
+        let falling = [Stretch::Softening, Stretch::Residual].map(|s| ENVELOPE + s as u8);
+        if self.reloading == Reloading::Bilinear && falling.contains(&stretch) {
+            memory.force_limit = memory.force_limit.min(at.force);
+        }
+        true
+    }
+}
+
+/// An element without force from here on.
+fn failed(side: f64, at: f64) -> Branch {
+    let start = Point {
+        deformation: side * at,
+        force: 0.0,
+    };
+    Branch::line(FAILED, side, start, 0.0)
+}
+
+impl PathLaw for Deteriorating {
+    fn card(&self) -> &'static LawDescriptor {
+        self.card
+    }
+    fn stiffness_when_new(&self) -> f64 {
+        self.stiffness
+    }
+    fn begin(&self) -> History {
+        let range = self.yield_deformation();
+        let hardening = self.hardening_ratio * self.stiffness;
+        let strength = self.yield_force + hardening * (self.capping_deformation - range);
+        let line = Branch::line(ELASTIC, 1.0, Point::default(), self.stiffness);
+        let mut history = History::new(line.between(-range, range));
+        history.unloading_stiffness = self.stiffness;
+        history.sides = [Side {
+            peak: Point {
+                deformation: range,
+                force: self.yield_force,
+            },
+            yield_force: self.yield_force,
+            hardening,
+            cap_intercept: strength + self.softening * self.capping_deformation,
+            force_limit: f64::INFINITY,
+            ..Side::default()
+        }; 2];
+        history
+    }
+    fn stored(&self, history: &History, deformation: f64) -> f64 {
+        let force = history.branch.force(deformation);
+        self.stiffness_on_turning(history, deformation)
+            .map_or(0.0, |stiffness| 0.5 * force * force / stiffness)
+    }
+    fn turn(&self, history: &mut History, deformation: f64) {
+        let (kind, side) = (history.branch.kind, history.branch.side);
+        let at = Point {
+            deformation,
+            force: history.branch.force(deformation),
+        }
+        .mirrored(side);
+        let from = match kind {
+            FIRST_LEG => FROM_FIRST_LEG,
+            SECOND_LEG => FROM_SECOND_LEG,
+            _ => FROM_ENVELOPE,
+        };
+        if from == FROM_ENVELOPE && !self.learn(history, side, at, kind) {
+            // The capacity of the unloading stiffness is exhausted: what is stored
+            // is lost as well.
+            self.switch(history, failed(side, at.deformation));
+            return;
+        }
+        let next = self.unloading(history, from, side, at);
+        self.switch(history, next);
+    }
+    fn leave(&self, history: &mut History, end: f64) {
+        let branch = history.branch;
+        let at = if end > 0.0 {
+            branch.upper
+        } else {
+            branch.lower
+        };
+        let ahead = Point {
+            deformation: end * at,
+            force: end * branch.force(at),
+        };
+        let next = match branch.kind {
+            FROM_FIRST_LEG if end == branch.side => self.first_leg(history, end, ahead),
+            FROM_SECOND_LEG if end == branch.side => self.second_leg(history, end, ahead),
+            FROM_ENVELOPE if end == branch.side => {
+                self.on_envelope(history, end, ahead.deformation)
+            }
+            FROM_FIRST_LEG | FROM_SECOND_LEG | FROM_ENVELOPE => {
+                self.cross(history, end, ahead.deformation)
+            }
+            FIRST_LEG => self.second_leg(history, end, ahead),
+            ELASTIC | SECOND_LEG => self.on_envelope(history, end, ahead.deformation),
+            stretch => {
+                let envelope = self.envelope(history.side(end));
+                let next = Stretch::after(stretch - ENVELOPE, &envelope);
+                self.stretch(&envelope, next, end, ahead.deformation)
+            }
+        };
+        self.switch(history, next);
+    }
+}

@@ -239,6 +239,44 @@ fn ramberg_osgood_backbone_and_cycle_satisfy_their_equations() {
 }
 
 #[test]
+fn menegotto_pinto_law_is_its_formula_and_bilinear_away_from_a_sharp_knee() {
+    // First loading: xy = 0.01, Fy = 1, R = R0 = 2, so s / sqrt(1 + s^2).
+    let mut parameters = YIELDING.to_vec();
+    parameters.extend([
+        ("curvature", 2.0),
+        ("curvature_loss", 0.5),
+        ("curvature_excursion", 0.2),
+    ]);
+    let curved = law("menegotto_pinto_1973", &parameters);
+    let first = |s: f64| 0.05 * s + 0.95 * s / (1.0 + s * s).sqrt();
+    let top = first(3.0);
+    // Down from (0.03, top): the tangent 100 meets the line -0.95 + 5 x.
+    let x0 = (top - 3.0 + 0.95) / (5.0 - 100.0);
+    // The farthest point of that side is still the yield point.
+    let excursion = (-0.01 - x0).abs() / 0.01;
+    let r = 2.0 * (1.0 - 0.5 * excursion / (0.2 + excursion));
+    let s = (0.0 - 0.03) / (x0 - 0.03);
+    let down = 0.05 * s + 0.95 * s / (1.0 + s.powf(r)).powf(1.0 / r);
+    let f0 = -0.95 + 5.0 * x0;
+    follows(
+        curved.as_ref(),
+        &[
+            (0.01, first(1.0)),
+            (0.03, top),
+            (0.0, top + (f0 - top) * down),
+        ],
+    );
+    let mut parameters = YIELDING.to_vec();
+    parameters.extend([("curvature", 100.0), ("curvature_loss", 0.0)]);
+    let sharp = law("menegotto_pinto_1973", &parameters);
+    let path = [0.005, 0.03, 0.02, -0.02, -0.01, 0.03, 0.02];
+    let bilinear = history(law("bilinear", &YIELDING).as_ref(), &path, 1.0);
+    for (a, b) in history(sharp.as_ref(), &path, 1.0).iter().zip(&bilinear) {
+        assert!((a.force - b.force).abs() < 1e-13, "{a:?} {b:?}");
+    }
+}
+
+#[test]
 fn gap_and_hook_act_beyond_their_gaps_only() {
     let law = law(
         "gap_hook",

@@ -18,6 +18,7 @@ laws! {
     ramberg_osgood
     bouc_wen
     baber_noori_1985
+    menegotto_pinto_1973
     modified_clough
     peak_oriented
     origin_oriented

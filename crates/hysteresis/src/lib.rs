@@ -8,6 +8,22 @@
 //!
 //! Deformation and force of one law have the same sign: a positive deformation of
 //! a spring makes a positive force. Units are SI throughout.
+//!
+//! ```
+//! use pounding_hysteresis::{LawParameters, build, laboratory};
+//!
+//! let parameters = LawParameters::from_pairs(&[
+//!     ("stiffness", 2.0e7),
+//!     ("yield_force", 2.0e5),
+//!     ("hardening_ratio", 0.05),
+//! ]);
+//! let law = build("bilinear", &parameters)?;
+//! let points = laboratory::history(law.as_ref(), &[0.03, -0.03, 0.03], 0.01);
+//! // A full cycle loses 4 (1 - r) Fy (A - Fy / k).
+//! let cycle = points[2].dissipated - points[0].dissipated;
+//! assert!((cycle - 4.0 * 0.95 * 2.0e5 * 0.02).abs() < 1e-8);
+//! # Ok::<(), pounding_hysteresis::HysteresisError>(())
+//! ```
 
 pub mod descriptor;
 pub mod error;

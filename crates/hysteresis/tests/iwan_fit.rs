@@ -1,0 +1,93 @@
+//! Parameters of an Iwan density from dissipation curves.
+#![allow(clippy::unwrap_used)]
+
+use pounding_hysteresis::HysteresisError;
+use pounding_hysteresis::iwan::{FitOptions, IwanDensity, fit_dissipation};
+
+/// A density with all six parameters.
+fn document() -> IwanDensity {
+    IwanDensity {
+        density: 2.0e6,
+        exponent: -0.3,
+        phi_1: 1.0e-5,
+        phi_2: 1.0e-4,
+        slider_stiffness: 3.0e3,
+        residual_stiffness: 1.0e3,
+    }
+}
+
+#[test]
+fn a_fit_finds_the_density_that_made_the_curve() {
+    let truth = document();
+    let measured: Vec<(f64, f64)> = (0..40)
+        .map(|i| 1.2e-5 * 1.1_f64.powi(i))
+        .map(|a| (a, truth.cycle_dissipation(a)))
+        .collect();
+    let guess = IwanDensity {
+        density: 3e5,
+        exponent: -0.5,
+        phi_1: 0.6e-5,
+        phi_2: 2e-4,
+        slider_stiffness: 1e3,
+        residual_stiffness: 1e3,
+    };
+    let fit = fit_dissipation(&measured, guess, FitOptions::default()).unwrap();
+    assert!(fit.relative_error < 1e-9, "{fit:?}");
+    let pairs = [
+        (fit.density.density, truth.density),
+        (fit.density.exponent, truth.exponent),
+        (fit.density.phi_1, truth.phi_1),
+        (fit.density.phi_2, truth.phi_2),
+        (fit.density.slider_stiffness, truth.slider_stiffness),
+    ];
+    for (found, expected) in pairs {
+        assert!((found / expected - 1.0).abs() < 1e-5, "{fit:?}");
+    }
+    assert_eq!(fit.density.residual_stiffness, guess.residual_stiffness);
+}
+
+#[test]
+fn a_fit_through_scattered_measurements_stays_near_and_reports_the_scatter() {
+    let truth = IwanDensity::segalman(4000.0, 1.5e7, -0.5, 0.3).unwrap();
+    // A fixed scatter of 2 %, by the golden ratio.
+    let scatter = |i: usize| 1.0 + 0.04 * ((i as f64 * 0.618_033_988_75).fract() - 0.5);
+    let measured: Vec<(f64, f64)> = (0..60)
+        .map(|i| (i, 2e-5 * 1.08_f64.powi(i as i32)))
+        .map(|(i, a)| (a, truth.cycle_dissipation(a) * scatter(i)))
+        .collect();
+    let guess = IwanDensity {
+        density: 1e8,
+        exponent: -0.2,
+        phi_2: 4e-4,
+        slider_stiffness: 1e6,
+        ..truth
+    };
+    let fit = fit_dissipation(&measured, guess, FitOptions::default()).unwrap();
+    // Uniform scatter of half width 2 % has a root mean square of 1.15 %.
+    assert!((0.008..0.013).contains(&fit.relative_error), "{fit:?}");
+    assert!(
+        (fit.density.exponent - truth.exponent).abs() < 0.03,
+        "{fit:?}"
+    );
+    assert!(
+        (fit.density.phi_2 / truth.phi_2 - 1.0).abs() < 0.05,
+        "{fit:?}"
+    );
+}
+
+#[test]
+fn data_that_cannot_be_fitted_are_refused_with_a_remedy() {
+    let few = [(1e-5, 1e-6), (2e-5, 1e-5)];
+    let negative = [
+        (1e-5, 1e-6),
+        (2e-5, -1e-5),
+        (3e-5, 1.0),
+        (4e-5, 1.0),
+        (5e-5, 1.0),
+    ];
+    for measured in [&few[..], &negative[..]] {
+        let error = fit_dissipation(measured, document(), FitOptions::default()).unwrap_err();
+        assert!(matches!(error, HysteresisError::Fit { .. }));
+        assert!(error.help().is_some());
+    }
+}

@@ -3,6 +3,18 @@
 use crate::error::GroundMotionError;
 use crate::unit::AccelerationUnit;
 
+/// What the agency did to a series before it published it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Processing {
+    /// The file does not say.
+    #[default]
+    Unstated,
+    /// Nothing: an offset of the instrument remains.
+    Raw,
+    /// Baseline or filter corrections.
+    Corrected,
+}
+
 /// Where a record came from and how it was understood.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origin {
@@ -12,12 +24,22 @@ pub struct Origin {
     pub format: &'static str,
     /// Header text that names event, station or component.
     pub title: String,
+    /// Component as the file names it; empty if it does not.
+    pub component: String,
     /// Unit of the values in the file, and who stated it.
     pub unit: String,
     /// Time step (s) and who stated it.
     pub time_step: String,
     /// Number of samples in the header, if it has one.
     pub header_count: Option<usize>,
+    /// What the agency did to it.
+    pub processing: Processing,
+    /// Time of the first sample as printed, with its zone; empty if not stated.
+    pub start_time: String,
+    /// Corner frequency (Hz) of the low-cut filter.
+    pub low_corner: Option<f64>,
+    /// Corner frequency (Hz) of the high-cut filter.
+    pub high_corner: Option<f64>,
     /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
     /// What the user should know.
@@ -73,7 +95,7 @@ impl Accelerogram {
         }
         let factor = unit.in_si();
         Ok(Self {
-            samples: samples.iter().map(|a| a * factor).collect(),
+            samples: samples.into_iter().map(|a| a * factor).collect(),
             time_step,
             scale: 1.0,
             origin: None,
@@ -185,6 +207,9 @@ impl Accelerogram {
             lines.push(format!("{} ({})", origin.file, origin.format));
             if !origin.title.is_empty() {
                 lines.push(origin.title.clone());
+            }
+            if !origin.component.is_empty() {
+                lines.push(format!("component {}", origin.component));
             }
             lines.push(format!(
                 "unit {}, time step {}",

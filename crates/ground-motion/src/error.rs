@@ -1,5 +1,7 @@
 //! What can be wrong with a record.
 
+use crate::formats::Format;
+
 /// A record that cannot be read or used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -25,6 +27,16 @@ pub enum GroundMotionError {
         message: String,
         /// What to do about it.
         remedy: String,
+    },
+    /// The bytes are not of the format.
+    #[error("{file}: byte {offset}: {message}")]
+    Binary {
+        /// File.
+        file: String,
+        /// Offset, from 0.
+        offset: usize,
+        /// What is wrong there.
+        message: String,
     },
     /// No reader knows the file.
     #[error("{file}: the format of this record is not known")]
@@ -63,12 +75,16 @@ pub enum GroundMotionError {
         given: String,
     },
     /// Fewer samples than the header says.
-    #[error("{file}:{line}: the header says {expected} samples, the file ends after {found}")]
+    #[error(
+        "{file}:{line}:{column}: the header says {expected} samples, the series ends after {found}"
+    )]
     TooFewSamples {
         /// File.
         file: String,
-        /// Last line, from 1.
+        /// Line where they end, from 1.
         line: usize,
+        /// Column, from 1.
+        column: usize,
         /// Count in the header.
         expected: usize,
         /// Count found.
@@ -81,6 +97,59 @@ pub enum GroundMotionError {
         file: String,
         /// What it is.
         quantity: &'static str,
+    },
+    /// Several series, of which none is chosen.
+    #[error("{file}: {} series are possible: {}", available.len(), list(available))]
+    AmbiguousSeries {
+        /// File.
+        file: String,
+        /// What is there.
+        available: Vec<String>,
+    },
+    /// No series of this component.
+    #[error(
+        "{file}: there is no component \"{component}\" among {}",
+        list(available)
+    )]
+    NoSuchSeries {
+        /// File.
+        file: String,
+        /// Component asked for.
+        component: String,
+        /// What is there.
+        available: Vec<String>,
+    },
+    /// Samples at uneven times.
+    #[error(
+        "{file}: the time column is not even: {count} samples, {mean:.6} s apart on average, {smallest:.6} s to {largest:.6} s"
+    )]
+    Uneven {
+        /// File.
+        file: String,
+        /// Number of samples.
+        count: usize,
+        /// Mean step (s).
+        mean: f64,
+        /// Smallest step (s).
+        smallest: f64,
+        /// Largest step (s).
+        largest: f64,
+    },
+    /// Counts without the instrument's sensitivity.
+    #[error("{file}: the record is in counts and does not state how many make 1 m/s2")]
+    MissingSensitivity {
+        /// File.
+        file: String,
+    },
+    /// A file of a known kind that holds no time series to use.
+    #[error("{file}: {what}")]
+    Unsupported {
+        /// File.
+        file: String,
+        /// What it is.
+        what: String,
+        /// What to do about it.
+        remedy: &'static str,
     },
     /// A unit that is not one of acceleration.
     #[error("\"{text}\" is not a unit of acceleration{hint}")]
@@ -95,6 +164,13 @@ pub enum GroundMotionError {
     Invalid(String),
 }
 
+/// The first series of a list; files have had hundreds.
+fn list(available: &[String]) -> String {
+    let more = if available.len() > 12 { ", ..." } else { "" };
+    let shown: Vec<&str> = available.iter().take(12).map(String::as_str).collect();
+    format!("{}{more}", shown.join(", "))
+}
+
 impl GroundMotionError {
     /// What to do about it.
     #[must_use]
@@ -104,8 +180,13 @@ impl GroundMotionError {
                 "check the path; it is relative to the folder of the case file".to_owned()
             }
             Self::Parse { remedy, .. } => remedy.clone(),
+            Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),
             Self::UnknownFormat { .. } => {
-                "known formats: our CSV layout, PEER AT2, plain columns; for plain columns give `format = \"plain_columns\"`, `unit` and `time_step`".to_owned()
+                let known: Vec<&str> = Format::ALL.iter().map(|f| f.name()).collect();
+                format!(
+                    "known formats: {}; for columns of numbers give `format = \"plain_columns\"`, `unit` and `time_step`",
+                    known.join(", ")
+                )
             }
             Self::MissingUnit { .. } => {
                 "add `unit = \"g\"` (or m/s2, cm/s2, ...) to [ground_motion]; units are never guessed".to_owned()
@@ -122,6 +203,17 @@ impl GroundMotionError {
             Self::NotAcceleration { .. } => {
                 "use the acceleration file of the same record (AT2 beside VT2 and DT2)".to_owned()
             }
+            Self::AmbiguousSeries { .. } => {
+                "choose one with `component`: its name, azimuth or channel number".to_owned()
+            }
+            Self::NoSuchSeries { .. } => "correct `component`".to_owned(),
+            Self::Uneven { mean, .. } => format!(
+                "give `time_step` (at most {mean:.6} s) to have the record resampled to even steps by linear interpolation"
+            ),
+            Self::MissingSensitivity { .. } => {
+                "give `sensitivity` in counts per m/s2: InstrumentSensitivity in the station's StationXML, for input units M/S**2".to_owned()
+            }
+            Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
             Self::Unit { .. } => "use g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),
             Self::Invalid(_) => "check unit, time step and scale of the record".to_owned(),
         })

@@ -1,15 +1,32 @@
 //! Accelerogram readers, one format a file, and scaling.
 //!
-//! An [`Accelerogram`] cannot exist without unit and time step: it holds samples
-//! in m/s2 and says where unit and step came from.
+//! [`read_all`] returns every series of a file as a [`Recording`]; [`read`]
+//! chooses the acceleration that excites the buildings. An [`Accelerogram`]
+//! cannot exist without unit and time step: it holds samples in m/s2 and says
+//! where unit and step came from.
 
 mod accelerogram;
+mod draft;
 mod error;
 mod formats;
+mod fortran;
 mod number;
+mod options;
+mod quantity;
+mod recording;
+mod select;
+mod source;
+mod text;
+mod time_column;
 mod unit;
+mod volume;
+mod volume_1;
+mod volume_2;
 
-pub use accelerogram::{Accelerogram, Origin, Peak};
+pub use accelerogram::{Accelerogram, Origin, Peak, Processing};
 pub use error::GroundMotionError;
-pub use formats::{Format, ReadOptions, read, read_bytes};
+pub use formats::{Format, read, read_all, read_all_bytes, read_bytes};
+pub use options::{Offset, ReadOptions};
+pub use quantity::Quantity;
+pub use recording::{HeaderPeak, Recording, Sampling, Series};
 pub use unit::AccelerationUnit;

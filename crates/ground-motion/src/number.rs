@@ -1,30 +1,188 @@
 //! Numbers as agencies print them.
 
+/// Magnitude from which a value is the `1.7E+38` that stands for "missing".
+const MISSING: f64 = 1.0e37;
+
 /// Parses `.5`, `5.`, `1.0D-03`, `1.234-103`; refuses NaN, infinities, Fortran
-/// overflow and decimal commas with the reason.
-pub(crate) fn parse(text: &str) -> Result<f64, String> {
-    let plain = text.trim();
-    if plain.contains('*') {
+/// overflow, decimal commas and values that stand for missing, with the reason.
+pub(crate) fn parse(field: &[u8]) -> Result<f64, String> {
+    let plain = field.trim_ascii();
+    let simple = |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E');
+    if plain.iter().all(simple)
+        && let Ok(text) = std::str::from_utf8(plain)
+        && let Ok(value) = text.parse::<f64>()
+    {
+        return present(value, plain);
+    }
+    spelled(plain)
+}
+
+/// Numbers that Rust does not take as they stand.
+fn spelled(plain: &[u8]) -> Result<f64, String> {
+    let shown = shown(plain);
+    if plain.is_empty() {
+        return Err("a value is missing: the field is blank".to_owned());
+    }
+    if plain.contains(&b'*') {
         return Err(format!(
-            "\"{plain}\" is a Fortran overflow: the value did not fit its field"
+            "\"{shown}\" is a Fortran overflow: the value did not fit its field"
         ));
     }
-    if plain.contains(',') {
-        return Err(format!("\"{plain}\" has a decimal comma"));
+    if plain.contains(&b',') {
+        return Err(format!("\"{shown}\" has a decimal comma"));
     }
-    let lower = plain.to_ascii_lowercase();
-    if lower.contains("nan") || lower.contains("inf") {
-        return Err(format!("\"{plain}\" is not a number"));
+    let not = || format!("\"{shown}\" is not a number");
+    let fortran =
+        |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E' | b'd' | b'D');
+    if plain.len() > 64 || !plain.iter().all(fortran) {
+        return Err(not());
     }
-    let mut normal = lower.replace('d', "e");
+    let mut normal = String::with_capacity(plain.len() + 1);
+    for b in plain {
+        normal.push(match b {
+            b'd' | b'D' | b'E' => 'e',
+            other => char::from(*other),
+        });
+    }
     if !normal.contains('e')
         && let Some(at) = normal.rfind(['+', '-']).filter(|at| *at > 0)
     {
         normal.insert(at, 'e');
     }
-    match normal.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(format!("\"{plain}\" is too large")),
-        Err(_) => Err(format!("\"{plain}\" is not a number")),
+    let value = normal.parse::<f64>().map_err(|_| not())?;
+    present(value, plain)
+}
+
+fn present(value: f64, plain: &[u8]) -> Result<f64, String> {
+    if !value.is_finite() {
+        Err(format!("\"{}\" is too large", shown(plain)))
+    } else if value.abs() > MISSING {
+        Err(format!(
+            "\"{}\" stands for a value that is missing",
+            shown(plain)
+        ))
+    } else {
+        Ok(value)
+    }
+}
+
+/// The field for a message: printable, not long.
+pub(crate) fn shown(field: &[u8]) -> String {
+    let mut text: String = field
+        .iter()
+        .take(24)
+        .map(|b| char::from(*b))
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect();
+    if field.len() > 24 {
+        text.push('…');
+    }
+    text
+}
+
+/// One unit of the last printed digit: 0.01 for `3.25`, 1e-5 for `1.00E-03`.
+pub(crate) fn resolution(field: &[u8]) -> f64 {
+    let plain = field.trim_ascii();
+    let mut decimals = 0_i32;
+    let mut after_point = false;
+    let mut exponent = 0_i32;
+    for (i, b) in plain.iter().enumerate() {
+        match b {
+            b'.' => after_point = true,
+            b'0'..=b'9' if after_point => decimals += 1,
+            b'e' | b'E' | b'd' | b'D' => {
+                exponent = std::str::from_utf8(&plain[i + 1..])
+                    .ok()
+                    .and_then(|t| t.parse().ok())
+                    .unwrap_or(0);
+                break;
+            }
+            _ => {}
+        }
+    }
+    10.0_f64.powi(exponent.clamp(-400, 400) - decimals.min(400))
+}
+
+/// The first number in a text, with one unit of its last printed digit.
+pub(crate) fn first_in(text: &str) -> Option<(f64, f64)> {
+    let part =
+        |b: &u8| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'e' | b'E' | b'd' | b'D');
+    text.as_bytes()
+        .split(|b| !part(b))
+        .filter(|field| field.first().is_some_and(|b| !b.is_ascii_alphabetic()))
+        .find_map(|field| {
+            // A full stop may touch it: the digits alone count.
+            let end = field.iter().rposition(u8::is_ascii_digit)? + 1;
+            [field, &field[..end]]
+                .into_iter()
+                .find_map(|f| Some((parse(f).ok()?, resolution(f))))
+        })
+}
+
+/// The first number after a key, any case: `MAX = -.200 G` for `max`.
+pub(crate) fn after(text: &str, key: &str) -> Option<(f64, f64)> {
+    let lower = text.to_ascii_lowercase();
+    let at = lower.find(key)? + key.len();
+    first_in(text.get(at..)?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn forms_that_fortran_prints() {
+        for (text, value) in [
+            (".123", 0.123),
+            ("-.5", -0.5),
+            ("5.", 5.0),
+            ("+1.0E-03", 1e-3),
+            ("1.0D-03", 1e-3),
+            ("1.234-103", 1.234e-103),
+            ("-2.2223E+0", -2.2223),
+            ("0.0000000e+000", 0.0),
+            (" -0.0 ", 0.0),
+        ] {
+            assert_eq!(parse(text.as_bytes()).unwrap(), value, "{text}");
+        }
+        for text in [
+            "NaN",
+            "inf",
+            "-Infinity",
+            "********",
+            "0,5",
+            "",
+            "1.7E+38",
+            "1e999",
+            "--1",
+            "1e",
+        ] {
+            assert!(parse(text.as_bytes()).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn printed_digits() {
+        for (text, unit) in [
+            ("3.25", 1e-2),
+            ("1.00E-03", 1e-5),
+            ("12", 1.0),
+            (".020", 1e-3),
+        ] {
+            assert!(
+                (resolution(text.as_bytes()) / unit - 1.0).abs() < 1e-12,
+                "{text}"
+            );
+        }
+        assert_eq!(
+            after("MAX  =  -.200 G, AT  11.576 SEC.", "max").unwrap().0,
+            -0.2
+        );
+        assert_eq!(
+            after("MAX  =  -.200 G, AT  11.576 SEC.", " at ").unwrap().0,
+            11.576
+        );
+        assert_eq!(first_in("at 100 Samples/sec").unwrap().0, 100.0);
     }
 }

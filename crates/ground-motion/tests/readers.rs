@@ -88,6 +88,7 @@ fn counts_are_held_against_the_header() {
 fn fortran_numbers_and_damage() {
     let plain = |text: &str| {
         let options = ReadOptions {
+            layout: Some("a".to_owned()),
             unit: Some(AccelerationUnit::MetrePerSecondSquared),
             time_step: Some(0.01),
             ..ReadOptions::default()
@@ -152,32 +153,6 @@ fn records_of_the_repository() {
     assert!((kobe.peak().time - 5.52).abs() < 1e-12);
     let scaled = el_centro.scaled_to_peak(1.0).unwrap();
     assert!((scaled.peak().value - 1.0).abs() < 1e-15);
-}
-
-/// The same El Centro record as the agency publishes it, where it is at hand.
-#[test]
-fn real_files_where_they_are_at_hand() {
-    let native =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/ground_motions/native");
-    let path = native.join("ElCentro1940_NS_Peknold__elCentro.AT2");
-    if path.exists() {
-        let record = read(&path, &ReadOptions::default());
-        let record = match record {
-            Err(GroundMotionError::MissingUnit { .. }) => read(
-                &path,
-                &ReadOptions {
-                    unit: Some(AccelerationUnit::StandardGravity),
-                    ..ReadOptions::default()
-                },
-            )
-            .unwrap(),
-            other => other.unwrap(),
-        };
-        assert_eq!(
-            record.samples(),
-            repository("el_centro_1940_ns.csv").samples()
-        );
-    }
 }
 
 proptest! {

@@ -1,151 +1,182 @@
-//! PEER AT2 in all header forms that were met: `NPTS=, DT=`, numbers first, four
-//! or seven header lines, and the free header of Peknold's El Centro.
+//! PEER strong-motion database: AT2 (acceleration), VT2 (velocity) and DT2
+//! (displacement) in all header forms that were met: `NPTS=, DT=`, numbers first,
+//! four or seven header lines, and the free header of Peknold's El Centro.
 
-use super::{Found, Source, fields};
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::number;
-use crate::unit::AccelerationUnit;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::{Line, Lines};
 
 /// Lines looked through for the header.
 const HEADER_LINES: usize = 12;
+/// Lines looked through for the start of the data after a free header.
+const FREE_LINES: usize = 60;
 const REMEDY: &str =
     "an AT2 header has a line such as `NPTS=  4000, DT= .01000 SEC` or `4000  0.0100  NPTS, DT`";
 
-/// Line of the header's counts: index, count, step.
-struct Counts {
+/// What the header says.
+struct Header {
     line: usize,
-    count: Option<usize>,
+    count: usize,
     step: Option<f64>,
+    text: Vec<String>,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
-    counts_line(source).is_some() || spaced_line(source).is_some()
-}
-
-fn counts_line(source: &Source<'_>) -> Option<usize> {
-    source.lines.iter().take(HEADER_LINES).position(|l| {
-        let upper = l.to_ascii_uppercase();
-        upper.contains("NPTS") && upper.contains("DT")
-    })
+fn is_counts(line: &Line<'_>) -> bool {
+    let lower = line.lower();
+    lower.contains("npts") && lower.contains("dt")
 }
 
 /// `1559 points at equal spacing of 0.02 sec`.
-fn spaced_line(source: &Source<'_>) -> Option<usize> {
-    source.lines.iter().take(60).position(|l| {
-        l.to_ascii_lowercase()
-            .contains("points at equal spacing of")
-    })
+fn is_spaced(line: &Line<'_>) -> bool {
+    line.lower().contains("points at equal spacing of")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
-    let (counts, first) = if let Some(line) = counts_line(source) {
-        (counts(source, line), line + 1)
-    } else if let Some(line) = spaced_line(source) {
-        let begin = source
-            .lines
-            .iter()
-            .position(|l| l.to_ascii_lowercase().contains("begin data"));
-        (numbers_first(source, line), begin.unwrap_or(line) + 1)
-    } else {
-        return Err(source.error(0, 0, "no line with NPTS and DT".to_owned(), REMEDY));
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.lines().take(HEADER_LINES).any(|l| is_counts(&l))
+        || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let header = header(source, &mut lines)?;
+    let unit = unit(source, &header)?;
+    let first = lines.number() + 1;
+    // A value takes two bytes at least.
+    let mut samples = Vec::with_capacity((lines.remaining() / 2 + 1).min(header.count + 1));
+    for line in lines.by_ref() {
+        if line.is_text() {
+            if line.lower().contains("end data") {
+                break;
+            }
+        } else if line.is_blank() {
+            continue;
+        }
+        for (column, field) in line.fields() {
+            samples.push(source.number(line, column, field)?);
+        }
+    }
+    let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
+    draft.times = Times::Step(header.step);
+    draft.header_count = Some(header.count);
+    draft.processing = Processing::Corrected;
+    let all = header.text.join(" ");
+    draft.peak = peak(&draft.unit, &all);
+    draft.corners = (
+        number::after(&all, "hp=").map(|n| n.0).filter(|f| *f > 0.0),
+        number::after(&all, "lp=").map(|n| n.0).filter(|f| *f > 0.0),
+    );
+    let shown = header.text.len().saturating_sub(1).min(2);
+    draft.title = header.text[..shown].join("; ");
+    Ok(vec![draft.finish(source)?])
+}
+
+/// Reads the header; `lines` are at the data afterwards.
+fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMotionError> {
+    let position = source.lines().take(HEADER_LINES).find(is_counts);
+    let spaced = source.lines().take(FREE_LINES).find(is_spaced);
+    let Some(line) = position.or(spaced) else {
+        return Err(source.error(1, 0, "no line with NPTS and DT", REMEDY));
     };
-    if counts.count.is_none() {
+    let last = match position {
+        Some(line) => line.number,
+        None => source
+            .lines()
+            .take(FREE_LINES)
+            .find(|l| l.lower().contains("begin data"))
+            .map_or(line.number, |l| l.number),
+    };
+    let mut text = Vec::new();
+    while lines.number() < last
+        && let Some(l) = lines.next()
+    {
+        text.push(l.text().trim().to_owned());
+    }
+    let (count, step) = counts(line);
+    let Some(count) = count else {
         return Err(source.error(
-            counts.line,
+            line.number,
             0,
-            format!("no count of samples in \"{}\"", source.lines[counts.line]),
+            format!("no count of samples in \"{}\"", number::shown(line.bytes)),
             REMEDY,
         ));
-    }
-    let stated = unit(source, first)?;
-    let mut samples = Vec::new();
-    for (i, line) in source.lines.iter().enumerate().skip(first) {
-        if line.to_ascii_lowercase().contains("end data") {
-            break;
-        }
-        for (column, field) in fields(line) {
-            samples.push(source.number(i, column, field)?);
-        }
-    }
-    let mut warnings = Vec::new();
-    source.count(&mut samples, counts.count, &mut warnings)?;
-    let (time_step, time_step_source) = source.time_step(counts.step, counts.line)?;
-    let peak = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-    let (unit, unit_source) = source.unit(stated, first, peak)?;
-    Ok(Found {
-        samples,
-        unit,
-        unit_source,
-        time_step,
-        time_step_source,
-        title: source
-            .lines
-            .iter()
-            .take(counts.line.min(2))
-            .map(|l| l.trim())
-            .collect::<Vec<_>>()
-            .join("; "),
-        header_count: counts.count,
-        warnings,
+    };
+    Ok(Header {
+        line: line.number,
+        count,
+        step,
+        text,
     })
 }
 
-fn counts(source: &Source<'_>, line: usize) -> Counts {
-    let upper = source.lines[line].to_ascii_uppercase();
+fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
+    let lower = line.lower();
     let after = |key: &str| {
-        let at = upper.find(key)? + key.len();
-        let rest = upper[at..].trim_start().strip_prefix('=')?;
+        let at = lower.find(key)? + key.len();
+        let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
         rest.trim_start().split([' ', ',', '\t']).next()
     };
-    if let Some(count) = after("NPTS") {
-        return Counts {
-            line,
-            count: count.parse().ok(),
-            step: after("DT").and_then(|t| number::parse(t).ok()),
-        };
+    if let Some(count) = after("npts") {
+        let step = after("dt").and_then(|t| number::parse(t.as_bytes()).ok());
+        return (count.parse().ok(), step);
     }
-    numbers_first(source, line)
+    let mut numbers = line
+        .fields()
+        .filter_map(|(_, f)| number::parse(f).ok());
+    let count = numbers
+        .next()
+        .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));
+    (count.map(|n| n as usize), numbers.next())
 }
 
-/// The first two numbers of a line: count and step.
-fn numbers_first(source: &Source<'_>, line: usize) -> Counts {
-    let mut numbers = fields(source.lines[line]).filter_map(|(_, f)| number::parse(f).ok());
-    Counts {
-        line,
-        count: numbers
-            .next()
-            .filter(|n| n.fract() == 0.0 && *n >= 0.0)
-            .map(|n| n as usize),
-        step: numbers.next(),
+/// Unit from the header's text: `IN UNITS OF G`, `The units are (g)`.
+fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
+    let all = header.text.join(" ").to_ascii_lowercase();
+    let stated = all.split("units").skip(1).find_map(|after| {
+        let after = after.trim_start();
+        let word = after
+            .strip_prefix("of")
+            .or_else(|| after.strip_prefix("are"))
+            .or_else(|| after.strip_prefix(':'))?;
+        let word = word.trim_start_matches([' ', '(', ':']);
+        let end = word
+            .find([' ', ',', ')', '\t', ';'])
+            .unwrap_or(word.len());
+        SeriesUnit::parse(&word[..end])
+    });
+    if let Some(unit) = stated {
+        return Ok(DraftUnit::Stated(unit));
     }
+    let words = |q: Quantity| all.contains(&format!("{} time", q.name()));
+    for quantity in [Quantity::Velocity, Quantity::Displacement] {
+        if words(quantity) && !words(Quantity::Acceleration) {
+            return Err(GroundMotionError::NotAcceleration {
+                file: source.file.to_owned(),
+                quantity: quantity.name(),
+            });
+        }
+    }
+    Ok(DraftUnit::Unstated)
 }
 
-/// Unit from the header's text; velocities and displacements are refused.
-fn unit(source: &Source<'_>, first: usize) -> Result<Option<AccelerationUnit>, GroundMotionError> {
-    let header = source.lines[..first].join(" ").to_ascii_uppercase();
-    let not = |quantity| GroundMotionError::NotAcceleration {
-        file: source.file.to_owned(),
-        quantity,
+/// `PGA=`, `PGV=` or `PGD=` of newer headers, in the unit of the samples.
+fn peak(unit: &DraftUnit, text: &str) -> Option<DraftPeak> {
+    let DraftUnit::Stated(unit) = unit else {
+        return None;
     };
-    let Some(at) = header.find("UNITS OF") else {
-        return Ok(None);
+    let key = match unit.quantity {
+        Quantity::Acceleration => "pga=",
+        Quantity::Velocity => "pgv=",
+        Quantity::Displacement => "pgd=",
     };
-    let unit = header[at + "UNITS OF".len()..].trim_start();
-    if unit.starts_with("CM/SEC/SEC")
-        || unit.starts_with("CM/S/S")
-        || unit.starts_with("CM/S2")
-        || unit.starts_with("CM/SEC2")
-    {
-        Ok(Some(AccelerationUnit::Gal))
-    } else if unit.starts_with("CM/S") {
-        Err(not("velocity"))
-    } else if unit.starts_with("CM") {
-        Err(not("displacement"))
-    } else if unit.starts_with('G') {
-        Ok(Some(AccelerationUnit::StandardGravity))
-    } else if unit.starts_with("M/S") {
-        Ok(Some(AccelerationUnit::MetrePerSecondSquared))
-    } else {
-        Ok(None)
-    }
+    Some(DraftPeak {
+        value: number::after(text, key)?,
+        time: None,
+        unit: None,
+        shift: 0.0,
+    })
 }

@@ -1,185 +1,219 @@
-//! Plain columns of numbers: `"a"` along the rows, or named columns.
+//! Plain columns of numbers: one column, a series wrapped along the rows, times
+//! and one or more series, `npts dt` before the values, card images with row
+//! numbers; with any number of comment and text lines before them.
 
-use super::{Found, Source, fields};
+use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::fortran::Layout;
 use crate::number;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::Line;
+use crate::time_column::TimeColumn;
 
-const COMMENTS: [&str; 6] = ["#", "%", "*", "!", "//", "$"];
+mod survey;
 
-fn is_comment(line: &str) -> bool {
-    let start = line.trim_start();
-    COMMENTS.iter().any(|c| start.starts_with(c))
+use survey::{Arrangement, Survey};
+
+const COMMENTS: [&[u8]; 6] = [b"#", b"%", b"*", b"!", b"//", b"$"];
+/// Names of columns that are not accelerations.
+const OTHERS: [&str; 4] = ["-", "row", "velocity", "displacement"];
+
+fn is_comment(line: &Line<'_>) -> bool {
+    let start = line.bytes.trim_ascii_start();
+    COMMENTS.iter().any(|c| start.starts_with(c)) && !start.starts_with(b"**")
+}
+
+/// Rows of numbers: no comments, no blank lines, no text before the first row;
+/// each with the characters cut off that the user wants cut off.
+fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
+    let columns = source.options.skip_columns;
+    source
+        .lines()
+        .skip(source.options.skip_lines)
+        .map(move |l| Line {
+            number: l.number,
+            bytes: l.bytes.get(columns..).unwrap_or(&[]),
+        })
+        .filter(|l| !l.is_blank() && !is_comment(l))
+        .skip_while(Line::is_text)
+}
+
+fn looks_numeric(field: &[u8]) -> bool {
+    number::parse(field).is_ok()
+        || field.iter().all(|b| *b == b'*')
+        || [&b"nan"[..], b"inf", b"-inf", b"+inf"]
+            .iter()
+            .any(|w| field.eq_ignore_ascii_case(w))
 }
 
 pub(crate) fn matches(source: &Source<'_>) -> bool {
-    let mut lines = source
-        .lines
-        .iter()
-        .skip(source.options.skip_lines)
-        .filter(|l| !l.trim().is_empty() && !is_comment(l))
-        .take(30)
-        .peekable();
     // A damaged value is still a number to detection: the reader names it.
-    lines.peek().is_some() && lines.all(|l| fields(l).all(|(_, f)| looks_numeric(f)))
+    let mut first = rows(source).take(30).peekable();
+    first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| looks_numeric(f)))
 }
 
-fn looks_numeric(field: &str) -> bool {
-    number::parse(field).is_ok()
-        || field.chars().all(|c| c == '*')
-        || ["nan", "inf", "-inf"].contains(&field.to_ascii_lowercase().as_str())
-}
-
-pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
-    let mut rows = Vec::new();
-    for (i, line) in source
-        .lines
-        .iter()
-        .enumerate()
-        .skip(source.options.skip_lines)
-    {
-        if line.trim().is_empty() || is_comment(line) {
-            continue;
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    if let Some(text) = &source.options.layout {
+        if let Some(layout) = Layout::parse(text) {
+            return fixed(source, layout);
         }
-        let row = fields(line)
-            .map(|(column, f)| source.number(i, column, f))
-            .collect::<Result<Vec<_>, _>>()?;
-        rows.push((i, row));
+        let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
+        if names == ["a"] {
+            let survey = Survey::new(source, true)?;
+            return wrapped(source, &survey, None);
+        }
+        let survey = Survey::new(source, true)?;
+        return columns(source, &survey, &names);
     }
-    let Some((first, _)) = rows.first() else {
-        return Err(source.error(
-            0,
-            0,
-            "the file has no data".to_owned(),
-            "give a file with values",
-        ));
-    };
-    let first = *first;
-    let layout = source
-        .options
-        .layout
-        .clone()
-        .unwrap_or_else(|| if is_time(&rows) { "t,a" } else { "a" }.to_owned());
-    let names: Vec<&str> = layout.split(',').map(str::trim).collect();
-    let mut warnings = Vec::new();
-    let (samples, stated) = if names == ["a"] {
-        (
-            rows.iter().flat_map(|(_, r)| r.iter().copied()).collect(),
-            None,
-        )
-    } else {
-        columns(source, &rows, &names, &mut warnings)?
-    };
-    let (time_step, time_step_source) = source.time_step(stated, first)?;
-    let peak = samples
-        .iter()
-        .fold(0.0_f64, |m: f64, a: &f64| m.max(a.abs()));
-    let (unit, unit_source) = source.unit(None, first, peak)?;
-    Ok(Found {
+    let survey = Survey::new(source, false)?;
+    match survey.arrangement(source)? {
+        Arrangement::Wrapped => wrapped(source, &survey, None),
+        Arrangement::CountAndStep(count, step) => wrapped(source, &survey, Some((count, step))),
+        Arrangement::Columns(names) => columns(source, &survey, &names),
+        Arrangement::Cards => cards(source, &survey),
+    }
+}
+
+/// A series along rows of fixed width.
+fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotionError> {
+    let room = source.bytes.len() / layout.width + 1;
+    let mut samples = Vec::with_capacity(room);
+    let mut first = 0;
+    let mut last = 0;
+    for line in rows(source) {
+        first = if first == 0 { line.number } else { first };
+        last = line.number;
+        // What stands after the numbers, e.g. row numbers of cards, is not data.
+        let width = (layout.per_line * layout.width).min(line.bytes.len());
+        let bytes = &line.bytes[..width];
+        source.row(Line { bytes, ..line }, layout, &mut samples)?;
+    }
+    let draft = Draft::new(samples, DraftUnit::Unstated, (first, first, last));
+    Ok(vec![draft.finish(source)?])
+}
+
+/// A series along the rows, after a row of count and step if there is one.
+fn wrapped(
+    source: &Source<'_>,
+    survey: &Survey,
+    head: Option<(usize, f64)>,
+) -> Result<Vec<Series>, GroundMotionError> {
+    let mut samples = Vec::with_capacity(survey.numbers);
+    for line in rows(source).skip(usize::from(head.is_some())) {
+        for (column, field) in line.fields() {
+            let column = column + source.options.skip_columns;
+            samples.push(source.number(line, column, field)?);
+        }
+    }
+    let mut draft = Draft::new(
         samples,
-        unit,
-        unit_source,
-        time_step,
-        time_step_source,
-        title: String::new(),
-        header_count: None,
-        warnings,
-    })
+        DraftUnit::Unstated,
+        (survey.first, survey.first, survey.last),
+    );
+    if let Some((count, step)) = head {
+        draft.header_count = Some(count);
+        draft.times = Times::Step(Some(step));
+    }
+    Ok(vec![draft.finish(source)?])
 }
 
-/// Whether the rows are pairs whose first values increase, as times do.
-fn is_time(rows: &[(usize, Vec<f64>)]) -> bool {
-    rows.iter().all(|(_, r)| r.len() == 2)
-        && rows
-            .windows(2)
-            .all(|w| match (w[0].1.first(), w[1].1.first()) {
-                (Some(a), Some(b)) => b > a,
-                _ => false,
-            })
+/// Card images: the last number of each row is the row's.
+fn cards(source: &Source<'_>, survey: &Survey) -> Result<Vec<Series>, GroundMotionError> {
+    let mut samples = Vec::with_capacity(survey.numbers);
+    for line in rows(source) {
+        let before = samples.len();
+        for (column, field) in line.fields() {
+            samples.push(source.number(line, column, field)?);
+        }
+        if samples.len() > before {
+            samples.pop();
+        }
+    }
+    let mut draft = Draft::new(
+        samples,
+        DraftUnit::Unstated,
+        (survey.first, survey.first, survey.last),
+    );
+    draft
+        .warnings
+        .push("the last column counts the rows and is not data".to_owned());
+    Ok(vec![draft.finish(source)?])
 }
 
-/// The chosen column, and the time step if there is a time column.
+/// Named columns; pairs `t,a` may follow one another along a row.
 fn columns(
     source: &Source<'_>,
-    rows: &[(usize, Vec<f64>)],
-    names: &[&str],
-    warnings: &mut Vec<String>,
-) -> Result<(Vec<f64>, Option<f64>), GroundMotionError> {
-    if let Some((line, row)) = rows.iter().find(|(_, r)| r.len() != names.len()) {
-        return Err(source.error(
-            *line,
-            0,
-            format!(
-                "{} columns where layout \"{}\" has {}",
-                row.len(),
-                names.join(","),
-                names.len()
-            ),
-            "correct `layout`, or the row",
-        ));
+    survey: &Survey,
+    names: &[String],
+) -> Result<Vec<Series>, GroundMotionError> {
+    let pairs = names.len() == 2 && names[0] == "t";
+    let count = survey.numbers / names.len() + 1;
+    let mut values: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+    for (name, column) in names.iter().zip(&mut values) {
+        if name != "t" && !is_other(names, name) {
+            column.reserve_exact(count);
+        }
     }
-    let series: Vec<&str> = names.iter().copied().filter(|n| *n != "t").collect();
-    let wanted = match (&source.options.component, series.as_slice()) {
-        (Some(component), _) => component.as_str(),
-        (None, [only]) => only,
-        (None, _) => {
+    let mut times = TimeColumn::with_capacity(count);
+    for line in rows(source) {
+        let found = line.fields().count();
+        if found != names.len() && !(pairs && found.is_multiple_of(2)) {
             return Err(source.error(
-                rows[0].0,
+                line.number,
                 0,
-                format!("the layout has several series: {}", series.join(", ")),
-                "choose one with `component`",
+                format!(
+                    "{found} columns where layout \"{}\" has {}",
+                    names.join(","),
+                    names.len()
+                ),
+                "correct `layout`, or the row",
             ));
         }
-    };
-    let Some(index) = names.iter().position(|n| *n == wanted) else {
-        return Err(source.error(
-            rows[0].0,
-            0,
-            format!("layout \"{}\" has no column \"{wanted}\"", names.join(",")),
-            "correct `component` or `layout`",
-        ));
-    };
-    let samples: Vec<f64> = rows.iter().map(|(_, r)| r[index]).collect();
-    let Some(time) = names.iter().position(|n| *n == "t") else {
-        return Ok((samples, None));
-    };
-    let times: Vec<f64> = rows.iter().map(|(_, r)| r[time]).collect();
-    let step = even_step(&times).map_err(|i| {
-        source.error(
-            rows[i].0,
-            0,
-            format!("time {} s: the time column is not even", times[i]),
-            "resample the record to even steps",
-        )
-    })?;
-    if times[0] != 0.0 {
-        warnings.push(format!(
-            "the first value is at {} s in the file and is taken at 0; `prepend_zero` keeps its time",
-            times[0]
-        ));
+        for (i, (column, field)) in line.fields().enumerate() {
+            let k = i % names.len();
+            let value = source.number(line, column + source.options.skip_columns, field)?;
+            if names[k] == "t" {
+                times.push(value, field);
+            } else if !is_other(names, &names[k]) {
+                values[k].push(value);
+            }
+        }
     }
-    Ok((samples, Some(step)))
+    let mut warnings = Vec::new();
+    let has_times = names.iter().any(|n| n == "t");
+    let times = if has_times {
+        times.finish(&mut warnings)
+    } else {
+        Times::Step(None)
+    };
+    let mut series = Vec::new();
+    for (name, samples) in names.iter().zip(values) {
+        if name == "t" || is_other(names, name) {
+            continue;
+        }
+        let mut draft = Draft::new(
+            samples,
+            DraftUnit::Unstated,
+            (survey.first, survey.first, survey.last),
+        );
+        draft.component.clone_from(name);
+        draft.channel = series.len() + 1;
+        draft.warnings.clone_from(&warnings);
+        draft.times = match &times {
+            Times::Step(step) => Times::Step(*step),
+            Times::Each(each) => Times::Each(each.clone()),
+        };
+        series.push(draft.finish(source)?);
+    }
+    Ok(series)
 }
 
-/// Mean step, rounded to a nice value within the print resolution; the index of
-/// the first time that is not even otherwise.
-fn even_step(times: &[f64]) -> Result<f64, usize> {
-    let n = times.len();
-    if n < 2 {
-        return Err(0);
-    }
-    let mean = (times[n - 1] - times[0]) / (n - 1) as f64;
-    // Nice steps are whole multiples of 10 us.
-    let nice = (mean * 1.0e5).round() / 1.0e5;
-    let step = if nice > 0.0 && (nice - mean).abs() < 1.0e-6 * mean + 1.0e-9 {
-        nice
-    } else {
-        mean
-    };
-    let even =
-        |(i, t): (usize, &f64)| (t - times[0] - i as f64 * step).abs() <= 0.02 * step + 1.0e-5;
-    match times.iter().enumerate().find(|(i, t)| !even((*i, t))) {
-        None if step > 0.0 => Ok(step),
-        None => Err(1),
-        Some((i, _)) => Err(i),
-    }
+/// Whether a column is passed over: velocity and displacement have no unit that
+/// could be stated. `v` is velocity beside `d`, a vertical component elsewhere.
+fn is_other(names: &[String], name: &str) -> bool {
+    OTHERS.contains(&name)
+        || (matches!(name, "v" | "d")
+            && names.iter().any(|n| n == "a")
+            && names.iter().any(|n| n == "d"))
 }

@@ -1,84 +1,100 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
-use super::{Found, Source};
+use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::number;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::{Line, Lines};
 use crate::unit::AccelerationUnit;
 
 const REMEDY: &str = "the layout is in ground_motions/README.md";
+const START: &str = "time_s,acceleration_";
+
+/// `# Key: value` lines that mean something.
+#[derive(Default)]
+struct Keys {
+    title: Vec<String>,
+    unit: Option<(usize, String)>,
+    step: Option<f64>,
+}
 
 pub(crate) fn matches(source: &Source<'_>) -> bool {
     source
-        .lines
-        .iter()
-        .find(|l| !l.starts_with('#') && !l.trim().is_empty())
-        .is_some_and(|l| l.starts_with("time_s,acceleration_"))
+        .lines()
+        .find(|l| !l.bytes.starts_with(b"#") && !l.is_blank())
+        .is_some_and(|l| l.bytes.starts_with(START.as_bytes()))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Found, GroundMotionError> {
-    let key = |name: &str| {
-        source.lines.iter().enumerate().find_map(|(i, l)| {
-            let value = l.strip_prefix('#')?.trim().strip_prefix(name)?;
-            Some((i, value.trim_start_matches(':').trim()))
-        })
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut keys = Keys::default();
+    let header = loop {
+        let line = source.expect(&mut lines, "the column header")?;
+        if line.bytes.starts_with(b"#") {
+            keys.take(source, line)?;
+        } else if !line.is_blank() {
+            break line;
+        }
     };
-    let Some(header) = source
-        .lines
-        .iter()
-        .position(|l| !l.starts_with('#') && !l.is_empty())
-    else {
-        return Err(source.error(0, 0, "the file has no data".to_owned(), REMEDY));
-    };
-    let Some(suffix) = source.lines[header].strip_prefix("time_s,acceleration_") else {
+    let text = header.text();
+    let Some(suffix) = text.strip_prefix(START) else {
         return Err(source.error(
-            header,
+            header.number,
             0,
-            format!(
-                "column header \"{}\" is not \"time_s,acceleration_<unit>\"",
-                source.lines[header]
-            ),
+            format!("column header \"{text}\" is not \"{START}<unit>\""),
             REMEDY,
         ));
     };
     let unit = unit_of_header(suffix)?;
-    if let Some((line, text)) = key("Unit") {
-        let stated: AccelerationUnit = text.parse()?;
-        if stated != unit {
+    if let Some((line, stated)) = &keys.unit {
+        let other: AccelerationUnit = stated.parse()?;
+        if other != unit {
             return Err(source.error(
-                line,
+                *line,
                 0,
-                format!(
-                    "unit \"{text}\" contradicts the column header \"{}\"",
-                    source.lines[header]
-                ),
+                format!("unit \"{stated}\" contradicts the column header \"{text}\""),
                 "make both the same",
             ));
         }
     }
-    let (unit, unit_source) = source.unit(Some(unit), header, 0.0)?;
-    let stated = match key("dt") {
-        None => None,
-        Some((line, text)) => {
-            let number = text.strip_suffix('s').unwrap_or(text).trim();
-            Some(source.number(line, 0, number)?)
-        }
+    let Some(step) = keys.step.or(source.options.time_step) else {
+        return Err(GroundMotionError::MissingTimeStep {
+            file: source.file.to_owned(),
+            line: header.number,
+        });
     };
-    let (time_step, time_step_source) = source.time_step(stated, header)?;
-    let samples = rows(source, header, time_step)?;
-    let title = ["Event", "Station", "Component"]
-        .iter()
-        .filter_map(|k| key(k).map(|(_, v)| v))
-        .collect::<Vec<_>>()
-        .join("; ");
-    Ok(Found {
+    let first = lines.number() + 1;
+    let samples = rows(source, &mut lines, step)?;
+    let mut draft = Draft::new(
         samples,
-        unit,
-        unit_source,
-        time_step,
-        time_step_source,
-        title,
-        header_count: None,
-        warnings: Vec::new(),
-    })
+        DraftUnit::Stated(SeriesUnit::from(unit)),
+        (header.number, first, lines.number()),
+    );
+    draft.times = Times::Step(keys.step);
+    draft.title = keys.title.join("; ");
+    Ok(vec![draft.finish(source)?])
+}
+
+impl Keys {
+    fn take(&mut self, source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
+        let text = line.columns(1, line.bytes.len());
+        let Some((key, value)) = text.split_once(':') else {
+            return Ok(());
+        };
+        let value = value.trim();
+        match key.trim() {
+            "Event" | "Station" | "Component" => self.title.push(value.to_owned()),
+            "Unit" => self.unit = Some((line.number, value.to_owned())),
+            "dt" => {
+                let number = value.strip_suffix('s').unwrap_or(value);
+                self.step = Some(source.number(line, 0, number.as_bytes())?);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
 }
 
 fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {
@@ -89,37 +105,37 @@ fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {
     }
 }
 
-fn rows(source: &Source<'_>, header: usize, time_step: f64) -> Result<Vec<f64>, GroundMotionError> {
-    let text = source.lines[header + 1..].join("\n");
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let mut samples = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| source.error(header, 0, e.to_string(), REMEDY))?;
-        let line = header + record.position().map_or(0, csv::Position::line) as usize;
-        if record.len() != 2 {
+fn rows(
+    source: &Source<'_>,
+    lines: &mut Lines<'_>,
+    step: f64,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    for line in lines {
+        if line.is_blank() || line.bytes.starts_with(b"#") {
+            continue;
+        }
+        let mut row = line.bytes.split(|b| *b == b',');
+        let (Some(time), Some(value), None) = (row.next(), row.next(), row.next()) else {
             return Err(source.error(
-                line,
+                line.number,
                 0,
-                format!("{} columns where there must be two", record.len()),
+                "there must be two columns, time and acceleration",
                 REMEDY,
             ));
-        }
-        let time = source.number(line, 0, &record[0])?;
-        let expected = samples.len() as f64 * time_step;
-        if (time - expected).abs() > 0.51 * time_step {
+        };
+        let expected = samples.len() as f64 * step;
+        let found = source.number(line, 0, time)?;
+        // Half the step, or what the time's digits leave open.
+        if (found - expected).abs() > (0.51 * step).min(1.01 * number::resolution(time) + 1e-9) {
             return Err(source.error(
-                line,
+                line.number,
                 0,
-                format!("time {time} s where {expected} s follows from dt = {time_step} s"),
+                format!("time {found} s where {expected} s follows from dt = {step} s"),
                 "a row is missing or dt is wrong",
             ));
         }
-        samples.push(source.number(line, record[0].len() + 1, &record[1])?);
+        samples.push(source.number(line, time.len() + 1, value)?);
     }
     Ok(samples)
 }

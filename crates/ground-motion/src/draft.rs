@@ -1,0 +1,349 @@
+//! From what a reader found to a series in SI, held against the header.
+
+use crate::accelerogram::{Origin, Processing};
+use crate::error::GroundMotionError;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::recording::{HeaderPeak, Sampling, Series};
+use crate::source::Source;
+use crate::unit::AccelerationUnit;
+
+/// A value that a header prints, with one unit of its last digit.
+pub(crate) type Printed = (f64, f64);
+
+/// Times of samples as found.
+pub(crate) enum Times {
+    /// The step that the file states (s), if it does.
+    Step(Option<f64>),
+    /// A time for each sample (s), uneven.
+    Each(Vec<f64>),
+}
+
+/// A peak in the header: value and time, with their printed digits.
+pub(crate) struct DraftPeak {
+    pub value: Printed,
+    pub time: Option<Printed>,
+    /// Unit of the value, where it is not that of the samples.
+    pub unit: Option<SeriesUnit>,
+    /// Time that the header counts from, after the first sample (s).
+    pub shift: f64,
+}
+
+/// The unit of the values in a file.
+pub(crate) enum DraftUnit {
+    /// As the file states it; its symbol for display.
+    Stated(SeriesUnit),
+    /// Counts, so many units of `unit` each, stated in the file.
+    Scaled(SeriesUnit, f64),
+    /// Counts whose sensitivity is not in the file.
+    Counts,
+    /// Not stated: the user must.
+    Unstated,
+}
+
+/// What a reader found, in the units of the file.
+pub(crate) struct Draft {
+    pub component: String,
+    pub channel: usize,
+    pub unit: DraftUnit,
+    pub times: Times,
+    pub samples: Vec<f64>,
+    pub header_count: Option<usize>,
+    pub peak: Option<DraftPeak>,
+    pub initial: Option<(f64, f64)>,
+    pub processing: Processing,
+    pub title: String,
+    pub start_time: String,
+    /// Low and high corner frequency (Hz).
+    pub corners: (Option<f64>, Option<f64>),
+    pub warnings: Vec<String>,
+    /// Lines of the step and of the first and last values, for messages.
+    pub lines: (usize, usize, usize),
+}
+
+impl Draft {
+    /// A draft with nothing but values: `lines` are those of the header, of the
+    /// first and of the last value.
+    pub(crate) fn new(samples: Vec<f64>, unit: DraftUnit, lines: (usize, usize, usize)) -> Self {
+        Self {
+            component: String::new(),
+            channel: 1,
+            unit,
+            times: Times::Step(None),
+            samples,
+            header_count: None,
+            peak: None,
+            initial: None,
+            processing: Processing::Unstated,
+            title: String::new(),
+            start_time: String::new(),
+            corners: (None, None),
+            warnings: Vec::new(),
+            lines,
+        }
+    }
+
+    /// The series in SI.
+    ///
+    /// # Errors
+    /// Too few samples, an unstated or contradicted unit or step.
+    pub(crate) fn finish(mut self, source: &Source<'_>) -> Result<Series, GroundMotionError> {
+        self.count(source)?;
+        let (factor, quantity, symbol, unit_text) = self.unit(source)?;
+        let (sampling, step_text) = self.sampling(source)?;
+        for a in &mut self.samples {
+            *a *= factor;
+        }
+        let mut series = Series {
+            quantity,
+            component: self.component.clone(),
+            channel: self.channel,
+            unit: symbol,
+            samples: std::mem::take(&mut self.samples),
+            sampling,
+            header_peak: None,
+            initial: self.initial,
+            origin: Origin {
+                file: source.file.to_owned(),
+                title: std::mem::take(&mut self.title),
+                component: std::mem::take(&mut self.component),
+                unit: unit_text,
+                time_step: step_text,
+                header_count: self.header_count,
+                processing: self.processing,
+                start_time: std::mem::take(&mut self.start_time),
+                low_corner: self.corners.0,
+                high_corner: self.corners.1,
+                ..Origin::default()
+            },
+        };
+        if let Some(peak) = self.peak.take() {
+            let in_si = peak
+                .unit
+                .map_or(factor, |u| u.in_si(gravity(source.options.gravity)));
+            check_peak(&mut series, &peak, in_si, &mut self.warnings);
+        }
+        series.origin.warnings = self.warnings;
+        Ok(series)
+    }
+
+    fn count(&mut self, source: &Source<'_>) -> Result<(), GroundMotionError> {
+        let found = self.samples.len();
+        let expected = self.header_count.unwrap_or(found);
+        if found < expected {
+            if !source.options.lenient {
+                return Err(GroundMotionError::TooFewSamples {
+                    file: source.file.to_owned(),
+                    line: self.lines.2,
+                    column: 1,
+                    expected,
+                    found,
+                });
+            }
+            self.warnings.push(format!(
+                "header says {expected} samples, {found} found and used"
+            ));
+        } else if found == expected + 1 {
+            self.warnings.push(format!(
+                "header says {expected} samples, one more found and used"
+            ));
+        } else if found > expected {
+            self.warnings.push(format!(
+                "header says {expected} samples, {found} found; the surplus is not used"
+            ));
+            self.samples.truncate(expected);
+            if let Times::Each(times) = &mut self.times {
+                times.truncate(expected);
+            }
+        }
+        if self.samples.len() < 2 {
+            return Err(source.error(
+                self.lines.1,
+                0,
+                format!("{} samples; at least two are needed", self.samples.len()),
+                "the file has no series: get it again",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Factor to SI, quantity, symbol and the text for the user.
+    fn unit(
+        &self,
+        source: &Source<'_>,
+    ) -> Result<(f64, Quantity, &'static str, String), GroundMotionError> {
+        let options = source.options;
+        let gravity = gravity(options.gravity);
+        let contradiction = |stated: &str, given: String| GroundMotionError::Contradiction {
+            file: source.file.to_owned(),
+            quantity: "unit",
+            stated: stated.to_owned(),
+            given,
+        };
+        match (&self.unit, options.unit) {
+            (DraftUnit::Stated(unit) | DraftUnit::Scaled(unit, _), Some(given))
+                if unit.quantity == Quantity::Acceleration && !unit.is(given) =>
+            {
+                Err(contradiction(unit.symbol, given.symbol().to_owned()))
+            }
+            (DraftUnit::Stated(unit), _) => Ok((
+                unit.in_si(gravity),
+                unit.quantity,
+                unit.symbol,
+                format!("{} (stated in the file)", unit.symbol),
+            )),
+            (DraftUnit::Scaled(unit, each), _) => Ok((
+                unit.in_si(gravity) * each,
+                unit.quantity,
+                "counts",
+                format!("counts of {each:e} {} (stated in the file)", unit.symbol),
+            )),
+            (DraftUnit::Counts, _) => match options.sensitivity {
+                Some(s) if s.is_finite() && s != 0.0 => Ok((
+                    1.0 / s,
+                    Quantity::Acceleration,
+                    "counts",
+                    format!("counts, {s} per m/s2 (given in the case)"),
+                )),
+                _ => Err(GroundMotionError::MissingSensitivity {
+                    file: source.file.to_owned(),
+                }),
+            },
+            (DraftUnit::Unstated, Some(given)) => {
+                let unit = SeriesUnit::from(given);
+                Ok((
+                    unit.in_si(gravity),
+                    unit.quantity,
+                    unit.symbol,
+                    format!("{} (given in the case)", unit.symbol),
+                ))
+            }
+            (DraftUnit::Unstated, None) => {
+                let peak = self.samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+                Err(GroundMotionError::MissingUnit {
+                    file: source.file.to_owned(),
+                    line: self.lines.1,
+                    hint: if peak > 20.0 {
+                        format!(" (the largest value, {peak}, is too large for g)")
+                    } else {
+                        String::new()
+                    },
+                })
+            }
+        }
+    }
+
+    fn sampling(&mut self, source: &Source<'_>) -> Result<(Sampling, String), GroundMotionError> {
+        let stated = match std::mem::replace(&mut self.times, Times::Step(None)) {
+            Times::Each(times) => {
+                if let Some(i) = times.windows(2).position(|w| !(w[1] > w[0])) {
+                    return Err(source.error(
+                        self.lines.1,
+                        0,
+                        format!(
+                            "time {} s of value {} is not after {} s",
+                            times[i + 1],
+                            i + 2,
+                            times[i]
+                        ),
+                        "times must increase: get the record again",
+                    ));
+                }
+                return Ok((Sampling::Uneven { times }, "uneven".to_owned()));
+            }
+            Times::Step(stated) => stated,
+        };
+        let line = self.lines.0;
+        let (step, by) = match (stated, source.options.time_step) {
+            (None, None) => {
+                return Err(GroundMotionError::MissingTimeStep {
+                    file: source.file.to_owned(),
+                    line,
+                });
+            }
+            (Some(a), Some(b)) if (a - b).abs() > 1.0e-6 * a.abs() => {
+                return Err(GroundMotionError::Contradiction {
+                    file: source.file.to_owned(),
+                    quantity: "time_step",
+                    stated: format!("{a} s"),
+                    given: format!("{b} s"),
+                });
+            }
+            (Some(a), _) => (a, "stated in the file"),
+            (None, Some(b)) => (b, "given in the case"),
+        };
+        if !(step.is_finite() && step > 0.0) {
+            return Err(source.error(
+                line,
+                0,
+                format!("time step {step} s must be greater than zero"),
+                "correct the header, or give `time_step` in [ground_motion]",
+            ));
+        }
+        Ok((
+            Sampling::Even { time_step: step },
+            format!("{step} s ({by})"),
+        ))
+    }
+}
+
+/// The g (m/s2) to use.
+pub(crate) fn gravity(given: Option<f64>) -> f64 {
+    given
+        .filter(|g| g.is_finite() && *g > 0.0)
+        .unwrap_or(AccelerationUnit::StandardGravity.in_si())
+}
+
+/// Holds the header's peak against the samples: magnitudes, for agencies print
+/// either sign, within the last printed digit; times within one step. Headers of
+/// raw records refer to samples with or without their mean.
+fn check_peak(series: &mut Series, peak: &DraftPeak, in_si: f64, warnings: &mut Vec<String>) {
+    let value = peak.value.0 * in_si;
+    // Either the header or the samples have fewer digits than the other.
+    let tolerance = (peak.value.1 * in_si).abs() + 1.0e-4 * value.abs();
+    series.header_peak = Some(HeaderPeak {
+        value,
+        time: peak.time.map(|t| t.0),
+    });
+    let mean = if series.origin.processing == Processing::Raw {
+        series.mean()
+    } else {
+        0.0
+    };
+    for offset in [0.0, mean] {
+        let found = series
+            .samples
+            .iter()
+            .fold(0.0_f64, |m, a| m.max((a - offset).abs()));
+        if (found - value.abs()).abs() > tolerance {
+            continue;
+        }
+        if let Some((time, digit)) = peak.time {
+            let step = match &series.sampling {
+                Sampling::Even { time_step } => *time_step,
+                Sampling::Uneven { times } => {
+                    (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
+                }
+            };
+            // The second tolerance: times of long records are single precision too.
+            let near = step + digit + 1.0e-6 * time.abs();
+            let there = (0..series.samples.len()).any(|i| {
+                (series.samples[i] - offset).abs() >= found - tolerance
+                    && (series.time(i) - peak.shift - time).abs() <= near
+            });
+            if !there {
+                warnings.push(format!(
+                    "the header puts the peak at {time} s, where the samples do not have it"
+                ));
+            }
+        }
+        return;
+    }
+    let found = series.peak();
+    warnings.push(format!(
+        "the header's peak is {value:.6} {}, that of the samples {:.6} {} at {:.3} s",
+        series.quantity.si_symbol(),
+        found.value,
+        series.quantity.si_symbol(),
+        found.time
+    ));
+}

@@ -1,0 +1,20 @@
+//! California Institute of Technology Volume II: corrected acceleration, velocity
+//! and displacement. Header peaks and initial values have the opposite sign to the
+//! samples, and records start with the velocity of the first sample, not at rest.
+
+use crate::error::GroundMotionError;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::volume_2;
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    let first = source.first_line();
+    let second = source.lines().nth(1).map(|l| l.lower()).unwrap_or_default();
+    first.contains("corrected accelerogram")
+        && first.contains("comp ")
+        && second.contains("of uncorrected accelerogram data of vol")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    volume_2::read(source)
+}

@@ -1,0 +1,178 @@
+//! Free-field text of the Central Weather Administration, Taiwan: lines that start
+//! with `#`, then time and, in this order, up, north and east.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::{Line, Lines};
+use crate::time_column::TimeColumn;
+
+const REMEDY: &str = "the header is not that of the agency's free-field files: get it again";
+
+/// What the header says.
+struct Header {
+    rate: Option<f64>,
+    unit: Option<SeriesUnit>,
+    names: Vec<String>,
+    layout: Option<Layout>,
+    station: String,
+    start: String,
+    processing: Processing,
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.first_line().starts_with("#earthquake information")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let header = header(&mut lines);
+    let end = lines.number();
+    let Some(layout) = header.layout else {
+        return Err(source.error(end, 0, "no line such as \"#Data: 4F10.3\"", REMEDY));
+    };
+    if header.names.len() != layout.per_line || header.names.len() < 2 {
+        return Err(source.error(
+            end,
+            0,
+            format!(
+                "{} names in #DataSequence, {} columns in #Data",
+                header.names.len(),
+                layout.per_line
+            ),
+            REMEDY,
+        ));
+    }
+    let room = lines.remaining() / (layout.width * layout.per_line) + 1;
+    let mut values: Vec<Vec<f64>> = (1..layout.per_line)
+        .map(|_| Vec::with_capacity(room))
+        .collect();
+    let mut times = TimeColumn::with_capacity(room);
+    for line in lines.by_ref().filter(|l| !l.is_blank()) {
+        row(source, line, layout, &mut times, &mut values)?;
+    }
+    let mut warnings = Vec::new();
+    let step = step(source, end, times, header.rate, &mut warnings)?;
+    let mut series = Vec::new();
+    for (name, samples) in header.names.iter().skip(1).zip(values) {
+        let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
+        draft.component.clone_from(name);
+        draft.channel = series.len() + 1;
+        draft.times = Times::Step(Some(step));
+        draft.title.clone_from(&header.station);
+        draft.start_time.clone_from(&header.start);
+        draft.processing = header.processing;
+        draft.warnings.clone_from(&warnings);
+        series.push(draft.finish(source)?);
+    }
+    Ok(series)
+}
+
+fn header(lines: &mut Lines<'_>) -> Header {
+    let mut header = Header {
+        rate: None,
+        unit: None,
+        names: Vec::new(),
+        layout: None,
+        station: String::new(),
+        start: String::new(),
+        processing: Processing::Raw,
+    };
+    while let Some(line) = lines
+        .peek()
+        .filter(|l| l.is_blank() || l.bytes.starts_with(b"#"))
+    {
+        lines.next();
+        let text = line.columns(1, line.bytes.len());
+        let Some((key, value)) = text.split_once(':') else {
+            continue;
+        };
+        let value = value.trim();
+        match key.trim().to_ascii_lowercase().as_str() {
+            "samplerate(hz)" => {
+                header.rate = number::first_in(value).map(|r| r.0).filter(|r| *r > 0.0);
+            }
+            "amplitudeunit" => {
+                let mut words = value.split_whitespace();
+                header.unit = words.next().and_then(SeriesUnit::parse);
+                if value.to_ascii_lowercase().contains("dcoffset(corr)") {
+                    header.processing = Processing::Unstated;
+                }
+            }
+            "datasequence" => {
+                header.names = value
+                    .split([';', ' '])
+                    .filter(|n| !n.is_empty())
+                    .map(|n| n.split('(').next().unwrap_or(n).to_owned())
+                    .collect();
+            }
+            "data" => header.layout = Layout::parse(value),
+            "stationcode" => header.station = value.to_owned(),
+            "starttime" => header.start = format!("{value} GMT+8"),
+            _ => {}
+        }
+    }
+    header
+}
+
+fn row(
+    source: &Source<'_>,
+    line: Line<'_>,
+    layout: Layout,
+    times: &mut TimeColumn,
+    values: &mut [Vec<f64>],
+) -> Result<(), GroundMotionError> {
+    if line.bytes.len() != layout.width * layout.per_line {
+        return Err(source.error(
+            line.number,
+            line.bytes.len(),
+            format!(
+                "the row does not have {} numbers of {} columns",
+                layout.per_line, layout.width
+            ),
+            "the file is damaged or truncated: get it again",
+        ));
+    }
+    for (k, field) in line.bytes.chunks(layout.width).enumerate() {
+        let value = source.number(line, k * layout.width, field)?;
+        match k.checked_sub(1) {
+            None => times.push(value, field),
+            Some(k) => values[k].push(value),
+        }
+    }
+    Ok(())
+}
+
+/// The step of the times, held against the rate in the header.
+fn step(
+    source: &Source<'_>,
+    end: usize,
+    times: TimeColumn,
+    rate: Option<f64>,
+    warnings: &mut Vec<String>,
+) -> Result<f64, GroundMotionError> {
+    match times.finish(warnings) {
+        Times::Step(Some(step)) => {
+            if let Some(rate) = rate
+                && (step * rate - 1.0).abs() > 1.0e-3
+            {
+                warnings.push(format!(
+                    "the header says {rate} samples a second, the times {step} s"
+                ));
+            }
+            Ok(step)
+        }
+        _ => Err(source.error(
+            end + 1,
+            0,
+            "the times are not even",
+            "rows are missing: get the record again",
+        )),
+    }
+}

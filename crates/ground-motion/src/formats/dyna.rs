@@ -1,0 +1,156 @@
+//! DYNA 1.x (ESM and ITACA of INGV, AFAD): lines `KEY: value`, then one value a
+//! line.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::number;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::Line;
+
+/// What the header says.
+#[derive(Default)]
+struct Header {
+    step: Option<f64>,
+    count: Option<usize>,
+    unit: Option<SeriesUnit>,
+    quantity: Option<Quantity>,
+    peak: Option<(f64, f64)>,
+    peak_time: Option<(f64, f64)>,
+    stream: String,
+    station: String,
+    event: String,
+    start: String,
+    processing: Processing,
+    corners: (Option<f64>, Option<f64>),
+    late: bool,
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.first_line().starts_with("event_name:")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut header = Header::default();
+    while let Some(line) = lines.peek() {
+        let Some((key, value)) = key_and_value(line) else {
+            break;
+        };
+        header.take(source, line, &key, &value)?;
+        lines.next();
+    }
+    let end = lines.number();
+    let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    for line in lines.by_ref() {
+        for (column, field) in line.fields() {
+            samples.push(source.number(line, column, field)?);
+        }
+    }
+    let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+    if let (Some(unit), Some(quantity)) = (header.unit, header.quantity)
+        && unit.quantity != quantity
+    {
+        return Err(source.error(
+            end,
+            0,
+            format!("DATA_TYPE is {quantity}, UNITS is {}", unit.symbol),
+            "the header contradicts itself: get the record again",
+        ));
+    }
+    let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
+    draft.times = Times::Step(header.step);
+    draft.header_count = header.count;
+    draft.component = header.stream;
+    draft.title = format!("{}; {}", header.event, header.station);
+    draft.start_time = header.start;
+    draft.processing = header.processing;
+    draft.corners = header.corners;
+    draft.peak = header.peak.map(|value| DraftPeak {
+        value,
+        time: header.peak_time,
+        unit: None,
+        shift: 0.0,
+    });
+    if header.late {
+        draft
+            .warnings
+            .push("late triggered: the onset of the motion is lost".to_owned());
+    }
+    Ok(vec![draft.finish(source)?])
+}
+
+/// A line that starts with a word of capitals and a colon.
+fn key_and_value(line: Line<'_>) -> Option<(String, String)> {
+    let text = line.text();
+    let (key, value) = text.split_once(':')?;
+    key.starts_with(|c: char| c.is_ascii_alphabetic())
+        .then(|| (key.trim().to_ascii_uppercase(), value.trim().to_owned()))
+}
+
+impl Header {
+    fn take(
+        &mut self,
+        source: &Source<'_>,
+        line: Line<'_>,
+        key: &str,
+        value: &str,
+    ) -> Result<(), GroundMotionError> {
+        if value.is_empty() {
+            return Ok(());
+        }
+        let first = number::first_in(value);
+        match key {
+            "SAMPLING_INTERVAL_S" => {
+                self.step = Some(source.number(line, key.len() + 2, value.as_bytes())?);
+            }
+            "NDATA" => {
+                self.count = Some(value.parse().map_err(|_| {
+                    source.error(
+                        line.number,
+                        key.len() + 2,
+                        format!("\"{value}\" is not a number of samples"),
+                        "the header is damaged: get the record again",
+                    )
+                })?);
+            }
+            "UNITS" => {
+                self.unit = Some(SeriesUnit::parse(value).ok_or_else(|| {
+                    source.error(
+                        line.number,
+                        key.len() + 2,
+                        format!("\"{value}\" is not a unit of ground motion"),
+                        "DYNA files have cm/s^2, cm/s or cm",
+                    )
+                })?);
+            }
+            "DATA_TYPE" => self.quantity = Quantity::from_name(value),
+            "STREAM" => self.stream = value.to_owned(),
+            "STATION_CODE" => self.station = value.to_owned(),
+            "EVENT_NAME" => self.event = value.to_owned(),
+            "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS" => self.start = value.to_owned(),
+            "LOW_CUT_FREQUENCY_HZ" => self.corners.0 = first.map(|n| n.0),
+            "HIGH_CUT_FREQUENCY_HZ" => self.corners.1 = first.map(|n| n.0),
+            "LATE/NORMAL_TRIGGERED" => self.late = value.eq_ignore_ascii_case("LT"),
+            "BASELINE_CORRECTION" | "FILTER_TYPE" => self.take_processing(value),
+            k if k.starts_with("PGA_") || k.starts_with("PGV_") || k.starts_with("PGD_") => {
+                self.peak = first;
+            }
+            k if k.starts_with("TIME_PG") => self.peak_time = first,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Any correction makes the record a corrected one.
+    fn take_processing(&mut self, value: &str) {
+        let not = value.to_ascii_uppercase().contains("NOT ");
+        if !not {
+            self.processing = Processing::Corrected;
+        } else if self.processing == Processing::Unstated {
+            self.processing = Processing::Raw;
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! GeoNet (GNS Science, New Zealand) Volume 1 and Volume 2: 26 header lines for
+//! each component, then values of eight columns without labels.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::recording::Series;
+use crate::source::{HeaderNumbers, Source};
+use crate::text::{Line, Lines};
+
+const TEXT_LINES: usize = 16;
+const NUMBERS: Layout = Layout::new(10, 8);
+
+/// The header of a component.
+struct Header<'a> {
+    text: Vec<Line<'a>>,
+    integers: HeaderNumbers,
+    reals: HeaderNumbers,
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    is_first(&source.first_line())
+}
+
+fn is_first(lower: &str) -> bool {
+    lower.contains("gns science") && lower.contains("accelerogram")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut series: Vec<Series> = Vec::new();
+    let mut channel = 0;
+    while lines.clone().any(|l| !l.is_blank()) {
+        let header = header(source, &mut lines)?;
+        channel += 1;
+        let first = series.len();
+        let corrected = !header.text[0].lower().starts_with("uncorrected");
+        for (quantity, unit, count) in blocks(source, &header, corrected)? {
+            let mut draft = block(source, &mut lines, &header, quantity, count)?;
+            draft.unit = unit;
+            draft.channel = channel;
+            draft.processing = if corrected {
+                Processing::Corrected
+            } else {
+                Processing::Raw
+            };
+            series.push(draft.finish(source)?);
+        }
+        if let [acceleration, velocity, displacement] = &mut series[first..] {
+            acceleration.initial = Some((velocity.samples[0], displacement.samples[0]));
+        }
+    }
+    Ok(series)
+}
+
+fn header<'a>(
+    source: &Source<'a>,
+    lines: &mut Lines<'a>,
+) -> Result<Header<'a>, GroundMotionError> {
+    while lines.peek().is_some_and(|l| l.is_blank()) {
+        lines.next();
+    }
+    let mut text = Vec::with_capacity(TEXT_LINES);
+    for i in 0..TEXT_LINES {
+        let line = source.expect(lines, "the header of a component")?;
+        if i == 0 && !is_first(&line.lower()) {
+            return Err(source.error(
+                line.number,
+                0,
+                "the header of a component must start here: more values than the header says",
+                "the file is damaged: get it again",
+            ));
+        }
+        text.push(line);
+    }
+    Ok(Header {
+        text,
+        integers: source.header_numbers(lines, NUMBERS, 40)?,
+        reals: source.header_numbers(lines, NUMBERS, 60)?,
+    })
+}
+
+/// Quantity, unit and count of each block.
+fn blocks(
+    source: &Source<'_>,
+    header: &Header<'_>,
+    corrected: bool,
+) -> Result<Vec<(Quantity, DraftUnit, usize)>, GroundMotionError> {
+    let none = || {
+        source.error(
+            header.integers.first + 3,
+            0,
+            "the header has no number of samples",
+            "the header is damaged: get the record again",
+        )
+    };
+    if !corrected {
+        let unit = raw_unit(source, header)?;
+        let count = header.integers.count(31).ok_or_else(none)?;
+        return Ok(vec![(Quantity::Acceleration, unit, count)]);
+    }
+    let all = [
+        (Quantity::Acceleration, SeriesUnit::MM_S2, 34),
+        (Quantity::Velocity, SeriesUnit::MM_S, 35),
+        (Quantity::Displacement, SeriesUnit::MM, 36),
+    ];
+    let found: Vec<_> = all
+        .into_iter()
+        .filter_map(|(q, unit, k)| Some((q, DraftUnit::Stated(unit), header.integers.count(k)?)))
+        .collect();
+    if found.is_empty() { Err(none()) } else { Ok(found) }
+}
+
+/// `Raw readings in units of 1.00 mm/s/s`.
+fn raw_unit(source: &Source<'_>, header: &Header<'_>) -> Result<DraftUnit, GroundMotionError> {
+    let line = header.text[10];
+    let lower = line.lower();
+    let Some((_, rest)) = lower.split_once("units of") else {
+        return Ok(DraftUnit::Stated(SeriesUnit::MM_S2));
+    };
+    let mut words = rest.split_whitespace();
+    let each = words.next().and_then(|w| number::parse(w.as_bytes()).ok());
+    let unit = words.next().and_then(SeriesUnit::parse);
+    match (each, unit) {
+        (Some(1.0), Some(unit)) => Ok(DraftUnit::Stated(unit)),
+        (Some(each), Some(unit)) if each > 0.0 => Ok(DraftUnit::Scaled(unit, each)),
+        _ => Err(source.error(
+            line.number,
+            0,
+            "the unit of the readings is not understood",
+            "a line like \"Raw readings in units of 1.00 mm/s/s\" must be here",
+        )),
+    }
+}
+
+fn block(
+    source: &Source<'_>,
+    lines: &mut Lines<'_>,
+    header: &Header<'_>,
+    quantity: Quantity,
+    count: usize,
+) -> Result<Draft, GroundMotionError> {
+    let first = lines.number() + 1;
+    let samples = source.block(lines, NUMBERS, Some(count), Some(count))?;
+    // The unit is set by the caller.
+    let mut draft = Draft::new(
+        samples,
+        DraftUnit::Unstated,
+        (header.reals.first + 2, first, lines.number()),
+    );
+    draft.header_count = Some(count);
+    let step = header.reals.positive(26);
+    draft.times = Times::Step(step);
+    let component = header.text[12].text();
+    draft.component = component
+        .trim()
+        .trim_start_matches("Component")
+        .split_whitespace()
+        .next()
+        .unwrap_or_default()
+        .to_owned();
+    draft.title = format!(
+        "{}; {}",
+        header.text[1].columns(0, 14),
+        header.text[2].text().trim()
+    );
+    draft.start_time = header.text[7].text().trim().to_owned() + " (origin)";
+    // Text counts times from the end of the leading pad.
+    let pad = header.integers.count(32).unwrap_or(0) as f64 * step.unwrap_or(0.0);
+    let lower = header.text[13..]
+        .iter()
+        .map(Line::lower)
+        .find(|l| l.trim_start().starts_with(quantity.name()));
+    draft.peak = lower.and_then(|l| {
+        Some(DraftPeak {
+            value: number::after(&l, "peak")?,
+            time: number::after(&l, " at "),
+            unit: None,
+            shift: pad,
+        })
+    });
+    if pad > 0.0 && quantity == Quantity::Acceleration {
+        draft.warnings.push(format!(
+            "the agency put {pad:.3} s of zeros before the record"
+        ));
+    }
+    Ok(draft)
+}

@@ -1,0 +1,162 @@
+//! Internet Site for European Strong-motion Data (`.cor`, `.raw`): lines
+//! `key: value`, comments, then blocks that start `->`.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::{Line, Lines};
+
+/// Rows whose length is a multiple of this width have touching fields.
+const WIDTH: usize = 13;
+
+/// What the header says.
+#[derive(Default)]
+struct Header {
+    step: Option<f64>,
+    count: Option<usize>,
+    units: Vec<SeriesUnit>,
+    orientation: String,
+    station: String,
+    start: String,
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.first_line().contains("file:")
+        && source
+            .head()
+            .take(10)
+            .any(|l| l.lower().contains("waveform code"))
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut header = Header::default();
+    while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
+        header.take(line);
+        lines.next();
+    }
+    let mut series = Vec::new();
+    while let Some(label) = lines.next() {
+        let text = label.lower();
+        let quantity = [
+            Quantity::Acceleration,
+            Quantity::Velocity,
+            Quantity::Displacement,
+        ]
+        .into_iter()
+        .find(|q| text.contains(q.name()));
+        let histories = quantity.filter(|_| !text.contains("spectr"));
+        let Some(quantity) = histories else {
+            source.warn("blocks that are not time histories were passed over");
+            while lines.peek().is_some_and(|l| !is_label(&l)) {
+                lines.next();
+            }
+            continue;
+        };
+        let raw = text.contains("uncorrected");
+        let numbers = numbers(source, &mut lines)?;
+        let draft = header.draft(
+            quantity,
+            raw,
+            numbers,
+            (label.number, label.number + 1, lines.number()),
+        );
+        series.push(draft.finish(source)?);
+    }
+    Ok(series)
+}
+
+fn is_label(line: &Line<'_>) -> bool {
+    line.bytes.trim_ascii_start().starts_with(b"->")
+}
+
+/// Values up to the next label.
+fn numbers<'a>(
+    source: &Source<'a>,
+    lines: &mut Lines<'a>,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let mut values = Vec::with_capacity(lines.remaining() / 6 + 1);
+    while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
+        lines.next();
+        let length = line.bytes.len();
+        if length > 0 && length.is_multiple_of(WIDTH) && !line.bytes.contains(&b'\t') {
+            source.row(line, Layout::new(length / WIDTH, WIDTH), &mut values)?;
+        } else {
+            for (column, field) in line.fields() {
+                values.push(source.number(line, column, field)?);
+            }
+        }
+    }
+    values.shrink_to_fit();
+    Ok(values)
+}
+
+impl Header {
+    fn take(&mut self, line: Line<'_>) {
+        let text = line.text();
+        let Some((key, value)) = text.split_once(':') else {
+            return;
+        };
+        let value = value.trim();
+        let first = number::first_in(value).map(|n| n.0);
+        match key.trim().to_ascii_lowercase().as_str() {
+            "sampling period" => self.step = first.filter(|s| *s > 0.0),
+            "number of samples" => {
+                self.count = first
+                    .filter(|n| n.fract() == 0.0 && (1.0..1.0e9).contains(n))
+                    .map(|n| n as usize);
+            }
+            "units" => {
+                self.units = value
+                    .split([',', '&'])
+                    .filter_map(SeriesUnit::parse)
+                    .collect();
+            }
+            "orientation of transducer" => self.orientation = value.to_owned(),
+            "station code" => self.station = value.to_owned(),
+            "time of first sample" => self.start = value.to_owned(),
+            _ => {}
+        }
+    }
+
+    fn draft(
+        &self,
+        quantity: Quantity,
+        raw: bool,
+        numbers: Vec<f64>,
+        lines: (usize, usize, usize),
+    ) -> Draft {
+        let stated = self.units.iter().find(|u| u.quantity == quantity).copied();
+        // The list names acceleration and velocity; displacement follows them.
+        let metres = self.units.contains(&SeriesUnit::M_S);
+        let unit = stated.or((quantity == Quantity::Displacement && metres).then_some(SeriesUnit::M));
+        let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let mut draft = if raw && self.step.is_none() {
+            // Uneven: each value is followed by its time.
+            let times = numbers.chunks_exact(2).map(|p| p[1]).collect();
+            let samples = numbers.chunks_exact(2).map(|p| p[0]).collect();
+            let mut draft = Draft::new(samples, unit, lines);
+            draft.times = Times::Each(times);
+            draft
+        } else {
+            let mut draft = Draft::new(numbers, unit, lines);
+            draft.times = Times::Step(self.step);
+            draft
+        };
+        draft.header_count = self.count;
+        draft.component.clone_from(&self.orientation);
+        draft.title.clone_from(&self.station);
+        draft.start_time.clone_from(&self.start);
+        draft.processing = if raw {
+            Processing::Raw
+        } else {
+            Processing::Corrected
+        };
+        draft
+    }
+}

@@ -1,0 +1,91 @@
+//! CSV of the Japan Meteorological Agency: `KEY= value` lines, `NS,EW,UD`, rows.
+
+use crate::draft::{Draft, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::number;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.first_line().contains("site code")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let (mut rate, mut unit) = (None, DraftUnit::Unstated);
+    let (mut site, mut start) = (String::new(), String::new());
+    let (header, names) = loop {
+        let line = source.expect(&mut lines, "the line NS,EW,UD")?;
+        let text = line.text();
+        let text = text.trim_end_matches([',', ' ']);
+        let Some((key, value)) = text.split_once('=') else {
+            if line.is_text() {
+                let names = text.split(',').map(|n| n.trim().to_owned());
+                break (line.number, names.collect::<Vec<_>>());
+            }
+            continue;
+        };
+        let (key, value) = (key.trim().to_ascii_lowercase(), value.trim());
+        if key.starts_with("sampling") {
+            rate = number::first_in(value).map(|r| r.0).filter(|r| *r > 0.0);
+        } else if key.starts_with("unit") {
+            let word = value.split('(').next().unwrap_or_default();
+            unit = SeriesUnit::parse(word).map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        } else if key.starts_with("site") {
+            site = value.to_owned();
+        } else if key.starts_with("initial time") {
+            start = format!("{value} JST");
+        }
+    };
+    if names.len() > 12 {
+        return Err(source.error(header, 0, "more than 12 components", "get the record again"));
+    }
+    let room = lines.remaining() / (2 * names.len()) + 1;
+    let mut values: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(room)).collect();
+    for line in lines.by_ref() {
+        if line.is_blank() {
+            continue;
+        }
+        let mut at = 0;
+        let mut found = 0;
+        for field in line.bytes.split(|b| *b == b',') {
+            let blank = field.trim_ascii().is_empty();
+            if let Some(column) = values.get_mut(found) {
+                column.push(source.number(line, at, field)?);
+            } else if !blank {
+                return Err(columns(source, line.number, names.len()));
+            }
+            found += 1;
+            at += field.len() + 1;
+        }
+        if found < names.len() {
+            return Err(columns(source, line.number, names.len()));
+        }
+    }
+    let ends = (header, header + 1, lines.number());
+    let mut series = Vec::new();
+    for (name, samples) in names.into_iter().zip(values) {
+        let stated = match &unit {
+            DraftUnit::Stated(u) => DraftUnit::Stated(*u),
+            _ => DraftUnit::Unstated,
+        };
+        let mut draft = Draft::new(samples, stated, ends);
+        draft.component = name;
+        draft.channel = series.len() + 1;
+        draft.times = Times::Step(rate.map(|r| 1.0 / r));
+        draft.title.clone_from(&site);
+        draft.start_time.clone_from(&start);
+        series.push(draft.finish(source)?);
+    }
+    Ok(series)
+}
+
+fn columns(source: &Source<'_>, line: usize, count: usize) -> GroundMotionError {
+    source.error(
+        line,
+        0,
+        format!("the row does not have {count} values"),
+        "the file is damaged or truncated: get it again",
+    )
+}

@@ -1,0 +1,157 @@
+//! K-NET and KiK-net ASCII (National Research Institute for Earth Science and
+//! Disaster Resilience, Japan): 17 lines `name value`, then counts, eight a line.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::Line;
+
+/// Columns of the names; the values start after them.
+const NAME: usize = 18;
+/// Eight integers of eight columns and a blank.
+const COUNTS: Layout = Layout::new(8, 9);
+const REMEDY: &str = "the header is not that of K-NET: get the record again";
+
+/// What the header says.
+#[derive(Default)]
+struct Header {
+    frequency: Option<f64>,
+    duration: Option<f64>,
+    direction: String,
+    scale: Option<f64>,
+    peak: Option<(f64, f64)>,
+    station: String,
+    origin_time: String,
+    record_time: String,
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    source.first_line().starts_with("origin time")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut header = Header::default();
+    loop {
+        let line = source.expect(&mut lines, "the header line \"Memo.\"")?;
+        header.take(source, line)?;
+        if line.lower().starts_with("memo") {
+            break;
+        }
+    }
+    let end = lines.number();
+    let (Some(frequency), Some(scale)) = (header.frequency, header.scale) else {
+        return Err(source.error(
+            end,
+            0,
+            "the header has no sampling frequency or no scale factor",
+            REMEDY,
+        ));
+    };
+    let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
+    for line in lines.by_ref() {
+        // The blank after the last integer of a row is trimmed.
+        if line.bytes.len() % COUNTS.width == COUNTS.width - 1 && !line.bytes.contains(&b'\t') {
+            fixed_row(source, line, &mut samples)?;
+        } else {
+            for (column, field) in line.fields() {
+                samples.push(source.number(line, column, field)?);
+            }
+        }
+    }
+    let mut draft = Draft::new(
+        samples,
+        DraftUnit::Scaled(SeriesUnit::CM_S2, scale),
+        (end, end + 1, lines.number()),
+    );
+    draft.component = direction(&header.direction);
+    draft.times = Times::Step(Some(1.0 / frequency));
+    draft.header_count = header
+        .duration
+        .map(|d| (d * frequency).round())
+        .filter(|n| (1.0..1.0e9).contains(n))
+        .map(|n| n as usize);
+    draft.peak = header.peak.map(|value| DraftPeak {
+        value,
+        time: None,
+        unit: Some(SeriesUnit::CM_S2),
+        shift: 0.0,
+    });
+    draft.processing = Processing::Raw;
+    draft.title = format!("{}; earthquake of {}", header.station, header.origin_time);
+    draft.start_time = format!("{} JST less 15 s", header.record_time);
+    Ok(vec![draft.finish(source)?])
+}
+
+fn fixed_row(
+    source: &Source<'_>,
+    line: Line<'_>,
+    samples: &mut Vec<f64>,
+) -> Result<(), GroundMotionError> {
+    for (i, field) in line.bytes.chunks(COUNTS.width).enumerate() {
+        samples.push(source.number(line, i * COUNTS.width, field)?);
+    }
+    Ok(())
+}
+
+impl Header {
+    fn take(&mut self, source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
+        let name = line.columns(0, NAME).to_ascii_lowercase();
+        let value = line.columns(NAME, line.bytes.len());
+        let first = number::first_in(&value);
+        match name.as_str() {
+            n if n.starts_with("sampling freq") => {
+                self.frequency = first.map(|n| n.0).filter(|f| *f > 0.0);
+            }
+            n if n.starts_with("duration") => {
+                self.duration = first.map(|n| n.0).filter(|d| *d > 0.0);
+            }
+            n if n.starts_with("dir") => self.direction = value,
+            n if n.starts_with("max") => self.peak = first,
+            n if n.starts_with("station code") => self.station = value,
+            n if n.starts_with("origin time") => self.origin_time = value,
+            n if n.starts_with("record time") => self.record_time = value,
+            n if n.starts_with("scale") => self.scale = Some(scale(source, line, &value)?),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// `3920(gal)/6182761` in gal a count.
+fn scale(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<f64, GroundMotionError> {
+    let parts = value.split_once('/').and_then(|(above, below)| {
+        Some((number::first_in(above)?.0, number::first_in(below)?.0))
+    });
+    match parts {
+        Some((above, below)) if above > 0.0 && below > 0.0 => Ok(above / below),
+        _ => Err(source.error(
+            line.number,
+            NAME,
+            format!("scale factor \"{value}\" is not like \"3920(gal)/6182761\""),
+            REMEDY,
+        )),
+    }
+}
+
+/// KiK-net numbers its directions: 1 to 3 in the borehole, 4 to 6 at the surface.
+fn direction(text: &str) -> String {
+    match text {
+        "1" => "NS1",
+        "2" => "EW1",
+        "3" => "UD1",
+        "4" => "NS2",
+        "5" => "EW2",
+        "6" => "UD2",
+        "N-S" => "NS",
+        "E-W" => "EW",
+        "U-D" => "UD",
+        other => other,
+    }
+    .to_owned()
+}

@@ -1,0 +1,90 @@
+//! miniSEED 2 (FDSN SEED manual, version 2.4, chapter 8 and appendix B): records of
+//! integers, floats, Steim-1 or Steim-2. Counts: the sensitivity is in the
+//! station's metadata, not in the file.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::recording::Series;
+use crate::source::Source;
+
+mod record;
+mod steim;
+
+use record::Record;
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    record::is_start(source.bytes)
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut records = Vec::new();
+    let mut at = 0;
+    while at < source.bytes.len() {
+        let record = Record::read(source, at)?;
+        at += record.length;
+        if record.count > 0 {
+            records.push(record);
+        }
+    }
+    // The file's order among equal times, for messages.
+    records.sort_by(|a, b| (a.name, a.start, a.at).cmp(&(b.name, b.start, b.at)));
+    let mut series = Vec::new();
+    let mut velocity = None;
+    for channel in records.chunk_by(|a, b| a.name == b.name) {
+        let name = channel[0].label();
+        if channel[0].is_velocity() {
+            source.warn(&format!("channel {name} records velocity and was passed over"));
+            velocity = Some(name);
+            continue;
+        }
+        let mut draft = draft(source, channel)?;
+        draft.channel = series.len() + 1;
+        series.push(draft.finish(source)?);
+    }
+    if series.is_empty() && velocity.is_some() {
+        return Err(GroundMotionError::NotAcceleration {
+            file: source.file.to_owned(),
+            quantity: "velocity",
+        });
+    }
+    Ok(series)
+}
+
+/// One channel from its records in the order of time.
+fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionError> {
+    let first = &channel[0];
+    for (before, after) in channel.iter().zip(&channel[1..]) {
+        let gap = (after.start - before.start) as f64 * 1.0e-6 - before.count as f64 / before.rate;
+        if (after.rate - before.rate).abs() > 1.0e-4 * before.rate {
+            return Err(source.binary_error(
+                after.at,
+                format!("the rate changes from {} to {} Hz", before.rate, after.rate),
+            ));
+        }
+        if gap.abs() > 0.5 / before.rate {
+            return Err(source.binary_error(
+                after.at,
+                format!(
+                    "{} of {:.4} s before this record of {}: an excitation must be continuous",
+                    if gap > 0.0 { "a gap" } else { "an overlap" },
+                    gap.abs(),
+                    after.label()
+                ),
+            ));
+        }
+    }
+    let total = channel.iter().map(|r| r.count).sum();
+    let mut samples = Vec::with_capacity(total);
+    for record in channel {
+        record.decode(source, &mut samples)?;
+    }
+    let mut draft = Draft::new(samples, DraftUnit::Counts, (1, 1, 1));
+    draft.component = first.channel();
+    draft.title = first.label();
+    draft.start_time = first.start_text.to_string();
+    draft.times = Times::Step(Some(1.0 / first.rate));
+    draft.header_count = Some(total);
+    draft.processing = Processing::Raw;
+    Ok(draft)
+}

@@ -1,0 +1,174 @@
+//! SAC, binary: 158 words of header, then values of four bytes. Its unit is not
+//! reliable, so the user states it.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::quantity::Quantity;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::latin_1;
+
+const HEADER: usize = 632;
+const VERSION: usize = 76;
+const UNDEFINED: f32 = -12345.0;
+
+/// The bytes with their order.
+struct Words<'a> {
+    bytes: &'a [u8],
+    big: bool,
+}
+
+impl Words<'_> {
+    fn four(&self, offset: usize) -> [u8; 4] {
+        let mut four = [0; 4];
+        if let Some(found) = self.bytes.get(offset..offset + 4) {
+            four.copy_from_slice(found);
+        }
+        four
+    }
+
+    fn float_at(&self, offset: usize) -> f32 {
+        let four = self.four(offset);
+        if self.big {
+            f32::from_be_bytes(four)
+        } else {
+            f32::from_le_bytes(four)
+        }
+    }
+
+    /// Word `index` (from 0) as a number, unless it is undefined.
+    fn float(&self, index: usize) -> Option<f64> {
+        let value = self.float_at(4 * index);
+        (value.is_finite() && value != UNDEFINED).then_some(f64::from(value))
+    }
+
+    fn integer(&self, index: usize) -> i32 {
+        let four = self.four(4 * index);
+        if self.big {
+            i32::from_be_bytes(four)
+        } else {
+            i32::from_le_bytes(four)
+        }
+    }
+
+    fn text(&self, from: usize) -> String {
+        let field = self.bytes.get(from..from + 8).unwrap_or(&[]);
+        let text = latin_1(field).trim().to_owned();
+        if text.starts_with("-12345") { String::new() } else { text }
+    }
+}
+
+/// The byte order in which the version is 6 or 7.
+fn words<'a>(bytes: &'a [u8]) -> Option<Words<'a>> {
+    [false, true]
+        .into_iter()
+        .map(|big| Words { bytes, big })
+        .find(|w| bytes.len() >= HEADER && [6, 7].contains(&w.integer(VERSION)))
+}
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    words(source.bytes).is_some()
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let Some(words) = words(source.bytes) else {
+        return Err(source.binary_error(4 * VERSION, "no SAC header of version 6 or 7"));
+    };
+    if words.integer(85) != 1 {
+        return Err(GroundMotionError::Unsupported {
+            file: source.file.to_owned(),
+            what: format!("SAC file of type {}, not a time series", words.integer(85)),
+            remedy: "use the time series (iftype ITIME) of the same record",
+        });
+    }
+    let quantity = match words.integer(86) {
+        6 => Quantity::Displacement,
+        7 => Quantity::Velocity,
+        _ => Quantity::Acceleration,
+    };
+    if quantity != Quantity::Acceleration {
+        return Err(GroundMotionError::NotAcceleration {
+            file: source.file.to_owned(),
+            quantity: quantity.name(),
+        });
+    }
+    let count = usize::try_from(words.integer(79)).unwrap_or(0);
+    let uneven = words.integer(105) == 0;
+    let present = (source.bytes.len() - HEADER) / 4 / if uneven { 2 } else { 1 };
+    if present < count && (uneven || !source.options.lenient) || count < 2 {
+        return Err(source.binary_error(
+            source.bytes.len(),
+            format!("the header says {count} samples, the file holds {present}"),
+        ));
+    }
+    let samples = values(source, &words, HEADER, count.min(present))?;
+    let mut draft = Draft::new(samples, DraftUnit::Unstated, (1, 1, 1));
+    draft.header_count = Some(count);
+    draft.times = if uneven {
+        Times::Each(values(source, &words, HEADER + 4 * count, count)?)
+    } else {
+        Times::Step(words.float(0))
+    };
+    let ends = words.float(6).zip(words.float(5)).map(|(e, b)| e - b);
+    if let (Some(length), Some(step)) = (ends, words.float(0))
+        && !uneven
+        && (length - (count - 1) as f64 * step).abs() > 0.5 * step + 1.0e-6 * length.abs()
+    {
+        draft.warnings.push(format!(
+            "the header says {length} s from first to last sample, count and step {} s",
+            (count - 1) as f64 * step
+        ));
+    }
+    fill(&words, &mut draft);
+    Ok(vec![draft.finish(source)?])
+}
+
+fn values(
+    source: &Source<'_>,
+    words: &Words<'_>,
+    from: usize,
+    count: usize,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let mut values = Vec::with_capacity(count);
+    for i in 0..count {
+        let value = words.float_at(from + 4 * i);
+        if !(value.abs() < 1.0e37) {
+            return Err(source.binary_error(
+                from + 4 * i,
+                format!("sample {} is {value}: it is missing or damaged", i + 1),
+            ));
+        }
+        values.push(f64::from(value));
+    }
+    Ok(values)
+}
+
+fn fill(words: &Words<'_>, draft: &mut Draft) {
+    draft.component = words.text(600);
+    draft.title = format!("{} {}", words.text(608), words.text(440))
+        .trim()
+        .to_owned();
+    draft.processing = Processing::Unstated;
+    if words.integer(70) != -12345 {
+        draft.start_time = format!(
+            "{} day {} {:02}:{:02}:{:02}.{:03} UTC",
+            words.integer(70),
+            words.integer(71),
+            words.integer(72),
+            words.integer(73),
+            words.integer(74),
+            words.integer(75)
+        );
+    }
+    let (low, high) = (words.float(1), words.float(2));
+    draft.peak = low.zip(high).map(|(low, high)| DraftPeak {
+        value: {
+            let peak = low.abs().max(high.abs());
+            (peak, 1.0e-6 * peak)
+        },
+        time: None,
+        unit: None,
+        shift: 0.0,
+    });
+}

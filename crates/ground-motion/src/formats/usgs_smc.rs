@@ -1,0 +1,128 @@
+//! SMC of the United States Geological Survey: eleven lines of text, 48 integers,
+//! 50 reals, comments, then values of ten columns that touch.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::Line;
+
+const TEXT_LINES: usize = 11;
+const INTEGERS: Layout = Layout::new(8, 10);
+const REALS: Layout = Layout::new(5, 15);
+const DATA: Layout = Layout::new(8, 10);
+
+pub(crate) fn matches(source: &Source<'_>) -> bool {
+    let mut lines = source.lines();
+    let (Some(first), Some(second)) = (lines.next(), lines.next()) else {
+        return false;
+    };
+    let kind = first.columns(0, 2);
+    let title = first.columns(2, 80);
+    let known = ["0", "1", "2", "3", "4", "5"].contains(&kind.as_str())
+        && title.starts_with(|c: char| c.is_ascii_uppercase())
+        && title.chars().take(4).all(|c| c.is_ascii_uppercase());
+    (known || kind == "*") && second.bytes.starts_with(b"*")
+}
+
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut text = Vec::with_capacity(TEXT_LINES);
+    for _ in 0..TEXT_LINES {
+        text.push(source.expect(&mut lines, "the header's text")?);
+    }
+    let unit = unit(source, text[0])?;
+    let integers = source.header_numbers(&mut lines, INTEGERS, 48)?;
+    let reals = source.header_numbers(&mut lines, REALS, 50)?;
+    for _ in 0..integers.count(16).unwrap_or(0) {
+        source.expect(&mut lines, "a comment line")?;
+    }
+    let Some(count) = integers.count(17) else {
+        return Err(source.error(
+            integers.first + 2,
+            0,
+            "the header has no number of values (integer 17)",
+            "the header is damaged: get the record again",
+        ));
+    };
+    let first = lines.number() + 1;
+    let numbers = source.block(&mut lines, DATA, Some(count), None)?;
+    let pairs = text[0].bytes.starts_with(b"1");
+    let lines = (reals.first, first, lines.number());
+    let mut draft = if pairs {
+        // Integer 17 counts numbers, two a sample.
+        let times = numbers.chunks_exact(2).map(|p| p[0]).collect();
+        let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
+        let mut draft = Draft::new(samples, unit, lines);
+        draft.times = Times::Each(times);
+        draft.header_count = Some(count / 2);
+        draft
+    } else {
+        let mut draft = Draft::new(numbers, unit, lines);
+        draft.times = Times::Step(known(reals.positive(2)).map(|rate| 1.0 / rate));
+        draft.header_count = Some(count);
+        draft
+    };
+    draft.processing = match text[0].bytes.first() {
+        Some(b'1') => Processing::Raw,
+        Some(b'2'..=b'4') => Processing::Corrected,
+        _ => Processing::Unstated,
+    };
+    draft.component = component(text[5], integers.get(13), integers.get(14));
+    draft.title = format!("{}; {}", text[3].text().trim(), text[5].columns(0, 40));
+    draft.corners.0 = known(reals.positive(33));
+    draft.peak = peak(known(reals.get(29)), known(reals.get(30)), false)
+        .into_iter()
+        .chain(peak(known(reals.get(31)), known(reals.get(32)), true))
+        .max_by(|a, b| a.value.0.abs().total_cmp(&b.value.0.abs()));
+    Ok(vec![draft.finish(source)?])
+}
+
+/// The value unless it is the 1.7E+38 that stands for unknown.
+fn known(value: Option<f64>) -> Option<f64> {
+    value.filter(|v| v.abs() < 1.0e37)
+}
+
+fn unit(source: &Source<'_>, first: Line<'_>) -> Result<DraftUnit, GroundMotionError> {
+    Ok(DraftUnit::Stated(match first.bytes.first() {
+        Some(b'3') => SeriesUnit::CM_S,
+        Some(b'4') => SeriesUnit::CM,
+        Some(b'5') => {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: "the file holds response spectra, no time series".to_owned(),
+                remedy: "use the file of type 2 (corrected accelerogram) of the same record",
+            });
+        }
+        _ => SeriesUnit::CM_S2,
+    }))
+}
+
+/// `component=  133` in the text, or the integers: 90 from vertical is horizontal.
+fn component(line: Line<'_>, vertical: Option<f64>, azimuth: Option<f64>) -> String {
+    let text = line.text();
+    let printed = text
+        .rsplit_once("component=")
+        .map(|(_, word)| word.trim().to_owned())
+        .filter(|w| !w.is_empty());
+    printed.unwrap_or_else(|| match (vertical, azimuth) {
+        (Some(0.0), _) => "Up".to_owned(),
+        (Some(180.0), _) => "Down".to_owned(),
+        (_, Some(azimuth)) => format!("{azimuth}"),
+        _ => String::new(),
+    })
+}
+
+fn peak(time: Option<f64>, value: Option<f64>, negative: bool) -> Option<DraftPeak> {
+    let value = value.filter(|v| (*v < 0.0) == negative)?;
+    Some(DraftPeak {
+        // Seven digits in the header, five in the samples.
+        value: (value, 1.0e-4 * value.abs()),
+        time: time.map(|t| (t, 1.0e-4)),
+        unit: None,
+        shift: 0.0,
+    })
+}

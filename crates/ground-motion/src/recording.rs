@@ -1,0 +1,104 @@
+//! Everything that a file holds.
+
+use crate::accelerogram::{Origin, Peak};
+use crate::quantity::Quantity;
+
+/// Times of the samples of a series.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sampling {
+    /// Even steps.
+    Even {
+        /// Time step (s).
+        time_step: f64,
+    },
+    /// A time for each sample, as digitised film has.
+    Uneven {
+        /// Times (s), increasing, as many as samples.
+        times: Vec<f64>,
+    },
+}
+
+/// What the header says about the greatest value of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeaderPeak {
+    /// Value (SI), with the sign that is printed: agencies differ in its meaning.
+    pub value: f64,
+    /// Time (s), if printed.
+    pub time: Option<f64>,
+}
+
+/// One series of a file, values as in the file but in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// What it records.
+    pub quantity: Quantity,
+    /// Component as the file names it, e.g. `90 deg`, `N10E`, `HNE`.
+    pub component: String,
+    /// Place among the channels of the file, from 1; acceleration, velocity and
+    /// displacement of one channel share it.
+    pub channel: usize,
+    /// Unit in the file.
+    pub unit: &'static str,
+    /// Values (m/s2, m/s or m); an offset of the instrument is kept.
+    pub samples: Vec<f64>,
+    /// When they were taken.
+    pub sampling: Sampling,
+    /// Peak in the header.
+    pub header_peak: Option<HeaderPeak>,
+    /// Velocity at the first sample (m/s) and displacement there (m), if the file
+    /// has series or entries for them.
+    pub initial: Option<(f64, f64)>,
+    /// Where it came from and how it was understood.
+    pub origin: Origin,
+}
+
+impl Series {
+    /// Greatest absolute value (SI) and its time (s).
+    #[must_use]
+    pub fn peak(&self) -> Peak {
+        let mut peak = Peak {
+            value: 0.0,
+            time: 0.0,
+        };
+        for (i, a) in self.samples.iter().enumerate() {
+            if a.abs() > peak.value {
+                peak = Peak {
+                    value: a.abs(),
+                    time: self.time(i),
+                };
+            }
+        }
+        peak
+    }
+
+    /// Time of sample `index` (s).
+    #[must_use]
+    pub fn time(&self, index: usize) -> f64 {
+        match &self.sampling {
+            Sampling::Even { time_step } => index as f64 * time_step,
+            Sampling::Uneven { times } => times.get(index).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// Mean of the samples (SI).
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.samples.iter().sum::<f64>() / self.samples.len() as f64
+    }
+
+    /// `acceleration N10E (channel 1)`, for lists.
+    #[must_use]
+    pub fn label(&self) -> String {
+        format!(
+            "{} {} (channel {})",
+            self.quantity, self.component, self.channel
+        )
+    }
+}
+
+/// All series of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Series in the order of the file; at least one.
+    pub series: Vec<Series>,
+}

@@ -1,0 +1,186 @@
+//! The series that excites the buildings.
+
+use crate::accelerogram::{Accelerogram, Processing};
+use crate::error::GroundMotionError;
+use crate::options::{Offset, ReadOptions};
+use crate::quantity::Quantity;
+use crate::recording::{Recording, Sampling, Series};
+use crate::unit::AccelerationUnit;
+
+/// Chooses the acceleration that the options name and makes it ready.
+pub(crate) fn excitation(
+    file: &str,
+    recording: Recording,
+    options: &ReadOptions,
+) -> Result<Accelerogram, GroundMotionError> {
+    let not = |quantity: Quantity| GroundMotionError::NotAcceleration {
+        file: file.to_owned(),
+        quantity: quantity.name(),
+    };
+    if let Some(quantity) = options.quantity.filter(|q| *q != Quantity::Acceleration) {
+        return Err(not(quantity));
+    }
+    let mut possible = Vec::new();
+    let mut other = Quantity::Velocity;
+    for series in recording.series {
+        if series.quantity == Quantity::Acceleration {
+            possible.push(series);
+        } else {
+            other = series.quantity;
+        }
+    }
+    if possible.is_empty() {
+        return Err(not(other));
+    }
+    let series = choose(file, possible, options)?;
+    ready(file, series, options)
+}
+
+fn choose(
+    file: &str,
+    possible: Vec<Series>,
+    options: &ReadOptions,
+) -> Result<Series, GroundMotionError> {
+    let labels = |of: &[Series]| of.iter().map(Series::label).collect::<Vec<_>>();
+    let mut chosen = match &options.component {
+        None => possible,
+        Some(wanted) => {
+            let available = labels(&possible);
+            let chosen = named(possible, wanted);
+            if chosen.is_empty() {
+                return Err(GroundMotionError::NoSuchSeries {
+                    file: file.to_owned(),
+                    component: wanted.clone(),
+                    available,
+                });
+            }
+            chosen
+        }
+    };
+    match chosen.pop() {
+        Some(only) if chosen.is_empty() => Ok(only),
+        last => {
+            chosen.extend(last);
+            Err(GroundMotionError::AmbiguousSeries {
+                file: file.to_owned(),
+                available: labels(&chosen),
+            })
+        }
+    }
+}
+
+/// Series of this name; else of this azimuth or code at the start of the name;
+/// else of this channel.
+fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
+    let wanted = wanted.trim();
+    let full = |s: &Series| s.component.eq_ignore_ascii_case(wanted);
+    let first = |s: &Series| {
+        s.component
+            .split_whitespace()
+            .next()
+            .is_some_and(|w| w.eq_ignore_ascii_case(wanted))
+    };
+    let channel = |s: &Series| wanted.parse() == Ok(s.channel);
+    let tests: [&dyn Fn(&Series) -> bool; 3] = [&full, &first, &channel];
+    let Some(test) = tests.into_iter().find(|t| possible.iter().any(t)) else {
+        return Vec::new();
+    };
+    possible.into_iter().filter(|s| test(s)).collect()
+}
+
+/// Offset, even steps, and the zero before the first value.
+fn ready(
+    file: &str,
+    mut series: Series,
+    options: &ReadOptions,
+) -> Result<Accelerogram, GroundMotionError> {
+    let remove = match options.offset {
+        Offset::Automatic => series.origin.processing == Processing::Raw,
+        Offset::Keep => false,
+        Offset::Remove => true,
+    };
+    let mean = series.mean();
+    if remove && mean != 0.0 {
+        for a in &mut series.samples {
+            *a -= mean;
+        }
+        series
+            .origin
+            .warnings
+            .push(format!("the mean, {mean:.6e} m/s2, was taken off"));
+    }
+    let (mut samples, time_step) = match series.sampling {
+        Sampling::Even { time_step } => (series.samples, time_step),
+        Sampling::Uneven { times } => {
+            let step = resampling_step(file, &times, options)?;
+            series.origin.warnings.push(format!(
+                "{} samples at uneven times, resampled to {step} s by linear interpolation",
+                times.len()
+            ));
+            series.origin.time_step = format!("{step} s (given in the case)");
+            (resample(file, &times, &series.samples, step)?, step)
+        }
+    };
+    let mut origin = series.origin;
+    if options.prepend_zero {
+        samples.insert(0, 0.0);
+        origin
+            .warnings
+            .push("a zero was put before the first value".to_owned());
+    }
+    let accelerogram =
+        Accelerogram::new(samples, AccelerationUnit::MetrePerSecondSquared, time_step)
+            .map_err(|e| GroundMotionError::Invalid(format!("{file}: {e}")))?;
+    Ok(accelerogram.with_origin(origin))
+}
+
+/// The step that the user gives for an uneven series: not coarser than the
+/// record's own.
+fn resampling_step(
+    file: &str,
+    times: &[f64],
+    options: &ReadOptions,
+) -> Result<f64, GroundMotionError> {
+    let steps = || times.windows(2).map(|w| w[1] - w[0]);
+    let mean = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    match options.time_step {
+        // A thousandth: 0.005 s stands for film steps of 0.0050007 s and back.
+        Some(step) if step > 0.0 && step <= mean * 1.001 => Ok(step),
+        _ => Err(GroundMotionError::Uneven {
+            file: file.to_owned(),
+            count: times.len(),
+            mean,
+            smallest: steps().fold(f64::INFINITY, f64::min),
+            largest: steps().fold(0.0, f64::max),
+        }),
+    }
+}
+
+/// Linear interpolation at even steps from the first time to the last.
+fn resample(
+    file: &str,
+    times: &[f64],
+    values: &[f64],
+    step: f64,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let span = times[times.len() - 1] - times[0];
+    let count = (span / step * (1.0 + 1.0e-12)).floor() + 1.0;
+    // Finer steps add nothing but length.
+    if !(count <= 10.0 * times.len() as f64) {
+        return Err(GroundMotionError::Invalid(format!(
+            "{file}: {} samples over {span} s would become {count:e} at {step} s",
+            times.len()
+        )));
+    }
+    let mut samples = Vec::with_capacity(count as usize);
+    let mut k = 0;
+    for i in 0..count as usize {
+        let t = (times[0] + i as f64 * step).min(times[times.len() - 1]);
+        while k + 2 < times.len() && times[k + 1] < t {
+            k += 1;
+        }
+        let fraction = (t - times[k]) / (times[k + 1] - times[k]);
+        samples.push(values[k] + fraction * (values[k + 1] - values[k]));
+    }
+    Ok(samples)
+}

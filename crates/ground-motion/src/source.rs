@@ -1,0 +1,239 @@
+//! A file on its way through a reader: places in it, and what the user said.
+
+use std::cell::RefCell;
+
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::options::ReadOptions;
+use crate::text::{Line, Lines};
+
+/// Lines that detection looks at.
+const HEAD: usize = 30;
+const REMEDY_VALUE: &str = "correct the value, or get the record again: no sample may be missing";
+
+/// A file's bytes with what is needed to point into them.
+pub(crate) struct Source<'a> {
+    pub file: &'a str,
+    pub bytes: &'a [u8],
+    pub options: &'a ReadOptions,
+    /// What holds for the whole file.
+    warnings: RefCell<Vec<String>>,
+}
+
+impl<'a> Source<'a> {
+    pub(crate) fn new(file: &'a str, bytes: &'a [u8], options: &'a ReadOptions) -> Self {
+        Self {
+            file,
+            bytes,
+            options,
+            warnings: RefCell::default(),
+        }
+    }
+
+    pub(crate) fn lines(&self) -> Lines<'a> {
+        Lines::new(self.bytes)
+    }
+
+    /// The first lines, of which detection needs no more.
+    pub(crate) fn head(&self) -> impl Iterator<Item = Line<'a>> + use<'a> {
+        self.lines().take(HEAD)
+    }
+
+    /// The first line in lower case.
+    pub(crate) fn first_line(&self) -> String {
+        self.lines().next().map(|l| l.lower()).unwrap_or_default()
+    }
+
+    /// Says something about the whole file, once.
+    pub(crate) fn warn(&self, text: &str) {
+        let mut warnings = self.warnings.borrow_mut();
+        if !warnings.iter().any(|w| w == text) {
+            warnings.push(text.to_owned());
+        }
+    }
+
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        self.warnings.borrow().clone()
+    }
+
+    /// An error at a line (from 1) and a column (from 0).
+    pub(crate) fn error(
+        &self,
+        line: usize,
+        column: usize,
+        message: impl Into<String>,
+        remedy: &str,
+    ) -> GroundMotionError {
+        GroundMotionError::Parse {
+            file: self.file.to_owned(),
+            line,
+            column: column + 1,
+            message: message.into(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// An error at a byte (from 0) of a binary file.
+    pub(crate) fn binary_error(
+        &self,
+        offset: usize,
+        message: impl Into<String>,
+    ) -> GroundMotionError {
+        GroundMotionError::Binary {
+            file: self.file.to_owned(),
+            offset,
+            message: message.into(),
+        }
+    }
+
+    /// The next line, which must be there: `what` names it.
+    pub(crate) fn expect<'b>(
+        &self,
+        lines: &mut Lines<'b>,
+        what: &str,
+    ) -> Result<Line<'b>, GroundMotionError> {
+        lines.next().ok_or_else(|| {
+            self.error(
+                lines.number() + 1,
+                0,
+                format!("the file ends where {what} must be"),
+                "the file is truncated: get it again",
+            )
+        })
+    }
+
+    /// A number of a line that starts at a column (from 0).
+    pub(crate) fn number(
+        &self,
+        line: Line<'_>,
+        column: usize,
+        field: &[u8],
+    ) -> Result<f64, GroundMotionError> {
+        number::parse(field)
+            .map_err(|message| self.error(line.number, column, message, REMEDY_VALUE))
+    }
+
+    /// Appends the numbers of a line of fixed width. A tab in it means that
+    /// somebody saved it again: its fields are then split at blanks.
+    pub(crate) fn row(
+        &self,
+        line: Line<'_>,
+        layout: Layout,
+        values: &mut Vec<f64>,
+    ) -> Result<(), GroundMotionError> {
+        if line.bytes.contains(&b'\t') {
+            self.warn("tabs where columns must be: the rows were split at blanks and tabs");
+            for (column, field) in line.fields() {
+                values.push(self.number(line, column, field)?);
+            }
+            return Ok(());
+        }
+        if line.bytes.len() > layout.per_line * layout.width {
+            return Err(self.error(
+                line.number,
+                layout.per_line * layout.width,
+                format!(
+                    "more than {} numbers of {} columns",
+                    layout.per_line, layout.width
+                ),
+                REMEDY_VALUE,
+            ));
+        }
+        for (i, field) in line.bytes.chunks(layout.width).enumerate() {
+            let column = i * layout.width;
+            if field.len() < layout.width {
+                return Err(self.error(
+                    line.number,
+                    column,
+                    format!(
+                        "\"{}\" is cut off: a number takes {} columns",
+                        number::shown(field),
+                        layout.width
+                    ),
+                    "the file is damaged or truncated: get it again",
+                ));
+            }
+            values.push(self.number(line, column, field)?);
+        }
+        Ok(())
+    }
+
+    /// Numbers of fixed width up to the next line of text or one that starts with
+    /// `/`, `|` or `-` alone; at most `most` of them, when the count alone tells
+    /// where they end.
+    pub(crate) fn block(
+        &self,
+        lines: &mut Lines<'_>,
+        layout: Layout,
+        expected: Option<usize>,
+        most: Option<usize>,
+    ) -> Result<Vec<f64>, GroundMotionError> {
+        let room = lines.remaining() / layout.width + 1;
+        let mut values = Vec::with_capacity(room.min(expected.unwrap_or(room)));
+        while most.is_none_or(|n| values.len() < n)
+            && let Some(line) = lines.peek()
+        {
+            let start = line.bytes.trim_ascii_start().first();
+            if line.is_text() || matches!(start, Some(b'/' | b'|')) {
+                break;
+            }
+            lines.next();
+            self.row(line, layout, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    /// `count` header numbers of fixed width; `None` where a field is blank or
+    /// not a number: only those that are needed must be right.
+    pub(crate) fn header_numbers(
+        &self,
+        lines: &mut Lines<'_>,
+        layout: Layout,
+        count: usize,
+    ) -> Result<HeaderNumbers, GroundMotionError> {
+        let first = lines.number() + 1;
+        let mut values = Vec::new();
+        let rows = count.div_ceil(layout.per_line);
+        for i in 0..rows {
+            let line = self.expect(lines, "numbers of the header")?;
+            let here = layout.per_line.min(count - i * layout.per_line);
+            for k in 0..here {
+                let from = k * layout.width;
+                let to = (from + layout.width).min(line.bytes.len());
+                let field = line.bytes.get(from..to).unwrap_or(&[]);
+                values.push(number::parse(field).ok());
+            }
+        }
+        Ok(HeaderNumbers { values, first })
+    }
+}
+
+/// Numbers of a header.
+pub(crate) struct HeaderNumbers {
+    values: Vec<Option<f64>>,
+    /// Their first line, from 1.
+    pub first: usize,
+}
+
+impl HeaderNumbers {
+    /// Number `index` (from 1, as specifications count) unless it is blank or
+    /// stands for unknown.
+    pub(crate) fn get(&self, index: usize) -> Option<f64> {
+        let value = self.values.get(index.checked_sub(1)?).copied().flatten()?;
+        let unknown = [-999.0, -9999.0, -32768.0, -12345.0].contains(&value);
+        (!unknown).then_some(value)
+    }
+
+    /// Number `index` as a count, unless it is zero or not whole.
+    pub(crate) fn count(&self, index: usize) -> Option<usize> {
+        self.get(index)
+            .filter(|n| n.fract() == 0.0 && (1.0..1.0e9).contains(n))
+            .map(|n| n as usize)
+    }
+
+    /// Number `index` unless it is zero or negative.
+    pub(crate) fn positive(&self, index: usize) -> Option<f64> {
+        self.get(index).filter(|n| *n > 0.0)
+    }
+}

@@ -1,0 +1,138 @@
+//! Lines of a file whatever their ends and their encoding.
+
+/// Lines with their numbers, read one after another: nothing is stored.
+#[derive(Clone)]
+pub(crate) struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    number: usize,
+    end: u8,
+}
+
+/// A line without its end and without trailing blanks.
+#[derive(Clone, Copy)]
+pub(crate) struct Line<'a> {
+    /// Number, from 1.
+    pub number: usize,
+    /// Content.
+    pub bytes: &'a [u8],
+}
+
+impl<'a> Lines<'a> {
+    /// Ends are LF, CRLF or CR CR LF; CR alone in a file that has no LF.
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let end = if !bytes.contains(&b'\n') && bytes.contains(&b'\r') {
+            b'\r'
+        } else {
+            b'\n'
+        };
+        Self {
+            bytes,
+            at: 0,
+            number: 0,
+            end,
+        }
+    }
+
+    /// The next line without going on.
+    pub(crate) fn peek(&self) -> Option<Line<'a>> {
+        self.clone().next()
+    }
+
+    /// Number of the line read last.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Bytes not read yet.
+    pub(crate) fn remaining(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        let rest = self.bytes.get(self.at..).filter(|r| !r.is_empty())?;
+        let length = rest.iter().position(|b| *b == self.end);
+        let line = &rest[..length.unwrap_or(rest.len())];
+        self.at += length.map_or(rest.len(), |n| n + 1);
+        self.number += 1;
+        Some(Line {
+            number: self.number,
+            bytes: trim_end(line),
+        })
+    }
+}
+
+fn trim_end(line: &[u8]) -> &[u8] {
+    let end = line
+        .iter()
+        .rposition(|b| !matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0x1a | 0))
+        .map_or(0, |n| n + 1);
+    &line[..end]
+}
+
+impl<'a> Line<'a> {
+    /// As Latin-1, in which every byte is a character.
+    pub(crate) fn text(&self) -> String {
+        latin_1(self.bytes)
+    }
+
+    /// As Latin-1, ASCII letters in lower case.
+    pub(crate) fn lower(&self) -> String {
+        self.text().to_ascii_lowercase()
+    }
+
+    /// Text in columns `from..to` (from 0), without blanks around it.
+    pub(crate) fn columns(&self, from: usize, to: usize) -> String {
+        let end = to.min(self.bytes.len());
+        latin_1(self.bytes.get(from..end).unwrap_or(&[]).trim_ascii())
+    }
+
+    /// Whether there is nothing on it.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.bytes.trim_ascii().is_empty()
+    }
+
+    /// Whether it is text, not numbers: two letters stand together that are not
+    /// those of NaN or Inf.
+    pub(crate) fn is_text(&self) -> bool {
+        let mut words = self
+            .bytes
+            .split(|b| !b.is_ascii_alphabetic())
+            .filter(|w| w.len() > 1);
+        words.any(|w| {
+            !["nan", "inf", "infinity"]
+                .iter()
+                .any(|n| w.eq_ignore_ascii_case(n.as_bytes()))
+        })
+    }
+
+    /// Fields between blanks, tabs, commas and semicolons, with their columns
+    /// (from 0).
+    pub(crate) fn fields(&self) -> impl Iterator<Item = (usize, &'a [u8])> + use<'a> {
+        let bytes = self.bytes;
+        let separator = |b: &u8| matches!(b, b' ' | b'\t' | b',' | b';' | b'\r');
+        let mut at = 0;
+        std::iter::from_fn(move || {
+            at += bytes[at..].iter().position(|b| !separator(b))?;
+            let length = bytes[at..].iter().position(separator);
+            let end = length.map_or(bytes.len(), |n| at + n);
+            let field = (at, &bytes[at..end]);
+            at = end;
+            Some(field)
+        })
+    }
+}
+
+/// Bytes as Latin-1; control characters are made visible.
+pub(crate) fn latin_1(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .map(|b| char::from(*b))
+        .map(|c| if c.is_control() && c != '\t' { ' ' } else { c })
+        .collect()
+}

@@ -1,0 +1,200 @@
+//! The skeleton that the volumes of Caltech, USC, CDMG and CGS share: lines of
+//! text, 100 integers, 50 or 100 reals, blocks of data, a line that starts `/&`.
+
+use crate::draft::{DraftPeak, Printed};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::source::{HeaderNumbers, Source};
+use crate::text::{Line, Lines};
+
+const INTEGERS: Layout = Layout::new(16, 5);
+const REALS: Layout = Layout::new(8, 10);
+
+/// The header of one channel.
+pub(crate) struct ChannelHeader<'a> {
+    pub text: Vec<Line<'a>>,
+    pub integers: HeaderNumbers,
+    pub reals: HeaderNumbers,
+}
+
+impl<'a> ChannelHeader<'a> {
+    /// Reads `text` lines of text, 100 integers and `reals` reals; `None` at the
+    /// end of the file.
+    pub(crate) fn read(
+        source: &Source<'a>,
+        lines: &mut Lines<'a>,
+        text: usize,
+        reals: usize,
+    ) -> Result<Option<Self>, GroundMotionError> {
+        let mut ahead = lines.clone();
+        loop {
+            match ahead.next() {
+                None => return Ok(None),
+                Some(line) if line.is_blank() => *lines = ahead.clone(),
+                Some(_) => break,
+            }
+        }
+        let mut head = Vec::with_capacity(text);
+        for _ in 0..text {
+            head.push(source.expect(lines, "the header of a channel")?);
+        }
+        Ok(Some(Self {
+            text: head,
+            integers: source.header_numbers(lines, INTEGERS, 100)?,
+            reals: source.header_numbers(lines, REALS, reals)?,
+        }))
+    }
+
+    /// Text line `index` (from 1).
+    pub(crate) fn line(&self, index: usize) -> String {
+        self.text
+            .get(index.saturating_sub(1))
+            .map(|l| l.text().trim().to_owned())
+            .unwrap_or_default()
+    }
+
+    /// The first line of text that holds a word, in lower case.
+    pub(crate) fn find(&self, word: &str) -> Option<String> {
+        self.text.iter().map(Line::lower).find(|l| l.contains(word))
+    }
+
+    /// Number of the first line.
+    pub(crate) fn first(&self) -> usize {
+        self.text.first().map_or(1, |l| l.number)
+    }
+
+    /// Channel and component of `CHAN  1:  90 DEG` or `COMP S90W`.
+    pub(crate) fn component(&self, index: usize) -> (Option<usize>, String) {
+        let line = self.line(index);
+        let lower = line.to_ascii_lowercase();
+        let Some((before, after)) = line.split_once(':') else {
+            let name = lower
+                .find("comp")
+                .and_then(|at| line.get(at + 4..))
+                .and_then(|rest| rest.split_whitespace().find(|w| !w.starts_with("ONENT")))
+                .unwrap_or(&line);
+            return (None, name.to_owned());
+        };
+        let channel = number::first_in(before)
+            .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e4).contains(&n.0))
+            .map(|n| n.0 as usize);
+        let mut words = after.split_whitespace();
+        let name = match (words.next(), words.next()) {
+            (Some(azimuth), Some(unit)) if unit.to_ascii_lowercase().starts_with("deg") => {
+                format!("{azimuth} deg")
+            }
+            (Some(word), _) => word.to_owned(),
+            _ => String::new(),
+        };
+        (channel, name)
+    }
+
+    /// Station and event.
+    pub(crate) fn title(&self, station: usize, event: usize) -> String {
+        format!("{}; {}", self.line(event), self.line(station))
+    }
+
+    /// What follows `time:` on the line that holds it.
+    pub(crate) fn start_time(&self) -> String {
+        self.text
+            .iter()
+            .map(Line::text)
+            .find_map(|l| {
+                let lower = l.to_ascii_lowercase();
+                let at = lower
+                    .find("start time:")
+                    .map(|n| n + 11)
+                    .or_else(|| lower.find("trigger time:").map(|n| n + 13))?;
+                Some(l.get(at..)?.trim().to_owned())
+            })
+            .unwrap_or_default()
+    }
+}
+
+/// Passes over the line that ends a channel, if it is there.
+pub(crate) fn end_of_channel(source: &Source<'_>, lines: &mut Lines<'_>) {
+    let ends = |l: &Line<'_>| l.bytes.trim_ascii_start().starts_with(b"/");
+    let mut ahead = lines.clone();
+    match ahead.find(|l| !l.is_blank()) {
+        Some(line) if ends(&line) => *lines = ahead,
+        _ => source.warn("a channel does not end in a line that starts with /&"),
+    }
+}
+
+/// `2674 POINTS OF ACC DATA EQUALLY SPACED AT .020 SEC.`
+pub(crate) struct Label {
+    pub count: usize,
+    pub quantity: Quantity,
+    pub unit: SeriesUnit,
+    pub step: Printed,
+    pub layout: Layout,
+}
+
+impl Label {
+    /// Parses the line before a block of a Volume 2 file; units are those of the
+    /// format, cm and s, unless the line states others.
+    pub(crate) fn parse(source: &Source<'_>, line: Line<'_>) -> Result<Self, GroundMotionError> {
+        let lower = line.lower();
+        let count = number::first_in(&lower)
+            .map(|n| n.0)
+            .filter(|n| n.fract() == 0.0 && (1.0..1.0e9).contains(n));
+        let quantity = lower
+            .split(|c: char| !c.is_ascii_alphabetic())
+            .find_map(|w| match w.get(..3)? {
+                "acc" => Some((Quantity::Acceleration, SeriesUnit::CM_S2)),
+                "vel" => Some((Quantity::Velocity, SeriesUnit::CM_S)),
+                "dis" => Some((Quantity::Displacement, SeriesUnit::CM)),
+                _ => None,
+            });
+        let step = number::after(&lower, " at ").filter(|s| s.0 > 0.0);
+        let (Some(count), Some((quantity, usual)), Some(step)) = (count, quantity, step) else {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "\"{}\" is not like \"2674 points of accel data equally spaced at .020 sec\"",
+                    number::shown(line.bytes)
+                ),
+                "the header has lines too many or too few: get the record again",
+            ));
+        };
+        let stated = lower
+            .rsplit_once(", in ")
+            .or_else(|| lower.rsplit_once("units: "))
+            .and_then(|(_, rest)| rest.split([' ', ')', '(']).next())
+            .and_then(SeriesUnit::parse);
+        let unit = stated.unwrap_or(usual);
+        if unit.quantity != quantity {
+            return Err(source.error(
+                line.number,
+                0,
+                format!("{quantity} in {}", unit.symbol),
+                "the label contradicts itself: get the record again",
+            ));
+        }
+        Ok(Self {
+            count: count as usize,
+            quantity,
+            unit,
+            step,
+            layout: Layout::find(&lower).unwrap_or(REALS),
+        })
+    }
+}
+
+/// `PEAK ACCELERATION = 210.14200 CMS/SEC/SEC AT 11.440 SEC` of the right quantity.
+pub(crate) fn peak_line(header: &ChannelHeader<'_>, quantity: Quantity) -> Option<DraftPeak> {
+    let line = header
+        .text
+        .iter()
+        .map(Line::lower)
+        .find(|l| l.trim_start().starts_with("peak") && l.contains(&quantity.name()[..5]))?;
+    Some(DraftPeak {
+        value: number::after(&line, "=")?,
+        time: number::after(&line, " at "),
+        unit: None,
+        shift: 0.0,
+    })
+}

@@ -1,0 +1,115 @@
+//! Volume 2, corrected: acceleration, velocity and displacement of each channel.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftUnit, Times};
+use crate::error::GroundMotionError;
+use crate::quantity::Quantity;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::Lines;
+use crate::volume::{ChannelHeader, Label, end_of_channel, peak_line};
+
+const TEXT_LINES: usize = 25;
+const REALS: usize = 100;
+
+/// Reads all channels.
+pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let mut series: Vec<Series> = Vec::new();
+    let mut channels = 0;
+    while let Some(header) = ChannelHeader::read(source, &mut lines, TEXT_LINES, REALS)? {
+        channels += 1;
+        let first = series.len();
+        let (channel, component) = header.component(8);
+        while lines
+            .peek()
+            .is_some_and(|l| l.is_text() && !l.bytes.trim_ascii_start().starts_with(b"/"))
+        {
+            let mut draft = block(source, &mut lines, &header)?;
+            draft.component.clone_from(&component);
+            draft.channel = channel.unwrap_or(channels);
+            series.push(draft.finish(source)?);
+        }
+        if series.len() == first {
+            return Err(source.error(
+                lines.number() + 1,
+                0,
+                format!(
+                    "no block of data in the channel that starts in line {}",
+                    header.first()
+                ),
+                "the header has lines too many or too few: get the record again",
+            ));
+        }
+        initial(&mut series[first..]);
+        end_of_channel(source, &mut lines);
+    }
+    Ok(series)
+}
+
+fn block(
+    source: &Source<'_>,
+    lines: &mut Lines<'_>,
+    header: &ChannelHeader<'_>,
+) -> Result<Draft, GroundMotionError> {
+    let line = source.expect(lines, "the line before a block")?;
+    let label = Label::parse(source, line)?;
+    let samples = source.block(lines, label.layout, Some(label.count), None)?;
+    let mut draft = Draft::new(
+        samples,
+        DraftUnit::Stated(label.unit),
+        (line.number, line.number + 1, lines.number()),
+    );
+    draft.header_count = Some(label.count);
+    draft.times = Times::Step(Some(label.step.0));
+    draft.peak = peak_line(header, label.quantity);
+    draft.processing = Processing::Corrected;
+    draft.title = header.title(7, 3);
+    draft.start_time = header.start_time();
+    draft.corners = (header.reals.positive(62), header.reals.positive(73));
+    let index = match label.quantity {
+        Quantity::Acceleration => 53,
+        Quantity::Velocity => 64,
+        Quantity::Displacement => 66,
+    };
+    // Five columns cannot hold a count of six digits, and Caltech leaves the
+    // counts of velocity and displacement to their blocks.
+    if label.quantity == Quantity::Acceleration
+        && let Some(count) = header.integers.count(index)
+        && count != label.count
+    {
+        draft.warnings.push(format!(
+            "the header says {count} samples, the line before the data {}",
+            label.count
+        ));
+    }
+    if let Some(step) = header.reals.positive(61)
+        && (step - label.step.0).abs() > label.step.1
+    {
+        draft.warnings.push(format!(
+            "the header says a step of {step} s, the line before the data {} s, which is used",
+            label.step.0
+        ));
+    }
+    Ok(draft)
+}
+
+/// Initial velocity and displacement of the acceleration: the first values of
+/// their blocks, for Caltech prints the others with the opposite sign.
+fn initial(channel: &mut [Series]) {
+    let first = |q: Quantity| {
+        channel
+            .iter()
+            .find(|s| s.quantity == q)
+            .and_then(|s| s.samples.first().copied())
+    };
+    let Some(velocity) = first(Quantity::Velocity) else {
+        return;
+    };
+    let displacement = first(Quantity::Displacement).unwrap_or(0.0);
+    for s in channel {
+        if s.quantity == Quantity::Acceleration {
+            s.initial = Some((velocity, displacement));
+        }
+    }
+}

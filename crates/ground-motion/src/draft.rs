@@ -87,7 +87,10 @@ impl Draft {
     /// # Errors
     /// Too few samples, an unstated or contradicted unit or step.
     pub(crate) fn finish(mut self, source: &Source<'_>) -> Result<Series, GroundMotionError> {
+        source.one_more_series(self.lines.2)?;
         self.count(source)?;
+        self.samples.shrink_to_fit();
+        self.missing();
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         let (sampling, step_text) = self.sampling(source)?;
         for a in &mut self.samples {
@@ -133,7 +136,7 @@ impl Draft {
             if !source.options.lenient {
                 return Err(GroundMotionError::TooFewSamples {
                     file: source.file.to_owned(),
-                    line: self.lines.2,
+                    line: self.lines.2.max(1),
                     column: 1,
                     expected,
                     found,
@@ -164,6 +167,19 @@ impl Draft {
             ));
         }
         Ok(())
+    }
+
+    /// Values that often stand for "missing" but can be true are only named.
+    fn missing(&mut self) {
+        let stands_for = |a: &f64| [-999.0, -9999.0, -12345.0, -32768.0].contains(a);
+        let count = self.samples.iter().filter(|a| stands_for(a)).count();
+        if let Some(first) = self.samples.iter().position(|a| stands_for(a)) {
+            self.warnings.push(format!(
+                "sample {} is exactly {}, which often stands for a missing value ({count} such samples)",
+                first + 1,
+                self.samples[first]
+            ));
+        }
     }
 
     /// Factor to SI, quantity, symbol and the text for the user.

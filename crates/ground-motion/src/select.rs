@@ -7,6 +7,9 @@ use crate::quantity::Quantity;
 use crate::recording::{Recording, Sampling, Series};
 use crate::unit::AccelerationUnit;
 
+/// Ratio of mean to peak from which a mean that is kept is named.
+const OFFSET_TO_NAME: f64 = 0.01;
+
 /// Chooses the acceleration that the options name and makes it ready.
 pub(crate) fn excitation(
     file: &str,
@@ -108,6 +111,10 @@ fn ready(
             .origin
             .warnings
             .push(format!("the mean, {mean:.6e} m/s2, was taken off"));
+    } else if mean.abs() > OFFSET_TO_NAME * series.peak().value {
+        series.origin.warnings.push(format!(
+            "the mean is {mean:.6e} m/s2: an offset of the instrument?"
+        ));
     }
     let (mut samples, time_step) = match series.sampling {
         Sampling::Even { time_step } => (series.samples, time_step),

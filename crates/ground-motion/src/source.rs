@@ -1,6 +1,6 @@
 //! A file on its way through a reader: places in it, and what the user said.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
@@ -10,6 +10,10 @@ use crate::text::{Line, Lines};
 
 /// Lines that detection looks at.
 const HEAD: usize = 30;
+/// Series that any file may hold, and bytes that each further one must bring: no
+/// agency's header is shorter.
+const FREE_SERIES: usize = 12;
+const BYTES_A_SERIES: usize = 256;
 const REMEDY_VALUE: &str = "correct the value, or get the record again: no sample may be missing";
 
 /// A file's bytes with what is needed to point into them.
@@ -19,6 +23,8 @@ pub(crate) struct Source<'a> {
     pub options: &'a ReadOptions,
     /// What holds for the whole file.
     warnings: RefCell<Vec<String>>,
+    /// Series finished so far.
+    series: Cell<usize>,
 }
 
 impl<'a> Source<'a> {
@@ -28,7 +34,27 @@ impl<'a> Source<'a> {
             bytes,
             options,
             warnings: RefCell::default(),
+            series: Cell::default(),
         }
+    }
+
+    /// Counts a series that ends at a line: a damaged file must not make hundreds
+    /// of thousands of them.
+    pub(crate) fn one_more_series(&self, line: usize) -> Result<(), GroundMotionError> {
+        self.series.set(self.series.get() + 1);
+        if self.series.get() <= FREE_SERIES + self.bytes.len() / BYTES_A_SERIES {
+            return Ok(());
+        }
+        Err(self.error(
+            line,
+            0,
+            format!(
+                "{} series in a file of {} bytes",
+                self.series.get(),
+                self.bytes.len()
+            ),
+            "the file is damaged: get it again",
+        ))
     }
 
     pub(crate) fn lines(&self) -> Lines<'a> {
@@ -67,7 +93,7 @@ impl<'a> Source<'a> {
     ) -> GroundMotionError {
         GroundMotionError::Parse {
             file: self.file.to_owned(),
-            line,
+            line: line.max(1),
             column: column + 1,
             message: message.into(),
             remedy: remedy.to_owned(),

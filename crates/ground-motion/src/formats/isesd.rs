@@ -11,8 +11,10 @@ use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
 
-/// Rows whose length is a multiple of this width have touching fields.
+/// Columns of a number.
 const WIDTH: usize = 13;
+/// Columns that a row of touching numbers may have.
+const LONGEST: usize = 260;
 
 /// What the header says.
 #[derive(Default)]
@@ -84,7 +86,9 @@ fn numbers<'a>(
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
         lines.next();
         let length = line.bytes.len();
-        if length > 0 && length.is_multiple_of(WIDTH) && !line.bytes.contains(&b'\t') {
+        // Fields that touch are no numbers between blanks.
+        let touching = line.fields().any(|(_, f)| number::parse(f).is_err());
+        if touching && length.is_multiple_of(WIDTH) && length <= LONGEST {
             source.row(line, Layout::new(length / WIDTH, WIDTH), &mut values)?;
         } else {
             for (column, field) in line.fields() {

@@ -5,7 +5,6 @@
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
-use crate::number;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::Line;
@@ -21,7 +20,8 @@ const OTHERS: [&str; 4] = ["-", "row", "velocity", "displacement"];
 
 fn is_comment(line: &Line<'_>) -> bool {
     let start = line.bytes.trim_ascii_start();
-    COMMENTS.iter().any(|c| start.starts_with(c)) && !start.starts_with(b"**")
+    // A row may start with a Fortran overflow.
+    COMMENTS.iter().any(|c| start.starts_with(c)) && (!start.starts_with(b"**") || line.is_text())
 }
 
 /// Rows of numbers: no comments, no blank lines, no text before the first row;
@@ -39,16 +39,16 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
         .skip_while(Line::is_text)
 }
 
+/// Damaged and touching values are numbers to detection: the reader names them.
 fn looks_numeric(field: &[u8]) -> bool {
-    number::parse(field).is_ok()
-        || field.iter().all(|b| *b == b'*')
+    let part = |b: &u8| b.is_ascii_digit() || b"+-.eEdD*".contains(b);
+    field.iter().all(part) && field.iter().any(|b| b.is_ascii_digit() || *b == b'*')
         || [&b"nan"[..], b"inf", b"-inf", b"+inf"]
             .iter()
             .any(|w| field.eq_ignore_ascii_case(w))
 }
 
 pub(crate) fn matches(source: &Source<'_>) -> bool {
-    // A damaged value is still a number to detection: the reader names it.
     let mut first = rows(source).take(30).peekable();
     first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| looks_numeric(f)))
 }

@@ -73,7 +73,8 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let Some(words) = words(source.bytes) else {
-        return Err(source.binary_error(4 * VERSION, "no SAC header of version 6 or 7"));
+        let offset = source.bytes.len().min(4 * VERSION);
+        return Err(source.binary_error(offset, "no SAC header of version 6 or 7"));
     };
     if words.integer(85) != 1 {
         return Err(GroundMotionError::Unsupported {
@@ -118,6 +119,12 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         draft.warnings.push(format!(
             "the header says {length} s from first to last sample, count and step {} s",
             (count - 1) as f64 * step
+        ));
+    }
+    // Version 7 has 22 doubles after the data.
+    if words.integer(VERSION) == 6 && present > count {
+        draft.warnings.push(format!(
+            "header says {count} samples, {present} found; the surplus is not used"
         ));
     }
     fill(&words, &mut draft);

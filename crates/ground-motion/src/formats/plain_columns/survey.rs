@@ -50,6 +50,14 @@ impl Survey {
         let mut comma = None;
         let mut point = false;
         for line in rows(source) {
+            if line.is_text() {
+                return Err(source.error(
+                    line.number,
+                    0,
+                    "text among the numbers",
+                    "remove the line, or start it with #",
+                ));
+            }
             let length = line.fields().count();
             survey.last_ends(declared);
             survey.add(line.number, length);

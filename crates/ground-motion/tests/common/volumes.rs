@@ -1,0 +1,434 @@
+//! Card images: Caltech, CSMIP, SMC, COSMOS, GeoNet.
+
+use pounding_ground_motion::{Format, Quantity, ReadOptions};
+
+use super::*;
+
+const ACC: Quantity = Quantity::Acceleration;
+const VEL: Quantity = Quantity::Velocity;
+const DIS: Quantity = Quantity::Displacement;
+
+fn fixture(name: &'static str, format: Format, text: String, truth: Vec<Truth>) -> Fixture {
+    Fixture {
+        name,
+        format,
+        bytes: text.into_bytes(),
+        options: ReadOptions::default(),
+        truth,
+        counted: true,
+    }
+}
+
+/// Pairs of time and value at steps that vary by a fifth.
+fn pairs(values: &[f64], width: usize, decimals: usize) -> (String, Vec<f64>, Vec<f64>) {
+    let flat: Vec<f64> = values
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| [i as f64 * 0.005 + 0.001 * f64::from(i % 2 == 1), *a])
+        .collect();
+    let (text, printed) = block(&flat, 10, width, decimals);
+    let times = printed.iter().step_by(2).copied().collect();
+    (
+        text,
+        times,
+        printed.iter().skip(1).step_by(2).copied().collect(),
+    )
+}
+
+fn volume_1_text(first: &str, component: &str, written: i64, units: &str) -> String {
+    format!(
+        "{first}\nMADE UP EARTHQUAKE\nJANUARY 1, 2000 00:00 PST\n00000-S0000-00000.00               TRIGGER TIME: 01/01/00, 08:00:00.0 UTC\nSTATION NO. 00000   34.000N, 118.000W     SMA-1  S/N 0000\nNOWHERE\n{component}\nMADE UP EARTHQUAKE     JANUARY 1, 2000 00:00 PST\nHYPOCENTER: NONE\nINSTR PERIOD =  .0400 SEC,  DAMPING =  .600,  SENSITIVITY = 1.80 CM/G.\nNO. OF POINTS = {written:>6}  RECORD LENGTH =   .110 SEC\n{units}\nRMS ACCEL OF COMPLETE RECORD =  .021 G.\n"
+    )
+}
+
+pub fn csmip_1(written: i64) -> Vec<Fixture> {
+    let mut old = String::new();
+    let mut found = Vec::new();
+    for (k, (name, component)) in [("90 DEG", "90 deg"), ("UP", "UP")].into_iter().enumerate() {
+        let (data, times, values) = pairs(&signal(-95.0, k as f64), 7, 3);
+        let most = peak(&values);
+        let units = format!(
+            "UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  = {:.3} G, AT {:.3} SEC.",
+            most.0 / 10.0,
+            times[most.1]
+        );
+        old.push_str(&volume_1_text(
+            "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 01/01/00, CDMG QN00A000",
+            &format!("CHAN  {}:  {name}", k + 1),
+            written,
+            &units,
+        ));
+        // Integer 28 touches integer 27, the azimuth.
+        old.push_str(
+            &integers(100, 16, 5, 0, &[(27, 90), (28, 10_000 + written)]).replace(
+                &format!("{:>5}", 10_000 + written),
+                &format!("{written:>5}"),
+            ),
+        );
+        old.push_str(&reals(50, 8, 10, 3, 0.0, &[(3, 0.11), (5, 1.0)]));
+        old.push_str(&data);
+        old.push_str(&format!(
+            "/&  ----------  END OF DATA FOR CHANNEL  {}  ----------\n",
+            k + 1
+        ));
+        let mut series = truth(ACC, component, &values, 0.1 * G, 0.0);
+        series.times = Some(times);
+        found.push(series);
+    }
+    vec![
+        fixture("csmip_v1_pairs", Format::CsmipV1, old, found),
+        csmip_1_even(written),
+    ]
+}
+
+fn csmip_1_even(written: i64) -> Fixture {
+    let (data, printed) = block(&signal(-1.9, 0.3), 8, 9, 6);
+    let most = peak(&printed);
+    let mut text = volume_1_text(
+        "Uncorrected Accelerogram Data             Processed: 01/01/00, CGS  made--up",
+        "Chan  1: 360 Deg",
+        written,
+        &format!(
+            "Units of uncor data are sec and g.         Max  = {:.3} g, at {:.3} sec.",
+            most.0,
+            most.1 as f64 * 0.01
+        ),
+    );
+    // Integer 28 holds nonsense, as where six digits do not fit five columns.
+    text.push_str(&integers(
+        100,
+        16,
+        5,
+        -999,
+        &[(27, 360), (28, 31_999), (33, written)],
+    ));
+    text.push_str(&reals(50, 8, 10, 5, -999.0, &[(3, 0.23), (5, 1.0)]));
+    text.push_str(&format!(
+        "{written:>6} Accelerogram points at 100 pts/sec in units of g.       Format: (8f9.6)\n{data}/&  ----------  End of Data for Station Channel   1  ----------\n"
+    ));
+    let found = vec![truth(ACC, "360 deg", &printed, G, 0.01)];
+    fixture("csmip_v1_even", Format::CsmipV1, text, found)
+}
+
+pub fn caltech_1(written: i64) -> Vec<Fixture> {
+    let (data, times, values) = pairs(&signal(-900.0, 0.7), 8, 3);
+    let mut text = volume_1_text(
+        "UNCORRECTED ACCELEROGRAM DATA OF VOL. I-A, EERL 00-00",
+        "COMP S90W                                                               9",
+        written,
+        "UNITS ARE SEC AND G/10.                                                 23",
+    );
+    text.push_str(&integers(100, 16, 5, 0, &[(28, written)]));
+    text.push_str(&reals(50, 8, 10, 3, 0.0, &[(3, 0.11)]));
+    text.push_str(&data);
+    text.push_str("/&\n");
+    let mut series = truth(ACC, "S90W", &values, 0.1 * G, 0.0);
+    series.times = Some(times);
+    vec![fixture(
+        "caltech_volume_1",
+        Format::CaltechVolume1,
+        text,
+        vec![series],
+    )]
+}
+
+/// Header integers and reals of Volume 2.
+fn volume_2_numbers(written: i64, step: f64) -> String {
+    integers(100, 16, 5, -999, &[(53, written)])
+        + &reals(100, 8, 10, 4, -999.0, &[(61, step), (62, 0.07), (73, 40.0)])
+}
+
+pub fn caltech_2(written: i64) -> Vec<Fixture> {
+    let sizes = [(ACC, 9.0e4, "ACC"), (VEL, 90.0, "VEL"), (DIS, 9.0, "DIS")];
+    let blocks: Vec<_> = sizes
+        .map(|(_, s, _)| block(&signal(-s, 0.4), 8, 10, 3))
+        .into();
+    let peaks: Vec<_> = blocks.iter().map(|(_, p)| peak(p)).collect();
+    // Peaks and initial values with the opposite sign.
+    let line = |k: usize, what: &str, unit: &str| {
+        format!(
+            "PEAK {what} = {:10.5} {unit} AT {:8.3} SEC.",
+            -peaks[k].0,
+            peaks[k].1 as f64 * 0.02
+        )
+    };
+    let text = [
+        "CORRECTED ACCELEROGRAM  IIX001  00.001.0    COMP S90W   FILE  2 DERIVED FROM:",
+        "FILE   2  OF UNCORRECTED ACCELEROGRAM DATA OF VOL. I-A, EERL 00-00",
+        "MADE UP EARTHQUAKE",
+        "JANUARY 1, 1940 - 0000 PST",
+        "IX001   00.001.0 S",
+        "STATION NO. 000   32 00 00N,115 00 00W",
+        "NOWHERE SITE",
+        "COMP S90W                                                               9",
+        "MADE UP EARTHQUAKE   JANUARY 1, 1940 - 0000 PST",
+        "EPICENTER  32 00 00N,115 00 00W",
+        "INSTR PERIOD = 0.1000 SEC  DAMPING = 0.528",
+        "NO. OF POINTS = 1105  DURATION =  0.46 SEC",
+        "UNITS ARE SEC AND G/10.",
+        "RMS ACCLN OF COMPLETE RECORD = 0.4126 G/10.",
+        " ACCELEROGRAM IS BAND-PASS FILTERED BETWEEN  .050- .070 AND 25.00-27.00 HZ",
+        "    23  INSTRUMENT AND BASELINE CORRECTED DATA",
+        "AT EQUALLY-SPACED INTERVALS OF    .020  SEC.",
+        &line(0, "ACCELERATION", "CMS/SEC/SEC"),
+        &line(1, "VELOCITY    ", "CMS/SEC"),
+        &line(2, "DISPLACEMENT", "CMS"),
+        "INITIAL VELOCITY  =    12.08807  CMS/SEC        INITIAL DISP. =      .74222  CMS",
+        "MADE UP EARTHQUAKE   JANUARY 1, 1940 - 0000 PST",
+        "",
+        "IIX001  00.001.0   NOWHERE SITE                                           COMP S90",
+        "W",
+    ]
+    .join("\n");
+    let mut text = text + "\n" + &volume_2_numbers(written, 0.02);
+    let mut found = Vec::new();
+    for ((quantity, _, word), (data, printed)) in sizes.iter().zip(&blocks) {
+        text.push_str(&format!(
+            "{written:>6} POINTS OF {word} DATA EQUALLY SPACED AT   .020 SEC.\n{data}"
+        ));
+        found.push(truth(*quantity, "S90W", printed, 0.01, 0.02));
+    }
+    text.push_str(" /&\n");
+    vec![fixture(
+        "caltech_volume_2",
+        Format::CaltechVolume2,
+        text,
+        found,
+    )]
+}
+
+pub fn csmip_2(written: i64) -> Vec<Fixture> {
+    let mut text = String::new();
+    let mut found = Vec::new();
+    for (channel, name) in [(1, "180 Deg"), (2, "Up")] {
+        let component = name.replace("Deg", "deg");
+        let kinds = [
+            (ACC, 900.0, 5, "accel", "cm/sec2."),
+            (VEL, 90.0, 6, "veloc", "cm/sec."),
+            (DIS, 9.0, 7, "displ", "cm."),
+        ];
+        let blocks = kinds.map(|(_, s, d, _, _)| block(&signal(-s, f64::from(channel)), 8, 10, d));
+        let line = |k: usize, what: &str, unit: &str| {
+            let most = peak(&blocks[k].1);
+            format!(
+                "Peak {what} = {:10.3}    {unit}  at {:8.3}   sec.",
+                most.0,
+                most.1 as f64 * 0.01
+            )
+        };
+        let chan = format!("Chan  {channel}: {name}");
+        text.push_str(&format!(
+            "Corrected accelerogram   00000-N0000-00000.00       {chan}     from\nUncorrected Accelerogram Data             Processed: 01/01/00, CGS  madeup\nRcrd of made up earthquake\nCSMIP Preliminary Processing\n00000-N0000-00000.00                 Start time: 01/01/00, 00:00: 1.0 UTC (GPS)\nStation No. 00000   40.000N, 124.000W    Etna2   s/n 0000  (2 Chns of  2 at Sta)\nNowhere - 1 Blvd.                         CGS   Data: Acceleration\n{chan}\n\n\n\n\n\n\nAccelerogram bandpass filtered with 3 dB pts at  0.07 and 40.00 cyc/sec\n    23 points of instrument- and baseline-corrected accel, veloc and displ data\nAt equally-spaced intervals of   0.010  sec.\n{}\n{}\n{}\nInitial velocity  =    -0.000   cm/sec;   Initial displacement =    0.002   cm\n\n\n\n\n",
+            line(0, "acceleration", "cm/sec/sec"),
+            line(1, "  velocity  ", "cm/sec"),
+            line(2, "displacement", "cm"),
+        ));
+        text.push_str(&volume_2_numbers(written, 0.01));
+        for ((quantity, _, decimals, word, unit), (data, printed)) in kinds.iter().zip(&blocks) {
+            text.push_str(&format!(
+                "{written:>6} points of {word} data equally spaced at 0.010 sec, in {unit} (8f10.{decimals})\n{data}"
+            ));
+            found.push(truth(*quantity, &component, printed, 0.01, 0.01));
+        }
+        text.push_str(&format!(
+            "/&  ----------  End of data for channel  {channel}  ----------\n"
+        ));
+    }
+    vec![fixture("csmip_v2", Format::CsmipV2, text, found)]
+}
+
+/// `1PE10.4E1`: an exponent of one digit, no room before a minus.
+fn one_digit_exponents(values: &[f64]) -> (String, Vec<f64>) {
+    let mut text = String::new();
+    let mut printed = Vec::new();
+    for row in values.chunks(8) {
+        for value in row {
+            let plain = format!("{value:.4e}");
+            printed.push(plain.parse().unwrap());
+            let (mantissa, exponent) = plain.split_once('e').unwrap();
+            let exponent: i32 = exponent.parse().unwrap();
+            text.push_str(&format!("{:>10}", format!("{mantissa}E{exponent:+}")));
+        }
+        text.push('\n');
+    }
+    (text, printed)
+}
+
+pub fn smc(written: i64) -> Vec<Fixture> {
+    let kinds = [
+        ("2 CORRECTED ACCELEROGRAM", ACC),
+        ("3 VELOCITY", VEL),
+        ("4 DISPLACEMENT", DIS),
+        ("1 UNCORRECTED ACCELEROGRAM", ACC),
+    ];
+    kinds
+        .into_iter()
+        .map(|(title, quantity)| {
+            let uneven = title.starts_with('1');
+            let values = signal(-220.0, 0.8);
+            let times: Vec<f64> = (0..COUNT).map(|i| (50 * i + 7 * (i % 2)) as f64 * 1.0e-4).collect();
+            let flat: Vec<f64> = if uneven {
+                times.iter().zip(&values).flat_map(|(t, a)| [*t, *a]).collect()
+            } else {
+                values
+            };
+            let (data, printed) = one_digit_exponents(&flat);
+            let samples: Vec<f64> = if uneven {
+                printed.iter().skip(1).step_by(2).copied().collect()
+            } else {
+                printed.clone()
+            };
+            let numbers = if uneven { 2 * written } else { written };
+            let mut text = format!(
+                "{title}\n*\nX000X\n     2000   1   1    0000 Made up\nMoment Mag=      7.0\nstation = A name that is long enough to be c  component=    133\nepicentral dist =     63.0\ninst type=SMA-1\n*\n*\n*\n"
+            );
+            text.push_str(&integers(48, 8, 10, -32_768, &[(1, -32_768), (2, 2000), (13, 90), (14, 133), (16, 2), (17, numbers)]));
+            let most = peak(&samples);
+            let at = if most.0 < 0.0 { 31 } else { 29 };
+            let mut reals = vec![1.7e38; 50];
+            if !uneven {
+                reals[1] = 200.0;
+                reals[at - 1] = most.1 as f64 * 0.005;
+                reals[at] = most.0;
+            }
+            for row in reals.chunks(5) {
+                for value in row {
+                    let plain = format!("{value:.6e}");
+                    let (mantissa, exponent) = plain.split_once('e').unwrap();
+                    text.push_str(&format!("{:>15}", format!("{mantissa}E{:+03}", exponent.parse::<i32>().unwrap())));
+                }
+                text.push('\n');
+            }
+            text.push_str(&format!("| a comment\n|\n{data}"));
+            let mut series = truth(quantity, "133", &samples, 0.01, 0.005);
+            if uneven {
+                series.times = Some(printed.iter().step_by(2).copied().collect());
+            }
+            fixture("smc", Format::UsgsSmc, text, vec![series])
+        })
+        .collect()
+}
+
+pub fn cosmos(written: i64) -> Vec<Fixture> {
+    let mut text = String::new();
+    let mut found = Vec::new();
+    for (quantity, code, unit, factor, format, azimuth) in [
+        (ACC, 1, "cm/sec2(04)", 0.01, "8F10.5", 90),
+        (VEL, 2, "cm/sec(05)", 0.01, "8F10.5", 90),
+        (ACC, 1, "g(02)", G, "1D15.6", 400),
+    ] {
+        let values = signal(if factor == G { 0.2 } else { -900.0 }, azimuth as f64);
+        let (data, printed) = if format.starts_with('8') {
+            block(&values, 8, 10, 5)
+        } else {
+            let fields: Vec<String> = values.iter().map(|a| format!("{a:.6e}")).collect();
+            let printed = fields.iter().map(|f| f.parse().unwrap()).collect();
+            let rows = fields.iter().map(|f| {
+                let (m, e) = f.split_once('e').unwrap();
+                format!("{:>15}\n", format!("{m}D{:+03}", e.parse::<i32>().unwrap()))
+            });
+            (rows.collect(), printed)
+        };
+        let most = peak(&printed);
+        text.push_str("Corrected acceleration    (Format v01.20 with 13 text lines)\n");
+        for k in 2..13 {
+            text.push_str(&format!("Text line {k}\n"));
+        }
+        text.push_str("Values used when parameter or data value is unknown/unspecified:   -999, -999.00\n 100 Integer-header values follow on  10 lines, Format= (10I8)\n");
+        let unit_code = if factor == G {
+            2
+        } else if code == 1 {
+            4
+        } else {
+            5
+        };
+        text.push_str(&integers(
+            100,
+            10,
+            8,
+            -999,
+            &[(1, 2), (2, code), (3, unit_code), (54, azimuth)],
+        ));
+        text.push_str(" 100 Real-header values follow on  17 lines, Format= (6F13.6)\n");
+        // Real 34, the step of the uncorrected record, is the wrong one.
+        text.push_str(&reals(
+            100,
+            6,
+            13,
+            6,
+            -999.0,
+            &[
+                (34, 0.02),
+                (54, 0.03),
+                (57, 20.0),
+                (62, 5.0),
+                (63, 0.115),
+                (64, most.0),
+                (65, most.1 as f64 * 0.005),
+            ],
+        ));
+        text.push_str(&format!(
+            "   1 Comment line(s) follow, each starting with a \"|\":\n| nothing\n{written:>8} {} pts, approx  0 secs, units={unit},Format=({format})\n{data}End-of-data for Chan 1\n",
+            quantity.name()
+        ));
+        let component = if azimuth == 400 { "Up" } else { "90 deg" };
+        found.push(truth(quantity, component, &printed, factor, 0.005));
+    }
+    vec![fixture("cosmos", Format::Cosmos, text, found)]
+}
+
+pub fn geo_net(written: i64) -> Vec<Fixture> {
+    let mut raw = String::new();
+    let mut corrected = String::new();
+    let (mut in_raw, mut in_corrected) = (Vec::new(), Vec::new());
+    for (k, name) in ["N10E", "N80W", "Up"].into_iter().enumerate() {
+        let blocks = [(ACC, 9000.0, 1), (VEL, 900.0, 2), (DIS, 0.5, 5)]
+            .map(|(q, s, d)| (q, block(&signal(-s, k as f64), 10, 8, d)));
+        let most = peak(&blocks[0].1.1);
+        let head = |first: &str, eleven: &str, pad: usize| {
+            format!(
+                "{first} accelerogram 20000101_000000_XXXX GNS Science\nSite XXXX      42 00 00S  172 00 00E\nNowhere\nInstrument None\nResolution: 24-bit\nAccelerogram\n5 km of nowhere\n2000 January 1 00:00:00 UT\nEpicentre\nNumber of points {written}\n{eleven}\nData\nComponent {name}  Axis\nAcceleration:  Peak {:8.1} mm/s/s at {:6.2} s\nVelocity record\nDisplacement record\n",
+                most.0,
+                most.1 as f64 * 0.02 - pad as f64 * 0.02
+            )
+        };
+        let numbers = |pad: i64| {
+            integers(
+                40,
+                10,
+                8,
+                0,
+                &[
+                    (31, written),
+                    (32, pad),
+                    (33, pad),
+                    (34, written),
+                    (35, written),
+                    (36, written),
+                ],
+            ) + &reals(60, 10, 8, 4, 0.0, &[(25, 0.005), (26, 0.02)])
+        };
+        raw.push_str(&head(
+            "Uncorrected",
+            "Raw readings in units of 1.00 mm/s/s  at intervals of 0.020 s",
+            0,
+        ));
+        raw.push_str(&numbers(0));
+        raw.push_str(&blocks[0].1.0);
+        in_raw.push(truth(ACC, name, &blocks[0].1.1, 0.001, 0.02));
+        corrected.push_str(&head(
+            "Corrected",
+            "Instrument corrected data at 0.020 sec intervals",
+            2,
+        ));
+        corrected.push_str(&numbers(2));
+        for (quantity, (data, printed)) in &blocks {
+            corrected.push_str(data);
+            in_corrected.push(truth(*quantity, name, printed, 0.001, 0.02));
+        }
+    }
+    vec![
+        fixture("geo_net_v1a", Format::GeoNet, raw, in_raw),
+        fixture("geo_net_v2a", Format::GeoNet, corrected, in_corrected),
+    ]
+}

@@ -1,0 +1,371 @@
+//! Every format from a file in its exact layout, and the traps that files set.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{COUNT, Fixture, all};
+use pounding_ground_motion::{
+    Format, GroundMotionError, Processing, Quantity, ReadOptions, Sampling, read_all_bytes,
+    read_bytes,
+};
+
+/// Reads the file and holds everything against the truth.
+fn hold(fixture: &Fixture, bytes: &[u8], what: &str) {
+    let name = format!("{} {what}", fixture.name);
+    let recording = read_all_bytes("file", bytes, &fixture.options)
+        .unwrap_or_else(|e| panic!("{name}: {e} ({:?})", e.help()));
+    assert_eq!(recording.series.len(), fixture.truth.len(), "{name}");
+    for (series, truth) in recording.series.iter().zip(&fixture.truth) {
+        assert_eq!(series.origin.format, fixture.format.name(), "{name}");
+        assert_eq!(series.quantity, truth.quantity, "{name}");
+        assert_eq!(series.component, truth.component, "{name}");
+        assert_eq!(series.samples.len(), truth.samples.len(), "{name}");
+        for (a, b) in series.samples.iter().zip(&truth.samples) {
+            assert!(
+                (a - b).abs() <= 4.0 * f64::EPSILON * b.abs(),
+                "{name}: {a} {b}"
+            );
+        }
+        match (&series.sampling, &truth.times) {
+            (Sampling::Even { time_step }, None) => {
+                assert!(
+                    (time_step - truth.step).abs() <= 1e-15,
+                    "{name}: {time_step}"
+                );
+            }
+            (Sampling::Uneven { times }, Some(expected)) => assert_eq!(times, expected, "{name}"),
+            (found, _) => panic!("{name}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn every_format_reads_and_agrees_with_its_header() {
+    for fixture in all(0) {
+        hold(&fixture, &fixture.bytes, "as written");
+        let recording = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+        for series in &recording.series {
+            let of_header = |w: &&String| w.contains("header") || w.contains("peak");
+            let found = series.origin.warnings.iter().find(of_header);
+            assert_eq!(found, None, "{} {}", fixture.name, series.label());
+        }
+    }
+}
+
+#[test]
+fn every_format_is_found_by_its_name() {
+    for format in Format::ALL {
+        assert_eq!(Format::from_name(format.name()), Some(*format));
+    }
+    assert_eq!(Format::from_name("nothing"), None);
+}
+
+/// The ends of lines and of the file do not matter, nor does a byte order mark.
+#[test]
+fn line_ends() {
+    for fixture in all(0) {
+        if matches!(fixture.format, Format::MiniSeed2 | Format::Sac) {
+            continue;
+        }
+        let with = |end: &[u8]| -> Vec<u8> {
+            let lines: Vec<&[u8]> = fixture.bytes.split(|b| *b == b'\n').collect();
+            lines.join(end)
+        };
+        for (what, end) in [
+            ("CRLF", &b"\r\n"[..]),
+            ("CR CR LF", b"\r\r\n"),
+            ("CR", b"\r"),
+        ] {
+            hold(&fixture, &with(end), what);
+        }
+        let mut bytes = fixture.bytes.clone();
+        while bytes.last() == Some(&b'\n') {
+            bytes.pop();
+        }
+        hold(&fixture, &bytes, "no last newline");
+        let mut marked = b"\xef\xbb\xbf".to_vec();
+        marked.extend(&fixture.bytes);
+        hold(&fixture, &marked, "byte order mark");
+        // Blanks at the ends of lines, as card images have.
+        hold(&fixture, &with(b"   \n"), "trailing blanks");
+    }
+}
+
+/// One sample fewer than the header says is an error, one more a warning.
+#[test]
+fn counts_off_by_one() {
+    for fixture in all(1).iter().filter(|f| f.counted) {
+        let error = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap_err();
+        let named = matches!(
+            error,
+            GroundMotionError::TooFewSamples { expected, found, .. }
+                if expected == COUNT + 1 && found == COUNT
+        );
+        // GeoNet has no labels: the next block stands where the value should, and
+        // the error is found where that block ends.
+        let later = matches!(error, GroundMotionError::TooFewSamples { line, .. } if line > 26);
+        assert!(
+            named || later && fixture.format == Format::GeoNet,
+            "{}: {error}",
+            fixture.name
+        );
+        if fixture.format != Format::GeoNet {
+            let lenient = ReadOptions {
+                lenient: true,
+                ..fixture.options.clone()
+            };
+            let recording = read_all_bytes("file", &fixture.bytes, &lenient).unwrap();
+            for series in recording.series {
+                assert_eq!(series.samples.len(), COUNT, "{}", fixture.name);
+                assert!(
+                    series
+                        .origin
+                        .warnings
+                        .iter()
+                        .any(|w| w.contains("24 samples, 23 found")),
+                    "{}: {:?}",
+                    fixture.name,
+                    series.origin.warnings
+                );
+            }
+        }
+    }
+    for fixture in all(-1).iter().filter(|f| f.counted) {
+        let recording = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+        for series in recording.series {
+            assert_eq!(series.samples.len(), COUNT, "{}", fixture.name);
+            assert!(
+                series
+                    .origin
+                    .warnings
+                    .iter()
+                    .any(|w| w.contains("one more found")),
+                "{}: {:?}",
+                fixture.name,
+                series.origin.warnings
+            );
+        }
+    }
+}
+
+/// Fixed fields that are blank, overflown or missing: the place is named.
+#[test]
+fn damaged_fields() {
+    for fixture in all(0) {
+        if matches!(fixture.format, Format::MiniSeed2 | Format::Sac) {
+            continue;
+        }
+        let text = String::from_utf8_lossy(&fixture.bytes).into_owned();
+        // The last number of the data of the first block with nine digits or so.
+        let lines: Vec<&str> = text.lines().collect();
+        let numeric = |l: &&str| {
+            l.len() > 6
+                && l.contains('.')
+                && l.bytes()
+                    .all(|b| b.is_ascii_digit() || b" +-.,;\tEDed".contains(&b))
+        };
+        let Some(at) = lines.iter().rposition(|l| numeric(&l)) else {
+            continue;
+        };
+        for bad in ["*", "1.7E+38"] {
+            let line = lines[at];
+            let damaged = if bad == "*" {
+                let end = line.trim_end().len();
+                format!("{}****", &line[..end - 4])
+            } else if line.len() >= 9 && !line.contains([',', ';']) {
+                format!("{}{:>9}", &line[..line.len() - 9], bad)
+            } else {
+                continue;
+            };
+            let mut changed: Vec<&str> = lines.clone();
+            changed[at] = &damaged;
+            let bytes = changed.join("\n");
+            match read_all_bytes("file", bytes.as_bytes(), &fixture.options) {
+                Err(GroundMotionError::Parse { line, column, .. }) => {
+                    assert_eq!(line, at + 1, "{}", fixture.name);
+                    assert!(column > 0);
+                }
+                // Blocks of spectra are passed over.
+                Ok(_) if fixture.format == Format::Isesd => {}
+                other => panic!("{} {damaged}: {other:?}", fixture.name),
+            }
+        }
+    }
+}
+
+#[test]
+fn excitation_is_an_acceleration_that_is_chosen() {
+    let csmip = &common::fixtures(Format::CsmipV2, 0)[0];
+    let pick = |component: Option<&str>, quantity| {
+        let options = ReadOptions {
+            component: component.map(str::to_owned),
+            quantity,
+            ..ReadOptions::default()
+        };
+        read_bytes("file", &csmip.bytes, &options)
+    };
+    let error = pick(None, None).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("acceleration 180 deg (channel 1), acceleration Up (channel 2)"),
+        "{error}"
+    );
+    assert!(matches!(
+        pick(Some("N"), None),
+        Err(GroundMotionError::NoSuchSeries { .. })
+    ));
+    for (name, index) in [("180 deg", 0), ("180", 0), ("up", 3), ("2", 3)] {
+        let record = pick(Some(name), None).unwrap();
+        for (a, b) in record.samples().iter().zip(&csmip.truth[index].samples) {
+            assert!((a - b).abs() <= 1e-14 * b.abs(), "{name}");
+        }
+    }
+    assert!(matches!(
+        pick(Some("2"), Some(Quantity::Velocity)),
+        Err(GroundMotionError::NotAcceleration {
+            quantity: "velocity",
+            ..
+        })
+    ));
+    for format in [Format::PeerAt2, Format::UsgsSmc] {
+        for fixture in common::fixtures(format, 0) {
+            let record = read_bytes("file", &fixture.bytes, &ReadOptions::default());
+            match fixture.truth[0].quantity {
+                Quantity::Acceleration if fixture.truth[0].times.is_none() => {
+                    assert_eq!(record.unwrap().samples().len(), COUNT);
+                }
+                Quantity::Acceleration => {
+                    assert!(matches!(record, Err(GroundMotionError::Uneven { .. })));
+                }
+                other => assert!(matches!(
+                    record,
+                    Err(GroundMotionError::NotAcceleration { quantity, .. }) if quantity == other.name()
+                )),
+            }
+        }
+    }
+}
+
+/// The offset of raw records is taken off an excitation, and said.
+#[test]
+fn offsets() {
+    let fixture = &common::fixtures(Format::KNet, 0)[0];
+    let raw = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+    assert_eq!(raw.series[0].origin.processing, Processing::Raw);
+    let mean = raw.series[0].mean();
+    assert!(mean.abs() > 1.0);
+    let record = read_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+    assert!(record.samples().iter().sum::<f64>().abs() < 1e-9);
+    assert!(
+        record
+            .origin()
+            .unwrap()
+            .warnings
+            .iter()
+            .any(|w| w.contains("was taken off"))
+    );
+    let keep = ReadOptions {
+        offset: pounding_ground_motion::Offset::Keep,
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("file", &fixture.bytes, &keep).unwrap();
+    assert!((record.samples().iter().sum::<f64>() / COUNT as f64 - mean).abs() < 1e-12);
+}
+
+#[test]
+fn other_peaks_and_units_are_reported() {
+    let fixture = &common::fixtures(Format::Dyna, 0)[0];
+    let text = String::from_utf8(fixture.bytes.clone()).unwrap();
+    let line = text.lines().find(|l| l.starts_with("PGA_")).unwrap();
+    let wrong = text.replace(line, "PGA_CM/S^2: 99.000");
+    let recording = read_all_bytes("file", wrong.as_bytes(), &fixture.options).unwrap();
+    assert!(recording.series[0].origin.warnings[0].contains("the header's peak is 0.990000 m/s2"));
+    let late = text.replace("TIME_PGA_S: 0", "TIME_PGA_S: 7");
+    let recording = read_all_bytes("file", late.as_bytes(), &fixture.options).unwrap();
+    assert!(recording.series[0].origin.warnings[0].contains("the header puts the peak at 7"));
+    let velocity = text.replace("UNITS: cm/s^2", "UNITS: cm/s");
+    assert!(read_all_bytes("file", velocity.as_bytes(), &fixture.options).is_err());
+    let none = text.replace("UNITS: cm/s^2", "UNITS: ");
+    assert!(matches!(
+        read_all_bytes("file", none.as_bytes(), &fixture.options),
+        Err(GroundMotionError::MissingUnit { .. })
+    ));
+    assert!(matches!(
+        read_all_bytes("file", &fixture.bytes, &common::in_g()),
+        Err(GroundMotionError::Contradiction { .. })
+    ));
+}
+
+#[test]
+fn gaps_and_velocities_of_mini_seed() {
+    use common::binary::{SENSITIVITY, Seed, record};
+    let seed = |channel: &'static [u8; 3], start: u32| {
+        record(&Seed {
+            channel,
+            encoding: 3,
+            big: true,
+            start,
+            count: 3,
+            data: [1_i32, -5, 9]
+                .iter()
+                .flat_map(|c| c.to_be_bytes())
+                .collect(),
+        })
+    };
+    let options = ReadOptions {
+        sensitivity: Some(SENSITIVITY),
+        ..ReadOptions::default()
+    };
+    let read = |records: &[Vec<u8>]| read_bytes("file", &records.concat(), &options);
+    assert_eq!(
+        read(&[seed(b"HNE", 0), seed(b"HNE", 300)])
+            .unwrap()
+            .samples()
+            .len(),
+        6
+    );
+    for (start, word) in [(500, "a gap of 0.0200 s"), (100, "an overlap of 0.0200 s")] {
+        let error = read(&[seed(b"HNE", 0), seed(b"HNE", start)]).unwrap_err();
+        assert!(error.to_string().contains(word), "{error}");
+        assert!(error.to_string().starts_with("file: byte 512:"), "{error}");
+    }
+    assert!(matches!(
+        read(&[seed(b"HHE", 0)]),
+        Err(GroundMotionError::NotAcceleration { .. })
+    ));
+    assert!(matches!(
+        read(&[seed(b"HNE", 0), seed(b"HNN", 0)]),
+        Err(GroundMotionError::AmbiguousSeries { .. })
+    ));
+}
+
+#[test]
+fn spectra_are_refused() {
+    let volume_3 = b"Response and Fourier Amplitude Spectra\nCorrected accelerogram\n";
+    let smc = b"5 RESPONSE SPECTRA\n*\n1\n2\n3\n4\n5\n6\n7\n8\n9\n";
+    for bytes in [&volume_3[..], smc] {
+        assert!(matches!(
+            read_all_bytes("file", bytes, &ReadOptions::default()),
+            Err(GroundMotionError::Unsupported { .. })
+        ));
+    }
+}
+
+#[test]
+fn plain_columns_that_are_refused() {
+    for (text, word) in [
+        ("0,02;0,5\n0,04;0,6\n", "decimal comma"),
+        ("1.0 2.0\n1.0\n1.0 2.0\n", "another number of values"),
+        ("0.1\n0.2\nend of file\n", "text among the numbers"),
+        ("# nothing\n", "no data"),
+    ] {
+        let options = ReadOptions {
+            format: Some(Format::PlainColumns),
+            time_step: Some(0.01),
+            ..common::in_g()
+        };
+        let error = read_all_bytes("file", text.as_bytes(), &options).unwrap_err();
+        assert!(error.to_string().contains(word), "{error}");
+    }
+}

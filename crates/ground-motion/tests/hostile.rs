@@ -1,0 +1,210 @@
+//! Damaged files: an error that names the place, never a panic, never a hang.
+//! Every reader of the registry gets the same bounded number of inputs.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{Fixture, all, fixtures};
+use pounding_ground_motion::{
+    AccelerationUnit, Format, GroundMotionError, Offset, ReadOptions, read_all_bytes, read_bytes,
+};
+
+/// A small generator of random numbers (Marsaglia, 2003, xorshift64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        (self.next() % limit as u64) as usize
+    }
+}
+
+/// The error names the file first, and a place in it wherever it has one.
+fn names_its_place(error: &GroundMotionError, length: usize, what: &str) {
+    let text = error.to_string();
+    assert!(error.help().is_some(), "{what}: {text}");
+    match error {
+        GroundMotionError::Parse { line, column, .. }
+        | GroundMotionError::TooFewSamples { line, column, .. } => {
+            assert!(*line >= 1 && *column >= 1, "{what}: {text}");
+            assert!(*line <= length + 2, "{what}: {text}");
+            assert!(
+                text.starts_with(&format!("file:{line}:{column}: ")),
+                "{text}"
+            );
+        }
+        GroundMotionError::Binary { offset, .. } => {
+            assert!(*offset <= length, "{what}: {text}");
+            assert!(
+                text.starts_with(&format!("file: byte {offset}: ")),
+                "{text}"
+            );
+        }
+        GroundMotionError::Invalid(reason) => assert!(reason.starts_with("file"), "{text}"),
+        GroundMotionError::Unit { .. } => {}
+        _ => assert!(text.starts_with("file"), "{what}: {text}"),
+    }
+}
+
+/// Whether what was read from a damaged file is what the whole file holds.
+fn is_whole(fixture: &Fixture, bytes: &[u8]) -> bool {
+    let whole = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+    let read = read_all_bytes("file", bytes, &fixture.options).unwrap();
+    let samples = |r: &pounding_ground_motion::Recording| {
+        r.series
+            .iter()
+            .map(|s| s.samples.clone())
+            .collect::<Vec<_>>()
+    };
+    samples(&read) == samples(&whole)
+}
+
+/// Whether a cut at this byte can leave a file that is whole in itself: formats
+/// without a count, and between the channels of those with one.
+fn may_end_here(fixture: &Fixture, at: usize) -> bool {
+    let ends = match fixture.format {
+        Format::CsmipV1 | Format::CsmipV2 => "/&",
+        Format::Cosmos => "End-of-data",
+        Format::GeoNet => "accelerogram 2",
+        Format::Isesd => "-> ",
+        Format::MiniSeed2 => return at.is_multiple_of(512),
+        // The truth is written in the last block, or there is no count.
+        _ => return !fixture.counted && fixture.format != Format::Sac,
+    };
+    // A piece of a header that the next channel starts with is an error of its own.
+    let text = String::from_utf8_lossy(&fixture.bytes[..at]).into_owned();
+    text.contains(ends)
+}
+
+#[test]
+fn truncated_at_every_64th_byte() {
+    for fixture in all(0) {
+        for at in (0..fixture.bytes.len()).step_by(64) {
+            let bytes = &fixture.bytes[..at];
+            let what = format!("{} cut at {at} of {}", fixture.name, fixture.bytes.len());
+            match read_all_bytes("file", bytes, &fixture.options) {
+                Err(error) => names_its_place(&error, at, &what),
+                Ok(_) => assert!(
+                    is_whole(&fixture, bytes) || may_end_here(&fixture, at),
+                    "{what} was read"
+                ),
+            }
+        }
+    }
+}
+
+/// Bytes changed, doubled, swapped and taken out, 300 times a file.
+#[test]
+fn corrupted() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for fixture in all(0) {
+        for round in 0..300 {
+            let mut bytes = fixture.bytes.clone();
+            for _ in 0..=random.below(6) {
+                let at = random.below(bytes.len());
+                match random.below(5) {
+                    0 => bytes[at] = random.next() as u8,
+                    1 => bytes[at] = b"0123456789-+.eED *\n\r\t/|,(:"[random.below(26)],
+                    2 => {
+                        bytes.remove(at);
+                    }
+                    3 => bytes.insert(at, b"9- \n\0\xff"[random.below(6)]),
+                    _ => {
+                        let end = (at + random.below(80)).min(bytes.len());
+                        let piece = bytes[at..end].to_vec();
+                        let to = random.below(bytes.len());
+                        bytes.splice(to..to, piece);
+                    }
+                }
+            }
+            let what = format!("{} round {round}", fixture.name);
+            let mut options = fixture.options.clone();
+            options.lenient = round % 3 == 0;
+            options.format = (round % 2 == 0).then_some(fixture.format);
+            options.offset = Offset::Automatic;
+            if let Err(error) = read_all_bytes("file", &bytes, &options) {
+                names_its_place(&error, bytes.len(), &what);
+            }
+            options.component = Some("1".to_owned());
+            options.time_step = options.time_step.or(Some(0.004)).filter(|_| round % 5 == 0);
+            if let Err(error) = read_bytes("file", &bytes, &options) {
+                names_its_place(&error, bytes.len(), &what);
+            }
+        }
+    }
+}
+
+/// Random bytes, random numbers, and random bytes after each format's first lines.
+#[test]
+fn random_bytes() {
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    for format in Format::ALL {
+        let start = &fixtures(*format, 0)[0].bytes;
+        for round in 0..200 {
+            let mut bytes: Vec<u8> = match round % 4 {
+                0 => Vec::new(),
+                _ => start[..random.below(start.len())].to_vec(),
+            };
+            for _ in 0..random.below(2000) {
+                bytes.push(match round % 3 {
+                    0 => random.next() as u8,
+                    1 => b"0123456789-+. \n\nE,"[random.below(18)],
+                    _ => random.below(128) as u8,
+                });
+            }
+            let options = ReadOptions {
+                format: (round % 2 == 0).then_some(*format),
+                unit: Some(AccelerationUnit::Gal).filter(|_| round % 5 != 0),
+                time_step: Some(0.01).filter(|_| round % 7 != 0),
+                lenient: round % 3 == 0,
+                sensitivity: Some(1.0e5),
+                ..ReadOptions::default()
+            };
+            let what = format!("{} round {round}", format.name());
+            if let Err(error) = read_bytes("file", &bytes, &options) {
+                names_its_place(&error, bytes.len(), &what);
+            }
+        }
+    }
+}
+
+/// Headers that promise more than any file holds.
+#[test]
+fn enormous_counts() {
+    let huge = "999999999";
+    for (format, from) in [
+        (Format::PeerAt2, "NPTS=     23"),
+        (Format::Dyna, "NDATA: 23"),
+        (Format::Isesd, "number of samples: 23"),
+        (Format::Asa, "/23/23/23"),
+        (Format::PlainColumns, "23 0.005"),
+    ] {
+        for fixture in fixtures(format, 0).iter().filter(|f| f.counted) {
+            let text = String::from_utf8(fixture.bytes.clone()).unwrap();
+            assert!(text.contains(from), "{}", fixture.name);
+            let text = text.replace(from, &from.replace("23", huge));
+            let error = read_all_bytes("file", text.as_bytes(), &fixture.options).unwrap_err();
+            assert!(
+                matches!(
+                    error,
+                    GroundMotionError::TooFewSamples {
+                        expected: 999_999_999,
+                        ..
+                    }
+                ),
+                "{}: {error}",
+                fixture.name
+            );
+        }
+    }
+    for fixture in fixtures(Format::Sac, i64::from(i32::MAX) - common::COUNT as i64) {
+        let error = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap_err();
+        assert!(matches!(error, GroundMotionError::Binary { .. }), "{error}");
+    }
+}

@@ -1,0 +1,169 @@
+//! Memory stays below ten times the file, whatever the file: measured as the peak of
+//! the resident set of a process of its own (Linux; skipped elsewhere).
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use common::binary::{Seed, record, steim};
+use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_bytes};
+
+/// Bytes of each file: large beside what the process needs anyway.
+const SIZE: usize = 3 << 20;
+/// What the allocator and the process may hold besides (bytes).
+const SLACK: usize = 2 << 20;
+
+fn status(key: &str) -> Option<usize> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find(|l| l.starts_with(key))?;
+    Some(line.split_whitespace().nth(1)?.parse::<usize>().ok()? * 1024)
+}
+
+/// Names the file to read to a child, which writes growth and success beside it.
+const CHILD: &str = "POUNDING_MEMORY_TEST_FILE";
+
+/// Growth of the resident set in a new process that reads the file with the given
+/// step and unit, and whether it could be read.
+fn growth(path: &Path, step: bool, unit: bool) -> Option<(usize, bool)> {
+    let status = Command::new(std::env::current_exe().ok()?)
+        .args(["--exact", "child"])
+        .env(CHILD, path)
+        .env("POUNDING_MEMORY_TEST_STEP", if step { "1" } else { "0" })
+        .env("POUNDING_MEMORY_TEST_UNIT", if unit { "1" } else { "0" })
+        .stdout(Stdio::null())
+        .status()
+        .ok()?;
+    assert!(status.success());
+    let text = std::fs::read_to_string(path.with_extension("out")).ok()?;
+    let (used, read) = text.split_once(' ')?;
+    Some((used.parse().ok()?, read == "true"))
+}
+
+/// Not a test by itself: the process that reads one file.
+#[test]
+fn child() {
+    let Some(path) = std::env::var_os(CHILD).map(PathBuf::from) else {
+        return;
+    };
+    let bytes = std::fs::read(&path).unwrap();
+    let on = |key: &str| std::env::var(key).is_ok_and(|v| v == "1");
+    let mut options = ReadOptions {
+        sensitivity: Some(1.0e5),
+        ..ReadOptions::default()
+    };
+    options.time_step = on("POUNDING_MEMORY_TEST_STEP").then_some(0.01);
+    options.unit = on("POUNDING_MEMORY_TEST_UNIT").then_some(AccelerationUnit::Gal);
+    let Some(before) = status("VmRSS:") else {
+        return;
+    };
+    let read = read_bytes("file", &bytes, &options).is_ok();
+    let used = status("VmHWM:").unwrap().saturating_sub(before);
+    std::fs::write(path.with_extension("out"), format!("{used} {read}")).unwrap();
+}
+
+fn repeat(unit: &[u8]) -> Vec<u8> {
+    unit.repeat(SIZE / unit.len())
+}
+
+/// Files that make readers hold as much as they can.
+fn files() -> Vec<(&'static str, Vec<u8>)> {
+    let mut all = vec![
+        ("newlines", repeat(b"\n")),
+        ("one row", repeat(b"1 ")),
+        ("one column", repeat(b"1\n")),
+        ("columns", repeat(b"1 2 3 4\n")),
+        ("cards", (1..SIZE / 14).fold(String::new(), |mut text, i| {
+            let _ = writeln!(text, "1 2 3 {i}");
+            text
+        }).into_bytes()),
+        ("uneven times", (0..SIZE / 12).fold(String::new(), |mut text, i| {
+            let _ = writeln!(text, "{}.{} 1 2", i, i * i % 10);
+            text
+        }).into_bytes()),
+        ("at2", [b"a\nb\nUNITS OF G\nNPTS= 1572000, DT= .01\n".to_vec(), repeat(b"1 ")].concat()),
+        ("k-net", {
+            let head = common::fixtures(Format::KNet, 0)[0].bytes.clone();
+            [head, repeat(b"1 ")].concat()
+        }),
+        ("jma", [b"SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal\nNS,EW,UD\n".to_vec(), repeat(b"1,2,3\n")].concat()),
+        ("isesd", [b"file: a\nwaveform code: 1\nsampling period: 0.01\nunits: m/s*s\n-> acceleration\n".to_vec(), repeat(b"1 ")].concat()),
+        ("small blocks", [b"file: a\nwaveform code: 1\nsampling period: 0.01\nunits: m/s*s\n".to_vec(), repeat(b"-> acceleration\n1 2\n")].concat()),
+    ];
+    for format in [
+        Format::CsmipV1,
+        Format::CsmipV2,
+        Format::Cosmos,
+        Format::GeoNet,
+        Format::CaltechVolume2,
+    ] {
+        let small = &common::fixtures(format, 0)[0].bytes;
+        all.push(("several channels", repeat(small)));
+    }
+    all.push(("seed, floats", seeds(4, &[0; 4 * 112], 112)));
+    all
+}
+
+fn seeds(encoding: u8, data: &[u8], count: u16) -> Vec<u8> {
+    let one = record(&Seed {
+        channel: b"HNE",
+        encoding,
+        big: true,
+        start: 0,
+        count,
+        data: data.to_vec(),
+    });
+    let mut bytes = Vec::with_capacity(SIZE + one.len());
+    for i in 0..SIZE / one.len() {
+        let at = bytes.len();
+        bytes.extend(&one);
+        // Records follow one another in time, 100 samples a second.
+        let tick = i * usize::from(count) * 100;
+        let seconds = tick / 10_000;
+        let field = &mut bytes[at..];
+        field[22..24].copy_from_slice(&(1 + (seconds / 86_400) as u16).to_be_bytes());
+        field[24] = (seconds / 3600 % 24) as u8;
+        field[25] = (seconds / 60 % 60) as u8;
+        field[26] = (seconds % 60) as u8;
+        field[28..30].copy_from_slice(&((tick % 10_000) as u16).to_be_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn ten_times_the_file_at_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("file");
+    for (name, bytes) in files() {
+        std::fs::write(&path, &bytes).unwrap();
+        let mut read = false;
+        for (step, unit) in [(false, true), (true, true), (false, false), (true, false)] {
+            let Some((used, done)) = growth(&path, step, unit) else {
+                return;
+            };
+            read |= done;
+            let times = used.saturating_sub(SLACK) as f64 / bytes.len() as f64;
+            // The file itself is the tenth part.
+            assert!(times <= 9.0, "{name}: {times:.2} times the file");
+        }
+        let refused = ["newlines", "small blocks"].contains(&name);
+        assert!(
+            read || refused || name.starts_with("several"),
+            "{name} could not be read"
+        );
+    }
+    // Steim-2 packs up to 1.75 samples in a byte, a sample takes eight bytes here.
+    let flat = vec![0; 720];
+    let bytes = seeds(11, &steim(&flat, 2, true)[..448], 720);
+    let count = bytes.len() / 512 * 720;
+    std::fs::write(&path, &bytes).unwrap();
+    let (used, read) = growth(&path, false, false).unwrap();
+    assert!(read);
+    let beside = used.saturating_sub(SLACK + 8 * count);
+    assert!(
+        beside < bytes.len(),
+        "{beside} bytes beside {count} samples"
+    );
+}

@@ -173,7 +173,7 @@ impl Draft {
     fn missing(&mut self) {
         let stands_for = |a: &f64| [-999.0, -9999.0, -12345.0, -32768.0].contains(a);
         let count = self.samples.iter().filter(|a| stands_for(a)).count();
-        if let Some(first) = self.samples.iter().position(|a| stands_for(a)) {
+        if let Some(first) = self.samples.iter().position(stands_for) {
             self.warnings.push(format!(
                 "sample {} is exactly {}, which often stands for a missing value ({count} such samples)",
                 first + 1,

@@ -196,7 +196,7 @@ impl<'a> Source<'a> {
         most: Option<usize>,
     ) -> Result<Vec<f64>, GroundMotionError> {
         let room = lines.remaining() / layout.width + 1;
-        let mut values = Vec::with_capacity(room.min(expected.unwrap_or(room)));
+        let mut values = Vec::with_capacity(room.min(expected.unwrap_or(0)));
         while most.is_none_or(|n| values.len() < n)
             && let Some(line) = lines.peek()
         {

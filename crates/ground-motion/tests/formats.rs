@@ -164,7 +164,7 @@ fn damaged_fields() {
                 && l.bytes()
                     .all(|b| b.is_ascii_digit() || b" +-.,;\tEDed".contains(&b))
         };
-        let Some(at) = lines.iter().rposition(|l| numeric(&l)) else {
+        let Some(at) = lines.iter().rposition(numeric) else {
             continue;
         };
         for bad in ["*", "1.7E+38"] {

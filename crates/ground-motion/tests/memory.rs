@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use common::binary::{Seed, record, steim};
-use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_bytes};
+use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_all_bytes, read_bytes};
 
 /// Bytes of each file: large beside what the process needs anyway.
 const SIZE: usize = 3 << 20;
@@ -59,8 +59,10 @@ fn child() {
     let Some(before) = status("VmRSS:") else {
         return;
     };
-    let read = read_bytes("file", &bytes, &options).is_ok();
+    let chosen = read_bytes("file", &bytes, &options).is_ok();
     let used = status("VmHWM:").unwrap().saturating_sub(before);
+    // Several components without a choice between them are read all the same.
+    let read = chosen || read_all_bytes("file", &bytes, &options).is_ok();
     std::fs::write(path.with_extension("out"), format!("{used} {read}")).unwrap();
 }
 
@@ -80,7 +82,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
             text
         }).into_bytes()),
         ("uneven times", (0..SIZE / 12).fold(String::new(), |mut text, i| {
-            let _ = writeln!(text, "{}.{} 1 2", i, i * i % 10);
+            let _ = writeln!(text, "{:.3} 1", 0.012 * i as f64 + 0.001 * (i % 3) as f64);
             text
         }).into_bytes()),
         ("at2", [b"a\nb\nUNITS OF G\nNPTS= 1572000, DT= .01\n".to_vec(), repeat(b"1 ")].concat()),
@@ -100,7 +102,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         Format::CaltechVolume2,
     ] {
         let small = &common::fixtures(format, 0)[0].bytes;
-        all.push(("several channels", repeat(small)));
+        all.push((format.name(), repeat(small)));
     }
     all.push(("seed, floats", seeds(4, &[0; 4 * 112], 112)));
     all
@@ -136,6 +138,7 @@ fn seeds(encoding: u8, data: &[u8], count: u16) -> Vec<u8> {
 fn ten_times_the_file_at_most() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file");
+    let mut worst = 0.0_f64;
     for (name, bytes) in files() {
         std::fs::write(&path, &bytes).unwrap();
         let mut read = false;
@@ -145,15 +148,15 @@ fn ten_times_the_file_at_most() {
             };
             read |= done;
             let times = used.saturating_sub(SLACK) as f64 / bytes.len() as f64;
+            worst = worst.max(times);
             // The file itself is the tenth part.
             assert!(times <= 9.0, "{name}: {times:.2} times the file");
         }
         let refused = ["newlines", "small blocks"].contains(&name);
-        assert!(
-            read || refused || name.starts_with("several"),
-            "{name} could not be read"
-        );
+        assert!(read || refused, "{name} could not be read");
     }
+    // A measure that sees nothing would let everything pass.
+    assert!(worst > 2.0, "{worst}");
     // Steim-2 packs up to 1.75 samples in a byte, a sample takes eight bytes here.
     let flat = vec![0; 720];
     let bytes = seeds(11, &steim(&flat, 2, true)[..448], 720);

@@ -61,7 +61,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             continue;
         };
         let raw = text.contains("uncorrected");
-        let numbers = numbers(source, &mut lines)?;
+        let numbers = numbers(source, &mut lines, header.count)?;
         let draft = header.draft(
             quantity,
             raw,
@@ -81,8 +81,9 @@ fn is_label(line: &Line<'_>) -> bool {
 fn numbers<'a>(
     source: &Source<'a>,
     lines: &mut Lines<'a>,
+    count: Option<usize>,
 ) -> Result<Vec<f64>, GroundMotionError> {
-    let mut values = Vec::with_capacity(lines.remaining() / 6 + 1);
+    let mut values = Vec::with_capacity(count.unwrap_or(0).min(lines.remaining() / 2 + 1));
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
         lines.next();
         let length = line.bytes.len();
@@ -96,7 +97,6 @@ fn numbers<'a>(
             }
         }
     }
-    values.shrink_to_fit();
     Ok(values)
 }
 

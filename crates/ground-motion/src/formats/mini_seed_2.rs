@@ -28,7 +28,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         }
     }
     // The file's order among equal times, for messages.
-    records.sort_by(|a, b| (a.name, a.start, a.at).cmp(&(b.name, b.start, b.at)));
+    records.sort_by_key(|r| (r.name, r.start, r.at));
     let mut series = Vec::new();
     let mut velocity = None;
     for channel in records.chunk_by(|a, b| a.name == b.name) {

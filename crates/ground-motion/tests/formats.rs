@@ -5,8 +5,7 @@ mod common;
 
 use common::{COUNT, Fixture, all};
 use pounding_ground_motion::{
-    Format, GroundMotionError, Processing, Quantity, ReadOptions, Sampling, read_all_bytes,
-    read_bytes,
+    Format, GroundMotionError, ReadOptions, Sampling, read_all_bytes, read_bytes,
 };
 
 /// Reads the file and holds everything against the truth.
@@ -194,86 +193,6 @@ fn damaged_fields() {
 }
 
 #[test]
-fn excitation_is_an_acceleration_that_is_chosen() {
-    let csmip = &common::fixtures(Format::CsmipV2, 0)[0];
-    let pick = |component: Option<&str>, quantity| {
-        let options = ReadOptions {
-            component: component.map(str::to_owned),
-            quantity,
-            ..ReadOptions::default()
-        };
-        read_bytes("file", &csmip.bytes, &options)
-    };
-    let error = pick(None, None).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("acceleration 180 deg (channel 1), acceleration Up (channel 2)"),
-        "{error}"
-    );
-    assert!(matches!(
-        pick(Some("N"), None),
-        Err(GroundMotionError::NoSuchSeries { .. })
-    ));
-    for (name, index) in [("180 deg", 0), ("180", 0), ("up", 3), ("2", 3)] {
-        let record = pick(Some(name), None).unwrap();
-        for (a, b) in record.samples().iter().zip(&csmip.truth[index].samples) {
-            assert!((a - b).abs() <= 1e-14 * b.abs(), "{name}");
-        }
-    }
-    assert!(matches!(
-        pick(Some("2"), Some(Quantity::Velocity)),
-        Err(GroundMotionError::NotAcceleration {
-            quantity: "velocity",
-            ..
-        })
-    ));
-    for format in [Format::PeerAt2, Format::UsgsSmc] {
-        for fixture in common::fixtures(format, 0) {
-            let record = read_bytes("file", &fixture.bytes, &ReadOptions::default());
-            match fixture.truth[0].quantity {
-                Quantity::Acceleration if fixture.truth[0].times.is_none() => {
-                    assert_eq!(record.unwrap().samples().len(), COUNT);
-                }
-                Quantity::Acceleration => {
-                    assert!(matches!(record, Err(GroundMotionError::Uneven { .. })));
-                }
-                other => assert!(matches!(
-                    record,
-                    Err(GroundMotionError::NotAcceleration { quantity, .. }) if quantity == other.name()
-                )),
-            }
-        }
-    }
-}
-
-/// The offset of raw records is taken off an excitation, and said.
-#[test]
-fn offsets() {
-    let fixture = &common::fixtures(Format::KNet, 0)[0];
-    let raw = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
-    assert_eq!(raw.series[0].origin.processing, Processing::Raw);
-    let mean = raw.series[0].mean();
-    assert!(mean.abs() > 1.0);
-    let record = read_bytes("file", &fixture.bytes, &fixture.options).unwrap();
-    assert!(record.samples().iter().sum::<f64>().abs() < 1e-9);
-    assert!(
-        record
-            .origin()
-            .unwrap()
-            .warnings
-            .iter()
-            .any(|w| w.contains("was taken off"))
-    );
-    let keep = ReadOptions {
-        offset: pounding_ground_motion::Offset::Keep,
-        ..ReadOptions::default()
-    };
-    let record = read_bytes("file", &fixture.bytes, &keep).unwrap();
-    assert!((record.samples().iter().sum::<f64>() / COUNT as f64 - mean).abs() < 1e-12);
-}
-
-#[test]
 fn other_peaks_and_units_are_reported() {
     let fixture = &common::fixtures(Format::Dyna, 0)[0];
     let text = String::from_utf8(fixture.bytes.clone()).unwrap();
@@ -295,6 +214,49 @@ fn other_peaks_and_units_are_reported() {
         read_all_bytes("file", &fixture.bytes, &common::in_g()),
         Err(GroundMotionError::Contradiction { .. })
     ));
+}
+
+/// First values of velocity and displacement, whatever sign the header prints.
+#[test]
+fn initial_values() {
+    for format in [Format::CsmipV2, Format::CaltechVolume2] {
+        let fixture = &common::fixtures(format, 0)[0];
+        let recording = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+        for channel in recording.series.chunks(3) {
+            let first = (channel[1].samples[0], channel[2].samples[0]);
+            assert_eq!(channel[0].initial, Some(first));
+            assert_eq!(channel[0].origin.low_corner, Some(0.07));
+            assert_eq!(channel[0].origin.high_corner, Some(40.0));
+        }
+    }
+}
+
+#[test]
+fn values_that_may_stand_for_missing_are_named() {
+    let options = ReadOptions {
+        time_step: Some(0.01),
+        unit: Some(pounding_ground_motion::AccelerationUnit::Gal),
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("file", b"0.1\n-999.0\n0.3\n", &options).unwrap();
+    assert!(record.origin().unwrap().warnings[0].contains("sample 2 is exactly -999"));
+}
+
+#[test]
+fn filters_and_peaks_in_headers_of_peer() {
+    let text = |pga: &str| {
+        format!(
+            "TITLE\nEVENT, STATION\nACCELERATION TIME SERIES IN UNITS OF G  PGA= {pga} HP=0.2 Hz LP=12.5 Hz\nNPTS=  3, DT= .0050 SEC\n .1 -.3 .2\n"
+        )
+    };
+    let read = |pga| read_all_bytes("file", text(pga).as_bytes(), &ReadOptions::default()).unwrap();
+    let series = &read("0.300").series[0];
+    assert_eq!(
+        (series.origin.low_corner, series.origin.high_corner),
+        (Some(0.2), Some(12.5))
+    );
+    assert!(series.origin.warnings.is_empty());
+    assert_eq!(read("0.400").series[0].origin.warnings.len(), 1);
 }
 
 #[test]
@@ -349,23 +311,5 @@ fn spectra_are_refused() {
             read_all_bytes("file", bytes, &ReadOptions::default()),
             Err(GroundMotionError::Unsupported { .. })
         ));
-    }
-}
-
-#[test]
-fn plain_columns_that_are_refused() {
-    for (text, word) in [
-        ("0,02;0,5\n0,04;0,6\n", "decimal comma"),
-        ("1.0 2.0\n1.0\n1.0 2.0\n", "another number of values"),
-        ("0.1\n0.2\nend of file\n", "text among the numbers"),
-        ("# nothing\n", "no data"),
-    ] {
-        let options = ReadOptions {
-            format: Some(Format::PlainColumns),
-            time_step: Some(0.01),
-            ..common::in_g()
-        };
-        let error = read_all_bytes("file", text.as_bytes(), &options).unwrap_err();
-        assert!(error.to_string().contains(word), "{error}");
     }
 }

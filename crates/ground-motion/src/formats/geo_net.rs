@@ -182,6 +182,15 @@ fn block(
             shift: pad,
         })
     });
+    let eleven = header.text[10].lower();
+    let printed = number::after(&eleven, "intervals of").or_else(|| number::after(&eleven, " at "));
+    if let (Some(step), Some((text, digit))) = (step, printed)
+        && (step - text).abs() > digit
+    {
+        draft
+            .warnings
+            .push(format!("the header says a step of {step} s, its text {text} s"));
+    }
     if pad > 0.0 && quantity == Quantity::Acceleration {
         draft.warnings.push(format!(
             "the agency put {pad:.3} s of zeros before the record"

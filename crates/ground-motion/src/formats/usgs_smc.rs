@@ -25,7 +25,9 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
     let known = ["0", "1", "2", "3", "4", "5"].contains(&kind.as_str())
         && title.starts_with(|c: char| c.is_ascii_uppercase())
         && title.chars().take(4).all(|c| c.is_ascii_uppercase());
-    (known || kind == "*") && second.bytes.starts_with(b"*")
+    // A comment may stand before plain columns, too: the null value settles it.
+    let mut null = || lines.nth(TEXT_LINES - 2).is_some_and(|l| l.columns(0, 10) == "-32768");
+    second.bytes.starts_with(b"*") && (known || kind == "*" && null())
 }
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {

@@ -4,6 +4,7 @@
 
 pub mod binary;
 pub mod japan;
+pub mod networks;
 pub mod text;
 pub mod volumes;
 
@@ -149,8 +150,8 @@ pub fn fixtures(format: Format, offset: i64) -> Vec<Fixture> {
         Format::JmaCsv => japan::jma(),
         Format::Dyna => text::dyna(written),
         Format::Cwa => japan::cwa(),
-        Format::GeoNet => volumes::geo_net(written),
-        Format::Cosmos => volumes::cosmos(written),
+        Format::GeoNet => networks::geo_net(written),
+        Format::Cosmos => networks::cosmos(written),
         Format::CaltechVolume1 => volumes::caltech_1(written),
         Format::CaltechVolume2 => volumes::caltech_2(written),
         Format::CsmipV1 => volumes::csmip_1(written),

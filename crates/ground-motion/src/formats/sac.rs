@@ -103,16 +103,21 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             format!("the header says {count} samples, the file holds {present}"),
         ));
     }
+    // The shortest decimal that is this single-precision number: 0.005, not
+    // 0.004999999888.
+    let step = words
+        .float(0)
+        .and_then(|delta| format!("{}", delta as f32).parse::<f64>().ok());
     let samples = values(source, &words, HEADER, count.min(present))?;
     let mut draft = Draft::new(samples, DraftUnit::Unstated, (1, 1, 1));
     draft.header_count = Some(count);
     draft.times = if uneven {
         Times::Each(values(source, &words, HEADER + 4 * count, count)?)
     } else {
-        Times::Step(words.float(0))
+        Times::Step(step)
     };
     let ends = words.float(6).zip(words.float(5)).map(|(e, b)| e - b);
-    if let (Some(length), Some(step)) = (ends, words.float(0))
+    if let (Some(length), Some(step)) = (ends, step)
         && !uneven
         && (length - (count - 1) as f64 * step).abs() > 0.5 * step + 1.0e-6 * length.abs()
     {

@@ -55,7 +55,7 @@ pub fn sac(written: i64) -> Vec<Fixture> {
                 times.iter().for_each(|x| put(*x));
             }
             let samples: Vec<f64> = values.iter().map(|a| f64::from(*a)).collect();
-            let mut series = truth(ACC, "HNZ", &samples, G, f64::from(0.01_f32));
+            let mut series = truth(ACC, "HNZ", &samples, G, 0.01);
             if uneven {
                 series.times = Some(times.iter().map(|t| f64::from(*t)).collect());
             }
@@ -144,7 +144,8 @@ const STEIM_2: [(u32, u32, u32, usize); 7] = [
     (2, 1, 30, 1),
 ];
 
-/// Differences in the tightest words, frame after frame.
+/// Differences in the tightest words, frame after frame. Both versions in both byte
+/// orders decode as those that libmseed writes; see the order of bytes and halves.
 pub fn steim(values: &[i32], version: u8, big: bool) -> Vec<u8> {
     let ways: &[_] = if version == 1 { &STEIM_1 } else { &STEIM_2 };
     let mut left: Vec<i32> = vec![0];
@@ -174,14 +175,18 @@ pub fn steim(values: &[i32], version: u8, big: bool) -> Vec<u8> {
                 .iter()
                 .fold(0_u64, |word, d| word << bits | u64::from(*d as u32 & mask));
             codes.push(code);
-            words.push(
-                packed as u32
-                    | if version == 2 && code > 1 {
-                        upper << 30
-                    } else {
-                        0
-                    },
-            );
+            let word = packed as u32
+                | if version == 2 && code > 1 {
+                    upper << 30
+                } else {
+                    0
+                };
+            // Bytes and halves stand in the order of the file whatever the byte order.
+            words.push(match bits {
+                8 if !big => word.swap_bytes(),
+                16 if !big => word.rotate_left(16),
+                _ => word,
+            });
             at += n;
         }
         bytes.extend(frame(&codes, &words, big));

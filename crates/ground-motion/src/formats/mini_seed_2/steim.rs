@@ -20,6 +20,16 @@ fn packing(version: u8, code: u32, word: u32) -> Option<(u32, u32)> {
     }
 }
 
+/// The word with its first difference highest: bytes and halves stand in the order
+/// of the file, in little-endian words too; smaller parts only in whole words.
+fn in_file_order(word: u32, bits: u32, big: bool) -> u32 {
+    match bits {
+        8 if !big => word.swap_bytes(),
+        16 if !big => word.rotate_left(16),
+        _ => word,
+    }
+}
+
 /// Appends `count` samples; the error is the offset in `bytes` and what is wrong.
 pub(super) fn decode(
     bytes: &[u8],
@@ -56,6 +66,7 @@ pub(super) fn decode(
             let Some((bits, number)) = packing(version, code, packed) else {
                 return Err((at, format!("Steim-{version} has no packing of code {code} here")));
             };
+            let packed = in_file_order(packed, bits, big);
             for i in (0..number).rev() {
                 // The first difference leads to the record before this one.
                 if done > 0 {

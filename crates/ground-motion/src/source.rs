@@ -186,7 +186,7 @@ impl<'a> Source<'a> {
     }
 
     /// Numbers of fixed width up to the next line of text or one that starts with
-    /// `/`, `|` or `-` alone; at most `most` of them, when the count alone tells
+    /// `/` or `|`; at most `most` of them, when the count alone tells
     /// where they end.
     pub(crate) fn block(
         &self,

@@ -1,5 +1,7 @@
 //! An accelerogram with its origin.
 
+use serde::Serialize;
+
 use crate::error::GroundMotionError;
 use crate::unit::AccelerationUnit;
 
@@ -47,9 +49,9 @@ pub struct Origin {
 }
 
 /// A greatest absolute value and its time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Peak {
-    /// Absolute value (m/s2).
+    /// Absolute value (SI: m/s2 for an acceleration).
     pub value: f64,
     /// Time (s).
     pub time: f64,
@@ -117,6 +119,20 @@ impl Accelerogram {
         }
         self.origin = Some(origin);
         self
+    }
+
+    /// The same record with other samples (m/s2) and time step (s): where it came
+    /// from and its scale stay.
+    pub(crate) fn with_samples(
+        &self,
+        samples: Vec<f64>,
+        time_step: f64,
+    ) -> Result<Self, GroundMotionError> {
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let mut other = Self::new(samples, unit, time_step)?;
+        other.scale = self.scale;
+        other.origin.clone_from(&self.origin);
+        Ok(other)
     }
 
     /// Samples (m/s2), scale applied.

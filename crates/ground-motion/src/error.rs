@@ -159,6 +159,45 @@ pub enum GroundMotionError {
         /// What it is instead, if known.
         hint: &'static str,
     },
+    /// A number of a processing step, a measure or a generator out of its range.
+    #[error("{step}: {name} = {value} is outside {range}")]
+    OutOfRange {
+        /// Step, measure or generator.
+        step: &'static str,
+        /// Number.
+        name: &'static str,
+        /// Value (SI).
+        value: f64,
+        /// Allowed range.
+        range: String,
+    },
+    /// Records that cannot be used together.
+    #[error("the records do not fit together: {0}")]
+    Mismatch(String),
+    /// A step that this record does not allow.
+    #[error("{step}: {reason}")]
+    NotPossible {
+        /// Step, measure or generator.
+        step: &'static str,
+        /// Why.
+        reason: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// A spectrum that was not reached.
+    #[error(
+        "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}"
+    )]
+    NotMatched {
+        /// Greatest deviation as a part of the target.
+        worst: f64,
+        /// Period where it is (s).
+        period: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// Deviation asked for.
+        tolerance: f64,
+    },
     /// Values that no accelerogram can have.
     #[error("the accelerogram is not usable: {0}")]
     Invalid(String),
@@ -215,7 +254,52 @@ impl GroundMotionError {
             }
             Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
             Self::Unit { .. } => "use g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),
+            Self::OutOfRange { .. } => {
+                "correct the number; check its unit (SI inside: m/s2, s, Hz)".to_owned()
+            }
+            Self::Mismatch(_) => {
+                "use the components of one recording, resampled to one time step".to_owned()
+            }
+            Self::NotPossible { remedy, .. } => (*remedy).to_owned(),
+            Self::NotMatched { .. } => {
+                "take a record whose own spectrum is nearer the target, narrow the band, or allow more iterations".to_owned()
+            }
             Self::Invalid(_) => "check unit, time step and scale of the record".to_owned(),
         })
     }
+}
+
+/// Refuses what is not finite and above zero.
+pub(crate) fn positive(
+    step: &'static str,
+    name: &'static str,
+    value: f64,
+) -> Result<f64, GroundMotionError> {
+    within(step, name, value, f64::MIN_POSITIVE, f64::MAX).map_err(|_| {
+        GroundMotionError::OutOfRange {
+            step,
+            name,
+            value,
+            range: "(0, inf)".to_owned(),
+        }
+    })
+}
+
+/// Refuses what does not lie in a closed range.
+pub(crate) fn within(
+    step: &'static str,
+    name: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+) -> Result<f64, GroundMotionError> {
+    if value >= low && value <= high {
+        return Ok(value);
+    }
+    Err(GroundMotionError::OutOfRange {
+        step,
+        name,
+        value,
+        range: format!("[{low}, {high}]"),
+    })
 }

@@ -1,9 +1,17 @@
-//! Accelerogram readers, one format a file, and scaling.
+//! Accelerogram readers, one format a file; processing, intensity measures, spectra
+//! and generators.
 //!
 //! [`read_all`] returns every series of a file as a [`Recording`]; [`read`]
 //! chooses the acceleration that excites the buildings. An [`Accelerogram`]
 //! cannot exist without unit and time step: it holds samples in m/s2 and says
-//! where unit and step came from.
+//! where unit and step came from. Whatever is done to it or made from nothing is
+//! told by a list of [`StepRecord`]s.
+
+pub mod generators;
+pub mod matching;
+pub mod measures;
+pub mod processing;
+pub mod spectra;
 
 mod accelerogram;
 mod draft;
@@ -16,6 +24,8 @@ mod quantity;
 mod recording;
 mod select;
 mod source;
+mod special_functions;
+mod step_record;
 mod text;
 mod time_column;
 mod unit;
@@ -29,4 +39,5 @@ pub use formats::{Format, read, read_all, read_all_bytes, read_bytes};
 pub use options::{Offset, ReadOptions};
 pub use quantity::Quantity;
 pub use recording::{HeaderPeak, Recording, Sampling, Series};
+pub use step_record::{StepNumber, StepRecord};
 pub use unit::AccelerationUnit;

@@ -1,0 +1,131 @@
+//! Fourier and power spectra.
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex64;
+use serde::Serialize;
+
+use crate::accelerogram::Accelerogram;
+use crate::error::{GroundMotionError, positive};
+
+/// Coefficients `sum a_j exp(-2 pi i j k/n)`, k = 0..=n/2, of `length` samples: those
+/// given and zeros after them.
+pub(crate) fn transform(samples: &[f64], length: usize) -> Vec<Complex64> {
+    let length = length.max(samples.len());
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(length);
+    let mut input = plan.make_input_vec();
+    input[..samples.len()].copy_from_slice(samples);
+    let mut output = plan.make_output_vec();
+    // It fails only where lengths differ, and both come from the plan.
+    let done = plan.process(&mut input, &mut output);
+    debug_assert!(done.is_ok());
+    output
+}
+
+/// The `length` samples of such coefficients; what is imaginary at both ends of the
+/// band is passed over.
+pub(crate) fn inverse_transform(mut coefficients: Vec<Complex64>, length: usize) -> Vec<f64> {
+    let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
+    coefficients.resize(length / 2 + 1, Complex64::default());
+    coefficients[0].im = 0.0;
+    if length % 2 == 0 {
+        coefficients[length / 2].im = 0.0;
+    }
+    let mut output = plan.make_output_vec();
+    let done = plan.process(&mut coefficients, &mut output);
+    debug_assert!(done.is_ok());
+    for a in &mut output {
+        *a /= length as f64;
+    }
+    output
+}
+
+/// Fourier amplitudes of an acceleration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FourierSpectrum {
+    /// Frequencies (Hz) from zero up, evenly spaced.
+    pub frequencies: Vec<f64>,
+    /// Amplitudes (m/s): time step times the modulus of the transform.
+    pub amplitudes: Vec<f64>,
+    /// Length of the samples that were transformed (s), zeros after the record
+    /// included.
+    pub length: f64,
+    /// Time step (s).
+    pub time_step: f64,
+}
+
+/// The Fourier amplitude spectrum of at least `least_length` samples: the record with
+/// zeros after it. Frequencies run to the Nyquist frequency.
+#[must_use]
+pub fn fourier_spectrum(record: &Accelerogram, least_length: usize) -> FourierSpectrum {
+    let count = least_length.max(record.samples().len());
+    let step = record.time_step();
+    let coefficients = transform(record.samples(), count);
+    let length = count as f64 * step;
+    FourierSpectrum {
+        frequencies: (0..coefficients.len()).map(|k| k as f64 / length).collect(),
+        amplitudes: coefficients.iter().map(|c| step * c.norm()).collect(),
+        length,
+        time_step: step,
+    }
+}
+
+impl FourierSpectrum {
+    /// One-sided power spectral density of the acceleration over a duration (s), in
+    /// (m/s2)^2/Hz: its integral over frequency is the mean square over that duration.
+    ///
+    /// # Errors
+    /// A duration that is not positive.
+    pub fn power_spectral_density(&self, duration: f64) -> Result<Vec<f64>, GroundMotionError> {
+        positive("power spectral density", "duration", duration)?;
+        let even = (self.length / self.time_step).round() as usize % 2 == 0;
+        let last = self.amplitudes.len() - 1;
+        let sides = |k: usize| {
+            if k == 0 || (k == last && even) {
+                1.0
+            } else {
+                2.0
+            }
+        };
+        Ok(self
+            .amplitudes
+            .iter()
+            .enumerate()
+            .map(|(k, a)| sides(k) * a * a / duration)
+            .collect())
+    }
+
+    /// The amplitudes at these frequencies (Hz), smoothed by the window
+    /// `(sin(b log10(f/fc))/(b log10(f/fc)))^4` of bandwidth coefficient `b`, 20 to 40
+    /// in use (Konno and Ohmachi 1998, Bull. Seism. Soc. Am. 88 (1) 228, eq. 4).
+    /// The weights sum to one; the constant term has none.
+    ///
+    /// # Errors
+    /// A frequency or a coefficient that is not positive.
+    pub fn konno_ohmachi(
+        &self,
+        centres: &[f64],
+        bandwidth: f64,
+    ) -> Result<Vec<f64>, GroundMotionError> {
+        const STEP: &str = "smoothing";
+        positive(STEP, "bandwidth coefficient", bandwidth)?;
+        let mut smoothed = Vec::with_capacity(centres.len());
+        for &centre in centres {
+            positive(STEP, "frequency", centre)?;
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for (f, a) in self.frequencies.iter().zip(&self.amplitudes).skip(1) {
+                let weight = window(bandwidth * (f / centre).log10());
+                sum += weight * a;
+                weights += weight;
+            }
+            smoothed.push(sum / weights);
+        }
+        Ok(smoothed)
+    }
+}
+
+fn window(x: f64) -> f64 {
+    if x.abs() < 1.0e-6 {
+        return 1.0;
+    }
+    (x.sin() / x).powi(4)
+}

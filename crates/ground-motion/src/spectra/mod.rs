@@ -1,0 +1,33 @@
+//! Response, Fourier and power spectra.
+
+mod fourier;
+mod oscillator;
+mod response;
+mod rotated;
+mod target;
+
+use serde::Serialize;
+
+pub use fourier::{FourierSpectrum, fourier_spectrum};
+pub(crate) use fourier::{inverse_transform, transform};
+pub(crate) use oscillator::{Oscillator, State, zero};
+pub use response::{
+    OscillatorResponse, ResponseSpectrum, logarithmic_periods, oscillator_response,
+    response_spectra, response_spectrum,
+};
+pub use rotated::{RotatedSpectrum, rotated_spectrum};
+pub use target::TargetSpectrum;
+
+/// How peaks and integrals are taken from samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evaluation {
+    /// Of the acceleration that is linear between samples, which is what the time
+    /// history sees: exact integrals, and peaks between samples as well.
+    #[default]
+    PiecewiseLinear,
+    /// At samples alone, integrals by the trapezoid rule, as most programs and
+    /// agencies do: peaks of oscillators whose period is a few time steps come out
+    /// low.
+    AtSamples,
+}

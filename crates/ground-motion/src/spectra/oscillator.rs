@@ -1,0 +1,346 @@
+//! The exact response of a linear oscillator to an acceleration that is linear
+//! between samples.
+//!
+//! Nigam, N. C. and Jennings, P. C. (1969), Bull. Seism. Soc. Am. 59 (2) 909: state
+//! transition over a time step. Its coefficients are written here with the functions
+//! `phi_1(z) = (e^z - 1)/z` and `phi_2(z) = (e^z - 1 - z)/z^2` of `z = lambda t`,
+//! `lambda = -zeta w + i w sqrt(1 - zeta^2)`, which keep all digits where the step is
+//! a small part of the period; the printed coefficients of the paper lose them.
+
+use std::f64::consts::{PI, TAU};
+
+use realfft::num_complex::Complex64;
+
+use crate::accelerogram::Peak;
+use crate::spectra::Evaluation;
+
+/// Below this modulus `phi` is summed as a series.
+const SERIES_BELOW: f64 = 1.0;
+/// Terms of the series: 1/22! is below rounding.
+const TERMS: usize = 20;
+/// Part of a step to which the time of a peak is found: the peak's error is the
+/// square of it.
+const TIME_TOLERANCE: f64 = 1.0e-9;
+
+/// `u' = a u + b v + c p0 + d p1`, `v' = a1 u + b1 v + c1 p0 + d1 p1`.
+#[derive(Debug, Clone, Copy)]
+struct Transition {
+    displacement: [f64; 4],
+    velocity: [f64; 4],
+}
+
+/// An oscillator of unit mass under the force `p = -a_ground`.
+#[derive(Debug, Clone)]
+pub(crate) struct Oscillator {
+    frequency: f64,
+    damping: f64,
+    damped_frequency: f64,
+    eigenvalue: Complex64,
+    time_step: f64,
+    step: Transition,
+}
+
+/// Displacement and velocity relative to the ground.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct State {
+    /// m.
+    pub displacement: f64,
+    /// m/s.
+    pub velocity: f64,
+}
+
+/// Peaks of one oscillator.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct OscillatorPeaks {
+    /// Relative displacement (m).
+    pub displacement: Peak,
+    /// Relative velocity (m/s).
+    pub velocity: Peak,
+    /// Absolute acceleration (m/s2).
+    pub acceleration: Peak,
+}
+
+/// `phi_1` and `phi_2`.
+fn phi(z: Complex64) -> (Complex64, Complex64) {
+    if z.norm() >= SERIES_BELOW {
+        let first = (z.exp() - 1.0) / z;
+        return (first, (first - 1.0) / z);
+    }
+    let mut second = Complex64::new(0.0, 0.0);
+    // Horner: phi_2 = 1/2 (1 + z/3 (1 + z/4 (...))).
+    for k in (3..TERMS + 3).rev() {
+        second = (second + 1.0) * z / k as f64;
+    }
+    second = (second + 1.0) / 2.0;
+    (second * z + 1.0, second)
+}
+
+/// What one quantity does within a step: its second derivative is
+/// `Re(curvature e^(lambda t))`.
+struct Quantity {
+    curvature: Complex64,
+    value: fn(&Oscillator, State, f64) -> f64,
+    rate: fn(&Oscillator, State, f64) -> f64,
+}
+
+impl Oscillator {
+    /// An oscillator of period (s) above zero and damping ratio in [0, 1), stepped by
+    /// `time_step` (s).
+    pub(crate) fn new(period: f64, damping: f64, time_step: f64) -> Self {
+        let frequency = TAU / period;
+        let damped_frequency = frequency * (1.0 - damping * damping).sqrt();
+        let mut oscillator = Self {
+            frequency,
+            damping,
+            damped_frequency,
+            eigenvalue: Complex64::new(-damping * frequency, damped_frequency),
+            time_step,
+            step: Transition {
+                displacement: [0.0; 4],
+                velocity: [0.0; 4],
+            },
+        };
+        oscillator.step = oscillator.transition(time_step);
+        oscillator
+    }
+
+    fn transition(&self, time: f64) -> Transition {
+        let z = self.eigenvalue * time;
+        let growth = z.exp();
+        let (first, second) = phi(z);
+        let decay = self.damping * self.frequency;
+        let impulse = growth.im / self.damped_frequency;
+        let ramp = time * second.im / self.damped_frequency;
+        let ramp_rate = first.im / self.damped_frequency;
+        let constant = time * first.im / self.damped_frequency;
+        Transition {
+            displacement: [growth.re + decay * impulse, impulse, constant - ramp, ramp],
+            velocity: [
+                -self.frequency * self.frequency * impulse,
+                growth.re - decay * impulse,
+                impulse - ramp_rate,
+                ramp_rate,
+            ],
+        }
+    }
+
+    /// The state a step later, the force going from `p0` to `p1` (m/s2).
+    pub(crate) fn advance(&self, state: State, p0: f64, p1: f64) -> State {
+        self.step.apply(state, p0, p1)
+    }
+
+    /// Absolute acceleration (m/s2) with its sign turned: `w^2 u + 2 zeta w v`.
+    fn absolute_acceleration(&self, state: State) -> f64 {
+        self.frequency * (self.frequency * state.displacement + 2.0 * self.damping * state.velocity)
+    }
+
+    fn relative_acceleration(&self, state: State, force: f64) -> f64 {
+        force - self.absolute_acceleration(state)
+    }
+
+    /// `E` of `u'' = Re(E e^(lambda t))` within a step: from the acceleration and the
+    /// jerk at its start.
+    pub(crate) fn curvature(&self, state: State, p0: f64, p1: f64) -> Complex64 {
+        let decay = self.damping * self.frequency;
+        let acceleration = self.relative_acceleration(state, p0);
+        let jerk = (p1 - p0) / self.time_step
+            - 2.0 * decay * acceleration
+            - self.frequency * self.frequency * state.velocity;
+        Complex64::new(
+            acceleration,
+            -(jerk + decay * acceleration) / self.damped_frequency,
+        )
+    }
+
+    /// Raises a displacement peak by what happens within the step that starts in
+    /// `state` at `start` (s) and ends in `end`.
+    pub(crate) fn raise_displacement(
+        &self,
+        peak: &mut Peak,
+        start: f64,
+        states: [State; 2],
+        forces: [f64; 2],
+    ) {
+        let quantity = Quantity {
+            curvature: self.curvature(states[0], forces[0], forces[1]),
+            value: |_, s, _| s.displacement,
+            rate: |_, s, _| s.velocity,
+        };
+        self.raise(peak, start, states, forces, &quantity);
+    }
+
+    fn raise(
+        &self,
+        peak: &mut Peak,
+        start: f64,
+        states: [State; 2],
+        forces: [f64; 2],
+        quantity: &Quantity,
+    ) {
+        let ends = [0, 1].map(|i| (quantity.value)(self, states[i], forces[i]).abs());
+        let amplitude = quantity.curvature.norm();
+        let h = self.time_step;
+        // A function is at most h^2/8 |f''| above its chord.
+        if !(ends[0].max(ends[1]) + h * h / 8.0 * amplitude > peak.value) {
+            return;
+        }
+        let at = |time: f64| {
+            let force = forces[0] + (forces[1] - forces[0]) * time / h;
+            let state = self.transition(time).apply(states[0], forces[0], force);
+            (state, force)
+        };
+        let rate = |time: f64| {
+            let (state, force) = at(time);
+            (quantity.rate)(self, state, force)
+        };
+        // Between zeros of the second derivative the rate is monotonic.
+        let first = (PI / 2.0 - quantity.curvature.arg()).rem_euclid(PI) / self.damped_frequency;
+        let apart = PI / self.damped_frequency;
+        let (mut from, mut rate_from) = (0.0, (quantity.rate)(self, states[0], forces[0]));
+        let mut k = 0;
+        while from < h {
+            let to = (first + k as f64 * apart).min(h);
+            k += 1;
+            let rate_to = rate(to);
+            if rate_from * rate_to < 0.0 {
+                let time = zero(from, to, rate_from, rate_to, TIME_TOLERANCE * h, rate);
+                let (state, force) = at(time);
+                let value = (quantity.value)(self, state, force).abs();
+                if value > peak.value {
+                    *peak = Peak {
+                        value,
+                        time: start + time,
+                    };
+                }
+            }
+            (from, rate_from) = (to, rate_to);
+        }
+    }
+
+    /// Peaks under a ground acceleration (m/s2) that starts with the oscillator at
+    /// rest. Ends with the last sample: free vibration beyond it is not looked at.
+    pub(crate) fn peaks(&self, ground: &[f64], evaluation: Evaluation) -> OscillatorPeaks {
+        let mut peaks = OscillatorPeaks::default();
+        let mut state = State::default();
+        let between = evaluation == Evaluation::PiecewiseLinear;
+        for (i, pair) in ground.windows(2).enumerate() {
+            let forces = [-pair[0], -pair[1]];
+            let next = self.advance(state, forces[0], forces[1]);
+            let time = (i + 1) as f64 * self.time_step;
+            keep(&mut peaks.displacement, next.displacement, time);
+            keep(&mut peaks.velocity, next.velocity, time);
+            keep(
+                &mut peaks.acceleration,
+                self.absolute_acceleration(next),
+                time,
+            );
+            if between {
+                self.between(&mut peaks, i as f64 * self.time_step, [state, next], forces);
+            }
+            state = next;
+        }
+        peaks
+    }
+
+    fn between(
+        &self,
+        peaks: &mut OscillatorPeaks,
+        start: f64,
+        states: [State; 2],
+        forces: [f64; 2],
+    ) {
+        let curvature = self.curvature(states[0], forces[0], forces[1]);
+        let displacement = Quantity {
+            curvature,
+            value: |_, s, _| s.displacement,
+            rate: |_, s, _| s.velocity,
+        };
+        let velocity = Quantity {
+            curvature: curvature * self.eigenvalue,
+            value: |_, s, _| s.velocity,
+            rate: Self::relative_acceleration,
+        };
+        // lambda^2 = -w^2 - 2 zeta w lambda.
+        let acceleration = Quantity {
+            curvature: -curvature * self.eigenvalue * self.eigenvalue,
+            value: |o, s, _| o.absolute_acceleration(s),
+            rate: |o, s, p| {
+                let turned = State {
+                    displacement: s.velocity,
+                    velocity: o.relative_acceleration(s, p),
+                };
+                o.absolute_acceleration(turned)
+            },
+        };
+        self.raise(
+            &mut peaks.displacement,
+            start,
+            states,
+            forces,
+            &displacement,
+        );
+        self.raise(&mut peaks.velocity, start, states, forces, &velocity);
+        self.raise(
+            &mut peaks.acceleration,
+            start,
+            states,
+            forces,
+            &acceleration,
+        );
+    }
+}
+
+impl Transition {
+    fn apply(&self, state: State, p0: f64, p1: f64) -> State {
+        let sum = |c: &[f64; 4]| {
+            c[0] * state.displacement + c[1] * state.velocity + c[2] * p0 + c[3] * p1
+        };
+        State {
+            displacement: sum(&self.displacement),
+            velocity: sum(&self.velocity),
+        }
+    }
+}
+
+fn keep(peak: &mut Peak, value: f64, time: f64) {
+    if value.abs() > peak.value {
+        *peak = Peak {
+            value: value.abs(),
+            time,
+        };
+    }
+}
+
+/// A zero of `f` between two places where its signs differ: false position with
+/// halved end values (Illinois), to a tolerance in the argument.
+pub(crate) fn zero(
+    mut a: f64,
+    mut b: f64,
+    mut fa: f64,
+    mut fb: f64,
+    tolerance: f64,
+    f: impl Fn(f64) -> f64,
+) -> f64 {
+    for i in 0..100 {
+        // Bisection now and then: an end that never moves must not stall.
+        let c = if i % 8 == 7 {
+            0.5 * (a + b)
+        } else {
+            (a * fb - b * fa) / (fb - fa)
+        };
+        let fc = f(c);
+        if fc == 0.0 || (b - c).abs() <= tolerance {
+            return c;
+        }
+        if fc * fb < 0.0 {
+            (a, fa) = (b, fb);
+        } else {
+            fa *= 0.5;
+        }
+        (b, fb) = (c, fc);
+        if (b - a).abs() <= tolerance {
+            break;
+        }
+    }
+    b
+}

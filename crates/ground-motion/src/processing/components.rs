@@ -1,7 +1,23 @@
 //! Two horizontal components.
 
 use crate::accelerogram::Accelerogram;
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, within};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "rotation";
+/// Sine of the least angle between two components that determine the motion well.
+const LEAST_SINE: f64 = 0.5;
+
+/// Two components in other directions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotatedPair {
+    /// Along the direction asked for.
+    pub first: Accelerogram,
+    /// A quarter turn further.
+    pub second: Accelerogram,
+    /// What was done.
+    pub step: StepRecord,
+}
 
 /// Samples that both components have.
 pub(crate) fn common_length(
@@ -17,4 +33,89 @@ pub(crate) fn common_length(
         )));
     }
     Ok(count)
+}
+
+fn combine(
+    first: &Accelerogram,
+    second: &Accelerogram,
+    weights: [[f64; 2]; 2],
+    step: StepRecord,
+) -> Result<RotatedPair, GroundMotionError> {
+    let count = common_length(first, second)?;
+    let component = |of: &Accelerogram, w: [f64; 2]| {
+        let sum = first.samples()[..count]
+            .iter()
+            .zip(&second.samples()[..count])
+            .map(|(a, b)| w[0] * a + w[1] * b)
+            .collect();
+        of.with_samples(sum, first.time_step())
+    };
+    Ok(RotatedPair {
+        first: component(first, weights[0])?,
+        second: component(second, weights[1])?,
+        step: step.number("samples used", count as f64, "-"),
+    })
+}
+
+/// Two components at right angles, turned by an angle (degrees) from the first
+/// towards the second: `a1 cos + a2 sin` and `-a1 sin + a2 cos`. Both must start at
+/// the same time; the longer one is cut.
+///
+/// # Errors
+/// Different time steps, or an angle that is not finite.
+pub fn rotate(
+    first: &Accelerogram,
+    second: &Accelerogram,
+    angle: f64,
+) -> Result<RotatedPair, GroundMotionError> {
+    within(STEP, "angle", angle, -360.0, 360.0)?;
+    let (sine, cosine) = angle.to_radians().sin_cos();
+    let step = StepRecord::new(STEP).number("angle", angle, "degrees");
+    combine(first, second, [[cosine, sine], [-sine, cosine]], step)
+}
+
+/// The components parallel to a fault (first) and normal to it (second, a quarter
+/// turn clockwise from the strike), from two components and their azimuths; azimuths
+/// and strike in degrees clockwise from north. The components need not be at right
+/// angles.
+///
+/// # Errors
+/// Different time steps, azimuths out of range, or components less than 30 degrees
+/// apart.
+pub fn fault_components(
+    first: (&Accelerogram, f64),
+    second: (&Accelerogram, f64),
+    strike: f64,
+) -> Result<RotatedPair, GroundMotionError> {
+    for (name, angle) in [
+        ("first azimuth", first.1),
+        ("second azimuth", second.1),
+        ("strike", strike),
+    ] {
+        within(STEP, name, angle, -360.0, 360.0)?;
+    }
+    let between = (second.1 - first.1).to_radians().sin();
+    if between.abs() < LEAST_SINE {
+        return Err(GroundMotionError::Mismatch(format!(
+            "their azimuths {} and {} degrees are too near one line",
+            first.1, second.1
+        )));
+    }
+    // a(b) = (a1 sin(b2 - b) + a2 sin(b - b1)) / sin(b2 - b1).
+    let weights = |azimuth: f64| {
+        [
+            (second.1 - azimuth).to_radians().sin() / between,
+            (azimuth - first.1).to_radians().sin() / between,
+        ]
+    };
+    let step = StepRecord::new("fault components")
+        .number("first azimuth", first.1, "degrees")
+        .number("second azimuth", second.1, "degrees")
+        .number("strike", strike, "degrees");
+    combine(
+        first.0,
+        second.0,
+        [weights(strike), weights(strike + 90.0)],
+        step,
+    )
 }

@@ -1,5 +1,205 @@
-//! What can be done to a record before it excites buildings.
+//! What can be done to a record before it excites buildings: each step off unless
+//! asked for, each told with its numbers.
 
+mod baseline;
+mod butterworth;
 mod components;
+mod resampling;
+mod scaling;
+mod window;
 
+use crate::accelerogram::Accelerogram;
+use crate::error::{GroundMotionError, within};
+use crate::measures::GroundMotion;
+use crate::step_record::StepRecord;
+use crate::unit::AccelerationUnit;
+
+pub(crate) use baseline::least_squares;
+pub use baseline::{Baseline, SegmentWindow};
+pub use butterworth::{Butterworth, Phase};
 pub(crate) use components::common_length;
+pub use components::{RotatedPair, fault_components, rotate};
+pub(crate) use resampling::interpolate_linearly;
+pub use resampling::{Interpolation, to_even_steps};
+pub use scaling::{Scale, band_factor};
+pub use window::Trim;
+
+/// What is taken off all samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OffsetCorrection {
+    /// The mean of the record.
+    Mean,
+    /// The mean of the time before the event, this long (s).
+    PreEventMean(f64),
+    /// This value (m/s2).
+    Value(f64),
+}
+
+/// One step of processing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProcessingStep {
+    /// The values, taken as m/s2, are in truth in this unit.
+    Unit(AccelerationUnit),
+    /// Turns the sign.
+    Sign,
+    /// Takes an offset off.
+    Offset(OffsetCorrection),
+    /// Filters.
+    Filter(Butterworth),
+    /// Corrects the baseline.
+    Baseline(Baseline),
+    /// Cuts a part out.
+    Trim(Trim),
+    /// Brings the ends to zero by half a cosine.
+    Taper {
+        /// Length at the start (s).
+        start: f64,
+        /// Length at the end (s).
+        end: f64,
+    },
+    /// Puts zeros before and after: after, for free vibration.
+    Pad {
+        /// Length before (s).
+        before: f64,
+        /// Length after (s).
+        after: f64,
+    },
+    /// Changes the time step.
+    Resample {
+        /// New time step (s).
+        time_step: f64,
+        /// Between samples.
+        interpolation: Interpolation,
+    },
+    /// Scales.
+    Scale(Scale),
+}
+
+/// A record and what was done to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Processed {
+    /// The record as it is now.
+    pub accelerogram: Accelerogram,
+    /// What was done, in order.
+    pub steps: Vec<StepRecord>,
+}
+
+impl ProcessingStep {
+    /// Place in the order that [`standard_order`] makes.
+    fn rank(&self) -> usize {
+        match self {
+            Self::Unit(_) => 0,
+            Self::Sign => 1,
+            Self::Offset(_) => 2,
+            Self::Filter(_) => 3,
+            Self::Baseline(_) => 4,
+            Self::Trim(_) => 5,
+            Self::Taper { .. } => 6,
+            Self::Pad { .. } => 7,
+            Self::Resample { .. } => 8,
+            Self::Scale(_) => 9,
+        }
+    }
+
+    /// The record after this step, and what was done with its numbers.
+    ///
+    /// # Errors
+    /// Numbers out of range, or a step that the record does not allow.
+    pub fn apply(
+        &self,
+        record: &Accelerogram,
+    ) -> Result<(Accelerogram, StepRecord), GroundMotionError> {
+        match self {
+            Self::Unit(unit) => {
+                let step = StepRecord::new("unit")
+                    .number("factor", unit.in_si(), "-")
+                    .remark(format!("values are in {}", unit.symbol()));
+                Ok((times(record, unit.in_si())?, step))
+            }
+            Self::Sign => Ok((times(record, -1.0)?, StepRecord::new("sign"))),
+            Self::Offset(offset) => remove_offset(record, *offset),
+            Self::Filter(filter) => filter.apply(record),
+            Self::Baseline(baseline) => baseline.apply(record),
+            Self::Trim(trim) => trim.apply(record),
+            Self::Taper { start, end } => window::taper(record, *start, *end),
+            Self::Pad { before, after } => window::pad(record, *before, *after),
+            Self::Resample {
+                time_step,
+                interpolation,
+            } => resampling::resample(record, *time_step, *interpolation),
+            Self::Scale(scale) => scale.apply(record),
+        }
+    }
+}
+
+/// Sorts steps into the customary order: unit, sign, offset, filter, baseline, trim,
+/// taper, pad, resample, scale. Steps of one kind keep theirs.
+pub fn standard_order(steps: &mut [ProcessingStep]) {
+    steps.sort_by_key(ProcessingStep::rank);
+}
+
+/// Does the steps in the order given. Each is recorded with its numbers and with the
+/// ground's velocity and displacement at the end after it, by which users judge a
+/// baseline.
+///
+/// # Errors
+/// The first step that is out of range or that the record does not allow.
+pub fn process(
+    record: &Accelerogram,
+    steps: &[ProcessingStep],
+) -> Result<Processed, GroundMotionError> {
+    let mut accelerogram = record.clone();
+    let mut done = Vec::with_capacity(steps.len());
+    for step in steps {
+        let (next, told) = step.apply(&accelerogram)?;
+        let motion = GroundMotion::of(&next, 0.0, 0.0);
+        done.push(
+            told.number("end velocity", motion.end_velocity(), "m/s")
+                .number("end displacement", motion.end_displacement(), "m"),
+        );
+        accelerogram = next;
+    }
+    Ok(Processed {
+        accelerogram,
+        steps: done,
+    })
+}
+
+/// The record times a factor that is no scale: the samples were wrong before.
+fn times(record: &Accelerogram, factor: f64) -> Result<Accelerogram, GroundMotionError> {
+    let samples = record.samples().iter().map(|a| a * factor).collect();
+    record.with_samples(samples, record.time_step())
+}
+
+fn remove_offset(
+    record: &Accelerogram,
+    offset: OffsetCorrection,
+) -> Result<(Accelerogram, StepRecord), GroundMotionError> {
+    const STEP: &str = "offset";
+    let samples = record.samples();
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let step = StepRecord::new(STEP);
+    let (value, step) = match offset {
+        OffsetCorrection::Mean => (mean(samples), step.remark("mean of the record")),
+        OffsetCorrection::PreEventMean(length) => {
+            let shortest = record.time_step();
+            within(STEP, "length", length, shortest, record.duration())?;
+            let count = whole_steps(length, record.time_step()) + 1;
+            (
+                mean(&samples[..count.min(samples.len())]),
+                step.number("length", length, "s"),
+            )
+        }
+        OffsetCorrection::Value(value) => (value, step),
+    };
+    let shifted = samples.iter().map(|a| a - value).collect();
+    Ok((
+        record.with_samples(shifted, record.time_step())?,
+        step.number("offset", value, "m/s2"),
+    ))
+}
+
+/// Whole time steps in a time: a millionth of a step short counts as whole.
+pub(crate) fn whole_steps(time: f64, step: f64) -> usize {
+    (time / step + 1.0e-6).floor().max(0.0) as usize
+}

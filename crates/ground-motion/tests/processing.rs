@@ -1,0 +1,599 @@
+//! Processing steps against closed forms.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::{PI, TAU};
+
+use pounding_ground_motion::measures::{GroundMotion, Husid};
+use pounding_ground_motion::processing::{
+    Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, Scale,
+    SegmentWindow, Trim, band_factor, fault_components, process, rotate, standard_order,
+    to_even_steps,
+};
+use pounding_ground_motion::spectra::{
+    Evaluation, TargetSpectrum, fourier_spectrum, logarithmic_periods, response_spectrum,
+};
+use pounding_ground_motion::{
+    AccelerationUnit, Accelerogram, GroundMotionError, Quantity, Sampling, Series,
+};
+use proptest::prelude::*;
+
+const LINEAR: Evaluation = Evaluation::PiecewiseLinear;
+
+fn record(samples: Vec<f64>, step: f64) -> Accelerogram {
+    Accelerogram::new(samples, AccelerationUnit::MetrePerSecondSquared, step).unwrap()
+}
+
+fn of(function: impl Fn(f64) -> f64, count: usize, step: f64) -> Accelerogram {
+    record(
+        (0..count).map(|i| function(i as f64 * step)).collect(),
+        step,
+    )
+}
+
+fn one(record: &Accelerogram, step: ProcessingStep) -> Accelerogram {
+    process(record, &[step]).unwrap().accelerogram
+}
+
+fn refused(record: &Accelerogram, step: ProcessingStep) {
+    let error = process(record, &[step.clone()]).unwrap_err();
+    assert!(error.help().is_some(), "{step:?}");
+    assert!(
+        matches!(
+            error,
+            GroundMotionError::OutOfRange { .. } | GroundMotionError::NotPossible { .. }
+        ),
+        "{error}"
+    );
+}
+
+/// Amplitudes of an impulse are the filter's gain; by the bilinear transform with the
+/// corner put right it is Butterworth's with tan(pi f h) for f, exactly: at the corner
+/// the square root of one half in one pass, one half in two.
+#[test]
+fn butterworth_gain() {
+    let step = 0.01;
+    let mut samples = vec![0.0; 60_000];
+    samples[30_000] = 1.0;
+    let impulse = record(samples, step);
+    for order in 1..=9 {
+        for (high_pass, low_pass) in [
+            (Some(0.5), None),
+            (None, Some(12.5)),
+            (Some(0.5), Some(12.5)),
+        ] {
+            for (phase, passes) in [
+                (Phase::Causal, 1.0),
+                (Phase::Zero { keep_pads: false }, 2.0),
+            ] {
+                let filter = Butterworth {
+                    order,
+                    high_pass,
+                    low_pass,
+                    phase,
+                };
+                let filtered = one(&impulse, ProcessingStep::Filter(filter));
+                let spectrum = fourier_spectrum(&filtered, 0);
+                let warped = |f: f64| (PI * f * step).tan();
+                for (f, a) in spectrum
+                    .frequencies
+                    .iter()
+                    .zip(&spectrum.amplitudes)
+                    .step_by(50)
+                {
+                    let side = |corner: Option<f64>, sign: f64| {
+                        corner.map_or(1.0, |corner| {
+                            let r = (warped(*f) / warped(corner)).powf(sign * 2.0 * order as f64);
+                            1.0 / (1.0 + r)
+                        })
+                    };
+                    let exact = (side(high_pass, -1.0) * side(low_pass, 1.0)).powf(passes / 2.0);
+                    let gain = a / step;
+                    assert!(
+                        (gain - exact).abs() < 2e-6,
+                        "{filter:?} at {f}: {gain} for {exact}"
+                    );
+                }
+                let corner = spectrum
+                    .frequencies
+                    .iter()
+                    .position(|f| (f - 0.5).abs() < 1e-9)
+                    .unwrap();
+                if high_pass.is_some() && low_pass.is_none() {
+                    let gain = spectrum.amplitudes[corner] / step;
+                    assert!((gain - 0.5_f64.powf(passes / 2.0)).abs() < 2e-6);
+                }
+            }
+        }
+    }
+}
+
+/// Without delay: an impulse becomes symmetric. Pads stay, and the ground comes to rest.
+#[test]
+fn zero_phase_and_pads() {
+    let mut samples = vec![0.0; 4001];
+    samples[2000] = 1.0;
+    samples[2100] = 0.6;
+    let filter = |keep_pads| {
+        ProcessingStep::Filter(Butterworth {
+            phase: Phase::Zero { keep_pads },
+            ..Butterworth::zero_phase(Some(0.1), Some(20.0))
+        })
+    };
+    let mut single = samples.clone();
+    single[2100] = 0.0;
+    let symmetric = one(&record(single, 0.01), filter(false));
+    let a = symmetric.samples();
+    // The backward pass starts in the pads: what the forward pass still has there.
+    for i in 0..2000 {
+        assert!((a[i] - a[4000 - i]).abs() < 1e-5 * a[2000], "{i}");
+    }
+    let kept = process(&record(samples.clone(), 0.01), &[filter(true)]).unwrap();
+    let told = &kept.steps[0];
+    assert_eq!(told.get("pad at each end"), Some(30.0));
+    assert_eq!(kept.accelerogram.samples().len(), 4001 + 6000);
+    assert!(told.get("end velocity").unwrap().abs() < 1e-6);
+    let before = GroundMotion::of(&record(samples, 0.01), 0.0, 0.0);
+    assert!(before.end_velocity().abs() > 0.01);
+    // Half the amplitude at each end of 0.8/f.
+    assert_eq!(told.get("longest usable period"), Some(8.0));
+}
+
+#[test]
+fn filters_that_cannot_be() {
+    let ground = of(|t| t.sin(), 1000, 0.01);
+    for filter in [
+        Butterworth::zero_phase(None, None),
+        Butterworth::zero_phase(Some(2.0), Some(1.0)),
+        Butterworth::zero_phase(Some(50.0), None),
+        Butterworth::zero_phase(Some(-1.0), None),
+        Butterworth::zero_phase(Some(1e-9), None),
+        Butterworth {
+            order: 0,
+            ..Butterworth::zero_phase(Some(1.0), None)
+        },
+        Butterworth {
+            order: 13,
+            ..Butterworth::zero_phase(Some(1.0), None)
+        },
+    ] {
+        refused(&ground, ProcessingStep::Filter(filter));
+    }
+}
+
+/// A polynomial is taken off without rest.
+#[test]
+fn polynomial_baselines() {
+    for degree in 0..=5 {
+        let ground = of(
+            |t| {
+                (0..=degree)
+                    .map(|k| (f64::from(k) - 1.7) * (t - 3.0).powi(k))
+                    .sum()
+            },
+            1000,
+            0.01,
+        );
+        let largest = ground.peak().value;
+        let step = ProcessingStep::Baseline(Baseline::Acceleration {
+            degree: degree as usize,
+        });
+        let rest = one(&ground, step).peak().value;
+        assert!(rest < 1e-10 * largest, "{degree}: {rest}");
+    }
+    // An acceleration that is linear between samples and straight throughout: its
+    // velocity is a parabola.
+    let ground = of(|t| 0.3 - 0.2 * t, 1000, 0.01);
+    for degree in 2..=5 {
+        let rest = one(
+            &ground,
+            ProcessingStep::Baseline(Baseline::Velocity { degree }),
+        );
+        assert!(rest.peak().value < 1e-9, "{degree}: {}", rest.peak().value);
+    }
+    refused(
+        &ground,
+        ProcessingStep::Baseline(Baseline::Acceleration { degree: 6 }),
+    );
+    refused(
+        &ground,
+        ProcessingStep::Baseline(Baseline::Velocity { degree: 0 }),
+    );
+    refused(
+        &record(vec![1.0, 2.0, 3.0], 0.1),
+        ProcessingStep::Baseline(Baseline::Acceleration { degree: 3 }),
+    );
+}
+
+/// A motion that returns to rest at 20 s, with one offset from 8 to 14 s and another
+/// after it: both are found and the motion comes back.
+#[test]
+fn two_segments() {
+    let step = 0.01;
+    let clean = |t: f64| {
+        if t < 20.0 {
+            (TAU * t / 2.0).sin() - 0.5 * (TAU * t).sin()
+        } else {
+            0.0
+        }
+    };
+    let (middle, last) = (0.013, -0.004);
+    let offset = |t: f64| {
+        let on = |from: f64| {
+            if (t - from).abs() < 1e-6 {
+                0.5
+            } else {
+                f64::from(u8::from(t > from))
+            }
+        };
+        middle * on(8.0) + (last - middle) * on(14.0)
+    };
+    // Its own displacement at rest is not zero: the first cycles of sine move it.
+    let ground = of(|t| clean(t) + offset(t), 6001, step);
+    let correction = |window| {
+        ProcessingStep::Baseline(Baseline::TwoSegments {
+            window,
+            fit_from: Some(20.0),
+        })
+    };
+    let done = process(
+        &ground,
+        &[correction(SegmentWindow::Times {
+            start: 8.0,
+            end: 14.0,
+        })],
+    )
+    .unwrap();
+    let told = &done.steps[0];
+    assert!((told.get("am").unwrap() - middle).abs() < 1e-12);
+    assert!((told.get("af").unwrap() - last).abs() < 1e-12);
+    let exact = of(clean, 6001, step);
+    for (a, b) in done.accelerogram.samples().iter().zip(exact.samples()) {
+        assert!((a - b).abs() < 1e-11);
+    }
+    assert!(told.get("end velocity").unwrap().abs() < 1e-10);
+    // Iwan's window is where the motion is strong.
+    let done = process(&ground, &[correction(SegmentWindow::Threshold(0.5))]).unwrap();
+    assert!(done.steps[0].get("t1").unwrap() < 1.0 && done.steps[0].get("t2").unwrap() > 19.0);
+    assert!(done.steps[0].get("end velocity").unwrap().abs() < 1e-10);
+    refused(&ground, correction(SegmentWindow::Threshold(50.0)));
+    refused(
+        &ground,
+        correction(SegmentWindow::Times {
+            start: 5.0,
+            end: 5.0,
+        }),
+    );
+}
+
+#[test]
+fn offsets_units_and_signs() {
+    let ground = of(|t| 1.0 + if t < 2.0 - 1e-9 { 0.5 } else { 0.0 }, 400, 0.01);
+    let offset = |o| one(&ground, ProcessingStep::Offset(o));
+    assert!((offset(OffsetCorrection::Mean).samples()[0] - 0.25).abs() < 1e-14);
+    assert_eq!(
+        offset(OffsetCorrection::PreEventMean(1.0)).samples()[0],
+        0.0
+    );
+    assert_eq!(offset(OffsetCorrection::Value(0.5)).samples()[0], 1.0);
+    refused(
+        &ground,
+        ProcessingStep::Offset(OffsetCorrection::PreEventMean(9.0)),
+    );
+    assert_eq!(one(&ground, ProcessingStep::Sign).samples()[0], -1.5);
+    let inches = one(
+        &ground,
+        ProcessingStep::Unit(AccelerationUnit::InchPerSecondSquared),
+    );
+    assert_eq!((inches.samples()[0], inches.scale()), (1.5 * 0.0254, 1.0));
+}
+
+#[test]
+fn windows() {
+    let ground = of(|_| 1.0, 1001, 0.01);
+    let cut = one(
+        &ground,
+        ProcessingStep::Trim(Trim::Times {
+            start: 1.0,
+            end: 3.0,
+        }),
+    );
+    assert_eq!(cut.samples().len(), 201);
+    let cut = process(
+        &ground,
+        &[ProcessingStep::Trim(Trim::Arias {
+            from: 0.05,
+            to: 0.95,
+        })],
+    )
+    .unwrap();
+    assert_eq!(cut.steps[0].get("start"), Some(0.5));
+    assert_eq!(cut.steps[0].get("end"), Some(9.5));
+    let whole = Husid::of(&ground, LINEAR).unwrap().arias_intensity();
+    let kept = Husid::of(&cut.accelerogram, LINEAR)
+        .unwrap()
+        .arias_intensity();
+    assert!((kept / whole - 0.9).abs() < 1e-12);
+    let tapered = one(
+        &ground,
+        ProcessingStep::Taper {
+            start: 1.0,
+            end: 2.0,
+        },
+    );
+    let a = tapered.samples();
+    for (i, exact) in [
+        (0, 0.0),
+        (50, 0.5),
+        (25, 0.5 - 0.125_f64.sqrt()),
+        (100, 1.0),
+        (800, 1.0),
+        (900, 0.5),
+        (1000, 0.0),
+    ] {
+        assert!((a[i] - exact).abs() < 1e-14, "{i}: {}", a[i]);
+    }
+    let padded = one(
+        &ground,
+        ProcessingStep::Pad {
+            before: 0.5,
+            after: 20.0,
+        },
+    );
+    assert_eq!(padded.samples().len(), 1001 + 50 + 2000);
+    assert_eq!(
+        (
+            padded.samples()[49],
+            padded.samples()[50],
+            padded.samples()[1051]
+        ),
+        (0.0, 1.0, 0.0)
+    );
+    refused(
+        &ground,
+        ProcessingStep::Trim(Trim::Times {
+            start: 1.0,
+            end: 11.0,
+        }),
+    );
+    refused(
+        &ground,
+        ProcessingStep::Trim(Trim::Times {
+            start: 3.0,
+            end: 1.0,
+        }),
+    );
+    refused(
+        &ground,
+        ProcessingStep::Trim(Trim::Arias { from: 0.9, to: 0.1 }),
+    );
+    refused(
+        &ground,
+        ProcessingStep::Taper {
+            start: 6.0,
+            end: 6.0,
+        },
+    );
+    refused(
+        &ground,
+        ProcessingStep::Pad {
+            before: 0.0,
+            after: -1.0,
+        },
+    );
+}
+
+fn resample(time_step: f64, interpolation: Interpolation) -> ProcessingStep {
+    ProcessingStep::Resample {
+        time_step,
+        interpolation,
+    }
+}
+
+/// Below the Nyquist frequency a signal comes back between samples; what a longer step
+/// cannot hold goes.
+#[test]
+fn band_limited_steps() {
+    let shape = |t: f64| (-((t - 10.0) / 2.0).powi(2)).exp();
+    let low = move |t: f64| shape(t) * (TAU * 3.0 * t).sin();
+    let both = move |t: f64| low(t) + shape(t) * (TAU * 35.0 * t).sin();
+    for (from, to) in [
+        (0.02, 0.005),
+        (0.02, 0.007),
+        (0.01, 0.02),
+        (0.005, 0.02),
+        (0.01, 0.015),
+    ] {
+        let ground = of(low, (20.0 / from) as usize + 1, from);
+        let new = one(&ground, resample(to, Interpolation::BandLimited));
+        assert_eq!(new.samples().len(), (20.0 / to + 1e-9) as usize + 1);
+        for (i, a) in new.samples().iter().enumerate() {
+            assert!((a - low(i as f64 * to)).abs() < 1e-9, "{from} {to} {i}");
+        }
+    }
+    // 35 Hz is above half of 50 Hz and would fold to 15 Hz.
+    let ground = of(both, 4001, 0.005);
+    let new = one(&ground, resample(0.02, Interpolation::BandLimited));
+    for (i, a) in new.samples().iter().enumerate() {
+        assert!((a - low(i as f64 * 0.02)).abs() < 1e-9);
+    }
+    refused(&ground, resample(0.02, Interpolation::Linear));
+    refused(&ground, resample(0.0, Interpolation::Linear));
+    refused(&ground, resample(1e-9, Interpolation::Linear));
+    refused(&ground, resample(0.01 * PI, Interpolation::BandLimited));
+}
+
+fn uneven(times: Vec<f64>, function: impl Fn(f64) -> f64) -> Series {
+    Series {
+        quantity: Quantity::Acceleration,
+        component: String::new(),
+        channel: 1,
+        unit: "m/s2",
+        samples: times.iter().map(|t| function(*t)).collect(),
+        sampling: Sampling::Uneven { times },
+        header_peak: None,
+        initial: None,
+        origin: pounding_ground_motion::Origin::default(),
+    }
+}
+
+#[test]
+fn uneven_times() {
+    // Steps of 4, 5 and 6 ms in turn.
+    let mut times = vec![3.0];
+    for i in 0..3000 {
+        times.push(times[i] + 0.004 + 0.001 * (i % 3) as f64);
+    }
+    let straight = uneven(times.clone(), |t| 2.0 * t - 1.0);
+    let (even, told) = to_even_steps(&straight, None, Interpolation::Linear).unwrap();
+    assert!((told.get("median step").unwrap() - 0.005).abs() < 1e-12);
+    assert!((told.get("largest gap").unwrap() - 0.006).abs() < 1e-12);
+    for (i, a) in even.samples().iter().enumerate() {
+        assert!((a - (5.0 + 2.0 * i as f64 * even.time_step())).abs() < 1e-10);
+    }
+    assert_eq!(even.samples().len(), 3001);
+    // A slow wave keeps its shape at a longer step, up to (w h)^2/8 of straight lines.
+    let wave = |t: f64| (-((t - 10.0) / 1.5).powi(2)).exp() * (TAU * 2.0 * t).sin();
+    let series = uneven(times, wave);
+    let (even, told) = to_even_steps(&series, Some(0.02), Interpolation::BandLimited).unwrap();
+    assert_eq!(told.get("step between"), Some(0.005));
+    let bound = (TAU * 2.0 * 0.006_f64).powi(2) / 8.0;
+    for (i, a) in even.samples().iter().enumerate() {
+        assert!((a - wave(3.0 + i as f64 * 0.02)).abs() < bound);
+    }
+    assert!(to_even_steps(&series, Some(0.02), Interpolation::Linear).is_err());
+    assert!(to_even_steps(&series, Some(-1.0), Interpolation::Linear).is_err());
+}
+
+#[test]
+fn scales() {
+    let ground = of(
+        |t| (-0.3 * t).exp() * ((7.0 * t).sin() + 0.4 * (31.0 * t).cos()),
+        1500,
+        0.01,
+    );
+    let periods = logarithmic_periods(0.1, 3.0, 100).unwrap();
+    let own = response_spectrum(&ground, &periods, 0.05, LINEAR).unwrap();
+    let target = TargetSpectrum::new(
+        periods.clone(),
+        own.pseudo_acceleration.iter().map(|a| 2.5 * a).collect(),
+        0.05,
+    )
+    .unwrap();
+    let scaled = |scale| one(&ground, ProcessingStep::Scale(scale));
+    assert!((scaled(Scale::PeakAcceleration(3.0)).peak().value - 3.0).abs() < 1e-14);
+    let velocity =
+        GroundMotion::of(&scaled(Scale::PeakVelocity(0.4)), 0.0, 0.0).peak_velocity(LINEAR);
+    assert!((velocity.value - 0.4).abs() < 1e-14);
+    let spectral = scaled(Scale::SpectralAcceleration {
+        period: 0.7,
+        damping: 0.02,
+        target: 4.0,
+    });
+    let reached = response_spectrum(&spectral, &[0.7], 0.02, LINEAR).unwrap();
+    assert!((reached.pseudo_acceleration[0] - 4.0).abs() < 1e-12);
+    let band = scaled(Scale::Band {
+        target: target.clone(),
+        from: 0.1,
+        to: 3.0,
+    });
+    assert!((band.scale() - 2.5).abs() < 1e-12);
+    // Two records, one three times the other: the mean of the logarithms is in the middle.
+    let set = [ground.clone(), ground.scaled_by(3.0).unwrap()];
+    let factor = band_factor(&set, &target, 0.1, 3.0).unwrap();
+    assert!((factor - 2.5 / 3.0_f64.sqrt()).abs() < 1e-12);
+    assert!(band_factor(&[], &target, 0.1, 3.0).is_err());
+    refused(
+        &ground,
+        ProcessingStep::Scale(Scale::Band {
+            target,
+            from: 0.05,
+            to: 3.0,
+        }),
+    );
+    refused(
+        &ground,
+        ProcessingStep::Scale(Scale::PeakAcceleration(-1.0)),
+    );
+}
+
+/// What was done can be read, sorted and written as JSON.
+#[test]
+fn records_of_steps() {
+    let ground = of(|t| (5.0 * t).sin(), 1000, 0.01);
+    let mut steps = vec![
+        ProcessingStep::Scale(Scale::PeakAcceleration(2.0)),
+        ProcessingStep::Pad {
+            before: 0.0,
+            after: 1.0,
+        },
+        ProcessingStep::Offset(OffsetCorrection::Mean),
+        ProcessingStep::Sign,
+    ];
+    standard_order(&mut steps);
+    assert_eq!(steps[0], ProcessingStep::Sign);
+    assert!(matches!(steps[3], ProcessingStep::Scale(_)));
+    let done = process(&ground, &steps).unwrap();
+    let names: Vec<&str> = done.steps.iter().map(|s| s.step).collect();
+    assert_eq!(names, ["sign", "offset", "pad", "scale"]);
+    let json = serde_json::to_value(&done.steps).unwrap();
+    assert_eq!(json[2]["numbers"][1]["name"], "after");
+    assert_eq!(json[2]["numbers"][1]["value"], 1.0);
+    assert!(
+        done.steps[2]
+            .to_string()
+            .starts_with("pad: before 0 s, after 1 s")
+    );
+    assert!(process(&ground, &[]).unwrap().accelerogram == ground);
+}
+
+fn any_record() -> impl Strategy<Value = Accelerogram> {
+    prop::collection::vec(-1.0..1.0_f64, 20..60).prop_map(|s| record(s, 0.02))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Rotation keeps the energy of both components, and turning back returns them.
+    #[test]
+    fn rotation_keeps_energy(first in any_record(), second in any_record(), angle in -360.0..360.0_f64) {
+        let count = first.samples().len().min(second.samples().len());
+        let energy = |a: &[f64], b: &[f64]| (0..count).map(|i| a[i] * a[i] + b[i] * b[i]).sum::<f64>();
+        let pair = rotate(&first, &second, angle).unwrap();
+        let before = energy(first.samples(), second.samples());
+        let after = energy(pair.first.samples(), pair.second.samples());
+        prop_assert!((after / before - 1.0).abs() < 1e-13);
+        let back = rotate(&pair.first, &pair.second, -angle).unwrap();
+        for i in 0..count {
+            prop_assert!((back.first.samples()[i] - first.samples()[i]).abs() < 1e-14);
+            prop_assert!((back.second.samples()[i] - second.samples()[i]).abs() < 1e-14);
+        }
+    }
+
+    /// A motion along north and east, seen by skew instruments, turned to a fault.
+    #[test]
+    fn components_of_a_fault(north in any_record(), east in any_record(), azimuth in 0.0..360.0_f64, between in 35.0..145.0_f64, strike in 0.0..360.0_f64) {
+        let along = |bearing: f64| rotate(&north, &east, bearing).unwrap().first;
+        let (a, b) = (along(azimuth), along((azimuth + between) % 360.0));
+        let pair = fault_components((&a, azimuth), (&b, (azimuth + between) % 360.0), strike).unwrap();
+        let exact = rotate(&north, &east, strike).unwrap();
+        for i in 0..pair.first.samples().len() {
+            prop_assert!((pair.first.samples()[i] - exact.first.samples()[i]).abs() < 1e-12);
+            prop_assert!((pair.second.samples()[i] - exact.second.samples()[i]).abs() < 1e-12);
+        }
+        prop_assert!(fault_components((&a, 10.0), (&b, 20.0), strike).is_err());
+    }
+
+    /// Linear resampling to a part of the step changes nothing that straight lines see.
+    #[test]
+    fn finer_lines_are_the_same(ground in any_record(), parts in 2..6_u32) {
+        let fine = one(&ground, resample(0.02 / f64::from(parts), Interpolation::Linear));
+        let arias = |r: &Accelerogram| Husid::of(r, LINEAR).unwrap().arias_intensity();
+        prop_assert!((arias(&fine) / arias(&ground) - 1.0).abs() < 1e-12);
+        let spectrum = |r: &Accelerogram| response_spectrum(r, &[0.05, 0.4], 0.05, LINEAR).unwrap();
+        let (a, b) = (spectrum(&ground), spectrum(&fine));
+        for k in 0..2 {
+            prop_assert!((a.displacement[k] / b.displacement[k] - 1.0).abs() < 1e-10);
+            prop_assert!((a.acceleration[k] / b.acceleration[k] - 1.0).abs() < 1e-10);
+        }
+    }
+}

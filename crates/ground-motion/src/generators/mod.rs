@@ -1,1 +1,120 @@
-//! Generators.
+//! Motions made from formulas: pulses in closed form, and random motions that a seed
+//! fixes.
+//!
+//! The same parameters and seed give the same bytes wherever `exp`, `sin` and `ln` of
+//! the platform are the same; the random numbers themselves are the same everywhere.
+
+mod boore_2003;
+mod clough_penzien_1975;
+mod envelope;
+mod kanai_tajimi_1960;
+mod makris_roussos_2000;
+mod mavroeidis_papageorgiou_2003;
+mod noise;
+mod random_phases;
+mod rezaeian_der_kiureghian_2010;
+mod ricker_1953;
+mod sine;
+
+use crate::accelerogram::Accelerogram;
+use crate::error::{GroundMotionError, positive, within};
+use crate::measures::{GroundMotion, Husid};
+use crate::spectra::Evaluation;
+use crate::step_record::StepRecord;
+use crate::unit::AccelerationUnit;
+
+pub use boore_2003::{Boore2003, Diminution};
+pub use clough_penzien_1975::CloughPenzien1975;
+pub use envelope::Envelope;
+pub use kanai_tajimi_1960::KanaiTajimi1960;
+pub use makris_roussos_2000::{MakrisRoussos2000, PulseType};
+pub use mavroeidis_papageorgiou_2003::MavroeidisPapageorgiou2003;
+pub use random_phases::{PowerSpectrum, StationaryMotion};
+pub use rezaeian_der_kiureghian_2010::{
+    FaultMechanism, RezaeianDerKiureghian2010, RezaeianDerKiureghianScenario,
+};
+pub use ricker_1953::Ricker1953;
+pub use sine::Sine;
+
+/// Most samples of a generated motion.
+const MOST_SAMPLES: f64 = 1.0e7;
+
+/// Time step and length of a motion to make.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeGrid {
+    /// Time step (s).
+    pub time_step: f64,
+    /// Time of the last sample (s), to the nearest step.
+    pub duration: f64,
+}
+
+/// A motion and how it was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Generated {
+    /// The motion.
+    pub accelerogram: Accelerogram,
+    /// What was asked for and what came of it.
+    pub steps: Vec<StepRecord>,
+}
+
+impl TimeGrid {
+    /// Number of samples.
+    ///
+    /// # Errors
+    /// Steps or durations that are not positive or make too many samples.
+    pub fn count(&self) -> Result<usize, GroundMotionError> {
+        const STEP: &str = "time grid";
+        positive(STEP, "time step", self.time_step)?;
+        let longest = self.time_step * MOST_SAMPLES;
+        within(STEP, "duration", self.duration, self.time_step, longest)?;
+        Ok((self.duration / self.time_step).round() as usize + 1)
+    }
+
+    /// A function of time at the samples.
+    pub(crate) fn sample(
+        &self,
+        function: impl Fn(f64) -> f64,
+    ) -> Result<Vec<f64>, GroundMotionError> {
+        let count = self.count()?;
+        Ok((0..count)
+            .map(|i| function(i as f64 * self.time_step))
+            .collect())
+    }
+
+    /// The motion with the numbers that it achieved.
+    pub(crate) fn finish(
+        &self,
+        samples: Vec<f64>,
+        asked: StepRecord,
+    ) -> Result<Generated, GroundMotionError> {
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let accelerogram = Accelerogram::new(samples, unit, self.time_step)?;
+        let step = achieved(asked, &accelerogram)?;
+        Ok(Generated {
+            accelerogram,
+            steps: vec![step],
+        })
+    }
+}
+
+/// Adds what a motion achieved to what was asked for.
+pub(crate) fn achieved(
+    step: StepRecord,
+    motion: &Accelerogram,
+) -> Result<StepRecord, GroundMotionError> {
+    let linear = Evaluation::PiecewiseLinear;
+    let husid = Husid::of(motion, linear)?;
+    let ground = GroundMotion::of(motion, 0.0, 0.0);
+    let duration = husid.between(0.05, 0.95)?.duration();
+    Ok(step
+        .number("achieved peak acceleration", motion.peak().value, "m/s2")
+        .number(
+            "achieved peak velocity",
+            ground.peak_velocity(linear).value,
+            "m/s",
+        )
+        .number("achieved Arias intensity", husid.arias_intensity(), "m/s")
+        .number("achieved 5-95 % duration", duration, "s")
+        .number("end velocity", ground.end_velocity(), "m/s")
+        .number("end displacement", ground.end_displacement(), "m"))
+}

@@ -1,1 +1,204 @@
-//! Matching.
+//! Motions brought to a target spectrum.
+
+mod drift;
+mod frequency_domain;
+mod wavelets;
+
+use serde::Serialize;
+
+use crate::accelerogram::Accelerogram;
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::achieved;
+use crate::processing::band_factor;
+use crate::spectra::{
+    Evaluation, ResponseSpectrum, TargetSpectrum, logarithmic_periods, response_spectrum,
+};
+use crate::step_record::StepRecord;
+
+pub use frequency_domain::match_by_fourier_amplitudes;
+pub use wavelets::match_by_wavelets;
+
+const STEP: &str = "spectrum matching";
+/// The result is held against the target at this many periods for each that is matched.
+const CHECKED_PER_MATCHED: usize = 4;
+
+/// What is asked of a match.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MatchOptions {
+    /// First period (s).
+    pub from: f64,
+    /// Last period (s).
+    pub to: f64,
+    /// Periods matched, evenly spaced in their logarithm.
+    pub periods: usize,
+    /// Greatest deviation as a part of the target: at four times as many periods.
+    pub tolerance: f64,
+    /// Iterations at most.
+    pub iterations: usize,
+}
+
+impl MatchOptions {
+    /// 80 periods of a band (s) to 5 % within 60 iterations.
+    #[must_use]
+    pub fn band(from: f64, to: f64) -> Self {
+        Self {
+            from,
+            to,
+            periods: 80,
+            tolerance: 0.05,
+            iterations: 60,
+        }
+    }
+}
+
+/// How far a spectrum is from a target.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Misfit {
+    /// Greatest deviation as a part of the target.
+    pub worst: f64,
+    /// Period where it is (s).
+    pub period: f64,
+    /// Mean of the absolute deviations as parts of the target.
+    pub mean: f64,
+}
+
+/// A matched motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Matched {
+    /// The motion.
+    pub accelerogram: Accelerogram,
+    /// Its misfit.
+    pub misfit: Misfit,
+    /// What was done.
+    pub steps: Vec<StepRecord>,
+}
+
+/// The misfit of a record over a band of periods (s), at `count` of them.
+///
+/// # Errors
+/// A band beyond the target, or periods that the record cannot have.
+pub fn misfit(
+    record: &Accelerogram,
+    target: &TargetSpectrum,
+    from: f64,
+    to: f64,
+    count: usize,
+) -> Result<Misfit, GroundMotionError> {
+    let periods = logarithmic_periods(from, to, count)?;
+    let spectrum = spectrum(record, target, &periods)?;
+    let mut misfit = Misfit {
+        worst: 0.0,
+        period: from,
+        mean: 0.0,
+    };
+    for (period, value) in periods.iter().zip(&spectrum.pseudo_acceleration) {
+        let deviation = (value / target.at(*period)? - 1.0).abs();
+        misfit.mean += deviation / periods.len() as f64;
+        if deviation > misfit.worst {
+            (misfit.worst, misfit.period) = (deviation, *period);
+        }
+    }
+    Ok(misfit)
+}
+
+fn spectrum(
+    record: &Accelerogram,
+    target: &TargetSpectrum,
+    periods: &[f64],
+) -> Result<ResponseSpectrum, GroundMotionError> {
+    response_spectrum(
+        record,
+        periods,
+        target.damping(),
+        Evaluation::PiecewiseLinear,
+    )
+}
+
+/// One method's change of a motion.
+trait Adjustment {
+    const NAME: &'static str;
+
+    /// The motion with its spectrum nearer the target.
+    fn improve(
+        &mut self,
+        record: &Accelerogram,
+        target: &TargetSpectrum,
+        periods: &[f64],
+    ) -> Result<Accelerogram, GroundMotionError>;
+}
+
+/// Scales a record to the band, then improves it until it is near enough; the best
+/// iterate counts.
+fn iterate<A: Adjustment>(
+    record: &Accelerogram,
+    target: &TargetSpectrum,
+    options: MatchOptions,
+    adjustment: &mut A,
+) -> Result<Matched, GroundMotionError> {
+    positive(STEP, "tolerance", options.tolerance)?;
+    // Shorter periods swing more than once between two samples.
+    let shortest = 2.0 * record.time_step();
+    within(STEP, "first period", options.from, shortest, options.to)?;
+    within(
+        STEP,
+        "last period",
+        options.to,
+        options.from,
+        record.duration(),
+    )?;
+    within(
+        STEP,
+        "number of periods",
+        options.periods as f64,
+        2.0,
+        500.0,
+    )?;
+    let periods = logarithmic_periods(options.from, options.to, options.periods)?;
+    let check = |r: &Accelerogram| {
+        let count = CHECKED_PER_MATCHED * (options.periods - 1) + 1;
+        misfit(r, target, options.from, options.to, count)
+    };
+    let factor = band_factor(
+        std::slice::from_ref(record),
+        target,
+        options.from,
+        options.to,
+    )?;
+    let mut current = record.scaled_by(factor)?;
+    let before = check(&current)?;
+    let mut best = (current.clone(), before);
+    let mut done = 0;
+    while best.1.worst > options.tolerance && done < options.iterations {
+        current = adjustment.improve(&current, target, &periods)?;
+        done += 1;
+        let now = check(&current)?;
+        if now.worst < best.1.worst {
+            best = (current.clone(), now);
+        }
+    }
+    let (accelerogram, misfit) = best;
+    if misfit.worst > options.tolerance {
+        return Err(GroundMotionError::NotMatched {
+            worst: misfit.worst,
+            period: misfit.period,
+            iterations: done,
+            tolerance: options.tolerance,
+        });
+    }
+    let step = StepRecord::new(A::NAME)
+        .number("first period", options.from, "s")
+        .number("last period", options.to, "s")
+        .number("damping ratio", target.damping(), "-")
+        .number("scale before", factor, "-")
+        .number("greatest deviation before", before.worst, "-")
+        .number("iterations", done as f64, "-")
+        .number("greatest deviation", misfit.worst, "-")
+        .number("period of the greatest deviation", misfit.period, "s")
+        .number("mean deviation", misfit.mean, "-");
+    let steps = vec![achieved(step, &accelerogram)?];
+    Ok(Matched {
+        accelerogram,
+        misfit,
+        steps,
+    })
+}

@@ -13,6 +13,7 @@ use crate::spectra::Evaluation;
 
 pub use duration::Husid;
 pub use motion::GroundMotion;
+pub(crate) use motion::integrate;
 
 /// Standard gravity (m/s2, ISO 80000-3).
 pub(crate) const GRAVITY: f64 = 9.806_65;

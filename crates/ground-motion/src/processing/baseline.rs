@@ -232,7 +232,7 @@ fn fit(x: &[f64], y: &[f64], lowest: usize, highest: usize) -> Result<Vec<f64>, 
 
 /// Factors of columns whose sum is nearest to `y`, by orthogonalising the columns
 /// (modified Gram-Schmidt); `None` where they depend on one another.
-pub(crate) fn least_squares(mut columns: Vec<Vec<f64>>, y: &[f64]) -> Option<Vec<f64>> {
+fn least_squares(mut columns: Vec<Vec<f64>>, y: &[f64]) -> Option<Vec<f64>> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let count = columns.len();
     let mut rest = y.to_vec();

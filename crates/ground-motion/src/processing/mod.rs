@@ -14,12 +14,10 @@ use crate::measures::GroundMotion;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
-pub(crate) use baseline::least_squares;
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
 pub(crate) use components::common_length;
 pub use components::{RotatedPair, fault_components, rotate};
-pub(crate) use resampling::interpolate_linearly;
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{Scale, band_factor};
 pub use window::Trim;

@@ -83,7 +83,7 @@ fn new_count(duration: f64, time_step: f64) -> Result<usize, GroundMotionError> 
 
 /// `count` values at steps of `to`, straight lines between samples at steps of `from`;
 /// the last value beyond the last sample.
-pub(crate) fn interpolate_linearly(samples: &[f64], from: f64, to: f64, count: usize) -> Vec<f64> {
+fn interpolate_linearly(samples: &[f64], from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = samples.len() - 1;
     (0..count)
         .map(|i| {

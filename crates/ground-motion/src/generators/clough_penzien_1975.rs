@@ -1,0 +1,64 @@
+//! Clough and Penzien (1975), Dynamics of Structures, 26-2: the spectrum of Kanai and
+//! Tajimi without the displacements that grow for ever.
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::{KanaiTajimi1960, PowerSpectrum};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "clough_penzien_1975";
+
+/// `S = S_KT w^4/((wf^2 - w^2)^2 + 4 zf^2 wf^2 w^2)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CloughPenzien1975 {
+    /// The spectrum of Kanai and Tajimi.
+    pub ground: KanaiTajimi1960,
+    /// Frequency wf of the second filter (rad/s).
+    pub filter_frequency: f64,
+    /// Damping ratio zf of the second filter (-).
+    pub filter_damping: f64,
+}
+
+impl CloughPenzien1975 {
+    /// Firm, medium or soft ground of an intensity S0 (m2/s3): Der Kiureghian and
+    /// Neuenhofer (1992), Earthq. Eng. Struct. Dyn. 21, 713 (values from memory of the
+    /// literature).
+    #[must_use]
+    pub fn of_ground(kind: &str, intensity: f64) -> Option<Self> {
+        let (ground_frequency, ground_damping, filter_frequency) = match kind {
+            "firm" => (15.0, 0.6, 1.5),
+            "medium" => (10.0, 0.4, 1.0),
+            "soft" => (5.0, 0.2, 0.5),
+            _ => return None,
+        };
+        Some(Self {
+            ground: KanaiTajimi1960 {
+                intensity,
+                ground_frequency,
+                ground_damping,
+            },
+            filter_frequency,
+            filter_damping: 0.6,
+        })
+    }
+}
+
+impl PowerSpectrum for CloughPenzien1975 {
+    fn density(&self, frequency: f64) -> f64 {
+        let (w2, f2) = (frequency.powi(2), self.filter_frequency.powi(2));
+        let damping = 4.0 * self.filter_damping.powi(2) * f2 * w2;
+        self.ground.density(frequency) * w2 * w2 / ((f2 - w2).powi(2) + damping)
+    }
+
+    fn describe(&self) -> Result<StepRecord, GroundMotionError> {
+        positive(STEP, "filter frequency", self.filter_frequency)?;
+        within(STEP, "filter damping", self.filter_damping, 1.0e-3, 10.0)?;
+        let mut step = self.ground.describe()?;
+        step.step = STEP;
+        // The variance is that of the first filter alone.
+        step.numbers
+            .retain(|n| n.name != "variance of the spectrum");
+        Ok(step
+            .number("filter frequency", self.filter_frequency, "rad/s")
+            .number("filter damping", self.filter_damping, "-"))
+    }
+}

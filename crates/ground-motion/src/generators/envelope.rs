@@ -1,0 +1,126 @@
+//! Envelopes of amplitude over time, greatest value one.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use crate::error::{GroundMotionError, positive, within};
+
+/// An envelope.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub enum Envelope {
+    /// One throughout.
+    Constant,
+    /// Half a sine over the duration.
+    HalfSine,
+    /// Up in a line, one, down in a line to the end of the duration.
+    Ramped {
+        /// Time up (s).
+        rise: f64,
+        /// Time down (s).
+        fall: f64,
+    },
+    /// `exp(-rate t)`.
+    Decay {
+        /// Rate (1/s).
+        rate: f64,
+    },
+    /// `(t/rise)^2`, one up to `strong_end`, `exp(-decay (t - strong_end))`: Jennings,
+    /// Housner and Tsai (1968), Caltech EERL. Type B: 4 s, 15 s, 0.0992 1/s.
+    JenningsHousnerTsai1968 {
+        /// End of the rise (s).
+        rise: f64,
+        /// End of the strong part (s).
+        strong_end: f64,
+        /// Rate of decay after it (1/s).
+        decay: f64,
+    },
+    /// `t^power exp(-rate t)` over its greatest value: Saragoni and Hart (1974),
+    /// Earthq. Eng. Struct. Dyn. 2, 249.
+    SaragoniHart1974 {
+        /// Power (-).
+        power: f64,
+        /// Rate (1/s).
+        rate: f64,
+    },
+    /// `exp(-slow t) - exp(-fast t)` over its greatest value: Shinozuka and Sato
+    /// (1967), J. Eng. Mech. 93, 11.
+    ShinozukaSato1967 {
+        /// Slower rate (1/s).
+        slow: f64,
+        /// Faster rate (1/s).
+        fast: f64,
+    },
+}
+
+impl Envelope {
+    pub(crate) fn check(&self) -> Result<(), GroundMotionError> {
+        const STEP: &str = "envelope";
+        match *self {
+            Self::Constant | Self::HalfSine => {}
+            Self::Ramped { rise, fall } => {
+                within(STEP, "rise", rise, 0.0, f64::MAX)?;
+                within(STEP, "fall", fall, 0.0, f64::MAX)?;
+            }
+            Self::Decay { rate } => {
+                positive(STEP, "rate", rate)?;
+            }
+            Self::JenningsHousnerTsai1968 {
+                rise,
+                strong_end,
+                decay,
+            } => {
+                positive(STEP, "rise", rise)?;
+                within(STEP, "end of the strong part", strong_end, rise, f64::MAX)?;
+                positive(STEP, "decay", decay)?;
+            }
+            Self::SaragoniHart1974 { power, rate } => {
+                positive(STEP, "power", power)?;
+                positive(STEP, "rate", rate)?;
+            }
+            Self::ShinozukaSato1967 { slow, fast } => {
+                positive(STEP, "slower rate", slow)?;
+                within(STEP, "faster rate", fast, slow * (1.0 + 1.0e-6), f64::MAX)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The value at a time (s) of a motion of a duration (s).
+    #[must_use]
+    pub fn at(&self, time: f64, duration: f64) -> f64 {
+        if time < 0.0 || time > duration * (1.0 + 1.0e-12) {
+            return 0.0;
+        }
+        match *self {
+            Self::Constant => 1.0,
+            Self::HalfSine => (PI * time / duration).sin(),
+            Self::Ramped { rise, fall } => {
+                let up = if time < rise { time / rise } else { 1.0 };
+                let left = (duration - time).max(0.0);
+                let down = if left < fall { left / fall } else { 1.0 };
+                up.min(down)
+            }
+            Self::Decay { rate } => (-rate * time).exp(),
+            Self::JenningsHousnerTsai1968 {
+                rise,
+                strong_end,
+                decay,
+            } => {
+                if time < rise {
+                    (time / rise).powi(2)
+                } else {
+                    (-decay * (time - strong_end).max(0.0)).exp()
+                }
+            }
+            Self::SaragoniHart1974 { power, rate } => {
+                let part = rate * time / power;
+                (power * (part.ln() + 1.0 - part)).exp()
+            }
+            Self::ShinozukaSato1967 { slow, fast } => {
+                let value = |t: f64| (-slow * t).exp() - (-fast * t).exp();
+                value(time) / value((fast / slow).ln() / (fast - slow))
+            }
+        }
+    }
+}

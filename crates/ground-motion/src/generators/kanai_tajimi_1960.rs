@@ -1,0 +1,73 @@
+//! Tajimi (1960), Proc. 2nd World Conf. Earthq. Eng. 2, 781, after Kanai (1957): white
+//! noise of the rock through one layer of ground.
+
+use std::f64::consts::PI;
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::PowerSpectrum;
+use crate::generators::random_phases::intensity_for_peak;
+use crate::step_record::StepRecord;
+
+const STEP: &str = "kanai_tajimi_1960";
+
+/// `S = S0 (wg^4 + 4 zg^2 wg^2 w^2)/((wg^2 - w^2)^2 + 4 zg^2 wg^2 w^2)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KanaiTajimi1960 {
+    /// S0 (m2/s3), two-sided.
+    pub intensity: f64,
+    /// Frequency wg of the ground (rad/s); 15.6 is Kanai's firm ground.
+    pub ground_frequency: f64,
+    /// Damping ratio zg of the ground (-); 0.6 is Kanai's firm ground.
+    pub ground_damping: f64,
+}
+
+impl KanaiTajimi1960 {
+    /// The spectrum whose standard deviation is a peak acceleration (m/s2) over a peak
+    /// factor, 2.8 to 3.2.
+    ///
+    /// # Errors
+    /// Numbers that are not positive.
+    pub fn for_peak(
+        peak_acceleration: f64,
+        peak_factor: f64,
+        ground_frequency: f64,
+        ground_damping: f64,
+    ) -> Result<Self, GroundMotionError> {
+        let mut spectrum = Self {
+            intensity: 1.0,
+            ground_frequency,
+            ground_damping,
+        };
+        spectrum.describe()?;
+        spectrum.intensity =
+            intensity_for_peak(STEP, peak_acceleration, peak_factor, spectrum.variance())?;
+        Ok(spectrum)
+    }
+
+    /// Variance (m2/s4): `pi S0 wg (1/(2 zg) + 2 zg)`.
+    #[must_use]
+    pub fn variance(&self) -> f64 {
+        PI * self.intensity
+            * self.ground_frequency
+            * (0.5 / self.ground_damping + 2.0 * self.ground_damping)
+    }
+}
+
+impl PowerSpectrum for KanaiTajimi1960 {
+    fn density(&self, frequency: f64) -> f64 {
+        let (w2, g2) = (frequency.powi(2), self.ground_frequency.powi(2));
+        let damping = 4.0 * self.ground_damping.powi(2) * g2 * w2;
+        self.intensity * (g2 * g2 + damping) / ((g2 - w2).powi(2) + damping)
+    }
+
+    fn describe(&self) -> Result<StepRecord, GroundMotionError> {
+        positive(STEP, "intensity", self.intensity)?;
+        positive(STEP, "ground frequency", self.ground_frequency)?;
+        within(STEP, "ground damping", self.ground_damping, 1.0e-3, 10.0)?;
+        Ok(StepRecord::new(STEP)
+            .number("intensity S0", self.intensity, "m2/s3")
+            .number("ground frequency", self.ground_frequency, "rad/s")
+            .number("ground damping", self.ground_damping, "-")
+            .number("variance of the spectrum", self.variance(), "m2/s4"))
+    }
+}

@@ -1,0 +1,98 @@
+//! Makris and Roussos (2000), Géotechnique 50 (3) 243: trigonometric pulses of
+//! near-fault motions.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::{Generated, TimeGrid};
+use crate::spectra::zero;
+use crate::step_record::StepRecord;
+
+const STEP: &str = "makris_roussos_2000";
+
+/// The shape of a pulse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PulseType {
+    /// One-sided velocity, the ground is displaced: `a = w v/2 sin w t`, one period.
+    A,
+    /// One cycle of velocity, the displacement returns: `a = w v cos w t`, one period.
+    B,
+    /// `n` and a half cycles of acceleration, velocity and displacement return:
+    /// `a = w v cos(w t + phi)` up to `(n + 1/2 - phi/pi) T`.
+    C {
+        /// Number n of cycles, 1 to 20.
+        cycles: u32,
+    },
+}
+
+/// A pulse with its velocity amplitude and period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MakrisRoussos2000 {
+    /// Shape.
+    pub pulse: PulseType,
+    /// Amplitude v of the velocity (m/s).
+    pub amplitude: f64,
+    /// Period T (s).
+    pub period: f64,
+    /// Time at which the pulse starts (s).
+    pub start: f64,
+}
+
+/// The phase of type C, at which no displacement remains: `cos((2n+1) pi - phi)
+/// + ((2n+1) pi - 2 phi) sin phi - cos phi = 0`.
+fn phase(cycles: u32) -> f64 {
+    let half_turns = f64::from(2 * cycles + 1) * PI;
+    let remains = |phi: f64| (half_turns - 2.0 * phi) * phi.sin() - 2.0 * phi.cos();
+    let (low, high) = (0.0, PI / 4.0);
+    zero(low, high, remains(low), remains(high), 1.0e-16, remains)
+}
+
+impl MakrisRoussos2000 {
+    /// Length of the pulse (s).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self.pulse {
+            PulseType::A | PulseType::B => self.period,
+            PulseType::C { cycles } => (f64::from(cycles) + 0.5 - phase(cycles) / PI) * self.period,
+        }
+    }
+
+    /// The motion.
+    ///
+    /// # Errors
+    /// Numbers out of range, or a pulse that does not fit into the duration.
+    pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
+        positive(STEP, "amplitude", self.amplitude)?;
+        positive(STEP, "period", self.period)?;
+        if let PulseType::C { cycles } = self.pulse {
+            within(STEP, "number of cycles", f64::from(cycles), 1.0, 20.0)?;
+        }
+        let length = self.length();
+        within(STEP, "start", self.start, 0.0, grid.duration - length)?;
+        let w = TAU / self.period;
+        let phi = match self.pulse {
+            PulseType::C { cycles } => phase(cycles),
+            PulseType::A | PulseType::B => 0.0,
+        };
+        let samples = grid.sample(|t| {
+            let s = t - self.start;
+            // A jump is passed in the middle of its step, so that velocities stay right.
+            let weight = (s / grid.time_step + 0.5).clamp(0.0, 1.0)
+                * ((length - s) / grid.time_step + 0.5).clamp(0.0, 1.0);
+            let inside = s.clamp(0.0, length);
+            let value = match self.pulse {
+                PulseType::A => 0.5 * (w * inside).sin(),
+                PulseType::B | PulseType::C { .. } => (w * inside + phi).cos(),
+            };
+            self.amplitude * w * weight * value
+        })?;
+        let step = StepRecord::new(STEP)
+            .number("velocity amplitude", self.amplitude, "m/s")
+            .number("period", self.period, "s")
+            .number("start", self.start, "s")
+            .number("length", length, "s")
+            .number("phase", phi, "rad")
+            .remark(format!("type {:?}", self.pulse));
+        grid.finish(samples, step)
+    }
+}

@@ -1,0 +1,93 @@
+//! Mavroeidis and Papageorgiou (2003), Bull. Seism. Soc. Am. 93 (3) 1099, eq. 3: the
+//! velocity pulse of near-fault motions.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::{Generated, TimeGrid};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "mavroeidis_papageorgiou_2003";
+
+/// `v = A/2 (1 + cos(2 pi fp s/gamma)) cos(2 pi fp s + nu)` for
+/// `|s| <= gamma/(2 fp)`, `s = t - t0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MavroeidisPapageorgiou2003 {
+    /// Amplitude A of the velocity (m/s).
+    pub amplitude: f64,
+    /// Frequency fp (Hz).
+    pub frequency: f64,
+    /// Oscillatory character gamma (-), above 1.
+    pub oscillation: f64,
+    /// Phase nu (rad).
+    pub phase: f64,
+    /// Time t0 of the envelope's peak (s).
+    pub centre: f64,
+}
+
+impl MavroeidisPapageorgiou2003 {
+    /// Ground velocity (m/s) at a time (s).
+    #[must_use]
+    pub fn velocity(&self, time: f64) -> f64 {
+        let s = time - self.centre;
+        if s.abs() > self.half_length() {
+            return 0.0;
+        }
+        let x = TAU * self.frequency * s;
+        0.5 * self.amplitude * (1.0 + (x / self.oscillation).cos()) * (x + self.phase).cos()
+    }
+
+    /// Ground acceleration (m/s2) at a time (s).
+    #[must_use]
+    pub fn acceleration(&self, time: f64) -> f64 {
+        let s = time - self.centre;
+        if s.abs() > self.half_length() {
+            return 0.0;
+        }
+        let (x, gamma) = (TAU * self.frequency * s, self.oscillation);
+        -self.amplitude * PI * self.frequency / gamma
+            * ((x / gamma).sin() * (x + self.phase).cos()
+                + gamma * (x + self.phase).sin() * (1.0 + (x / gamma).cos()))
+    }
+
+    /// Displacement (m) that remains.
+    #[must_use]
+    pub fn net_displacement(&self) -> f64 {
+        let gamma = self.oscillation;
+        self.amplitude * self.phase.cos() * (PI * gamma).sin()
+            / (TAU * self.frequency * (1.0 - gamma * gamma))
+    }
+
+    fn half_length(&self) -> f64 {
+        0.5 * self.oscillation / self.frequency
+    }
+
+    /// The motion.
+    ///
+    /// # Errors
+    /// Numbers out of range, or a pulse that does not fit into the duration.
+    pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
+        positive(STEP, "amplitude", self.amplitude)?;
+        positive(STEP, "frequency", self.frequency)?;
+        within(STEP, "gamma", self.oscillation, 1.0 + 1.0e-9, 1.0e3)?;
+        within(STEP, "phase", self.phase, -TAU, TAU)?;
+        let half = self.half_length();
+        // A part of a step: pulses are put at their own half length.
+        let slack = 1.0e-9 * half;
+        within(
+            STEP,
+            "centre",
+            self.centre,
+            half - slack,
+            grid.duration - half + slack,
+        )?;
+        let step = StepRecord::new(STEP)
+            .number("velocity amplitude", self.amplitude, "m/s")
+            .number("frequency", self.frequency, "Hz")
+            .number("gamma", self.oscillation, "-")
+            .number("phase", self.phase, "rad")
+            .number("centre", self.centre, "s")
+            .number("net displacement", self.net_displacement(), "m");
+        grid.finish(grid.sample(|t| self.acceleration(t))?, step)
+    }
+}

@@ -1,0 +1,215 @@
+//! Rezaeian and Der Kiureghian (2008, 2010), Earthq. Eng. Struct. Dyn. 37, 1591 and 39,
+//! 1155: white noise through a filter whose frequency changes, under an envelope.
+
+mod scenario;
+
+use std::f64::consts::{PI, TAU};
+
+use realfft::num_complex::Complex64;
+
+pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::noise::Noise;
+use crate::generators::{Generated, TimeGrid};
+use crate::measures::GRAVITY;
+use crate::special_functions::{gamma_quantile, ln_gamma};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "rezaeian_der_kiureghian_2010";
+/// The filter's frequency does not fall below this (Hz).
+const LEAST_FREQUENCY: f64 = 0.3;
+/// A pulse's response is followed down to this part of its start.
+const NEGLIGIBLE: f64 = 1.0e-9;
+/// Shapes of the gamma density q^2: from a vertical start to nearly symmetric.
+const LEAST_SHAPE: f64 = 1.0;
+const GREATEST_SHAPE: f64 = 1.0e3;
+
+/// A motion by its six parameters and the high-pass at the end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RezaeianDerKiureghian2010 {
+    /// Expected Arias intensity (m/s) before the high-pass.
+    pub arias_intensity: f64,
+    /// Duration from 5 to 95 % of it (s).
+    pub significant_duration: f64,
+    /// Time at which 45 % of it is reached (s), the middle of the strong motion.
+    pub middle_time: f64,
+    /// Frequency of the filter at the middle (Hz).
+    pub middle_frequency: f64,
+    /// Change of that frequency (Hz/s), mostly below zero.
+    pub frequency_rate: f64,
+    /// Damping ratio of the filter (-), the bandwidth.
+    pub damping: f64,
+    /// Corner of the critically damped high-pass (Hz), 0.1 to 0.2.
+    pub high_pass: f64,
+}
+
+/// `q = a1 t^(a2 - 1) exp(-a3 t)`; q^2 is a gamma density of shape 2 a2 - 1 and rate
+/// 2 a3 times `int a^2 dt`.
+#[derive(Debug, Clone, Copy)]
+struct Modulation {
+    shape: f64,
+    rate: f64,
+    ln_factor: f64,
+}
+
+impl Modulation {
+    fn at(&self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return if self.shape > 1.0 {
+                0.0
+            } else {
+                self.ln_factor.exp()
+            };
+        }
+        (self.ln_factor + 0.5 * (self.shape - 1.0) * time.ln() - 0.5 * self.rate * time).exp()
+    }
+}
+
+/// Ratio of D5-95 to t45 of a gamma density; falls as the shape grows.
+fn ratio(shape: f64) -> f64 {
+    let at = |part| gamma_quantile(shape, part);
+    (at(0.95) - at(0.05)) / at(0.45)
+}
+
+impl RezaeianDerKiureghian2010 {
+    fn check(&self, grid: TimeGrid) -> Result<(), GroundMotionError> {
+        positive(STEP, "Arias intensity", self.arias_intensity)?;
+        positive(STEP, "significant duration", self.significant_duration)?;
+        positive(STEP, "middle time", self.middle_time)?;
+        let nyquist = 0.5 / grid.time_step;
+        within(
+            STEP,
+            "middle frequency",
+            self.middle_frequency,
+            LEAST_FREQUENCY,
+            nyquist,
+        )?;
+        within(
+            STEP,
+            "frequency rate",
+            self.frequency_rate,
+            -nyquist,
+            nyquist,
+        )?;
+        within(STEP, "damping", self.damping, 1.0e-3, 0.999)?;
+        within(STEP, "high-pass corner", self.high_pass, 1.0e-3, nyquist)?;
+        Ok(())
+    }
+
+    fn modulation(&self) -> Result<Modulation, GroundMotionError> {
+        let wanted = self.significant_duration / self.middle_time;
+        let (widest, narrowest) = (ratio(LEAST_SHAPE), ratio(GREATEST_SHAPE));
+        within(STEP, "duration over middle time", wanted, narrowest, widest)?;
+        let (mut low, mut high) = (LEAST_SHAPE, GREATEST_SHAPE);
+        for _ in 0..60 {
+            let middle = (low * high).sqrt();
+            if ratio(middle) > wanted {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let shape = (low * high).sqrt();
+        let rate = gamma_quantile(shape, 0.45) / self.middle_time;
+        let square = self.arias_intensity * 2.0 * GRAVITY / PI;
+        Ok(Modulation {
+            shape,
+            rate,
+            ln_factor: 0.5 * (square.ln() + shape * rate.ln() - ln_gamma(shape)),
+        })
+    }
+
+    /// Whether the envelope exists: the ratio of duration to middle time must be one
+    /// that a gamma density has.
+    pub(crate) fn feasible(&self) -> bool {
+        self.modulation().is_ok()
+    }
+
+    /// The filter's frequency (rad/s) at a time.
+    fn filter_frequency(&self, time: f64, highest: f64) -> f64 {
+        let f = self.middle_frequency + self.frequency_rate * (time - self.middle_time);
+        TAU * f.clamp(LEAST_FREQUENCY, highest)
+    }
+
+    /// The motion of a seed.
+    ///
+    /// # Errors
+    /// Parameters out of range, or a duration and a middle time that no gamma density
+    /// has together.
+    pub fn generate(&self, grid: TimeGrid, seed: u64) -> Result<Generated, GroundMotionError> {
+        self.check(grid)?;
+        let count = grid.count()?;
+        let modulation = self.modulation()?;
+        let samples = self.filtered_noise(grid.time_step, count, &mut Noise::new(seed));
+        let modulated: Vec<f64> = samples
+            .iter()
+            .enumerate()
+            .map(|(i, x)| x * modulation.at(i as f64 * grid.time_step))
+            .collect();
+        let samples = high_pass(&modulated, grid.time_step, TAU * self.high_pass);
+        let step = StepRecord::new(STEP)
+            .number("Arias intensity", self.arias_intensity, "m/s")
+            .number("5-95 % duration", self.significant_duration, "s")
+            .number("middle time", self.middle_time, "s")
+            .number("middle frequency", self.middle_frequency, "Hz")
+            .number("frequency rate", self.frequency_rate, "Hz/s")
+            .number("filter damping", self.damping, "-")
+            .number("high-pass corner", self.high_pass, "Hz")
+            .number("a2", 0.5 * (modulation.shape + 1.0), "-")
+            .number("a3", 0.5 * modulation.rate, "1/s")
+            .remark(format!("seed {seed}"));
+        grid.finish(samples, step)
+    }
+
+    /// Noise of unit variance at each time: pulses `u_j` through the filter of their
+    /// own time, `sum h u / sqrt(sum h^2)`.
+    fn filtered_noise(&self, step: f64, count: usize, noise: &mut Noise) -> Vec<f64> {
+        let mut sum = vec![0.0; count];
+        let mut square = vec![0.0; count];
+        let root = (1.0 - self.damping * self.damping).sqrt();
+        for j in 0..count {
+            let pulse = noise.normal();
+            let w = self.filter_frequency(j as f64 * step, 0.5 / step);
+            let turn = Complex64::new(-self.damping * w * step, root * w * step).exp();
+            // h(s) = w/root exp(-damping w s) sin(root w s), half a step after the pulse
+            // so that the first sample is not zero.
+            let mut state = Complex64::new(-self.damping * w, root * w)
+                .scale(0.5 * step)
+                .exp();
+            state *= w / root;
+            let least = NEGLIGIBLE * w / root;
+            for i in j..count {
+                sum[i] += pulse * state.im;
+                square[i] += state.im * state.im;
+                state *= turn;
+                if state.re.abs() + state.im.abs() < least {
+                    break;
+                }
+            }
+        }
+        for (x, s) in sum.iter_mut().zip(&square) {
+            *x /= s.sqrt();
+        }
+        sum
+    }
+}
+
+/// The acceleration z'' of `z'' + 2 w z' + w^2 z = x` from rest, exact for an input
+/// that is linear between samples.
+fn high_pass(input: &[f64], step: f64, w: f64) -> Vec<f64> {
+    let decay = (-w * step).exp();
+    let (mut z, mut v) = (0.0, 0.0);
+    let mut output = vec![input[0]];
+    for x in input.windows(2) {
+        let slope = (x[1] - x[0]) / step / (w * w);
+        let start = x[0] / (w * w) - 2.0 * slope / w;
+        let c1 = z - start;
+        let c2 = v - slope + w * c1;
+        let free = (c1 + c2 * step) * decay;
+        z = free + start + slope * step;
+        v = c2 * decay - w * free + slope;
+        output.push(x[1] - 2.0 * w * v - w * w * z);
+    }
+    output
+}

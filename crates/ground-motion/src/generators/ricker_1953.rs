@@ -1,0 +1,45 @@
+//! Ricker (1953), Geophysics 18 (1) 10: the second derivative of a Gaussian.
+
+use std::f64::consts::PI;
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::{Generated, TimeGrid};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "ricker_1953";
+
+/// `a = A (1 - 2 x) exp(-x)`, `x = pi^2 (t - t0)^2/Tp^2`: no velocity and no
+/// displacement remains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ricker1953 {
+    /// Peak acceleration A (m/s2).
+    pub amplitude: f64,
+    /// Period Tp (s) of the greatest Fourier amplitude.
+    pub period: f64,
+    /// Time t0 of the peak (s); from 1.5 Tp the start is below 1e-7 of the peak.
+    pub centre: f64,
+}
+
+impl Ricker1953 {
+    /// Acceleration (m/s2) at a time (s).
+    #[must_use]
+    pub fn acceleration(&self, time: f64) -> f64 {
+        let x = (PI * (time - self.centre) / self.period).powi(2);
+        self.amplitude * (1.0 - 2.0 * x) * (-x).exp()
+    }
+
+    /// The motion.
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a centre outside the duration.
+    pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
+        positive(STEP, "amplitude", self.amplitude)?;
+        positive(STEP, "period", self.period)?;
+        within(STEP, "centre", self.centre, 0.0, grid.duration)?;
+        let step = StepRecord::new(STEP)
+            .number("amplitude", self.amplitude, "m/s2")
+            .number("period", self.period, "s")
+            .number("centre", self.centre, "s");
+        grid.finish(grid.sample(|t| self.acceleration(t))?, step)
+    }
+}

@@ -1,0 +1,58 @@
+//! Sines with an envelope.
+
+use std::f64::consts::TAU;
+
+use crate::error::{GroundMotionError, positive, within};
+use crate::generators::{Envelope, Generated, TimeGrid};
+use crate::step_record::StepRecord;
+
+const STEP: &str = "sine";
+
+/// `A e(t) sin(2 pi f t + phase)` up to a length, zero after it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sine {
+    /// Amplitude (m/s2).
+    pub amplitude: f64,
+    /// Frequency (Hz).
+    pub frequency: f64,
+    /// Phase (rad).
+    pub phase: f64,
+    /// Length (s): half a period for a half-sine pulse.
+    pub length: f64,
+    /// Envelope over that length.
+    pub envelope: Envelope,
+}
+
+impl Sine {
+    /// The motion.
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a frequency above half the sampling rate.
+    pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
+        positive(STEP, "amplitude", self.amplitude)?;
+        positive(STEP, "length", self.length)?;
+        within(STEP, "phase", self.phase, -TAU, TAU)?;
+        grid.count()?;
+        let highest = 0.5 / grid.time_step;
+        within(
+            STEP,
+            "frequency",
+            self.frequency,
+            f64::MIN_POSITIVE,
+            highest,
+        )?;
+        self.envelope.check()?;
+        let samples = grid.sample(|t| {
+            self.amplitude
+                * self.envelope.at(t, self.length)
+                * (TAU * self.frequency * t + self.phase).sin()
+        })?;
+        let step = StepRecord::new(STEP)
+            .number("amplitude", self.amplitude, "m/s2")
+            .number("frequency", self.frequency, "Hz")
+            .number("phase", self.phase, "rad")
+            .number("length", self.length, "s")
+            .remark(format!("envelope {:?}", self.envelope));
+        grid.finish(samples, step)
+    }
+}

@@ -1,0 +1,34 @@
+//! Changes of a motion that leave no velocity and no displacement behind.
+
+use crate::measures::integrate;
+
+/// What a change leaves at the end: velocity and displacement.
+pub(crate) fn left_behind(change: &[f64], step: f64) -> [f64; 2] {
+    let (velocity, displacement) = integrate(change, step, 0.0, 0.0);
+    [
+        velocity.last().copied().unwrap_or(0.0),
+        displacement.last().copied().unwrap_or(0.0),
+    ]
+}
+
+/// Takes that combination of two shapes off a change that brings velocity and
+/// displacement at the end to given values; `false` where the shapes cannot.
+pub(crate) fn bring_to(change: &mut [f64], shapes: [&[f64]; 2], end: [f64; 2], step: f64) -> bool {
+    // Twice: the second pass takes the rounding of the first off.
+    for _ in 0..2 {
+        let left = left_behind(change, step);
+        let [a, b] = shapes.map(|s| left_behind(s, step));
+        let wanted = [left[0] - end[0], left[1] - end[1]];
+        let determinant = a[0] * b[1] - a[1] * b[0];
+        let scale = a[0].abs() * b[1].abs() + a[1].abs() * b[0].abs();
+        if !(determinant.abs() > 1.0e-12 * scale) {
+            return false;
+        }
+        let first = (wanted[0] * b[1] - wanted[1] * b[0]) / determinant;
+        let second = (a[0] * wanted[1] - a[1] * wanted[0]) / determinant;
+        for (i, c) in change.iter_mut().enumerate() {
+            *c -= first * shapes[0][i] + second * shapes[1][i];
+        }
+    }
+    true
+}

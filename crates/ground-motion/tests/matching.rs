@@ -1,0 +1,152 @@
+//! Motions brought to a spectrum.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
+use pounding_ground_motion::matching::{
+    MatchOptions, Matched, match_by_fourier_amplitudes, match_by_wavelets, misfit,
+};
+use pounding_ground_motion::measures::GroundMotion;
+use pounding_ground_motion::processing::{Baseline, Butterworth, ProcessingStep, process};
+use pounding_ground_motion::spectra::TargetSpectrum;
+use pounding_ground_motion::{Accelerogram, GroundMotionError, ReadOptions, read};
+
+/// EN 1998-1 (2004), 3.2.2.2: type 1, ground B, ag = 2 m/s2: S = 1.2, TB = 0.15 s,
+/// TC = 0.5 s, TD = 2 s.
+fn target() -> TargetSpectrum {
+    let (ground, b, c, d) = (2.0 * 1.2, 0.15, 0.5, 2.0);
+    let shape = |t: f64| {
+        if t < b {
+            ground * (1.0 + t / b * 1.5)
+        } else if t <= c {
+            ground * 2.5
+        } else if t <= d {
+            ground * 2.5 * c / t
+        } else {
+            ground * 2.5 * c * d / (t * t)
+        }
+    };
+    let periods: Vec<f64> = (0..=200)
+        .map(|i| 0.02 * 200.0_f64.powf(f64::from(i) / 200.0))
+        .collect();
+    let accelerations = periods.iter().map(|t| shape(*t)).collect();
+    TargetSpectrum::new(periods, accelerations, 0.05).unwrap()
+}
+
+fn record(name: &str) -> Accelerogram {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../ground_motions")
+        .join(name);
+    let raw = read(&path, &ReadOptions::default()).unwrap();
+    let steps = [
+        ProcessingStep::Filter(Butterworth::zero_phase(Some(0.1), None)),
+        ProcessingStep::Taper {
+            start: 2.0,
+            end: 2.0,
+        },
+        ProcessingStep::Baseline(Baseline::Velocity { degree: 3 }),
+    ];
+    process(&raw, &steps).unwrap().accelerogram
+}
+
+fn synthetic() -> Accelerogram {
+    RezaeianDerKiureghian2010 {
+        arias_intensity: 0.5,
+        significant_duration: 12.0,
+        middle_time: 8.0,
+        middle_frequency: 4.0,
+        frequency_rate: -0.1,
+        damping: 0.4,
+        high_pass: 0.15,
+    }
+    .generate(
+        TimeGrid {
+            time_step: 0.01,
+            duration: 35.0,
+        },
+        3,
+    )
+    .unwrap()
+    .accelerogram
+}
+
+fn told(name: &str, matched: &Matched) {
+    eprintln!("{name}: {}", matched.steps[0]);
+}
+
+#[test]
+fn wavelets_reach_the_target_without_drift() {
+    let target = target();
+    for (name, seed) in [
+        ("el centro", record("el_centro_1940_ns.csv")),
+        ("kobe", record("kobe_1995_jma_ns.csv")),
+        ("synthetic", synthetic()),
+    ] {
+        let options = MatchOptions::band(0.1, 3.0);
+        let matched = match_by_wavelets(&seed, &target, options).unwrap();
+        told(name, &matched);
+        // At other periods than those that were matched or checked.
+        let elsewhere = misfit(&matched.accelerogram, &target, 0.1, 3.0, 501).unwrap();
+        assert!(elsewhere.worst <= 0.055, "{elsewhere:?}");
+        assert!(matched.misfit.worst <= 0.05);
+        // The ground ends where it did, times the scale.
+        let factor = matched.steps[0].get("scale before").unwrap();
+        let (before, after) = (
+            GroundMotion::of(&seed, 0.0, 0.0),
+            GroundMotion::of(&matched.accelerogram, 0.0, 0.0),
+        );
+        assert!((after.end_velocity() - factor * before.end_velocity()).abs() < 1e-10);
+        assert!((after.end_displacement() - factor * before.end_displacement()).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn fourier_amplitudes_reach_the_target_without_drift() {
+    let target = target();
+    for (name, seed) in [
+        ("el centro", record("el_centro_1940_ns.csv")),
+        ("kobe", record("kobe_1995_jma_ns.csv")),
+        ("synthetic", synthetic()),
+    ] {
+        let options = MatchOptions {
+            tolerance: 0.05,
+            ..MatchOptions::band(0.1, 3.0)
+        };
+        let matched = match_by_fourier_amplitudes(&seed, &target, options);
+        if let Err(e) = &matched {
+            eprintln!("{name} {e}");
+            continue;
+        }
+        let matched = matched.unwrap();
+        told(name, &matched);
+        let after = GroundMotion::of(&matched.accelerogram, 0.0, 0.0);
+        assert!(after.end_velocity().abs() < 1e-10 && after.end_displacement().abs() < 1e-9);
+    }
+}
+
+#[test]
+fn what_cannot_be_matched() {
+    let target = target();
+    let seed = synthetic();
+    let options = MatchOptions {
+        iterations: 0,
+        ..MatchOptions::band(0.1, 3.0)
+    };
+    let error = match_by_wavelets(&seed, &target, options).unwrap_err();
+    assert!(
+        matches!(error, GroundMotionError::NotMatched { iterations: 0, .. }),
+        "{error}"
+    );
+    assert!(error.help().is_some());
+    for bad in [
+        MatchOptions::band(0.1, 5.0),
+        MatchOptions::band(0.001, 3.0),
+        MatchOptions::band(3.0, 0.1),
+        MatchOptions {
+            tolerance: 0.0,
+            ..MatchOptions::band(0.1, 3.0)
+        },
+    ] {
+        assert!(match_by_wavelets(&seed, &target, bad).is_err());
+        assert!(match_by_fourier_amplitudes(&seed, &target, bad).is_err());
+    }
+}

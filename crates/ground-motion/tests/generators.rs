@@ -12,7 +12,9 @@ use pounding_ground_motion::generators::{
     TimeGrid,
 };
 use pounding_ground_motion::measures::{GroundMotion, Husid};
-use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum, response_spectrum};
+use pounding_ground_motion::spectra::{
+    Evaluation, fourier_spectrum, oscillator_response, response_spectrum,
+};
 
 const G: f64 = 9.80665;
 const SEEDS: u64 = 1000;
@@ -23,6 +25,41 @@ fn near(found: f64, exact: f64, tolerance: f64) {
         "{found} for {exact}: off by {:e}",
         found / exact - 1.0
     );
+}
+
+/// A mean over seeds with its standard error.
+#[derive(Clone, Copy, Default)]
+struct Mean {
+    sum: f64,
+    squares: f64,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.squares += value * value;
+    }
+
+    fn value(&self) -> f64 {
+        self.sum / SEEDS as f64
+    }
+
+    /// Within three and a half standard errors of theory, which must be a small part of
+    /// it: 1 of 2000 such tests fails by chance, and seeds are fixed.
+    fn meets(&self, exact: f64, greatest_error: f64) {
+        let n = SEEDS as f64;
+        let error = ((self.squares / n - self.value().powi(2)) / n).sqrt();
+        assert!(
+            error < greatest_error * exact,
+            "standard error {error} of {exact}"
+        );
+        let apart = (self.value() - exact) / error;
+        assert!(
+            apart.abs() < 3.5,
+            "{} for {exact}: {apart} standard errors",
+            self.value()
+        );
+    }
 }
 
 fn grid(time_step: f64, duration: f64) -> TimeGrid {
@@ -275,29 +312,26 @@ fn kanai_tajimi_ensemble() {
     let variance = two_sided(nyquist, |w| firm().density(w));
     let response = two_sided(nyquist, |w| firm().density(w) * gain(w));
     let rate = two_sided(nyquist, |w| firm().density(w) * gain(w) * w * w);
-    let (mut squares, mut response_squares, mut peaks, mut arias) = (0.0, 0.0, 0.0, 0.0);
+    let [mut squares, mut response_squares, mut peaks, mut arias] = [Mean::default(); 4];
     for seed in 0..SEEDS {
         let made = motion
             .generate(grid(step, duration), seed)
             .unwrap()
             .accelerogram;
         let a = made.samples();
-        squares += a.iter().map(|a| a * a).sum::<f64>() / a.len() as f64;
-        arias += Husid::of(&made, Evaluation::AtSamples)
-            .unwrap()
-            .arias_intensity();
-        let history =
-            pounding_ground_motion::spectra::oscillator_response(&made, period, zeta).unwrap();
+        squares.add(a.iter().map(|a| a * a).sum::<f64>() / a.len() as f64);
+        let husid = Husid::of(&made, Evaluation::AtSamples).unwrap();
+        arias.add(husid.arias_intensity());
+        let history = oscillator_response(&made, period, zeta).unwrap();
         // Transients are down to exp(-6) after 10 s.
         let late = &history.displacement[1000..];
-        response_squares +=
-            late.iter().map(|u| (w0 * w0 * u).powi(2)).sum::<f64>() / late.len() as f64;
-        peaks += w0 * w0 * late.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        let square = late.iter().map(|u| (w0 * w0 * u).powi(2)).sum::<f64>();
+        response_squares.add(square / late.len() as f64);
+        peaks.add(w0 * w0 * late.iter().fold(0.0_f64, |m, u| m.max(u.abs())));
     }
-    let seeds = SEEDS as f64;
-    near(squares / seeds, variance, 0.003);
-    near(arias / seeds, PI / (2.0 * G) * variance * duration, 0.003);
-    near(response_squares / seeds, response, 0.03);
+    squares.meets(variance, 0.005);
+    arias.meets(PI / (2.0 * G) * variance * duration, 0.005);
+    response_squares.meets(response, 0.02);
     // Davenport (1964): peak factor of n = rate * 10 s crossings, corrected for the
     // narrow band by Der Kiureghian (1980), Earthq. Eng. Struct. Dyn. 8, eq. 14-16.
     let (zero, first) = (
@@ -313,7 +347,7 @@ fn kanai_tajimi_ensemble() {
     };
     let root = (2.0 * effective.ln()).sqrt();
     let factor = root + 0.5772 / root;
-    near(peaks / seeds, factor * response.sqrt(), 0.05);
+    near(peaks.value(), factor * response.sqrt(), 0.05);
 }
 
 fn rezaeian() -> RezaeianDerKiureghian2010 {
@@ -457,24 +491,26 @@ fn a_point_source() {
 fn point_source_ensemble() {
     let source = source();
     let grid = grid(0.02, 20.0);
-    let (mut arias, mut duration) = (0.0, 0.0);
+    let (mut arias, mut duration) = (Mean::default(), 0.0);
     let bands = [0.3, 1.0, 3.0, 8.0];
-    let mut squares = [(0.0, 0.0); 4];
+    let mut squares = [Mean::default(); 4];
     let periods = [0.2, 0.5, 1.0];
     let mut spectra = [0.0; 3];
     for seed in 0..SEEDS {
         let motion = source.generate(grid, seed).unwrap().accelerogram;
         let husid = Husid::of(&motion, Evaluation::AtSamples).unwrap();
-        arias += husid.arias_intensity() / SEEDS as f64;
+        arias.add(husid.arias_intensity());
         duration += husid.between(0.05, 0.95).unwrap().duration() / SEEDS as f64;
         let spectrum = fourier_spectrum(&motion, 2048);
-        for (f, a) in spectrum.frequencies.iter().zip(&spectrum.amplitudes) {
-            for (band, square) in bands.iter().zip(&mut squares) {
+        for (band, square) in bands.iter().zip(&mut squares) {
+            let (mut found, mut exact) = (0.0, 0.0);
+            for (f, a) in spectrum.frequencies.iter().zip(&spectrum.amplitudes) {
                 if (f / band).ln().abs() < 0.1 {
-                    square.0 += a * a;
-                    square.1 += source.fourier_amplitude(*f).powi(2);
+                    found += a * a;
+                    exact += source.fourier_amplitude(*f).powi(2);
                 }
             }
+            square.add(found / exact);
         }
         let found =
             response_spectrum(&motion, &periods, 0.05, Evaluation::PiecewiseLinear).unwrap();
@@ -485,10 +521,9 @@ fn point_source_ensemble() {
     let nyquist = PI / 0.02;
     let square = |w: f64| source.fourier_amplitude(w / TAU).powi(2);
     let whole = two_sided(nyquist, square) / TAU;
-    eprintln!("Ia {arias} D {duration} squares {squares:?}");
-    near(arias, PI / (2.0 * G) * whole, 0.02);
-    for (found, exact) in squares {
-        near(found, exact, 0.03);
+    arias.meets(PI / (2.0 * G) * whole, 0.01);
+    for square in squares {
+        square.meets(1.0, 0.04);
     }
     // The energy of the window between 5 and 95 %.
     let length = 2.0 * source.duration();

@@ -1,6 +1,7 @@
 //! Matching by Fourier amplitudes: each is multiplied by the ratio of target to
 //! response at its period, phases kept (Gasparini and Vanmarcke 1976, MIT R76-4, the
-//! iteration of SIMQKE). Simple; the distribution of energy over time changes.
+//! iteration of SIMQKE). Simple; the distribution of energy over time changes, and
+//! single periods stay some 8 % off: wavelets come nearer.
 
 use std::f64::consts::PI;
 

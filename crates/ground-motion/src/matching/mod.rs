@@ -20,7 +20,7 @@ pub use wavelets::match_by_wavelets;
 
 const STEP: &str = "spectrum matching";
 /// The result is held against the target at this many periods for each that is matched.
-const CHECKED_PER_MATCHED: usize = 4;
+const CHECKED_PER_MATCHED: usize = 8;
 
 /// What is asked of a match.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -31,14 +31,14 @@ pub struct MatchOptions {
     pub to: f64,
     /// Periods matched, evenly spaced in their logarithm.
     pub periods: usize,
-    /// Greatest deviation as a part of the target: at four times as many periods.
+    /// Greatest deviation as a part of the target: at eight times as many periods.
     pub tolerance: f64,
     /// Iterations at most.
     pub iterations: usize,
 }
 
 impl MatchOptions {
-    /// 80 periods of a band (s) to 5 % within 60 iterations.
+    /// 80 periods of a band (s) to 5 % within 40 iterations.
     #[must_use]
     pub fn band(from: f64, to: f64) -> Self {
         Self {
@@ -46,7 +46,7 @@ impl MatchOptions {
             to,
             periods: 80,
             tolerance: 0.05,
-            iterations: 60,
+            iterations: 40,
         }
     }
 }

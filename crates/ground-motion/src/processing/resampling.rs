@@ -119,7 +119,7 @@ fn band_limited(
             let part = (k as f64 / total * time_step - PASS) / (STOP - PASS);
             *c *= 0.5 * (1.0 + (PI * part.clamp(0.0, 1.0)).cos());
         }
-    } else if length % 2 == 0 && new_length > length {
+    } else if length.is_multiple_of(2) && new_length > length {
         // The Nyquist term stands for two, one at each sign of the frequency.
         coefficients[length / 2] *= 0.5;
     }

@@ -27,7 +27,7 @@ pub(crate) fn inverse_transform(mut coefficients: Vec<Complex64>, length: usize)
     let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
     coefficients.resize(length / 2 + 1, Complex64::default());
     coefficients[0].im = 0.0;
-    if length % 2 == 0 {
+    if length.is_multiple_of(2) {
         coefficients[length / 2].im = 0.0;
     }
     let mut output = plan.make_output_vec();
@@ -77,7 +77,7 @@ impl FourierSpectrum {
     /// A duration that is not positive.
     pub fn power_spectral_density(&self, duration: f64) -> Result<Vec<f64>, GroundMotionError> {
         positive("power spectral density", "duration", duration)?;
-        let even = (self.length / self.time_step).round() as usize % 2 == 0;
+        let even = ((self.length / self.time_step).round() as usize).is_multiple_of(2);
         let last = self.amplitudes.len() - 1;
         let sides = |k: usize| {
             if k == 0 || (k == last && even) {

@@ -129,6 +129,12 @@ impl Oscillator {
         self.step.apply(state, p0, p1)
     }
 
+    /// The state at a time (s) within a step.
+    pub(crate) fn within_step(&self, state: State, p0: f64, p1: f64, time: f64) -> State {
+        let force = p0 + (p1 - p0) * time / self.time_step;
+        self.transition(time).apply(state, p0, force)
+    }
+
     /// Absolute acceleration (m/s2) with its sign turned: `w^2 u + 2 zeta w v`.
     fn absolute_acceleration(&self, state: State) -> f64 {
         self.frequency * (self.frequency * state.displacement + 2.0 * self.damping * state.velocity)

@@ -1,0 +1,200 @@
+//! Pulses and envelopes against their closed forms.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::{PI, TAU};
+
+use pounding_ground_motion::generators::{
+    Envelope, Generated, MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, Ricker1953,
+    Sine, TimeGrid,
+};
+use pounding_ground_motion::measures::GroundMotion;
+use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum};
+
+fn near(found: f64, exact: f64, tolerance: f64) {
+    assert!(
+        (found - exact).abs() <= tolerance * exact.abs(),
+        "{found} for {exact}: off by {:e}",
+        found / exact - 1.0
+    );
+}
+fn grid(time_step: f64, duration: f64) -> TimeGrid {
+    TimeGrid {
+        time_step,
+        duration,
+    }
+}
+
+fn ground(motion: &Generated) -> GroundMotion {
+    GroundMotion::of(&motion.accelerogram, 0.0, 0.0)
+}
+
+#[test]
+fn sines_and_envelopes() {
+    let sine = Sine {
+        amplitude: 2.0,
+        frequency: 1.5,
+        phase: 0.3,
+        length: 4.0,
+        envelope: Envelope::Ramped {
+            rise: 1.0,
+            fall: 2.0,
+        },
+    };
+    let motion = sine.generate(grid(0.01, 6.0)).unwrap();
+    let a = motion.accelerogram.samples();
+    let value = |t: f64| 2.0 * (TAU * 1.5 * t + 0.3).sin();
+    near(a[50], 0.5 * value(0.5), 1e-12);
+    near(a[150], value(1.5), 1e-12);
+    near(a[350], 0.25 * value(3.5), 1e-12);
+    assert_eq!(a[450], 0.0);
+    assert!(
+        Sine {
+            frequency: 60.0,
+            ..sine
+        }
+        .generate(grid(0.01, 6.0))
+        .is_err()
+    );
+    // Each has its greatest value one where its formula says.
+    for (envelope, peak_at) in [
+        (Envelope::HalfSine, 10.0),
+        (Envelope::Decay { rate: 0.3 }, 0.0),
+        (
+            Envelope::JenningsHousnerTsai1968 {
+                rise: 4.0,
+                strong_end: 15.0,
+                decay: 0.0992,
+            },
+            10.0,
+        ),
+        (
+            Envelope::SaragoniHart1974 {
+                power: 2.0,
+                rate: 0.5,
+            },
+            4.0,
+        ),
+        (
+            Envelope::ShinozukaSato1967 {
+                slow: 0.1,
+                fast: 0.5,
+            },
+            5.0_f64.ln() / 0.4,
+        ),
+    ] {
+        near(envelope.at(peak_at, 20.0), 1.0, 1e-12);
+        for i in 0..=200 {
+            assert!(envelope.at(0.1 * f64::from(i), 20.0) <= 1.0 + 1e-12);
+        }
+        assert_eq!(envelope.at(21.0, 20.0), 0.0);
+    }
+}
+
+/// The second derivative of a Gaussian leaves nothing behind; its spectrum is greatest at
+/// 1/Tp, as `f^2 exp(-f^2 Tp^2)`.
+#[test]
+fn ricker() {
+    let pulse = Ricker1953 {
+        amplitude: 3.0,
+        period: 0.8,
+        centre: 2.0,
+    };
+    let motion = pulse.generate(grid(0.005, 4.0)).unwrap();
+    near(motion.accelerogram.peak().value, 3.0, 1e-14);
+    let ground = ground(&motion);
+    assert!(ground.end_velocity().abs() < 1e-9 && ground.end_displacement().abs() < 1e-9);
+    // Displacement -A Tp^2/(2 pi^2) exp(-x).
+    near(
+        ground.peak_displacement(Evaluation::PiecewiseLinear).value,
+        3.0 * 0.64 / (2.0 * PI * PI),
+        1e-4,
+    );
+    let spectrum = fourier_spectrum(&motion.accelerogram, 1 << 15);
+    let amplitude = |f: f64| {
+        4.0 * PI.powf(-0.5) * 3.0 * 0.5 * (f * 0.8).powi(2) * 0.8 * (-(f * 0.8).powi(2)).exp()
+    };
+    for (f, a) in spectrum
+        .frequencies
+        .iter()
+        .zip(&spectrum.amplitudes)
+        .take(500)
+    {
+        assert!(
+            (a - amplitude(*f)).abs() < 1e-6,
+            "{f}: {a} {}",
+            amplitude(*f)
+        );
+    }
+}
+
+/// The integral of the acceleration is the printed velocity, that of the velocity ends at
+/// the net displacement.
+#[test]
+fn mavroeidis_papageorgiou() {
+    for (gamma, nu) in [(1.2, 0.0), (1.7, 0.9), (2.0, PI / 2.0), (3.1, -2.0)] {
+        let pulse = MavroeidisPapageorgiou2003 {
+            amplitude: 0.9,
+            frequency: 0.5,
+            oscillation: gamma,
+            phase: nu,
+            centre: 5.0,
+        };
+        let motion = pulse.generate(grid(0.001, 10.0)).unwrap();
+        let ground = ground(&motion);
+        let mut worst = 0.0_f64;
+        for (i, v) in ground.velocity.iter().enumerate() {
+            worst = worst.max((v - pulse.velocity(i as f64 * 0.001)).abs());
+        }
+        // The acceleration may jump at both ends: half a step of it.
+        assert!(worst < 2e-3, "{gamma} {nu}: {worst}");
+        assert!((ground.end_displacement() - pulse.net_displacement()).abs() < 5e-3);
+        assert!(pulse.generate(grid(0.001, 5.5)).is_err());
+    }
+}
+
+#[test]
+fn makris_roussos() {
+    let of = |pulse| {
+        let pulse = MakrisRoussos2000 {
+            pulse,
+            amplitude: 0.8,
+            period: 1.25,
+            start: 0.5,
+        };
+        let motion = pulse.generate(grid(0.0005, 9.0)).unwrap();
+        (pulse, ground(&motion))
+    };
+    // Type A: v = v0/2 (1 - cos w t), net displacement v0 T/2.
+    let (_, a) = of(PulseType::A);
+    near(
+        a.peak_velocity(Evaluation::PiecewiseLinear).value,
+        0.8,
+        1e-6,
+    );
+    near(a.end_displacement(), 0.8 * 1.25 / 2.0, 1e-5);
+    // Type B: v = v0 sin w t, displacement v0 T/pi at half the time, none at the end.
+    let (_, b) = of(PulseType::B);
+    near(
+        b.peak_velocity(Evaluation::PiecewiseLinear).value,
+        0.8,
+        1e-5,
+    );
+    near(
+        b.peak_displacement(Evaluation::PiecewiseLinear).value,
+        0.8 * 1.25 / PI,
+        1e-5,
+    );
+    assert!(b.end_velocity().abs() < 1e-6 && b.end_displacement().abs() < 1e-6);
+    for (cycles, phase) in [(1, 0.0697), (2, 0.0410)] {
+        let (pulse, c) = of(PulseType::C { cycles });
+        // The paper's phases, as printed in parts of pi.
+        let found = f64::from(cycles) + 0.5 - pulse.length() / 1.25;
+        assert!((found - phase).abs() < 5e-5, "{found}");
+        assert!(c.end_velocity().abs() < 1e-5, "{}", c.end_velocity());
+        assert!(
+            c.end_displacement().abs() < 1e-4,
+            "{}",
+            c.end_displacement()
+        );
+    }
+}

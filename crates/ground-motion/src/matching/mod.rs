@@ -169,8 +169,13 @@ fn iterate<A: Adjustment>(
     let mut best = (current.clone(), before);
     let mut done = 0;
     while best.1.worst > options.tolerance && done < options.iterations {
-        current = adjustment.improve(&current, target, &periods)?;
+        let next = adjustment.improve(&current, target, &periods)?;
         done += 1;
+        if next == current {
+            // Nothing more to be had.
+            break;
+        }
+        current = next;
         let now = check(&current)?;
         if now.worst < best.1.worst {
             best = (current.clone(), now);

@@ -308,6 +308,7 @@ fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
         skip_lines: motion.skip_lines,
         prepend_zero: motion.prepend_zero,
         lenient: motion.lenient,
+        ..ReadOptions::default()
     };
     let record = pounding_ground_motion::read(&case.resolve(&motion.file.value), &options)?;
     Ok(match motion.scale {

@@ -58,7 +58,7 @@ pub fn run(
     driver.begin(recorders)?;
     let mut told = 0.0;
     let mut sample = 0;
-    while let Some(segment) = segment(system, sample, duration) {
+    while segment(system, sample, duration).is_some() {
         let mut from = 0.0;
         if recorders.is_empty() && driver.open.is_some() {
             sample += driver.fly(sample, duration)?;
@@ -71,7 +71,7 @@ pub fn run(
             }
         }
         if from.is_finite()
-            && let Some(segment) = crate::driver::segment(system, sample, duration)
+            && let Some(segment) = segment(system, sample, duration)
         {
             driver.segment(&segment, from, duration, recorders)?;
             sample += 1;

@@ -125,10 +125,7 @@ impl Candidates {
 
     /// Drops what lies below the peaks by now.
     fn prune(&mut self, tracks: &Three<'_>) {
-        self.list.retain(|c| {
-            let peak = tracks[c.quantity as usize].peak[c.floor / WIDTH][c.floor % WIDTH];
-            c.upper > peak
-        });
+        self.list.retain(|c| is_above(c, tracks));
         // Candidates are in order of their snapshots: close the gaps between those.
         let (mut kept, mut last) = (0, usize::MAX);
         for candidate in &mut self.list {
@@ -142,40 +139,40 @@ impl Candidates {
         self.used = kept;
     }
 
-    /// Looks at all that are left, and forgets them.
+    /// Looks at all that are left, and forgets them: sample by sample, since a look shows
+    /// all floors.
     pub(super) fn settle(
         &mut self,
         (constants, system): (&FreeFlight, &System),
         tracks: &mut Three<'_>,
     ) {
-        let list = std::mem::take(&mut self.list);
-        for candidate in &list {
-            let place = (candidate.floor / WIDTH, candidate.floor % WIDTH);
-            let peak = tracks[candidate.quantity as usize].peak[place.0][place.1];
-            if candidate.upper > peak {
-                self.look_at((constants, system), candidate, tracks);
+        let mut list = std::mem::take(&mut self.list);
+        list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
+        for group in list.chunk_by(|a, b| a.sample == b.sample) {
+            if group.iter().any(|c| is_above(c, tracks)) {
+                self.look_at((constants, system), group, tracks);
             }
         }
+        list.clear();
         self.list = list;
-        self.list.clear();
         self.used = 0;
     }
 
+    /// Looks at the sample that these candidates have in common.
     fn look_at(
         &mut self,
         (constants, system): (&FreeFlight, &System),
-        candidate: &Candidate,
+        group: &[Candidate],
         tracks: &mut Three<'_>,
     ) {
-        let samples = &system.ground().samples;
-        let snapshot = &self.snapshots[candidate.snapshot];
-        let before = &samples[snapshot.sample..=candidate.sample];
+        let first = group[0];
+        let (sample, samples) = (first.sample, &system.ground().samples);
+        let snapshot = &self.snapshots[first.snapshot];
+        let before = &samples[snapshot.sample..=sample];
         block::advance(constants, &snapshot.state, before, &mut self.scratch);
         self.look.begin(&self.scratch);
-        let (start, end) = (samples[candidate.sample], samples[candidate.sample + 1]);
+        let (start, end) = (samples[sample], samples[sample + 1]);
         let fine = &constants.fine;
-        let track = &mut tracks[candidate.quantity as usize];
-        let (c, l) = (candidate.floor / WIDTH, candidate.floor % WIDTH);
         for part in 0..fine.parts {
             let at = |k: usize| start + (end - start) * (k as f64 / fine.parts as f64);
             let ground = Ground {
@@ -184,14 +181,26 @@ impl Candidates {
                 slope: (end - start) / constants.step,
             };
             self.look.advance(constants, fine, ground);
-            let function = self
-                .look
-                .function(constants, candidate.quantity, candidate.floor);
-            if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
-                track.peak[c][l] = top;
-                track.time[c][l] =
-                    candidate.sample as f64 * constants.step + (part as f64 + theta) * fine.step;
+            let from = sample as f64 * constants.step + part as f64 * fine.step;
+            for candidate in group {
+                if !is_above(candidate, tracks) {
+                    continue;
+                }
+                let (quantity, floor) = (candidate.quantity, candidate.floor);
+                let function = self.look.function(constants, quantity, floor);
+                let track = &mut tracks[quantity as usize];
+                let (c, l) = (floor / WIDTH, floor % WIDTH);
+                if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
+                    track.peak[c][l] = top;
+                    track.time[c][l] = from + theta * fine.step;
+                }
             }
         }
     }
+}
+
+/// Whether a candidate could still be above its peak.
+fn is_above(candidate: &Candidate, tracks: &Three<'_>) -> bool {
+    let (c, l) = (candidate.floor / WIDTH, candidate.floor % WIDTH);
+    candidate.upper > tracks[candidate.quantity as usize].peak[c][l]
 }

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 use pounding_time_history::GroundAcceleration;
 use verification::{Failure, ReferenceCases, reference_cases, synthetic_motion};
 
-const USAGE: &str = "quick | full | prototype | sweeps | sweep RUNS | cases FOLDER";
+const USAGE: &str = "quick | full | prototype | scaling | sweeps | sweep RUNS | cases FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -47,6 +47,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
             Ok(text)
         }
         ["prototype"] => report::prototype(&reference, &ground),
+        ["scaling"] => report::only_scaling(reference, &ground),
         ["sweeps"] => report::only_sweeps(&reference, &ground),
         ["sweep", runs] => report::one_sweep(&reference, &ground, runs.parse()?),
         ["cases", folder] => write_cases(&reference, &ground, Path::new(folder)),

@@ -89,17 +89,35 @@ pub(crate) fn full(
     text += &prototype_ratios(&blocks)?;
     text += &work_precision(&blocks)?;
     text += &sweeps(&room, &reference, ground, &WHOLE, 2)?;
-    text += &scalings(
-        &room,
-        &mut reference,
+    text += &whole_scaling(&room, &mut reference, ground)?;
+    text += &memories(&[1, 100, 1000])?;
+    Ok(text)
+}
+
+fn whole_scaling(
+    room: &Room,
+    reference: &mut ReferenceCases,
+    ground: &GroundAcceleration,
+) -> Result<String, Failure> {
+    scalings(
+        room,
+        reference,
         ground,
         &[3, 5, 10, 15, 20, 30, 50, 100, 200],
         &[2, 3, 5, 10, 20],
         &[0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 100.0],
         3,
-    )?;
-    text += &memories(&[1, 100, 1000])?;
-    Ok(text)
+    )
+}
+
+/// Cost against storeys, buildings and impacts, and memory.
+pub(crate) fn only_scaling(
+    mut reference: ReferenceCases,
+    ground: &GroundAcceleration,
+) -> Result<String, Failure> {
+    let room = ready(&reference, ground)?;
+    let text = whole_scaling(&room, &mut reference, ground)?;
+    Ok(text + &memories(&[1, 100, 1000])?)
 }
 
 /// Ours beside the prototype on every case and model, methods with tolerances only.

@@ -122,7 +122,7 @@ mod tests {
     /// Against the binomial series of `(d + v t)^a` and its products.
     #[test]
     fn agrees_with_the_binomial_series() {
-        let (d, v) = (2.0e-3, 0.3e-3);
+        let (d, v) = (2.0e-3_f64, 0.3e-3_f64);
         let law = PowerLaw {
             stiffness: 3.0,
             exponent: 1.5,

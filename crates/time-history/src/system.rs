@@ -155,8 +155,8 @@ impl System {
     /// each contact level.
     ///
     /// # Errors
-    /// A floor that does not exist, a level between two walls, or a width that is
-    /// negative or not finite.
+    /// A floor that does not exist, a level between two walls, a width that is negative or
+    /// not finite, or floors that overlap at time zero.
     pub fn add_gap(
         &mut self,
         name: &str,
@@ -167,6 +167,12 @@ impl System {
         let count = pairs.len();
         for (left, right, width, model) in pairs {
             let level = self.contact_level(name, left, right, width, model)?;
+            let overlap = level.relative(&self.initial[..self.mass.len()]) - level.width;
+            if overlap > 0.0 {
+                return Err(TimeHistoryError::InitialState {
+                    reason: format!("gap {name} overlaps by {overlap} m at time zero"),
+                });
+            }
             self.levels.push(level);
         }
         self.gaps.push(Gap {

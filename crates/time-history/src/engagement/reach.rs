@@ -37,9 +37,13 @@ impl Pair {
             }
             let now = clock.offset(1.0);
             let shift = self.time_to_root(scene, contacts, (level, kind));
-            wanted = (now + shift).clamp(0.0, whole * (1.0 + 2.0 * NEAR));
-            if (wanted - now).abs() > NEAR * whole && trials < TRIALS {
-                continue;
+            wanted = (now + shift).clamp(0.1 * now, whole * (1.0 + 2.0 * NEAR));
+            if (wanted - now).abs() > NEAR * whole {
+                if trials < TRIALS {
+                    continue;
+                }
+                // Derivatives do not reach that far: the last trial is the place.
+                wanted = now;
             }
             self.shift_end(scene, clock, wanted - now);
             return (wanted, trials);

@@ -4,7 +4,7 @@ use pounding_gap_element::{Direction, Guard, Transition};
 
 use super::pair::Scene;
 use super::rows::{LevelRows, ModalRow};
-use super::series::{Series, TouchSeries};
+use super::series::{LEADING, Series, TouchSeries};
 use super::span::Span;
 use super::tables::{TERMS, Terms};
 use super::touch::Touch;
@@ -132,6 +132,10 @@ pub(crate) fn in_series(
 /// on the root. Terms that are `zeros` are divided out: the same root is not found again,
 /// while a function that leaves through it is reported at once.
 fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
+    if zeros > series.terms() || zeros >= LEADING {
+        // The same motion on both sides, but for round-off.
+        return None;
+    }
     let mut rest = *terms;
     rest.copy_within(zeros.., 0);
     rest[TERMS - zeros..].fill(0.0);
@@ -163,13 +167,13 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         return Some(root);
     }
     // The fit has a root where the function itself may only come close to one.
-    rest[0] -= noise;
+    rest[0] -= noise + target;
     first_rise_of_series(&rest[..=series.terms()])
 }
 
 /// First passage to negative values.
 fn fall(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
-    let first = terms[zeros];
+    let first = terms[zeros.min(TERMS - 1)];
     let (after, bend) = series.end_and_bend(terms);
     if zeros == 0 && terms[0].min(after) - bend > 0.0 {
         return None;
@@ -305,7 +309,12 @@ pub(crate) fn soon_after(
         let turns = |t: &Transition| {
             t.guard == Guard::Velocity && t.direction == Direction::Falling && rate > 0.0
         };
+        let by_force = |t: &Transition| t.guard == Guard::RawForce;
         let (kind, time) = if rate < 0.0 {
+            if transitions(scene.system, touch).iter().any(by_force) {
+                // The force may end before the penetration does.
+                continue;
+            }
             (EventKind::Open, delta / -rate)
         } else {
             let place = transitions(scene.system, touch).iter().position(turns);

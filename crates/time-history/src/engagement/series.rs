@@ -18,7 +18,7 @@ const NEGLIGIBLE_START: f64 = 1.0e-13;
 const ROUND_OFF: f64 = 4.0e-16;
 /// Terms that can be round-off at a root: floors at rest in touch move apart, or together,
 /// like the fourth power of time.
-const LEADING: usize = 5;
+pub(super) const LEADING: usize = 6;
 
 /// What a series starts from.
 #[derive(Debug, Clone, Copy)]

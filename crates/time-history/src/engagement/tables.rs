@@ -59,7 +59,7 @@ pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane
             odd[l] += t[1] * p[1][l];
         }
     }
-    if last % 2 == 0 {
+    if last.is_multiple_of(2) {
         for l in 0..WIDTH {
             even[l] += terms[last] * powers[last][l];
         }

@@ -377,7 +377,13 @@ pub(crate) fn balance(
             let x = m.circular_frequency[l] * q[l];
             let energy = 0.5 * (p[l] * p[l] + x * x) - start[c][l];
             let imbalance = (energy + now.viscous[c][l] - now.input[c][l]).abs();
-            drifted[c][l] = drifted[c][l].max(imbalance);
+            // A NaN must not be lost in the comparison.
+            let before = drifted[c][l];
+            drifted[c][l] = if imbalance <= before {
+                before
+            } else {
+                imbalance
+            };
             input[l] += now.input[c][l];
         }
     }

@@ -171,7 +171,10 @@ impl Driver<'_> {
             }
             let (place, contacts) = ((found.level, found.kind), &self.contacts);
             let clock = &mut trial.clock;
-            let (reached, trials) = e.pair.reach(&scene, contacts, place, clock, *time);
+            // One that was found inside does not lie beyond.
+            let limit = if *time > whole { longest } else { whole };
+            let expected = (*time, limit);
+            let (reached, trials) = e.pair.reach(&scene, contacts, place, clock, expected);
             self.statistics.location_steps += trials;
             step = reached;
         }

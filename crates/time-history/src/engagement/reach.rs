@@ -16,7 +16,8 @@ const TRIALS: u64 = 6;
 const CORRECTIONS: usize = 16;
 
 impl Pair {
-    /// Ends the present step at an event that is expected `time` (s) after its start.
+    /// Ends the present step at an event that is expected `time` (s) after its start, and
+    /// comes at `limit` (s) at the latest.
     /// Returns when it was reached (s from the start), and how many trial steps it took.
     pub(crate) fn reach(
         &mut self,
@@ -24,7 +25,7 @@ impl Pair {
         contacts: &Contacts,
         (level, kind): (usize, EventKind),
         clock: &mut Clock,
-        time: f64,
+        (time, limit): (f64, f64),
     ) -> (f64, u64) {
         let whole = clock.offset(1.0);
         let (mut wanted, mut trials) = (time, 0);
@@ -37,7 +38,7 @@ impl Pair {
             }
             let now = clock.offset(1.0);
             let shift = self.time_to_root(scene, contacts, (level, kind));
-            wanted = (now + shift).clamp(0.1 * now, whole * (1.0 + 2.0 * NEAR));
+            wanted = (now + shift).clamp(0.1 * now, limit);
             if (wanted - now).abs() > NEAR * whole {
                 if trials < TRIALS {
                     continue;

@@ -1,6 +1,5 @@
 //! Peaks of floors inside a step.
 
-use super::clock::{Clock, Pace};
 use super::pair::Scene;
 use super::rows::{FloorRows, total};
 use super::series::Series;
@@ -186,12 +185,7 @@ pub(crate) fn note_floors_of_span(
         }
     }
     transform(shapes, &rates.modal, &mut tracks.acceleration.next);
-    // Floors move smoothly in time, whatever variable suits the contact.
-    let clock = Clock::new(Pace::Plain, 0.0, length);
-    let even = Span {
-        clock: &clock,
-        ..*span
-    };
+    let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
     let bend = |k: usize| {
         let [a, b] = [span.start, span.end].map(|p| reach(rows, &p.motion[k]));
         a.max(b)
@@ -220,21 +214,21 @@ pub(crate) fn note_floors_of_span(
             taken = true;
         }
         for i in 0..rows.floors.len() {
-            if !may_exceed(track, &rates.ends[which], length, MARGIN[which], i) {
+            if !may_exceed(track, &rates.ends[which], scales, MARGIN[which], i) {
                 continue;
             }
             let function = match which {
                 0 => {
-                    let (a, b) = even.row(&rows.floors[i], 0.0);
-                    even.displacement(a, b)
+                    let (a, b) = span.row(&rows.floors[i], 0.0);
+                    span.displacement(a, b)
                 }
                 1 => {
-                    let (a, b) = even.row(&rows.drifts[i], 0.0);
-                    even.displacement(a, b)
+                    let (a, b) = span.row(&rows.drifts[i], 0.0);
+                    span.displacement(a, b)
                 }
                 _ => {
                     if !sampled {
-                        accelerations(scene, (span, &even), &mut rates.nodes);
+                        accelerations(scene, span, &mut rates.nodes);
                         sampled = true;
                     }
                     let mut samples: [f64; COEFFICIENTS] =
@@ -247,8 +241,7 @@ pub(crate) fn note_floors_of_span(
             };
             let (c, l) = (i / WIDTH, i % WIDTH);
             if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
-                let clock = if which < 2 { &clock } else { span.clock };
-                take(track, i, top, start + clock.offset(theta));
+                take(track, i, top, start + span.clock.offset(theta));
             }
         }
         raise(track, start + length);
@@ -259,15 +252,15 @@ pub(crate) fn note_floors_of_span(
 fn may_exceed(
     track: &Track,
     rates: &[Vec<Lane>; 2],
-    length: f64,
+    scales: [f64; 2],
     margin: f64,
     floor: usize,
 ) -> bool {
     let (c, l) = (floor / WIDTH, floor % WIDTH);
     let (a, b) = (track.now[c][l], track.next[c][l]);
     let inner = [
-        a + rates[0][c][l] * length / 3.0,
-        b - rates[1][c][l] * length / 3.0,
+        a + rates[0][c][l] * scales[0] / 3.0,
+        b - rates[1][c][l] * scales[1] / 3.0,
     ];
     let ends = a.abs().max(b.abs());
     let hull = inner[0].abs().max(inner[1].abs()).max(ends);
@@ -275,16 +268,12 @@ fn may_exceed(
 }
 
 /// Absolute accelerations of the modes at the inner nodes of a fit.
-fn accelerations(
-    scene: &Scene<'_>,
-    (span, even): (&Span<'_>, &Span<'_>),
-    nodes: &mut [Vec<Lane>; COEFFICIENTS],
-) {
+fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COEFFICIENTS]) {
     for (theta, out) in fit_nodes().into_iter().zip(nodes) {
         if theta <= 0.0 || theta >= 1.0 {
             continue;
         }
-        let weights = basis(even, span.clock.offset(theta) / even.clock.offset(1.0));
+        let weights = basis(span, theta);
         for (c, m) in scene.constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let omega = m.circular_frequency[l];

@@ -1,0 +1,2 @@
+//! Many runs of one case: is the gap wide enough, does the answer hang on the
+//! impact model, and how likely is pounding?

@@ -8,7 +8,7 @@
 
 use crate::descriptor::LawDescriptor;
 use crate::error::HysteresisError;
-use crate::history::{Branch, History, Point};
+use crate::history::{Branch, History, MAXIMUM_INTERNAL_VARIABLES, Point};
 use crate::law::{Guard, Guards, HysteresisLaw, Motion, Response};
 use crate::parameters::LawParameters;
 use crate::substeps::integrate;
@@ -184,6 +184,9 @@ impl HysteresisLaw for BoucWen {
     }
     fn internal_variables(&self) -> usize {
         2
+    }
+    fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
+        [0.1, 1.0]
     }
     fn virgin(&self) -> History {
         let branch = Branch::line(LOADING, 1.0, Point::default(), 0.0).towards(1.0);

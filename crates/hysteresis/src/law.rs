@@ -1,7 +1,7 @@
 //! The contract of a force-deformation law with memory.
 
 use crate::descriptor::LawDescriptor;
-use crate::history::History;
+use crate::history::{History, MAXIMUM_INTERNAL_VARIABLES};
 
 /// Greatest number of guards that one branch watches.
 pub const MAXIMUM_GUARDS: usize = 3;
@@ -83,6 +83,13 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
     /// [`crate::MAXIMUM_INTERNAL_VARIABLES`].
     fn internal_variables(&self) -> usize {
         0
+    }
+
+    /// Sizes below which errors of the internal variables are held absolutely by a
+    /// method with error control, in the units of the variables; infinite for one that
+    /// only keeps account of energy.
+    fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
+        [1.0; MAXIMUM_INTERNAL_VARIABLES]
     }
 
     /// The history of an element that was never deformed.

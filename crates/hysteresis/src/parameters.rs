@@ -57,6 +57,18 @@ impl LawParameters {
         Ok(())
     }
 
+    /// Deformation (m) at which an element of initial stiffness `stiffness` (N/m) begins
+    /// to yield or slip: its yield or friction force over that stiffness. `None` for a
+    /// law without such a force.
+    #[must_use]
+    pub fn yield_deformation(&self, stiffness: f64) -> Option<f64> {
+        ["yield_force", "friction_force"]
+            .iter()
+            .find_map(|name| self.values.get(*name))
+            .map(|force| force / stiffness)
+            .filter(|x| x.is_finite() && *x > 0.0)
+    }
+
     /// The value given, or the default of the law.
     ///
     /// # Errors

@@ -1,17 +1,32 @@
 //! A shear building.
 
+use std::sync::Arc;
+
+use pounding_hysteresis::HysteresisLaw;
+
 use crate::damping::{Damping, DampingMatrix};
 use crate::error::ShearBuildingError;
 use crate::modes::{Modes, undamped};
 use crate::tridiagonal::SymmetricTridiagonal;
 
+/// A force-deformation law in the place of a storey's stiffness.
+#[derive(Debug, Clone)]
+pub struct StoreyLaw {
+    /// The law: storey shear (N) of the drift (m).
+    pub law: Arc<dyn HysteresisLaw>,
+    /// Drift (m) at which the storey begins to yield, if the law has one.
+    pub yield_drift: Option<f64>,
+}
+
 /// A chain of storeys with everything that follows from it, computed once.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ShearBuilding {
     name: String,
     mass: Vec<f64>,
     stiffness: Vec<f64>,
     height: Vec<f64>,
+    laws: Vec<Option<StoreyLaw>>,
+    geometric: Vec<f64>,
     elevations: Vec<f64>,
     damping: Damping,
     stiffness_matrix: SymmetricTridiagonal,
@@ -34,6 +49,26 @@ impl ShearBuilding {
         height: Vec<f64>,
         damping: Damping,
     ) -> Result<Self, ShearBuildingError> {
+        Self::under_gravity(name, mass, stiffness, height, damping, 0.0)
+    }
+
+    /// The same with the second-order effect of gravity (P-Delta): in every storey the
+    /// weight above, through the drift over the storey height, takes
+    /// `weight / height` off the stiffness (Chopra, Dynamics of Structures, section
+    /// 9.7, straight-line approximation). Modes, and damping that is given by ratios or
+    /// by the stiffness, belong to the reduced stiffness. `gravity` in m/s2; zero
+    /// leaves the effect out.
+    ///
+    /// # Errors
+    /// As [`ShearBuilding::new`], and a storey that gravity overturns.
+    pub fn under_gravity(
+        name: String,
+        mass: Vec<f64>,
+        stiffness: Vec<f64>,
+        height: Vec<f64>,
+        damping: Damping,
+        gravity: f64,
+    ) -> Result<Self, ShearBuildingError> {
         if mass.is_empty() {
             return Err(ShearBuildingError::NoStoreys { building: name });
         }
@@ -44,8 +79,10 @@ impl ShearBuilding {
         ] {
             check(&name, quantity, values, mass.len())?;
         }
-        let stiffness_matrix = SymmetricTridiagonal::chain(&stiffness);
-        let undamped = undamped(&mass, &stiffness, &stiffness_matrix);
+        let geometric = geometric(&name, &mass, &stiffness, &height, gravity)?;
+        let lateral: Vec<f64> = stiffness.iter().zip(&geometric).map(|(k, g)| k - g).collect();
+        let stiffness_matrix = SymmetricTridiagonal::chain(&lateral);
+        let undamped = undamped(&mass, &lateral, &stiffness_matrix);
         if let Some(j) = undamped
             .circular_frequency
             .iter()
@@ -72,6 +109,8 @@ impl ShearBuilding {
             })
             .collect();
         Ok(Self {
+            laws: vec![None; mass.len()],
+            geometric,
             name,
             mass,
             stiffness,
@@ -82,6 +121,56 @@ impl ShearBuilding {
             damping_matrix,
             modes,
         })
+    }
+
+    /// The same building with laws in the place of storey stiffnesses, one entry a
+    /// storey. Modes and damping stay those of the elastic building.
+    ///
+    /// # Errors
+    /// A number of entries other than that of the storeys, or a law whose initial
+    /// stiffness is not the stiffness of its storey.
+    pub fn with_laws(
+        mut self,
+        laws: Vec<Option<StoreyLaw>>,
+    ) -> Result<Self, ShearBuildingError> {
+        if laws.len() != self.storeys() {
+            return Err(ShearBuildingError::Length {
+                building: self.name,
+                quantity: "storey law",
+                found: laws.len(),
+                expected: self.mass.len(),
+            });
+        }
+        for (i, law) in laws.iter().enumerate() {
+            let Some(StoreyLaw { law, .. }) = law else {
+                continue;
+            };
+            let (initial, elastic) = (law.initial_stiffness(), self.stiffness[i]);
+            if !((initial - elastic).abs() <= SAME_STIFFNESS * elastic) {
+                return Err(ShearBuildingError::Law {
+                    building: self.name,
+                    storey: i + 1,
+                    law: law.descriptor().name,
+                    reason: format!(
+                        "its initial stiffness is {initial} N/m, that of the storey {elastic} N/m"
+                    ),
+                });
+            }
+        }
+        self.laws = laws;
+        Ok(self)
+    }
+
+    /// Laws in the place of storey stiffnesses, one entry a storey, bottom first.
+    #[must_use]
+    pub fn laws(&self) -> &[Option<StoreyLaw>] {
+        &self.laws
+    }
+
+    /// What gravity takes off the storey stiffnesses (N/m); zeros without P-Delta.
+    #[must_use]
+    pub fn geometric_stiffness(&self) -> &[f64] {
+        &self.geometric
     }
 
     /// Name of the building.
@@ -102,7 +191,8 @@ impl ShearBuilding {
         &self.mass
     }
 
-    /// Storey stiffnesses (N/m), bottom first.
+    /// Elastic storey stiffnesses (N/m), bottom first: of the columns, without what
+    /// gravity takes off.
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {
         &self.stiffness
@@ -126,7 +216,7 @@ impl ShearBuilding {
         &self.damping
     }
 
-    /// Stiffness matrix (N/m).
+    /// Stiffness matrix (N/m), with what gravity takes off where P-Delta is on.
     #[must_use]
     pub fn stiffness_matrix(&self) -> &SymmetricTridiagonal {
         &self.stiffness_matrix
@@ -148,6 +238,38 @@ impl ShearBuilding {
     pub fn apply_damping(&self, v: &[f64], out: &mut [f64]) {
         self.damping_matrix.multiply(v, out);
     }
+}
+
+/// Relative difference of two stiffnesses that are meant to be equal.
+const SAME_STIFFNESS: f64 = 1.0e-6;
+
+/// Weight above over height of every storey (N/m).
+fn geometric(
+    building: &str,
+    mass: &[f64],
+    stiffness: &[f64],
+    height: &[f64],
+    gravity: f64,
+) -> Result<Vec<f64>, ShearBuildingError> {
+    let mut above: f64 = mass.iter().sum();
+    let mut all = Vec::with_capacity(mass.len());
+    for i in 0..mass.len() {
+        let load = gravity * above;
+        let geometric = load / height[i];
+        if !(geometric < stiffness[i]) {
+            return Err(ShearBuildingError::Unstable {
+                building: building.to_owned(),
+                storey: i + 1,
+                load,
+                height: height[i],
+                geometric,
+                stiffness: stiffness[i],
+            });
+        }
+        all.push(geometric);
+        above -= mass[i];
+    }
+    Ok(all)
 }
 
 fn check(

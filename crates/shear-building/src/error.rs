@@ -44,6 +44,36 @@ pub enum ShearBuildingError {
         /// What is wrong.
         reason: String,
     },
+    /// A storey law that cannot carry the storey.
+    #[error("building {building}, storey {storey}: law {law}: {reason}")]
+    Law {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Name of the law.
+        law: &'static str,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Gravity that overturns the elastic building.
+    #[error(
+        "building {building}, storey {storey}: the load {load} N on a storey of {height} m takes {geometric} N/m off its stiffness {stiffness} N/m: it cannot stand"
+    )]
+    Unstable {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Weight above (N).
+        load: f64,
+        /// Storey height (m).
+        height: f64,
+        /// Weight over height (N/m).
+        geometric: f64,
+        /// Storey stiffness (N/m).
+        stiffness: f64,
+    },
     /// Masses or stiffnesses so far apart that double precision cannot resolve a mode.
     #[error(
         "building {building}: mode {mode} has the circular frequency {frequency} rad/s; masses or stiffnesses are too far apart"

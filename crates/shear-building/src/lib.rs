@@ -10,7 +10,7 @@ mod error;
 mod modes;
 mod tridiagonal;
 
-pub use building::ShearBuilding;
+pub use building::{ShearBuilding, StoreyLaw};
 pub use damping::{Damping, DampingMatrix};
 pub use error::ShearBuildingError;
 pub use modes::Modes;

@@ -2,6 +2,7 @@
 
 use pounding_gap_element::{Collision, Force, Memory, Phase};
 
+use crate::elements::Elements;
 use crate::system::{ContactLevel, System};
 
 /// A contact level at one time.
@@ -21,10 +22,12 @@ pub(crate) struct Contact {
     pub memory: Memory,
 }
 
-/// All contact levels and the list of those that are closed.
+/// All that a system remembers beside its state: contact levels with the list of those
+/// that are closed, and the histories of elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Contacts {
     pub modes: Vec<Mode>,
+    pub elements: Elements,
     closed: Vec<usize>,
     /// Present width of every gap (m): wider than at rest where impacts left a
     /// plastic deformation.
@@ -36,6 +39,7 @@ impl Contacts {
         let levels = system.levels().len();
         Self {
             modes: vec![Mode::Open; levels],
+            elements: Elements::new(system),
             closed: Vec::with_capacity(levels),
             widths: system.levels().iter().map(|l| l.width).collect(),
         }

@@ -8,10 +8,12 @@ mod result;
 mod rigid_impacts;
 mod stepped_impacts;
 
+use pounding_hysteresis::History;
+
 use crate::contact::Contacts;
-use crate::dynamics::{Dynamics, Segment};
+use crate::dynamics::{Dynamics, Instant, Segment};
 use crate::error::TimeHistoryError;
-use crate::events::{Candidate, Finder};
+use crate::events::{Candidate, EventKind, Finder};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
@@ -154,6 +156,8 @@ struct Driver<'a> {
     open: Option<Open<'a>>,
     /// Terms of Taylor series in the coordinates of the modes.
     series_terms: u64,
+    /// Room for the history of an element on trial.
+    spare: Option<History>,
 }
 
 impl<'a> Driver<'a> {
@@ -163,17 +167,18 @@ impl<'a> Driver<'a> {
         let zeros = || vec![0.0; layout.dimension()];
         let mut state = zeros();
         state[..2 * layout.dofs].copy_from_slice(system.initial_state());
-        let contacts = Contacts::all_open(system);
+        let mut contacts = Contacts::all_open(system);
+        contacts.elements.begin(system, layout, &mut state);
         // What the buildings bring along counts as put in.
-        let brought = ledger::energy(system, layout, &contacts, &state);
-        state[layout.input()] = brought.kinetic + brought.strain;
+        let brought = ledger::energy(system, layout, &contacts, &state, None);
+        state[layout.input()] = brought.kinetic + brought.strain + brought.hysteretic;
         Self {
             system,
             options,
             method: options.build_method(system),
             contacts,
             finder: Finder::new(layout),
-            peaks: Peaks::new(layout),
+            peaks: Peaks::new(layout, system.elements().len()),
             log: ImpactLog::new(system),
             ledger: Ledger {
                 largest_input: state[layout.input()],
@@ -193,6 +198,7 @@ impl<'a> Driver<'a> {
             rigid: RigidImpacts::default(),
             open: None,
             series_terms: 0,
+            spare: None,
             dynamics,
         }
         .ready_to_fly()
@@ -213,7 +219,8 @@ impl<'a> Driver<'a> {
         };
         self.peaks.begin(&mut context, &self.state);
         let mut sample = Sample::default();
-        fill_sample(&mut context, 0.0, ground, &self.state, &mut sample);
+        let now = Instant::committed(ground);
+        fill_sample(&mut context, 0.0, now, &self.state, &mut sample);
         for recorder in recorders {
             recorder.begin(self.system, &sample)?;
         }
@@ -388,6 +395,13 @@ impl<'a> Driver<'a> {
             self.stalled = 0;
         }
         let n = self.dynamics.layout.dofs;
+        let implicit = self.method.information().implicit;
+        self.contacts.elements.accept(
+            (self.system, self.dynamics.layout),
+            &mut self.spare,
+            &mut self.state,
+            implicit.then_some(step),
+        );
         self.contacts
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
         self.balance(segment.start + tau + step)
@@ -400,6 +414,7 @@ impl<'a> Driver<'a> {
             self.dynamics.layout,
             &self.contacts,
             &self.state,
+            None,
         );
         self.ledger.end = energy;
         self.residual = energy.residual;
@@ -416,6 +431,14 @@ impl<'a> Driver<'a> {
             time,
             method: self.method.information().title,
             place: self.places_in_touch(),
+        }
+    }
+
+    /// A level that had an event, or an element.
+    fn place_of(&self, event: &Candidate) -> String {
+        match event.kind {
+            EventKind::Branch(_) => self.system.place_of_element(event.level),
+            _ => self.place(event.level),
         }
     }
 

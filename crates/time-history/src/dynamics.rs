@@ -4,7 +4,10 @@
 //! carries, beside displacements and velocities, the integrals that the energy
 //! ledger needs, so that every method integrates them with its own accuracy.
 
+use pounding_hysteresis::History;
+
 use crate::contact::Contacts;
+use crate::elements::Element;
 use crate::small_solver::SmallSolver;
 use crate::system::{ContactLevel, System};
 
@@ -13,6 +16,36 @@ use crate::system::{ContactLevel, System};
 pub(crate) struct Layout {
     pub dofs: usize,
     pub levels: usize,
+    /// Internal variables of all elements.
+    pub variables: usize,
+}
+
+/// A time at which the equations of motion are looked at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Instant {
+    /// Ground acceleration (m/s2).
+    pub ground: f64,
+    /// Time (s) since the histories of the elements were committed, for a method that
+    /// does not locate their events; `None` holds their branches.
+    pub elapsed: Option<f64>,
+}
+
+impl Instant {
+    /// At the state that the histories belong to.
+    pub(crate) fn committed(ground: f64) -> Self {
+        Self {
+            ground,
+            elapsed: None,
+        }
+    }
+
+    /// Inside a step, `offset` seconds after its start.
+    pub(crate) fn within(ground: f64, implicit: bool, offset: f64) -> Self {
+        Self {
+            ground,
+            elapsed: (implicit && offset > 0.0).then_some(offset),
+        }
+    }
 }
 
 impl Layout {
@@ -20,27 +53,36 @@ impl Layout {
         Self {
             dofs: system.degrees_of_freedom(),
             levels: system.levels().len(),
+            variables: system
+                .elements()
+                .iter()
+                .map(|e| e.law.internal_variables())
+                .sum(),
         }
+    }
+    /// Displacements, velocities and internal variables: what forces depend on.
+    pub(crate) fn motion(self) -> usize {
+        2 * self.dofs + self.variables
     }
     /// Length of the state vector.
     pub(crate) fn dimension(self) -> usize {
-        2 * self.dofs + 2 + 2 * self.levels
+        self.motion() + 2 + 2 * self.levels
     }
     /// Work of the ground motion on the buildings (J).
     pub(crate) fn input(self) -> usize {
-        2 * self.dofs
+        self.motion()
     }
     /// Work of the viscous damping (J).
     pub(crate) fn viscous(self) -> usize {
-        2 * self.dofs + 1
+        self.motion() + 1
     }
     /// Work done on the contact of a level (J).
     pub(crate) fn work(self, level: usize) -> usize {
-        2 * self.dofs + 2 + level
+        self.motion() + 2 + level
     }
     /// Impulse of the contact force of a level (N s).
     pub(crate) fn impulse(self, level: usize) -> usize {
-        2 * self.dofs + 2 + self.levels + level
+        self.motion() + 2 + self.levels + level
     }
 }
 
@@ -79,6 +121,7 @@ pub(crate) struct Dynamics<'a> {
     matrix: Vec<f64>,
     right: Vec<f64>,
     solver: SmallSolver,
+    scratch: Option<History>,
 }
 
 impl<'a> Dynamics<'a> {
@@ -95,6 +138,7 @@ impl<'a> Dynamics<'a> {
             matrix: Vec::with_capacity(together * together),
             right: Vec::with_capacity(together),
             solver: SmallSolver::with_room(together),
+            scratch: system.elements().first().map(|e| e.law.virgin()),
         }
     }
 
@@ -110,8 +154,16 @@ impl<'a> Dynamics<'a> {
         let n = self.layout.dofs;
         let (u, v) = (&state[..n], &state[n..2 * n]);
         out[..n].copy_from_slice(v);
-        let (input, viscous) = self.accelerations(contacts, ground, u, v, &mut out[n..2 * n]);
+        let now = Instant::committed(ground);
+        let (input, viscous) = self.accelerations(contacts, now, state, &mut out[n..2 * n]);
         out[2 * n..].fill(0.0);
+        for (element, history) in self.elements(contacts) {
+            let range = element.range(self.layout);
+            let (before, rates) = (&state[range.clone()], &mut out[range]);
+            element
+                .law
+                .rates(history, element.motion(u, v), before, rates);
+        }
         out[self.layout.input()] = input;
         out[self.layout.viscous()] = viscous;
         for &l in contacts.closed() {
@@ -121,18 +173,56 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Accelerations relative to the ground (m/s2). Returns the power of the
-    /// ground motion and of the viscous damping (W).
+    /// Elements with their histories.
+    fn elements<'c>(
+        &self,
+        contacts: &'c Contacts,
+    ) -> impl Iterator<Item = (&'a Element, &'c History)> + use<'a, 'c> {
+        let elements: &'a [Element] = self.system.elements();
+        elements.iter().zip(&contacts.elements.histories)
+    }
+
+    /// Force (N) of an element at a state.
+    pub(crate) fn element_force(
+        &mut self,
+        contacts: &Contacts,
+        index: usize,
+        state: &[f64],
+        elapsed: Option<f64>,
+    ) -> f64 {
+        let n = self.layout.dofs;
+        let element = &self.system.elements()[index];
+        let history = &contacts.elements.histories[index];
+        let motion = element.motion(&state[..n], &state[n..2 * n]);
+        let variables = &state[element.range(self.layout)];
+        let Some(scratch) = &mut self.scratch else {
+            return 0.0;
+        };
+        element
+            .response(history, scratch, (motion, variables), elapsed)
+            .force
+    }
+
+    /// Accelerations relative to the ground (m/s2) at a state, of which the part that
+    /// moves is enough. Returns the power of the ground motion and of the viscous
+    /// damping (W).
     pub(crate) fn accelerations(
         &mut self,
         contacts: &Contacts,
-        ground: f64,
-        u: &[f64],
-        v: &[f64],
+        now: Instant,
+        state: &[f64],
         out: &mut [f64],
     ) -> (f64, f64) {
+        let (n, ground) = (self.layout.dofs, now.ground);
+        let (u, v) = (&state[..n], &state[n..2 * n]);
         self.system.internal_forces(u, v, out, &mut self.damping);
         self.net.fill(0.0);
+        for index in 0..contacts.elements.histories.len() {
+            let force = self.element_force(contacts, index, state, now.elapsed);
+            let element = &self.system.elements()[index];
+            let carried = element.carried * element.relative(u);
+            element.pull(force - carried, &mut self.net);
+        }
         self.stuck.clear();
         for &l in contacts.closed() {
             let Some(contact) = contacts.contact(l) else {

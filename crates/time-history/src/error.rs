@@ -20,6 +20,22 @@ pub enum TimeHistoryError {
         /// What is wrong.
         reason: String,
     },
+    /// A link of the system is not well defined.
+    #[error("link {link}: {reason}")]
+    LinkDefinition {
+        /// Name of the link.
+        link: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A method that cannot integrate storeys or links with memory.
+    #[error("method {method} knows linear storeys only; {place} has a law with memory")]
+    NotLinear {
+        /// Name of the method.
+        method: &'static str,
+        /// The first storey or link with a law.
+        place: String,
+    },
     /// The buildings cannot start from where they were put.
     #[error("initial state: {reason}")]
     InitialState {

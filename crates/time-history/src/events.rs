@@ -7,12 +7,14 @@
 //! inside one step are found as surely as one.
 
 use pounding_gap_element::{Direction, Guard};
+use pounding_hysteresis::Guard as LawGuard;
 
-use crate::dynamics::Layout;
+use crate::dynamics::{Dynamics, Instant, Layout};
+use crate::elements::guard_function;
 use crate::methods::{Context, Method};
 use crate::polynomial::{COEFFICIENTS, Polynomial, difference, first_rise, fit, fit_nodes, value};
 
-/// What happens at a level.
+/// What happens at a level, or to an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EventKind {
     /// An open gap closes.
@@ -21,11 +23,14 @@ pub(crate) enum EventKind {
     Open,
     /// Transition of this number in the model's list for the present phase.
     Transition(usize),
+    /// An element leaves its branch.
+    Branch(LawGuard),
 }
 
 /// An event inside a trial step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Candidate {
+    /// The level; for [`EventKind::Branch`] the element.
     pub level: usize,
     pub kind: EventKind,
     pub theta: f64,
@@ -45,7 +50,7 @@ impl Finder {
         Self {
             candidates: Vec::with_capacity(2 * layout.levels),
             nodes: fit_nodes(),
-            state: vec![0.0; 2 * layout.dofs],
+            state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],
         }
     }
@@ -74,10 +79,34 @@ impl Finder {
             }
             self.candidates.extend(first);
         }
+        if !method.information().implicit {
+            self.find_branches(context, method);
+        }
         self.candidates
             .iter()
             .copied()
             .reduce(|a, b| if b.theta < a.theta { b } else { a })
+    }
+
+    /// Collects the first change of branch of every element.
+    fn find_branches(&mut self, context: &Context<'_, '_>, method: &dyn Method) {
+        let Dynamics { system, layout, .. } = *context.dynamics;
+        let histories = &context.contacts.elements.histories;
+        for (level, (element, history)) in system.elements().iter().zip(histories).enumerate() {
+            let mut first: Option<Candidate> = None;
+            for guard in element.law.guards(history).into_iter().flatten() {
+                let component = |i: usize| *method.polynomial(i);
+                let theta = guard_function(element, history, guard, layout, component)
+                    .and_then(|function| first_rise(&function));
+                if let Some(theta) = theta
+                    && first.is_none_or(|f| theta < f.theta)
+                {
+                    let kind = EventKind::Branch(guard);
+                    first = Some(Candidate { level, kind, theta });
+                }
+            }
+            self.candidates.extend(first);
+        }
     }
 
     /// The function of theta that fires the event when it becomes positive.
@@ -93,6 +122,13 @@ impl Finder {
         match kind {
             EventKind::Close => penetration(context, method, level),
             EventKind::Open => negated(penetration(context, method, level)),
+            EventKind::Branch(guard) => {
+                let Dynamics { system, layout, .. } = *context.dynamics;
+                let history = &context.contacts.elements.histories[level];
+                let component = |i: usize| *method.polynomial(i);
+                guard_function(&system.elements()[level], history, guard, layout, component)
+                    .unwrap_or([0.0; COEFFICIENTS])
+            }
             EventKind::Transition(index) => {
                 let system = context.dynamics.system;
                 let Some(contact) = context.contacts.contact(level) else {
@@ -171,15 +207,15 @@ impl Finder {
         level: usize,
         (tau, step, theta): (f64, f64, f64),
     ) -> f64 {
-        let n = self.acceleration.len();
         for (i, y) in self.state.iter_mut().enumerate() {
             *y = value(method.polynomial(i), theta);
         }
+        let ground = context.segment.ground(tau + theta * step);
+        let now = Instant::within(ground, method.information().implicit, theta * step);
         context.dynamics.accelerations(
             context.contacts,
-            context.segment.ground(tau + theta * step),
-            &self.state[..n],
-            &self.state[n..],
+            now,
+            &self.state,
             &mut self.acceleration,
         );
         context.dynamics.forces[level]

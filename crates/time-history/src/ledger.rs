@@ -11,12 +11,14 @@ use crate::dynamics::Layout;
 use crate::outcome::Energy;
 use crate::system::System;
 
-/// Ledger at a state.
+/// Ledger at a state; `elapsed` is the time since the histories of the elements were
+/// committed, inside a step of a method that does not locate their events.
 pub(crate) fn energy(
     system: &System,
     layout: Layout,
     contacts: &Contacts,
     state: &[f64],
+    elapsed: Option<f64>,
 ) -> Energy {
     let n = layout.dofs;
     let (u, v) = (&state[..n], &state[n..2 * n]);
@@ -25,13 +27,14 @@ pub(crate) fn energy(
         .iter()
         .map(|&l| stored_energy(system, contacts, l, u))
         .sum();
+    let (elastic, hysteretic) = contacts.elements.energy((system, layout), state, elapsed);
     let work: f64 = (0..layout.levels).map(|l| state[layout.work(l)]).sum();
     let mut energy = Energy {
         input: state[layout.input()],
         kinetic: system.kinetic_energy(v),
-        strain: system.strain_energy(u) + stored,
+        strain: system.strain_energy(u) + stored + elastic,
         viscous: state[layout.viscous()],
-        hysteretic: 0.0,
+        hysteretic,
         impact: work - stored,
         residual: 0.0,
     };

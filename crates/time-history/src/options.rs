@@ -147,6 +147,12 @@ impl RunOptions {
                     "it must lie between 1/2 and 1",
                 )?;
                 rigid_throughout(system)?;
+                if !system.elements().is_empty() {
+                    return Err(TimeHistoryError::NotLinear {
+                        method: "moreau_jean",
+                        place: system.place_of_element(0),
+                    });
+                }
             }
         }
         if let Some(tolerance) = self.energy_tolerance {
@@ -161,7 +167,7 @@ impl RunOptions {
         let layout = Layout::of(system);
         match self.method {
             MethodChoice::Adaptive { relative_tolerance } => {
-                Box::new(Adaptive::new(layout, relative_tolerance))
+                Box::new(Adaptive::new(system, relative_tolerance))
             }
             MethodChoice::EventDriven { relative_tolerance } => {
                 Box::new(EventDriven::new(system, relative_tolerance))

@@ -26,7 +26,7 @@ pub struct StoreyPeaks {
     pub displacement: Peak,
     /// Storey drift over storey height (-).
     pub drift_ratio: Peak,
-    /// Elastic storey shear, stiffness times drift (N).
+    /// Storey shear (N): stiffness times drift, or the force of the storey's law.
     pub storey_shear: Peak,
     /// Absolute floor acceleration (m/s2).
     pub acceleration_absolute: Peak,
@@ -39,6 +39,50 @@ pub struct BuildingOutcome {
     pub name: String,
     /// Storeys from the bottom.
     pub storeys: Vec<StoreyPeaks>,
+    /// What storeys with a law went through, from the bottom; `None` for the others.
+    pub yielding: Vec<Option<YieldingStorey>>,
+}
+
+/// What a storey with a law went through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingStorey {
+    /// Name of the law.
+    pub law: &'static str,
+    /// Greatest drift over the drift at first yield (-), with its time; `None` for a law
+    /// without a yield force.
+    pub ductility: Option<Peak>,
+    /// Drift at the end of the run less what unloading by the initial stiffness gives
+    /// back, over the storey height (-), signed.
+    pub residual_drift_ratio: f64,
+    /// Energy dissipated by the law (J).
+    pub hysteretic_energy: f64,
+}
+
+/// What a level of a link went through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkLevelOutcome {
+    /// Greatest deformation (m).
+    pub deformation: Peak,
+    /// Greatest force (N).
+    pub force: Peak,
+    /// Greatest deformation over that at first yield or slip (-); `None` for a law
+    /// without such a force.
+    pub ductility: Option<Peak>,
+    /// Deformation at the end of the run (m), signed.
+    pub final_deformation: f64,
+    /// Energy dissipated by the law (J).
+    pub energy_dissipated: f64,
+}
+
+/// What a link went through, levels from the bottom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkOutcome {
+    /// Name of the link.
+    pub name: String,
+    /// Name of its law.
+    pub law: &'static str,
+    /// Levels from the bottom.
+    pub levels: Vec<LinkLevelOutcome>,
 }
 
 /// One impact: from a located closure to the located opening.
@@ -121,7 +165,8 @@ pub struct Energy {
     pub input: f64,
     /// Kinetic energy relative to the ground.
     pub kinetic: f64,
-    /// Recoverable energy in storeys and closed contacts.
+    /// Recoverable energy in storeys, links and closed contacts, with that of gravity
+    /// where P-Delta is on.
     pub strain: f64,
     /// Dissipated by viscous damping.
     pub viscous: f64,
@@ -172,6 +217,8 @@ pub struct Outcome {
     pub buildings: Vec<BuildingOutcome>,
     /// Gaps in the order of the case.
     pub gaps: Vec<GapOutcome>,
+    /// Links in the order of the case.
+    pub links: Vec<LinkOutcome>,
     /// Impacts in order of closure.
     pub impacts: Vec<Impact>,
     /// Energy ledger.

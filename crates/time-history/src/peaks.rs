@@ -2,7 +2,8 @@
 
 use pounding_shear_building::ShearBuilding;
 
-use crate::dynamics::Layout;
+use crate::dynamics::{Instant, Layout};
+use crate::elements::{Element, ElementPlace};
 use crate::events::{Finder, penetration, velocity};
 use crate::methods::{Context, Method};
 use crate::outcome::{Peak, StoreyPeaks};
@@ -19,8 +20,17 @@ pub(crate) struct Peaks {
     pub force: Vec<Peak>,
     /// Greatest penetration of each level during its present impact (m).
     pub penetration: Vec<Peak>,
+    /// Peaks of every element: deformation (m) and force (N).
+    pub elements: Vec<ElementPeaks>,
     state: Vec<f64>,
     acceleration: Vec<f64>,
+}
+
+/// Peaks of a storey with a law, or of a level of a link.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ElementPeaks {
+    pub deformation: Peak,
+    pub force: Peak,
 }
 
 /// Part of the present peak below which a fitted maximum is not looked at
@@ -28,24 +38,25 @@ pub(crate) struct Peaks {
 const NEAR: f64 = 1.0 - 1.0e-6;
 
 impl Peaks {
-    pub(crate) fn new(layout: Layout) -> Self {
+    pub(crate) fn new(layout: Layout, elements: usize) -> Self {
         Self {
             storeys: vec![StoreyPeaks::default(); layout.dofs],
             force: vec![Peak::default(); layout.levels],
             penetration: vec![Peak::default(); layout.levels],
-            state: vec![0.0; 2 * layout.dofs],
+            elements: vec![ElementPeaks::default(); elements],
+            state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],
         }
     }
 
     /// Takes the state at time zero in, with all gaps open.
     pub(crate) fn begin(&mut self, context: &mut Context<'_, '_>, state: &[f64]) {
-        let n = self.acceleration.len();
-        let (u, v, ground) = (&state[..n], &state[n..2 * n], context.segment.acceleration);
+        let (u, ground) = (state, context.segment.acceleration);
+        let now = Instant::committed(ground);
         let out = &mut self.acceleration;
         context
             .dynamics
-            .accelerations(context.contacts, ground, u, v, out);
+            .accelerations(context.contacts, now, state, out);
         let system = context.dynamics.system;
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             let mut below = 0.0;
@@ -57,10 +68,28 @@ impl Peaks {
                 peaks
                     .drift_ratio
                     .raise(drift / building.height()[storey], 0.0);
-                peaks.storey_shear.raise(shear, 0.0);
+                if building.laws()[storey].is_none() {
+                    peaks.storey_shear.raise(shear, 0.0);
+                }
                 peaks.acceleration_absolute.raise(acceleration, 0.0);
                 below = u[i];
             }
+        }
+        for (index, element) in system.elements().iter().enumerate() {
+            let force = context
+                .dynamics
+                .element_force(context.contacts, index, state, None);
+            self.elements[index]
+                .deformation
+                .raise(element.relative(u).abs(), 0.0);
+            self.raise_force(element, index, force.abs(), 0.0);
+        }
+    }
+
+    fn raise_force(&mut self, element: &Element, index: usize, force: f64, time: f64) {
+        self.elements[index].force.raise(force, time);
+        if let (ElementPlace::Storey { .. }, Some(dof)) = (element.place, element.far) {
+            self.storeys[dof].storey_shear.raise(force, time);
         }
     }
 
@@ -79,6 +108,52 @@ impl Peaks {
         for k in 0..context.contacts.closed().len() {
             let level = context.contacts.closed()[k];
             self.contact(context, method, finder, level, place);
+        }
+        for index in 0..self.elements.len() {
+            self.element(context, method, index, place);
+        }
+    }
+
+    /// Deformation from the interpolant; force of the law along it.
+    fn element(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        index: usize,
+        (tau, step): (f64, f64),
+    ) {
+        let system = context.dynamics.system;
+        let start = context.segment.start + tau;
+        let element = &system.elements()[index];
+        let deformation = element.polynomial(|i| *method.polynomial(i), 0);
+        let peak = &mut self.elements[index].deformation;
+        if let Some((theta, top)) = absolute_maximum(&deformation, peak.value) {
+            peak.raise(top, start + theta * step);
+        }
+        let implicit = method.information().implicit;
+        let mut force = |state: &mut [f64], theta: f64| {
+            for (k, y) in state.iter_mut().enumerate() {
+                *y = value(method.polynomial(k), theta);
+            }
+            let elapsed = (implicit && theta > 0.0).then_some(theta * step);
+            context
+                .dynamics
+                .element_force(context.contacts, index, state, elapsed)
+        };
+        let samples = fit_nodes().map(|theta| force(&mut self.state, theta));
+        let fitted = fit(&samples);
+        let greatest = self.elements[index].force.value;
+        if bound(&fitted).max(bound(&fitted.map(|c| -c))) <= greatest * NEAR {
+            return;
+        }
+        for (theta, sample) in fit_nodes().iter().zip(samples) {
+            self.raise_force(element, index, sample.abs(), start + theta * step);
+        }
+        // What the law of a step holds is smooth only where its branches are located.
+        let near = self.elements[index].force.value * NEAR;
+        if let (false, Some((theta, _))) = (implicit, absolute_maximum(&fitted, near)) {
+            let exact = force(&mut self.state, theta).abs();
+            self.raise_force(element, index, exact, start + theta * step);
         }
     }
 
@@ -107,9 +182,11 @@ impl Peaks {
             {
                 let time = start + theta * step;
                 peaks.drift_ratio.raise(top / height, time);
-                peaks
-                    .storey_shear
-                    .raise(building.stiffness()[storey] * top, time);
+                if building.laws()[storey].is_none() {
+                    peaks
+                        .storey_shear
+                        .raise(building.stiffness()[storey] * top, time);
+                }
             }
             below = Some(u);
             self.absolute_acceleration(context, method, (i, dofs + i), (tau, step));
@@ -130,16 +207,15 @@ impl Peaks {
         a[1] += context.segment.slope * step;
         let floor = self.storeys[i].acceleration_absolute.value * NEAR;
         if let Some((theta, _)) = absolute_maximum(&a, floor) {
-            let n = self.acceleration.len();
             for (k, y) in self.state.iter_mut().enumerate() {
                 *y = value(method.polynomial(k), theta);
             }
             let ground = context.segment.ground(tau + theta * step);
+            let now = Instant::within(ground, method.information().implicit, theta * step);
             context.dynamics.accelerations(
                 context.contacts,
-                ground,
-                &self.state[..n],
-                &self.state[n..],
+                now,
+                &self.state,
                 &mut self.acceleration,
             );
             let exact = (self.acceleration[i] + ground).abs();

@@ -1,6 +1,7 @@
 //! Recorders: sinks that see every accepted step and every finished impact.
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Instant};
+use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::methods::{Context, Method};
@@ -25,6 +26,15 @@ pub struct Sample {
     pub penetration: Vec<f64>,
     /// Contact force of every level (N), zero while open.
     pub force: Vec<f64>,
+    /// Storey shears (N), of the law where a storey has one, else elastic; buildings
+    /// from the left.
+    pub storey_shear: Vec<f64>,
+    /// Deformation of every element (m), in the order of [`System::elements`].
+    pub element_deformation: Vec<f64>,
+    /// Force of every element (N).
+    pub element_force: Vec<f64>,
+    /// Energy that every element has dissipated so far (J).
+    pub element_dissipated: Vec<f64>,
     /// Energy ledger.
     pub energy: Energy,
 }
@@ -71,7 +81,8 @@ impl StepView<'_, '_, '_> {
             *y = value(self.method.polynomial(i), theta);
         }
         let ground = self.context.segment.ground(self.tau + offset);
-        fill_sample(self.context, time, ground, self.state, out);
+        let now = Instant::within(ground, self.method.information().implicit, offset);
+        fill_sample(self.context, time, now, self.state, out);
     }
 }
 
@@ -79,7 +90,7 @@ impl StepView<'_, '_, '_> {
 pub(crate) fn fill_sample(
     context: &mut Context<'_, '_>,
     time: f64,
-    ground: f64,
+    now: Instant,
     state: &[f64],
     out: &mut Sample,
 ) {
@@ -87,19 +98,16 @@ pub(crate) fn fill_sample(
     let n = layout.dofs;
     let (u, v) = (&state[..n], &state[n..2 * n]);
     out.time = time;
-    out.ground_acceleration = ground;
+    out.ground_acceleration = now.ground;
     out.displacement.clear();
     out.displacement.extend_from_slice(u);
     out.velocity.clear();
     out.velocity.extend_from_slice(v);
     out.acceleration_absolute.resize(n, 0.0);
-    context.dynamics.accelerations(
-        context.contacts,
-        ground,
-        u,
-        v,
-        &mut out.acceleration_absolute,
-    );
+    let ground = now.ground;
+    context
+        .dynamics
+        .accelerations(context.contacts, now, state, &mut out.acceleration_absolute);
     for a in &mut out.acceleration_absolute {
         *a += ground;
     }
@@ -111,7 +119,37 @@ pub(crate) fn fill_sample(
     for &l in context.contacts.closed() {
         out.force[l] = context.dynamics.forces[l];
     }
-    out.energy = ledger::energy(system, layout, context.contacts, state);
+    elements(context, now.elapsed, state, out);
+    out.energy = ledger::energy(system, layout, context.contacts, state, now.elapsed);
+}
+
+/// Storey shears, and what elements do.
+fn elements(context: &mut Context<'_, '_>, elapsed: Option<f64>, state: &[f64], out: &mut Sample) {
+    let Dynamics { system, layout, .. } = *context.dynamics;
+    out.storey_shear.clear();
+    for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
+        let mut below = 0.0;
+        for (k, u) in building.stiffness().iter().zip(&state[range[0]..range[1]]) {
+            out.storey_shear.push(k * (u - below));
+            below = *u;
+        }
+    }
+    out.element_deformation.clear();
+    out.element_force.clear();
+    out.element_dissipated.clear();
+    for (index, element) in system.elements().iter().enumerate() {
+        let force = context
+            .dynamics
+            .element_force(context.contacts, index, state, elapsed);
+        let memory = &context.contacts.elements;
+        let (_, dissipated) = memory.energy_of(index, (system, layout), state, elapsed);
+        out.element_deformation.push(element.relative(state));
+        out.element_force.push(force);
+        out.element_dissipated.push(dissipated);
+        if let (ElementPlace::Storey { .. }, Some(dof)) = (element.place, element.far) {
+            out.storey_shear[dof] = force;
+        }
+    }
 }
 
 /// A sink for responses.

@@ -2,7 +2,7 @@
 
 use crate::descriptor::{Alias, LawDescriptor, ParameterUnit, Verification};
 use crate::error::HysteresisError;
-use crate::history::{Branch, History, Point};
+use crate::history::{Branch, History, MAXIMUM_INTERNAL_VARIABLES, Point};
 use crate::law::{Guard, Guards, HysteresisLaw, Motion, Response};
 use crate::parameters::{LawParameters, STIFFNESS, positive};
 
@@ -65,6 +65,12 @@ impl HysteresisLaw for Maxwell {
     }
     fn internal_variables(&self) -> usize {
         2
+    }
+    /// The force and the energy at a deformation of a millimetre.
+    fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
+        let deformation = 1.0e-3;
+        let force = self.stiffness * deformation;
+        [force, force * deformation]
     }
     fn virgin(&self) -> History {
         let mut history = History::new(Branch::line(0, 1.0, Point::default(), 0.0));

@@ -7,7 +7,7 @@ use super::{
 };
 use super::{Driver, Mute};
 use crate::contact::Contact;
-use crate::dynamics::Segment;
+use crate::dynamics::{Instant, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::methods::Context;
@@ -78,7 +78,14 @@ impl Driver<'_> {
         self.rigid.closing.clear();
         for other in &candidates {
             let together = (other.theta - event.theta).abs() * step <= SIMULTANEOUS;
-            if other.level != event.level && !together {
+            let same = other.level == event.level && other.kind == event.kind;
+            if !same && !together {
+                continue;
+            }
+            if let EventKind::Branch(guard) = other.kind {
+                self.pass(other.level, guard);
+                self.statistics.events += 1;
+                self.stalled += 1;
                 continue;
             }
             let rigid = self.is_rigid(other.level);
@@ -112,10 +119,21 @@ impl Driver<'_> {
             return Err(TimeHistoryError::Chatter {
                 time: segment.start + tau,
                 count: self.stalled,
-                place: self.place(event.level),
+                place: self.place_of(&event),
             });
         }
         Ok(smooth)
+    }
+
+    /// An element leaves its branch.
+    fn pass(&mut self, index: usize, guard: pounding_hysteresis::Guard) {
+        let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
+        let element = &self.system.elements()[index];
+        let motion = element.motion(&self.state[..n], &self.state[n..2 * n]);
+        let history = &mut self.contacts.elements.histories[index];
+        element
+            .law
+            .pass(history, guard, motion, &self.state[element.range(layout)]);
     }
 
     fn fire(&mut self, segment: &Segment, tau: f64, event: Candidate) {
@@ -139,6 +157,8 @@ impl Driver<'_> {
                 self.peaks.penetration[l] = Peak { value: 0.0, time };
             }
             EventKind::Open => self.open(l, time),
+            // Passed before it comes to this.
+            EventKind::Branch(_) => {}
             EventKind::Transition(index) => {
                 let Some(phase) = self.contacts.contact(l).map(|c| c.phase) else {
                     return;
@@ -186,12 +206,11 @@ impl Driver<'_> {
         let n = self.dynamics.layout.dofs;
         let level = &self.system.levels()[l];
         self.contacts.set_phase(l, Phase::Stuck);
-        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
+        let u = &self.state[..n];
         self.dynamics.accelerations(
             &self.contacts,
-            segment.ground(tau),
-            u,
-            v,
+            Instant::committed(segment.ground(tau)),
+            &self.state,
             &mut self.interpolated[..n],
         );
         let holding = self.dynamics.forces[l];

@@ -3,8 +3,14 @@
 use super::Driver;
 use crate::error::TimeHistoryError;
 use crate::ledger;
-use crate::outcome::{BuildingOutcome, GapOutcome, Outcome};
+use crate::elements::ElementPlace;
+use crate::outcome::{
+    BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, YieldingStorey,
+};
 use crate::recorder::Recorder;
+
+/// Drift ratio up to which the straight-line approximation of P-Delta is taken as good.
+const SMALL_ROTATION: f64 = 0.1;
 
 impl Driver<'_> {
     pub(super) fn finish(
@@ -36,7 +42,7 @@ impl Driver<'_> {
         let counts = self.method.counts();
         self.statistics.evaluations = counts.evaluations + self.evaluations_in_modes();
         self.statistics.newton_iterations = counts.newton_iterations;
-        let buildings = self
+        let mut buildings: Vec<BuildingOutcome> = self
             .system
             .buildings()
             .iter()
@@ -44,8 +50,11 @@ impl Driver<'_> {
             .map(|(b, range)| BuildingOutcome {
                 name: b.name().to_owned(),
                 storeys: self.peaks.storeys[range[0]..range[1]].to_vec(),
+                yielding: vec![None; b.storeys()],
             })
             .collect();
+        let links = self.elements(&mut buildings);
+        let warnings = self.warnings();
         let (levels, impacts) = self.log.into_outcome();
         let gaps = self
             .system
@@ -61,12 +70,87 @@ impl Driver<'_> {
             end_time: duration,
             buildings,
             gaps,
+            links,
             impacts,
             energy: self.ledger,
             final_displacement: self.state[..n].to_vec(),
             final_velocity: self.state[n..2 * n].to_vec(),
             statistics: self.statistics,
-            warnings: Vec::new(),
+            warnings,
         })
+    }
+
+    /// What storeys with laws and links went through.
+    fn elements(&mut self, buildings: &mut [BuildingOutcome]) -> Vec<LinkOutcome> {
+        let (system, layout) = (self.system, self.dynamics.layout);
+        let mut links: Vec<LinkOutcome> = Vec::new();
+        for (index, element) in system.elements().iter().enumerate() {
+            let peaks = self.peaks.elements[index];
+            let (contacts, state) = (&self.contacts, &self.state);
+            let force = self.dynamics.element_force(contacts, index, state, None);
+            let memory = &contacts.elements;
+            let (_, energy) = memory.energy_of(index, (system, layout), state, None);
+            let deformation = element.relative(state);
+            let law = element.law.descriptor().name;
+            let ductility = element.yield_deformation.map(|y| Peak {
+                value: peaks.deformation.value / y,
+                time: peaks.deformation.time,
+            });
+            match element.place {
+                ElementPlace::Storey { building, storey } => {
+                    let elastic = force / element.law.initial_stiffness();
+                    let height = system.buildings()[building].height()[storey];
+                    buildings[building].yielding[storey] = Some(YieldingStorey {
+                        law,
+                        ductility,
+                        residual_drift_ratio: (deformation - elastic) / height,
+                        hysteretic_energy: energy,
+                    });
+                }
+                ElementPlace::Link { link, .. } => {
+                    if links.len() <= link {
+                        links.push(LinkOutcome {
+                            name: system.links()[link].name.clone(),
+                            law,
+                            levels: Vec::new(),
+                        });
+                    }
+                    links[link].levels.push(LinkLevelOutcome {
+                        deformation: peaks.deformation,
+                        force: peaks.force,
+                        ductility,
+                        final_deformation: deformation,
+                        energy_dissipated: energy,
+                    });
+                }
+            }
+        }
+        links
+    }
+
+    /// What the user should know of how the run was made.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let elements = self.system.elements();
+        if self.method.flies() && !elements.is_empty() {
+            warnings.push(format!(
+                "{} has a law with memory: in place of exact steps, the whole run was made by the adaptive pair 8(5,3), which locates every event as well",
+                self.system.place_of_element(0)
+            ));
+        }
+        for (building, range) in self.system.buildings().iter().zip(self.system.offsets().windows(2)) {
+            let gravity = building.geometric_stiffness().iter().any(|k| *k > 0.0);
+            let storeys = self.peaks.storeys[range[0]..range[1]].iter();
+            let most = storeys.map(|s| s.drift_ratio.value).fold(0.0, f64::max);
+            if gravity && most > SMALL_ROTATION {
+                warnings.push(format!(
+                    "{}: a storey drifted by {:.0} % of its height; P-Delta by the straight-line approximation holds for small rotations, up to some {:.0} %",
+                    building.name(),
+                    100.0 * most,
+                    100.0 * SMALL_ROTATION
+                ));
+            }
+        }
+        warnings
     }
 }

@@ -11,7 +11,7 @@ use pounding_gap_element::{Memory, Phase};
 use super::{Driver, Mute};
 use crate::complementarity::Complementarity;
 use crate::contact::Contact;
-use crate::dynamics::{Segment, coupling};
+use crate::dynamics::{Instant, Segment, coupling};
 use crate::error::TimeHistoryError;
 use crate::outcome::Peak;
 
@@ -186,9 +186,8 @@ impl Driver<'_> {
         let n = self.dynamics.layout.dofs;
         self.dynamics.accelerations(
             &self.contacts,
-            segment.ground(tau),
-            &self.state[..n],
-            &self.state[n..2 * n],
+            Instant::committed(segment.ground(tau)),
+            &self.state,
             &mut self.interpolated[..n],
         );
         self.dynamics.forces[l]
@@ -245,6 +244,8 @@ impl Driver<'_> {
             self.state[layout.work(l)] += 0.5 * impulse * (work.before[k] + after);
             self.state[layout.impulse(l)] += impulse;
         }
+        let elements = &mut self.contacts.elements;
+        elements.settle(self.system, layout, &self.state);
         true
     }
 

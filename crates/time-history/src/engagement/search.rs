@@ -59,6 +59,8 @@ pub(crate) fn event_guard(
     match kind {
         EventKind::Close => delta,
         EventKind::Open => -delta,
+        // Systems with such elements never come here.
+        EventKind::Branch(_) => f64::NEG_INFINITY,
         EventKind::Transition(index) => {
             let transition = transitions(system, touch)[index];
             guard(system, touch, transition, delta, rate)

@@ -5,6 +5,7 @@ use pounding_runge_kutta::Dop853;
 use super::{Context, Counts, Information, Method, Verdict};
 use crate::dynamics::Layout;
 use crate::polynomial::Polynomial;
+use crate::system::System;
 
 /// First step (s) after a closure whose force starts like a power of the
 /// penetration; error control takes over from there.
@@ -22,6 +23,8 @@ pub(crate) struct Adaptive {
     step: f64,
     /// Time (s) since the last start like a power of time, while it matters.
     since: Option<f64>,
+    /// Sizes of the internal variables of elements, in their units.
+    sizes: Vec<f64>,
 }
 
 /// Growth of a step beyond what error control asks for, after such a start.
@@ -38,7 +41,8 @@ const DISPLACEMENT_SIZE: f64 = 1.0e-2;
 const VELOCITY_SIZE: f64 = 1.0e-1;
 
 impl Adaptive {
-    pub(crate) fn new(layout: Layout, relative_tolerance: f64) -> Self {
+    pub(crate) fn new(system: &System, relative_tolerance: f64) -> Self {
+        let layout = Layout::of(system);
         Self {
             pair: Dop853::new(layout.dimension()),
             layout,
@@ -47,6 +51,14 @@ impl Adaptive {
             last_norm: 0.0,
             step: 0.0,
             since: None,
+            sizes: system
+                .elements()
+                .iter()
+                .flat_map(|e| {
+                    let sizes = e.law.variable_sizes();
+                    sizes.into_iter().take(e.law.internal_variables())
+                })
+                .collect(),
         }
     }
 }
@@ -132,6 +144,9 @@ impl Method for Adaptive {
                 tolerance * (DISPLACEMENT_SIZE + state[i].abs().max(new_state[i].abs()))
             } else if i < 2 * n {
                 tolerance * (VELOCITY_SIZE + state[i].abs().max(new_state[i].abs()))
+            } else if i < self.layout.motion() {
+                let size = self.sizes[i - 2 * n];
+                tolerance * (size + state[i].abs().max(new_state[i].abs()))
             } else {
                 f64::INFINITY
             }

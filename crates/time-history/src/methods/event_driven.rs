@@ -2,7 +2,6 @@
 
 use super::taylor::Taylor;
 use super::{Adaptive, Context, Counts, Information, Method, Verdict};
-use crate::dynamics::Layout;
 use crate::polynomial::Polynomial;
 use crate::rates::fastest_rate;
 use crate::system::System;
@@ -29,10 +28,9 @@ pub(crate) struct EventDriven {
 
 impl EventDriven {
     pub(crate) fn new(system: &System, relative_tolerance: f64) -> Self {
-        let layout = Layout::of(system);
         Self {
             taylor: Taylor::new(system),
-            pair: Adaptive::new(layout, relative_tolerance),
+            pair: Adaptive::new(system, relative_tolerance),
             fastest: fastest_rate(system.buildings()),
             contact: 0.0,
             by_series: false,

@@ -1,8 +1,10 @@
 //! The implicit family: Newmark with any beta and gamma, and HHT-alpha.
 
+use pounding_hysteresis::{History, Motion};
+
 use super::effective_mass::EffectiveMass;
 use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
-use crate::dynamics::{Dynamics, Layout, push_apart};
+use crate::dynamics::{Instant, Layout, push_apart};
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
 use crate::small_solver::SmallSolver;
 use crate::system::System;
@@ -15,9 +17,10 @@ const NEWTON_TOLERANCE: f64 = 1.0e-13;
 /// Newmark 1959 (beta, gamma) with the alpha weighting of Hilber, Hughes and
 /// Taylor 1977 (alpha in -1/3..0; zero is plain Newmark).
 ///
-/// The unknowns of a step are the contact forces: the buildings are condensed to
-/// their flexibility at the levels in touch, and Newton's method solves
-/// `force = law(penetration, velocity)` with both partial derivatives of the law,
+/// The unknowns of a step are the contact forces, and what the forces of elements
+/// (yielding storeys, links) depart from the matrices of the buildings: those are
+/// condensed to their flexibility at the places of these forces, and Newton's method
+/// solves `force = law(deformation, velocity)` with both partial derivatives of the law,
 /// so that its tangent is the consistent one. Stuck levels take the place of the
 /// law with `velocity = 0`.
 #[derive(Debug, Clone)]
@@ -40,6 +43,7 @@ pub(crate) struct Newmark {
     load: Vec<f64>,
     net: Vec<f64>,
     scratch: Vec<f64>,
+    places: Vec<Place>,
     start_forces: Vec<f64>,
     flexibility: Vec<f64>,
     unknowns: Vec<f64>,
@@ -48,6 +52,34 @@ pub(crate) struct Newmark {
     solver: SmallSolver,
     dense: Vec<Polynomial>,
     newton_iterations: u64,
+    candidate: Option<History>,
+}
+
+/// Where an unknown force acts.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// A closed contact level.
+    Level(usize),
+    /// An element: what its force departs from the matrices.
+    Element(usize),
+}
+
+impl Place {
+    /// Relative displacement, or any other quantity given per degree of freedom.
+    fn relative(self, system: &System, x: &[f64]) -> f64 {
+        match self {
+            Self::Level(l) => system.levels()[l].relative(x),
+            Self::Element(e) => system.elements()[e].relative(x),
+        }
+    }
+
+    /// Adds the force to the floors.
+    fn push(self, system: &System, force: f64, net: &mut [f64]) {
+        match self {
+            Self::Level(l) => push_apart(&system.levels()[l], force, net),
+            Self::Element(e) => system.elements()[e].pull(force, net),
+        }
+    }
 }
 
 impl Newmark {
@@ -99,7 +131,8 @@ impl Newmark {
             load: zeros(),
             net: zeros(),
             scratch: zeros(),
-            start_forces: vec![0.0; layout.levels],
+            places: Vec::new(),
+            start_forces: Vec::new(),
             flexibility: Vec::new(),
             unknowns: Vec::new(),
             change: Vec::new(),
@@ -107,6 +140,7 @@ impl Newmark {
             solver: SmallSolver::default(),
             dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
             newton_iterations: 0,
+            candidate: None,
         }
     }
 
@@ -115,12 +149,24 @@ impl Newmark {
         let n = self.layout.dofs;
         context.dynamics.accelerations(
             context.contacts,
-            context.segment.ground(tau),
-            &state[..n],
-            &state[n..2 * n],
+            Instant::committed(context.segment.ground(tau)),
+            state,
             &mut self.first,
         );
-        self.start_forces.copy_from_slice(&context.dynamics.forces);
+        self.places.clear();
+        self.start_forces.clear();
+        for &l in context.contacts.closed() {
+            self.places.push(Place::Level(l));
+            self.start_forces.push(context.dynamics.forces[l]);
+        }
+        for (e, element) in context.dynamics.system.elements().iter().enumerate() {
+            let force = context
+                .dynamics
+                .element_force(context.contacts, e, state, None);
+            self.places.push(Place::Element(e));
+            self.start_forces
+                .push(force - element.carried * element.relative(&state[..n]));
+        }
         if let Some(a) = &self.start_acceleration {
             self.first.copy_from_slice(a);
         }
@@ -152,8 +198,8 @@ impl Newmark {
         if self.alpha != 0.0 {
             system.internal_forces(u, v, &mut self.last, &mut self.scratch);
             self.net.fill(0.0);
-            for &l in context.contacts.closed() {
-                push_apart(&system.levels()[l], self.start_forces[l], &mut self.net);
+            for (place, force) in self.places.iter().zip(&self.start_forces) {
+                place.push(system, *force, &mut self.net);
             }
             for i in 0..n {
                 self.load[i] -= self.alpha * (self.last[i] + self.net[i]);
@@ -163,64 +209,94 @@ impl Newmark {
         self.effective.solve(system, &mut self.last);
     }
 
-    /// Flexibility between the closed levels: relative acceleration at one caused
-    /// by a unit force that pulls the floors of another together.
-    fn condense(&mut self, dynamics: &Dynamics<'_>, closed: &[usize]) {
-        let system = dynamics.system;
-        let size = closed.len();
+    /// Flexibility between the places of unknown forces: relative acceleration at one
+    /// caused by a unit force that pulls the ends of another together.
+    fn condense(&mut self, system: &System) {
+        let size = self.places.len();
         self.flexibility.resize(size * size, 0.0);
-        for (column, &m) in closed.iter().enumerate() {
+        for (column, place) in self.places.iter().enumerate() {
             self.net.fill(0.0);
-            push_apart(&system.levels()[m], -1.0, &mut self.net);
+            place.push(system, -1.0, &mut self.net);
             self.effective.solve(system, &mut self.net);
-            for (row, &l) in closed.iter().enumerate() {
-                self.flexibility[row * size + column] = system.levels()[l].relative(&self.net);
+            for (row, other) in self.places.iter().enumerate() {
+                self.flexibility[row * size + column] = other.relative(system, &self.net);
             }
         }
     }
 
-    /// Newton on the contact forces. Leaves them in `unknowns`.
-    fn contact_forces(&mut self, context: &mut Context<'_, '_>) -> bool {
-        let closed = context.contacts.closed();
-        let size = closed.len();
+    /// The law at a place: force at this relative displacement (m) and velocity, its
+    /// derivatives by both; `None` where the place is to stand still.
+    fn law(
+        &mut self,
+        context: &Context<'_, '_>,
+        place: Place,
+        (displacement, velocity): (f64, f64),
+    ) -> Option<[f64; 3]> {
         let system = context.dynamics.system;
-        self.condense(context.dynamics, closed);
+        match place {
+            Place::Level(l) => {
+                let contact = context.contacts.contact(l).filter(|c| !c.is_stuck())?;
+                let delta = displacement - context.contacts.width(l);
+                let law = contact.force(&system.levels()[l], delta, velocity);
+                Some([law.value, law.by_penetration, law.by_velocity])
+            }
+            Place::Element(e) => {
+                let element = &system.elements()[e];
+                let history = &context.contacts.elements.histories[e];
+                let candidate = self.candidate.get_or_insert_with(|| history.clone());
+                let motion = Motion {
+                    deformation: displacement,
+                    velocity,
+                };
+                let law = element.law.trial(history, candidate, motion, self.step);
+                let carried = element.carried;
+                Some([
+                    law.force - carried * displacement,
+                    law.by_deformation - carried,
+                    law.by_velocity,
+                ])
+            }
+        }
+    }
+
+    /// Newton on the unknown forces. Leaves them in `unknowns`.
+    fn unknown_forces(&mut self, context: &mut Context<'_, '_>) -> bool {
+        let size = self.places.len();
+        let system = context.dynamics.system;
+        self.condense(system);
         self.unknowns.clear();
-        self.unknowns
-            .extend(closed.iter().map(|&l| self.start_forces[l]));
+        self.unknowns.extend(&self.start_forces);
         let (h, weight) = (self.step, 1.0 + self.alpha);
         let (by_u, by_v) = (self.beta * h * h, self.gamma * h);
         for _ in 0..MAXIMUM_ITERATIONS {
             self.newton_iterations += 1;
             self.change.clear();
             self.matrix.clear();
-            for (row, &l) in closed.iter().enumerate() {
-                let level = &system.levels()[l];
-                let flexibility = &self.flexibility[row * size..(row + 1) * size];
-                let pull: f64 = flexibility
+            for row in 0..size {
+                let place = self.places[row];
+                let row_of = row * size..(row + 1) * size;
+                let pull: f64 = self.flexibility[row_of.clone()]
                     .iter()
                     .zip(&self.unknowns)
                     .map(|(d, x)| d * x)
                     .sum();
-                let a = level.relative(&self.last) - weight * pull;
-                let delta = level.relative(&self.predictor) + by_u * a - context.contacts.width(l);
-                let velocity = level.relative(&self.velocity_predictor) + by_v * a;
-                let Some(contact) = context.contacts.contact(l) else {
-                    return false;
-                };
-                if contact.is_stuck() {
-                    self.change.push(velocity / by_v);
-                    self.matrix.extend(flexibility.iter().map(|d| weight * d));
-                } else {
-                    let law = contact.force(level, delta, velocity);
-                    let slope = weight * (law.by_penetration * by_u + law.by_velocity * by_v);
-                    self.change.push(law.value - self.unknowns[row]);
+                let a = place.relative(system, &self.last) - weight * pull;
+                let displacement = place.relative(system, &self.predictor) + by_u * a;
+                let velocity = place.relative(system, &self.velocity_predictor) + by_v * a;
+                let law = self.law(context, place, (displacement, velocity));
+                let flexibility = &self.flexibility[row_of];
+                if let Some([force, by_displacement, by_velocity]) = law {
+                    let slope = weight * (by_displacement * by_u + by_velocity * by_v);
+                    self.change.push(force - self.unknowns[row]);
                     self.matrix.extend(
                         flexibility
                             .iter()
                             .enumerate()
                             .map(|(k, d)| slope * d + if k == row { 1.0 } else { 0.0 }),
                     );
+                } else {
+                    self.change.push(velocity / by_v);
+                    self.matrix.extend(flexibility.iter().map(|d| weight * d));
                 }
             }
             if !self.solver.solve(&self.matrix, &mut self.change) {
@@ -275,7 +351,7 @@ impl Newmark {
         new[layout.viscous()] += viscous;
         for (k, &l) in context.contacts.closed().iter().enumerate() {
             let level = &system.levels()[l];
-            let mean = 0.5 * (self.start_forces[l] + self.unknowns[k]);
+            let mean = 0.5 * (self.start_forces[k] + self.unknowns[k]);
             let closed_in = level.relative(&new[..n]) - level.relative(&state[..n]);
             new[layout.work(l)] += mean * closed_in;
             new[layout.impulse(l)] += mean * h;
@@ -310,13 +386,13 @@ impl Method for Newmark {
         }
         self.start_up(context, tau, state);
         self.free_accelerations(context, tau, state);
-        if !context.contacts.closed().is_empty() {
-            if !self.contact_forces(context) {
+        if !self.places.is_empty() {
+            if !self.unknown_forces(context) {
                 return Verdict::Retry(0.5 * step);
             }
             self.net.fill(0.0);
-            for (k, &l) in context.contacts.closed().iter().enumerate() {
-                push_apart(&system.levels()[l], self.unknowns[k], &mut self.net);
+            for (place, force) in self.places.iter().zip(&self.unknowns) {
+                place.push(system, *force, &mut self.net);
             }
             for i in 0..self.layout.dofs {
                 self.last[i] = self.load[i] + weight * self.net[i];

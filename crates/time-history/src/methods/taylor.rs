@@ -58,7 +58,8 @@ impl Taylor {
 
     /// Whether every closed contact is affine in its phase.
     pub(crate) fn applies(context: &Context<'_, '_>) -> bool {
-        context.contacts.closed().iter().all(|&l| {
+        let linear = context.dynamics.system.elements().is_empty();
+        linear && context.contacts.closed().iter().all(|&l| {
             context.contacts.contact(l).is_some_and(|c| {
                 let model = &context.dynamics.system.levels()[l].model;
                 !c.is_stuck() && model.is_affine(&c.collision, c.phase)

@@ -66,9 +66,12 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             "storey drift over storey height",
             &|s| scaled(s, &|i| 1.0 / building.height()[i]),
         )?;
-        table("storey_shear", "N", "elastic storey shear", &|s| {
-            scaled(s, &|i| building.stiffness()[i])
-        })?;
+        table(
+            "storey_shear",
+            "N",
+            "storey shear, elastic or by the storey's law",
+            &|s| s.storey_shear[range.clone()].to_vec(),
+        )?;
         let peaks = group.create_group("peak")?;
         storey_peaks(
             &peaks,

@@ -1,0 +1,301 @@
+//! Elements with memory: storeys that yield, and links between floors.
+//!
+//! An element pulls together two places, the *far* one, whose displacement makes its
+//! deformation greater, and the *near* one. The matrices of the buildings carry the
+//! initial stiffness of a storey already, so that an element adds only what its law
+//! departs from that.
+
+use std::sync::Arc;
+
+use pounding_hysteresis::{Guard, History, HysteresisLaw, Motion, Response};
+
+use crate::dynamics::Layout;
+use crate::polynomial::{COEFFICIENTS, Polynomial, difference};
+use crate::system::System;
+
+/// Where an element sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ElementPlace {
+    /// The storey of a building, both from zero.
+    Storey {
+        /// Index in [`System::buildings`].
+        building: usize,
+        /// Storey from the bottom.
+        storey: usize,
+    },
+    /// A level of a link, both from zero.
+    Link {
+        /// Index in [`System::links`].
+        link: usize,
+        /// Level within the link, from the bottom.
+        level: usize,
+    },
+}
+
+/// A storey or a level of a link whose force follows a law with memory.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Where it sits.
+    pub place: ElementPlace,
+    /// Degree of freedom whose displacement deforms the element positively; `None`
+    /// moves with the ground.
+    pub far: Option<usize>,
+    /// Degree of freedom at the other end; `None` moves with the ground.
+    pub near: Option<usize>,
+    /// The law: force (N) of the deformation far minus near (m).
+    pub law: Arc<dyn HysteresisLaw>,
+    /// Deformation (m) at which it begins to yield, if its law has one.
+    pub yield_deformation: Option<f64>,
+    /// Part of its stiffness that the matrices carry (N/m).
+    pub(crate) carried: f64,
+    /// Place of its first internal variable among all.
+    pub(crate) first_variable: usize,
+}
+
+impl Element {
+    /// Far minus near of any quantity given per degree of freedom.
+    pub(crate) fn relative(&self, x: &[f64]) -> f64 {
+        let at = |dof: Option<usize>| dof.map_or(0.0, |i| x[i]);
+        at(self.far) - at(self.near)
+    }
+
+    pub(crate) fn motion(&self, u: &[f64], v: &[f64]) -> Motion {
+        Motion {
+            deformation: self.relative(u),
+            velocity: self.relative(v),
+        }
+    }
+
+    /// Where its internal variables stand in the state.
+    pub(crate) fn range(&self, layout: Layout) -> std::ops::Range<usize> {
+        let first = 2 * layout.dofs + self.first_variable;
+        first..first + self.law.internal_variables()
+    }
+
+    /// Adds a force that pulls its ends together.
+    pub(crate) fn pull(&self, force: f64, net: &mut [f64]) {
+        if let Some(i) = self.far {
+            net[i] -= force;
+        }
+        if let Some(i) = self.near {
+            net[i] += force;
+        }
+    }
+
+    /// Its deformation (offset zero) or the rate of it (offset of the velocities).
+    pub(crate) fn polynomial(
+        &self,
+        component: impl Fn(usize) -> Polynomial,
+        offset: usize,
+    ) -> Polynomial {
+        let at = |dof: Option<usize>| {
+            dof.map_or([0.0; COEFFICIENTS], |i| component(offset + i))
+        };
+        difference(&at(self.far), &at(self.near))
+    }
+
+    /// Law of the element at a state. Within a step of a method that locates events,
+    /// and at its ends, the branch in the history is held (`elapsed` is `None`);
+    /// within a step of one that does not, the law is followed over the `elapsed`
+    /// seconds since the history was committed.
+    pub(crate) fn response(
+        &self,
+        history: &History,
+        scratch: &mut History,
+        (motion, variables): (Motion, &[f64]),
+        elapsed: Option<f64>,
+    ) -> Response {
+        match elapsed {
+            Some(step) => self.law.trial(history, scratch, motion, step),
+            None => self.law.force(history, motion, variables),
+        }
+    }
+}
+
+/// Histories of all elements.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Elements {
+    pub histories: Vec<History>,
+}
+
+/// Motion below which (m/s) a change of direction is round-off.
+const STANDSTILL: f64 = 1.0e-13;
+
+/// Part of its own scale beyond which a guard counts as passed after a jump.
+const PASSED: f64 = 1.0e-12;
+
+/// Changes of branch at one instant before an element is left where it is.
+const BRANCHES_AT_ONCE: usize = 64;
+
+impl Elements {
+    pub(crate) fn new(system: &System) -> Self {
+        Self {
+            histories: system.elements().iter().map(|e| e.law.virgin()).collect(),
+        }
+    }
+
+    /// Puts the elements where the buildings start. Laws that depend on the path were
+    /// led there straight; what a law that depends on the rate did before is not known,
+    /// so that it starts unloaded.
+    pub(crate) fn begin(&mut self, system: &System, layout: Layout, state: &mut [f64]) {
+        let n = layout.dofs;
+        for (element, history) in system.elements().iter().zip(&mut self.histories) {
+            let motion = element.motion(&state[..n], &state[n..2 * n]);
+            if !element.law.descriptor().rate_dependent && motion.deformation != 0.0 {
+                let mut led = history.clone();
+                element.law.trial(history, &mut led, motion, 1.0);
+                history.commit(&mut led);
+            }
+            let variables: Vec<f64> = history.variables().to_vec();
+            element.law.accept(history, motion, &variables);
+            state[element.range(layout)].copy_from_slice(&variables);
+        }
+        self.settle(system, layout, state);
+    }
+
+    /// Takes an accepted state in. `step` is the length of the step (s) for a method
+    /// that does not locate the events of elements; the internal variables of the state
+    /// are then those of the law's own step.
+    pub(crate) fn accept(
+        &mut self,
+        (system, layout): (&System, Layout),
+        scratch: &mut Option<History>,
+        state: &mut [f64],
+        step: Option<f64>,
+    ) {
+        let n = layout.dofs;
+        for (element, history) in system.elements().iter().zip(&mut self.histories) {
+            let motion = element.motion(&state[..n], &state[n..2 * n]);
+            let range = element.range(layout);
+            match step {
+                None => element.law.accept(history, motion, &state[range]),
+                Some(step) => {
+                    let candidate = scratch.get_or_insert_with(|| history.clone());
+                    element.law.trial(history, candidate, motion, step);
+                    history.commit(candidate);
+                    state[range].copy_from_slice(history.variables());
+                }
+            }
+        }
+    }
+
+    /// Takes a state in that a jump of velocities led to, and passes the guards that it
+    /// left behind.
+    pub(crate) fn settle(&mut self, system: &System, layout: Layout, state: &[f64]) {
+        let n = layout.dofs;
+        for (element, history) in system.elements().iter().zip(&mut self.histories) {
+            let motion = element.motion(&state[..n], &state[n..2 * n]);
+            let variables = &state[element.range(layout)];
+            element.law.accept(history, motion, variables);
+            for _ in 0..BRANCHES_AT_ONCE {
+                let fired = element
+                    .law
+                    .guards(history)
+                    .into_iter()
+                    .flatten()
+                    .find(|guard| passed(element, history, *guard, (motion, variables)));
+                let Some(guard) = fired else { break };
+                element.law.pass(history, guard, motion, variables);
+            }
+        }
+    }
+
+    /// Recoverable and dissipated energy of all elements (J); `elapsed` as in
+    /// [`Element::response`].
+    pub(crate) fn energy(
+        &self,
+        (system, layout): (&System, Layout),
+        state: &[f64],
+        elapsed: Option<f64>,
+    ) -> (f64, f64) {
+        let (mut stored, mut dissipated) = (0.0, 0.0);
+        for index in 0..self.histories.len() {
+            let (s, d) = self.energy_of(index, (system, layout), state, elapsed);
+            stored += s;
+            dissipated += d;
+        }
+        (stored, dissipated)
+    }
+
+    /// The same of one element.
+    pub(crate) fn energy_of(
+        &self,
+        index: usize,
+        (system, layout): (&System, Layout),
+        state: &[f64],
+        elapsed: Option<f64>,
+    ) -> (f64, f64) {
+        let n = layout.dofs;
+        let element = &system.elements()[index];
+        let history = &self.histories[index];
+        let motion = element.motion(&state[..n], &state[n..2 * n]);
+        let both = |history: &History, variables: &[f64]| {
+            (
+                element.law.stored_energy(history, motion, variables),
+                element.law.dissipated_energy(history, motion, variables),
+            )
+        };
+        match elapsed {
+            None => both(history, &state[element.range(layout)]),
+            Some(step) => {
+                let mut then = history.clone();
+                element.law.trial(history, &mut then, motion, step);
+                both(&then, then.variables())
+            }
+        }
+    }
+}
+
+fn passed(
+    element: &Element,
+    history: &History,
+    guard: Guard,
+    (motion, variables): (Motion, &[f64]),
+) -> bool {
+    let size = match guard {
+        Guard::Turning => STANDSTILL / PASSED,
+        Guard::Above | Guard::Below => motion.deformation.abs().max(1.0e-9),
+        Guard::Faster | Guard::Slower => motion.velocity.abs().max(1.0e-9),
+        Guard::Variable(_) => 1.0e-3,
+    };
+    element.law.guard(history, guard, motion, variables) > PASSED * size
+}
+
+/// The function of theta that becomes positive where the guard fires; `None` if the
+/// element stands still.
+pub(crate) fn guard_function(
+    element: &Element,
+    history: &History,
+    guard: Guard,
+    layout: Layout,
+    component: impl Fn(usize) -> Polynomial,
+) -> Option<Polynomial> {
+    let function = match guard {
+        Guard::Variable(i) => component(element.range(layout).start + usize::from(i)),
+        Guard::Above | Guard::Below => element.polynomial(component, 0),
+        Guard::Turning | Guard::Faster | Guard::Slower => {
+            element.polynomial(component, layout.dofs)
+        }
+    };
+    if guard == Guard::Turning && function.iter().map(|c| c.abs()).sum::<f64>() < STANDSTILL {
+        return None;
+    }
+    // Guards are affine in the one quantity that they watch.
+    let at = |x: f64| {
+        let (mut motion, mut variables) = (Motion::default(), [0.0; 2]);
+        match guard {
+            Guard::Variable(i) => variables[usize::from(i)] = x,
+            Guard::Above | Guard::Below => motion.deformation = x,
+            Guard::Turning | Guard::Faster | Guard::Slower => motion.velocity = x,
+        }
+        element.law.guard(history, guard, motion, &variables)
+    };
+    let first = at(function[0]);
+    if !first.is_finite() {
+        return None;
+    }
+    let slope = (at(1.0) - at(-1.0)).signum();
+    let mut out = function.map(|c| slope * c);
+    out[0] = first;
+    Some(out)
+}

@@ -392,6 +392,7 @@ impl<'a> Driver<'a> {
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
             self.mute.fill(Mute::No);
+            self.contacts.elements.turned.fill(false);
             self.stalled = 0;
         }
         let n = self.dynamics.layout.dofs;

@@ -116,6 +116,9 @@ impl Element {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Elements {
     pub histories: Vec<History>,
+    /// Which elements turned at this very instant: their velocity is zero but for
+    /// round-off, which must not lead them over the ends of their new branch.
+    pub turned: Vec<bool>,
 }
 
 /// Motion below which (m/s) a change of direction is round-off.
@@ -130,7 +133,12 @@ const BRANCHES_AT_ONCE: usize = 64;
 impl Elements {
     pub(crate) fn new(system: &System) -> Self {
         Self {
-            histories: system.elements().iter().map(|e| e.law.virgin()).collect(),
+            histories: system
+                .elements()
+                .iter()
+                .map(|e| e.law.virgin())
+                .collect(),
+            turned: vec![false; system.elements().len()],
         }
     }
 

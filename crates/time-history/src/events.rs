@@ -91,12 +91,15 @@ impl Finder {
     /// Collects the first change of branch of every element.
     fn find_branches(&mut self, context: &Context<'_, '_>, method: &dyn Method) {
         let Dynamics { system, layout, .. } = *context.dynamics;
-        let histories = &context.contacts.elements.histories;
-        for (level, (element, history)) in system.elements().iter().zip(histories).enumerate() {
+        let memory = &context.contacts.elements;
+        let elements = system.elements().iter().zip(&memory.histories);
+        for (level, (element, history)) in elements.enumerate() {
+            let turned = memory.turned[level];
             let mut first: Option<Candidate> = None;
             for guard in element.law.guards(history).into_iter().flatten() {
                 let component = |i: usize| *method.polynomial(i);
                 let theta = guard_function(element, history, guard, layout, component)
+                    .map(|function| if turned { at_rest(function) } else { function })
                     .and_then(|function| first_rise(&function));
                 if let Some(theta) = theta
                     && first.is_none_or(|f| theta < f.theta)
@@ -220,6 +223,13 @@ impl Finder {
         );
         context.dynamics.forces[level]
     }
+}
+
+/// A guard without what round-off of the velocity adds at a turning point.
+fn at_rest(mut function: Polynomial) -> Polynomial {
+    function[0] = function[0].min(0.0);
+    function[1] = function[1].min(0.0);
+    function
 }
 
 /// The events that a level can have in its present mode.

@@ -2,6 +2,8 @@
 
 use pounding_gap_element::{Memory, Phase, SeparationRule, Target};
 
+use pounding_hysteresis::Guard;
+
 use super::{
     CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, PROGRESS_STEP, SIMULTANEOUS,
 };
@@ -126,7 +128,7 @@ impl Driver<'_> {
     }
 
     /// An element leaves its branch.
-    fn pass(&mut self, index: usize, guard: pounding_hysteresis::Guard) {
+    fn pass(&mut self, index: usize, guard: Guard) {
         let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
         let element = &self.system.elements()[index];
         let motion = element.motion(&self.state[..n], &self.state[n..2 * n]);
@@ -134,6 +136,9 @@ impl Driver<'_> {
         element
             .law
             .pass(history, guard, motion, &self.state[element.range(layout)]);
+        if guard == Guard::Turning {
+            self.contacts.elements.turned[index] = true;
+        }
     }
 
     fn fire(&mut self, segment: &Segment, tau: f64, event: Candidate) {

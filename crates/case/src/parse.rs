@@ -8,11 +8,12 @@ use toml::de::{DeTable, DeValue};
 use crate::error::CaseError;
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{Analysis, Building, Case, Gap, GroundMotion, Located, Scale};
+use crate::types::{Analysis, Building, Case, Gap, GroundMotion, Link, Located, Scale};
 use crate::units::Dimension;
 
 mod building;
 mod gap;
+mod law;
 
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let name = file.display().to_string();
@@ -33,6 +34,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
         .map_or(String::new(), |t| t.value);
     let buildings = buildings(&reader, &root)?;
     let gaps = gaps(&reader, &root, &buildings)?;
+    let links = links(&reader, &root, &buildings)?;
     let ground_motion = ground_motion(&reader, root.required("ground_motion")?)?;
     let analysis = match root.get("analysis") {
         Some(value) => analysis(&reader, value)?,
@@ -42,6 +44,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
         title,
         buildings,
         gaps,
+        links,
         ground_motion,
         analysis,
         source: source.to_owned(),
@@ -105,6 +108,30 @@ fn gaps(
         gaps.push((gap, span));
     }
     Ok(gaps.into_iter().map(|(gap, _)| gap).collect())
+}
+
+fn links(
+    reader: &Reader<'_>,
+    root: &Table<'_, '_>,
+    buildings: &[Building],
+) -> Result<Vec<Link>, CaseError> {
+    let mut links: Vec<(Link, Range<usize>)> = Vec::new();
+    for value in tables(root, "link")? {
+        let (link, span) = law::link(reader, value, buildings)?;
+        if let Some((_, first)) = links.iter().find(|(l, _)| l.name == link.name) {
+            return Err(reader.error(
+                span,
+                format!(
+                    "two links have the name \"{}\", the first in line {}",
+                    link.name,
+                    reader.line(first)
+                ),
+                "give every link its own `name`",
+            ));
+        }
+        links.push((link, span));
+    }
+    Ok(links.into_iter().map(|(link, _)| link).collect())
 }
 
 /// Refuses names that cannot stand in messages or as a group of the result file.
@@ -176,6 +203,26 @@ fn spread(
             format!("give one value a {place}, or a single value for all"),
         )),
     }
+}
+
+/// The same for anything that was read one by one: a single value stands for all.
+fn spread_any<T: Clone>(
+    reader: &Reader<'_>,
+    mut values: Vec<T>,
+    span: Range<usize>,
+    count: usize,
+) -> Result<Vec<T>, CaseError> {
+    if let (1, Some(only)) = (values.len(), values.first()) {
+        values = vec![only.clone(); count];
+    }
+    if values.len() == count {
+        return Ok(values);
+    }
+    Err(reader.error(
+        span,
+        format!("{} values where there are {count} places", values.len()),
+        "give one value a storey or level of this law, or a single value for all",
+    ))
 }
 
 fn ground_motion(reader: &Reader<'_>, value: &Value<'_>) -> Result<GroundMotion, CaseError> {

@@ -18,10 +18,14 @@ pub(crate) enum Kind {
     /// Two different modes, from 1.
     Modes,
     Levels,
+    /// Storey numbers.
+    Storeys,
     /// A factor, or a table.
     Scale,
     Table(&'static [Key]),
     Tables(&'static [Key]),
+    /// One table, or several.
+    TableOrTables(&'static [Key]),
     /// A table that holds one of these sets of keys.
     Choice(&'static [Key], &'static [&'static [&'static str]]),
 }
@@ -63,6 +67,11 @@ pub(crate) const CASE: &[Key] = &[
         "gap",
         Kind::Tables(GAP),
         "Gaps between neighbours, or to a rigid wall",
+    ),
+    key(
+        "link",
+        Kind::Tables(LINK),
+        "Joints, dampers and bumpers between floors of neighbours",
     ),
     needed(
         "ground_motion",
@@ -111,6 +120,16 @@ pub(crate) const BUILDING: &[Key] = &[
         "initial_velocity",
         Kind::Quantities,
         "Floor velocity relative to the ground at time zero (m/s), one for all floors or a list; by default at rest",
+    ),
+    key(
+        "law",
+        Kind::TableOrTables(STOREY_LAW),
+        "Force-deformation law with memory in the place of the storey stiffness, one for all storeys or a list of laws that name theirs; `pounding hysteresis` lists them",
+    ),
+    key(
+        "p_delta",
+        Kind::Flag,
+        "Whether gravity acts through the drift: takes weight above over height off every storey stiffness",
     ),
     needed(
         "damping",
@@ -192,6 +211,45 @@ pub(crate) const GAP: &[Key] = &[
         "*",
         Kind::Quantity,
         "Parameters of the model: stiffness (N/m^n), restitution, exponent, ...",
+    ),
+];
+
+pub(crate) const STOREY_LAW: &[Key] = &[
+    needed("model", Kind::Text, "Law of the storey"),
+    key(
+        "storeys",
+        Kind::Storeys,
+        "Storeys of this law, from 1 at the bottom; by default all",
+    ),
+    key(
+        "*",
+        Kind::Quantities,
+        "Parameters of the law: yield_force (N), hardening_ratio, ..., one for all its storeys or a list; its stiffness is that of the storey",
+    ),
+];
+
+pub(crate) const LINK: &[Key] = &[
+    key("name", Kind::Text, "Name of the link, by default left-right"),
+    needed(
+        "between",
+        Kind::Names,
+        "Left and right neighbour; \"wall\" is a rigid wall that moves with the ground",
+    ),
+    needed("model", Kind::Text, "Law of the link"),
+    key(
+        "levels",
+        Kind::Levels,
+        "Pairs of storey numbers that are joined, or \"matching\" for the floors at equal elevation only",
+    ),
+    key(
+        "elevation_tolerance",
+        Kind::Quantity,
+        "Floors this close in elevation are level (m), by default 0.01",
+    ),
+    key(
+        "*",
+        Kind::Quantities,
+        "Parameters of the law, one for all levels or a list, bottom first",
     ),
 ];
 
@@ -357,6 +415,13 @@ fn kind(kind: Kind, explanation: &str) -> Value {
                 {"type": "integer", "minimum": 1},
                 {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2}
             ]}}
+        ]}),
+        Kind::Storeys => {
+            json!({"type": "array", "minItems": 1, "items": {"type": "integer", "minimum": 1}})
+        }
+        Kind::TableOrTables(keys) => json!({"anyOf": [
+            object(keys, explanation),
+            {"type": "array", "minItems": 1, "items": object(keys, explanation)}
         ]}),
         Kind::Scale => json!({"anyOf": [quantity, choice(SCALE, SCALE_KINDS, "Scale")]}),
         Kind::Table(keys) => object(keys, explanation),

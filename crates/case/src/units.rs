@@ -53,6 +53,13 @@ impl Dimension {
         Self::new(1.0, 1.0 - exponent, -2.0)
     }
 
+    /// Coefficient of a damper whose force is proportional to a power of the velocity,
+    /// N (s/m)^a.
+    #[must_use]
+    pub fn dashpot_with_exponent(exponent: f64) -> Self {
+        Self::new(1.0, 1.0 - exponent, exponent - 2.0)
+    }
+
     fn plus(self, other: Self, power: f64) -> Self {
         Self::new(
             self.mass + power * other.mass,

@@ -91,6 +91,8 @@ impl Failure {
             TimeHistoryError::Case(error) => Self::case(error, source),
             TimeHistoryError::GroundMotion(error) => Self::input(error.to_string(), help),
             error @ (TimeHistoryError::GapDefinition { .. }
+            | TimeHistoryError::LinkDefinition { .. }
+            | TimeHistoryError::NotLinear { .. }
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),

@@ -1,5 +1,7 @@
 //! From a case to a system: the place where words meet physics.
 
+mod laws;
+
 use std::sync::Arc;
 
 use pounding_case::{Building, Case, CaseError, Damping, Gap, Located, Parameter, Scale, Side};
@@ -7,7 +9,7 @@ use pounding_gap_element::{
     ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, Format, ReadOptions};
-use pounding_shear_building::ShearBuilding;
+use pounding_shear_building::{ShearBuilding, ShearBuildingError};
 
 use crate::dimension::parameter_dimension;
 use crate::error::TimeHistoryError;
@@ -70,6 +72,9 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
         });
         system.add_gap(&gap.name, names, pairs)?;
     }
+    for link in &case.links {
+        laws::add_link(case, link, &mut system)?;
+    }
     let system = released(case, system)?;
     options.check(&system)?;
     Ok(Assembly {
@@ -101,6 +106,9 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
         })
 }
 
+/// Acceleration of gravity that acts through P-Delta (m/s2).
+const STANDARD_GRAVITY: f64 = 9.80665;
+
 fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
     let damping = match b.damping.value.clone() {
         Damping::Rayleigh { alpha, beta } => {
@@ -120,14 +128,23 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
             pounding_shear_building::Damping::Dashpots { coefficients }
         }
     };
-    ShearBuilding::new(
+    let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
+    let building = ShearBuilding::under_gravity(
         b.name.value.clone(),
         b.mass.clone(),
         b.stiffness.clone(),
         b.height.clone(),
         damping,
+        gravity,
     )
-    .map_err(|e| case.error(b.damping.span.clone(), e.to_string(), None))
+    .map_err(|e| {
+        let place = match &e {
+            ShearBuildingError::Unstable { .. } => &b.name.span,
+            _ => &b.damping.span,
+        };
+        case.error(place.clone(), e.to_string(), None)
+    })?;
+    laws::with_storey_laws(case, b, building)
 }
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {

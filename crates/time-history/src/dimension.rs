@@ -2,6 +2,32 @@
 
 use pounding_case::Dimension;
 use pounding_gap_element::{ModelDescriptor, ParameterDescriptor, ParameterUnit};
+use pounding_hysteresis as hysteresis;
+
+/// Dimension that a parameter of a law with memory must have; the unit of a density or
+/// of a damper follows from the exponent of the law: the one given, or its default.
+#[must_use]
+pub fn law_parameter_dimension(
+    law: &hysteresis::LawDescriptor,
+    parameter: &hysteresis::ParameterDescriptor,
+    exponent: Option<f64>,
+) -> Dimension {
+    use hysteresis::ParameterUnit as Unit;
+    let exponent = || {
+        let free = law.parameters.iter().find(|p| p.name == "exponent");
+        exponent.or(free.and_then(|p| p.default)).unwrap_or(1.0)
+    };
+    match parameter.unit {
+        Unit::One => Dimension::NUMBER,
+        Unit::Newton => Dimension::FORCE,
+        Unit::NewtonPerMetre => Dimension::STIFFNESS,
+        Unit::NewtonPerMetreToExponent => Dimension::stiffness_with_exponent(2.0 + exponent()),
+        Unit::NewtonSecondPerMetreToExponent => Dimension::dashpot_with_exponent(exponent()),
+        Unit::NewtonSecondPerMetre => Dimension::DASHPOT,
+        Unit::Metre => Dimension::LENGTH,
+        Unit::MetrePerSecond => Dimension::VELOCITY,
+    }
+}
 
 /// Dimension that a parameter of an impact model must have. The unit of a contact
 /// stiffness follows from the exponent of the law: the one given, or the default of

@@ -405,7 +405,27 @@ impl<'a> Driver<'a> {
         );
         self.contacts
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
+        self.stands(segment.start + tau + step)?;
         self.balance(segment.start + tau + step)
+    }
+
+    /// Ends the run where gravity has overturned a building.
+    fn stands(&self, time: f64) -> Result<(), TimeHistoryError> {
+        let buildings = self.system.buildings().iter();
+        for (building, offset) in buildings.zip(self.system.offsets()) {
+            for (storey, geometric) in building.geometric_stiffness().iter().enumerate() {
+                let drift = self.peaks.storeys[offset + storey].drift_ratio.value;
+                if *geometric > 0.0 && drift > 1.0 {
+                    return Err(TimeHistoryError::Collapse {
+                        time,
+                        building: building.name().to_owned(),
+                        storey: storey + 1,
+                        height: building.height()[storey],
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Takes the ledger at the present state; a motion that is not finite ends the run.

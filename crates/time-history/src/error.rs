@@ -86,6 +86,20 @@ pub enum TimeHistoryError {
         /// Gap levels in contact, or "none".
         place: String,
     },
+    /// Gravity overturned a building (P-Delta).
+    #[error(
+        "{building} collapsed at t = {time} s: storey {storey} drifted by more than its height of {height} m under gravity"
+    )]
+    Collapse {
+        /// Time (s).
+        time: f64,
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Storey height (m).
+        height: f64,
+    },
     /// Rigid floors that cannot give way.
     #[error("the rigid impact at t = {time} s has no solution; buildings in touch there: {place}")]
     Wedged {
@@ -143,6 +157,12 @@ impl TimeHistoryError {
             }
             Self::NotFinite { .. } => {
                 "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::Collapse { .. } => {
+                "that is an answer, not a fault of the method: what the storeys can carry after yield is less than what gravity asks of them; check yield force, hardening and mass, or leave out p_delta"
+            }
+            Self::NotLinear { .. } => {
+                "use method = \"adaptive\", \"event_driven\" or \"newmark\", or linear storeys and no links"
             }
             Self::Wedged { .. } => {
                 "rigid floors without clearance between two walls cannot move: give a gap a width, or its model a stiffness"

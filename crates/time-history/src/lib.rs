@@ -29,7 +29,7 @@ mod system;
 
 pub use assemble::{Assembly, assemble};
 pub use batch::run_many;
-pub use dimension::parameter_dimension;
+pub use dimension::{law_parameter_dimension, parameter_dimension};
 pub use driver::run;
 pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;

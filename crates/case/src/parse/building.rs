@@ -2,6 +2,7 @@
 
 use toml::de::DeValue;
 
+use super::law::storey_laws;
 use super::{check_name, not_negative, spread};
 use crate::error::CaseError;
 use crate::reader::{List, Reader, Table, Value, Values};
@@ -68,6 +69,11 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
         mass: all(mass),
         stiffness: all(stiffness),
         height: all(height),
+        laws: match table.get("law") {
+            Some(value) => storey_laws(reader, value, storeys)?,
+            None => Vec::new(),
+        },
+        p_delta: table.flag("p_delta")?,
         damping: Located {
             value: damping(reader, value, storeys)?,
             span: value.span(),

@@ -85,7 +85,7 @@ fn parameters(table: &Table<'_, '_>) -> Result<Vec<Parameter>, CaseError> {
     Ok(parameters)
 }
 
-fn between(
+pub(super) fn between(
     reader: &Reader<'_>,
     value: &Value<'_>,
     buildings: &[Building],
@@ -179,11 +179,11 @@ fn unknown_building(
 const ELEVATION_TOLERANCE: f64 = 0.01;
 
 /// Storeys from zero of the left and the right building, `None` for a wall.
-type Pair = (Option<usize>, Option<usize>);
+pub(super) type Pair = (Option<usize>, Option<usize>);
 
 /// The pairs of floors that may touch; `place` is where an error of the default
 /// rule points.
-fn levels(
+pub(super) fn levels(
     table: &Table<'_, '_>,
     between: [Side; 2],
     buildings: &[Building],

@@ -1,0 +1,168 @@
+//! Laws with memory of a case: storeys that yield, and links.
+
+use std::sync::Arc;
+
+use pounding_case::{Building, Case, CaseError, LawParameter, Link, Located, Side};
+use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, build, find};
+use pounding_shear_building::{ShearBuilding, StoreyLaw};
+
+use crate::dimension::law_parameter_dimension;
+use crate::error::TimeHistoryError;
+use crate::system::{Floor, LinkedPair, System};
+
+/// Puts the laws of the case into the storeys of a building.
+pub(super) fn with_storey_laws(
+    case: &Case,
+    b: &Building,
+    building: ShearBuilding,
+) -> Result<ShearBuilding, CaseError> {
+    let Some(first) = b.laws.first() else {
+        return Ok(building);
+    };
+    let mut laws: Vec<Option<StoreyLaw>> = vec![None; b.mass.len()];
+    for law in &b.laws {
+        let card = card(case, &law.model)?;
+        let own = card.parameters.iter().any(|p| p.name == "stiffness");
+        for (place, storey) in law.storeys.iter().enumerate() {
+            let mut values = parameters(case, card, &law.parameters, place)?;
+            if own && !values.values.contains_key("stiffness") {
+                let stiffness = b.stiffness[*storey];
+                values.values.insert("stiffness".to_owned(), stiffness);
+            }
+            let built = built(case, &law.model, card, &values)?;
+            check_stiffness(case, b, (*storey, &law.model), &built)?;
+            laws[*storey] = Some(built);
+        }
+    }
+    building
+        .with_laws(laws)
+        .map_err(|e| case.error(first.model.span.clone(), e.to_string(), None))
+}
+
+/// Modes and damping belong to the stiffness of the storey: the law must start with it.
+fn check_stiffness(
+    case: &Case,
+    b: &Building,
+    (storey, model): (usize, &Located<String>),
+    built: &StoreyLaw,
+) -> Result<(), CaseError> {
+    let (initial, stated) = (built.law.initial_stiffness(), b.stiffness[storey]);
+    if (initial - stated).abs() <= 1.0e-6 * stated {
+        return Ok(());
+    }
+    let remedy = if initial.is_finite() && initial > 0.0 {
+        format!("write stiffness = {initial} for that storey, or change the law")
+    } else {
+        "a law without an initial stiffness cannot carry a storey: make it a [[link]]".to_owned()
+    };
+    Err(case.error(
+        model.span.clone(),
+        format!(
+            "law {} starts with {initial} N/m, but storey {} of \"{}\" has a stiffness of {stated} N/m, to which modes and damping belong",
+            model.value,
+            storey + 1,
+            b.name.value
+        ),
+        Some(remedy),
+    ))
+}
+
+/// Adds a link of the case to the system.
+pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<(), TimeHistoryError> {
+    let card = card(case, &link.model)?;
+    let floor = |side: Side, storey: Option<usize>| match (side, storey) {
+        (Side::Building(b), Some(s)) => Floor::Storey(b, s),
+        _ => Floor::Wall,
+    };
+    let pairs = link
+        .levels
+        .iter()
+        .enumerate()
+        .map(|(place, (left, right))| {
+            let values = parameters(case, card, &link.parameters, place)?;
+            let StoreyLaw { law, yield_drift } = built(case, &link.model, card, &values)?;
+            Ok(LinkedPair {
+                left: floor(link.between[0], *left),
+                right: floor(link.between[1], *right),
+                law,
+                yield_deformation: yield_drift,
+            })
+        })
+        .collect::<Result<Vec<_>, CaseError>>()?;
+    let names = link.between.map(|side| match side {
+        Side::Building(b) => case.buildings[b].name.value.clone(),
+        Side::Wall => "wall".to_owned(),
+    });
+    system.add_link(&link.name, names, pairs)
+}
+
+fn card(case: &Case, model: &Located<String>) -> Result<&'static LawDescriptor, CaseError> {
+    find(&model.value).map_err(|e| at(case, model.span.clone(), &e))
+}
+
+fn built(
+    case: &Case,
+    model: &Located<String>,
+    card: &'static LawDescriptor,
+    values: &LawParameters,
+) -> Result<StoreyLaw, CaseError> {
+    let law = build(card.name, values).map_err(|e| at(case, model.span.clone(), &e))?;
+    Ok(StoreyLaw {
+        yield_drift: values.yield_deformation(law.initial_stiffness()),
+        law: Arc::from(law),
+    })
+}
+
+/// Parameters of one storey or level, each checked where it stands.
+fn parameters(
+    case: &Case,
+    card: &'static LawDescriptor,
+    given: &[LawParameter],
+    place: usize,
+) -> Result<LawParameters, CaseError> {
+    let exponent = given
+        .iter()
+        .find(|p| p.key.value == "exponent")
+        .map(|p| p.values[place].value.value);
+    let mut all = LawParameters::default();
+    for LawParameter { key, values } in given {
+        let Some(known) = card.parameters.iter().find(|p| p.name == key.value) else {
+            let names: Vec<_> = card.parameters.iter().map(|p| p.name).collect();
+            return Err(case.error(
+                key.span.clone(),
+                format!("law {} has no parameter `{}`", card.name, key.value),
+                Some(format!("its parameters are {}", names.join(", "))),
+            ));
+        };
+        let Located { value, span } = &values[place];
+        let wanted = law_parameter_dimension(card, known, exponent);
+        if let Some(found) = value.dimension
+            && found != wanted
+        {
+            return Err(case.error(
+                span.clone(),
+                format!(
+                    "`{}` of law {} must be {wanted}, but \"{}\" is {found}",
+                    key.value, card.name, value.text
+                ),
+                Some("correct the unit; plain numbers are SI".to_owned()),
+            ));
+        }
+        if !known.allows(value.value) {
+            let error = HysteresisError::OutOfRange {
+                law: card.name,
+                parameter: known.name,
+                value: value.value,
+                range: known.range(),
+                explanation: known.explanation,
+            };
+            return Err(at(case, span.clone(), &error));
+        }
+        all.values.insert(key.value.clone(), value.value);
+    }
+    Ok(all)
+}
+
+fn at(case: &Case, span: std::ops::Range<usize>, error: &HysteresisError) -> CaseError {
+    case.error(span, error.to_string(), error.help())
+}

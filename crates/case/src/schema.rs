@@ -229,7 +229,11 @@ pub(crate) const STOREY_LAW: &[Key] = &[
 ];
 
 pub(crate) const LINK: &[Key] = &[
-    key("name", Kind::Text, "Name of the link, by default left-right"),
+    key(
+        "name",
+        Kind::Text,
+        "Name of the link, by default left-right",
+    ),
     needed(
         "between",
         Kind::Names,

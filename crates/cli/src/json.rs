@@ -1,7 +1,9 @@
 //! Results for machines: SI units, full precision.
 
 use pounding_gap_element::Verification;
-use pounding_time_history::{LevelOutcome, Outcome, Peak, StoreyPeaks, System};
+use pounding_time_history::{
+    LevelOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, StoreyPeaks, System, YieldingStorey,
+};
 use serde_json::{Value, json};
 
 /// The object that `run --json` prints.
@@ -14,6 +16,7 @@ pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value 
             json!({
                 "name": b.name,
                 "storeys": b.storeys.iter().map(storey).collect::<Vec<_>>(),
+                "yielding": b.yielding.iter().map(yielding).collect::<Vec<_>>(),
                 "isolated": alone.storeys.iter().map(storey).collect::<Vec<_>>(),
             })
         })
@@ -44,6 +47,7 @@ pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value 
         "end_time": outcome.end_time,
         "buildings": buildings,
         "gaps": gaps,
+        "links": links(outcome),
         "energy": {
             "input": end.input, "kinetic": end.kinetic, "strain": end.strain, "viscous": end.viscous,
             "hysteretic": end.hysteretic, "impact": end.impact, "residual": end.residual,
@@ -56,6 +60,34 @@ pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value 
         },
         "warnings": outcome.warnings,
     })
+}
+
+fn yielding(storey: &Option<YieldingStorey>) -> Value {
+    storey.map_or(Value::Null, |s| {
+        json!({
+            "law": s.law,
+            "ductility": s.ductility.map(peak),
+            "residual_drift_ratio": s.residual_drift_ratio,
+            "hysteretic_energy": s.hysteretic_energy,
+        })
+    })
+}
+
+fn links(outcome: &Outcome) -> Vec<Value> {
+    let level = |l: &LinkLevelOutcome| {
+        json!({
+            "deformation": peak(l.deformation),
+            "force": peak(l.force),
+            "ductility": l.ductility.map(peak),
+            "final_deformation": l.final_deformation,
+            "energy_dissipated": l.energy_dissipated,
+        })
+    };
+    let link = |l: &LinkOutcome| {
+        let levels: Vec<Value> = l.levels.iter().map(level).collect();
+        json!({"name": l.name, "law": l.law, "levels": levels})
+    };
+    outcome.links.iter().map(link).collect()
 }
 
 fn peak(p: Peak) -> Value {

@@ -1,5 +1,7 @@
 //! Tables that an engineer can read.
 
+mod elements;
+
 use comfy_table::{CellAlignment, Table};
 use pounding_case::Case;
 use pounding_gap_element::Verification;
@@ -16,14 +18,19 @@ pub fn report(record: &RunRecord<'_>) -> String {
     for line in record.assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    for warning in warnings(record.assembly) {
+    let all = warnings(record.assembly);
+    for warning in all.iter().chain(&record.outcome.warnings) {
         text.push_str(&format!("warning: {warning}\n"));
     }
     for index in 0..record.outcome.buildings.len() {
         text.push_str(&building(record, index));
+        text.push_str(&elements::storeys(record, index));
     }
     for index in 0..record.outcome.gaps.len() {
         text.push_str(&gap(record, index));
+    }
+    for index in 0..record.outcome.links.len() {
+        text.push_str(&elements::link(record, index));
     }
     text.push_str(&energy(record));
     text
@@ -78,7 +85,7 @@ fn building(record: &RunRecord<'_>, index: usize) -> String {
         ]);
     }
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the building without pounding\n{table}\n",
+        "\nBuilding {}: peak @time (s), x ratio to the building alone\n{table}\n",
         with.name
     )
 }
@@ -175,11 +182,17 @@ fn held_and_widened(levels: &[LevelOutcome]) -> String {
 
 fn energy(record: &RunRecord<'_>) -> String {
     let (e, statistics) = (record.outcome.energy, record.outcome.statistics);
+    let hysteretic = if record.assembly.system.elements().is_empty() {
+        String::new()
+    } else {
+        format!("hysteretic {:.3} + ", e.end.hysteretic * 1e-3)
+    };
     format!(
-        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + impact {:.3} + kinetic {:.3} + strain {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
+        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + {}impact {:.3} + kinetic {:.3} + strain {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
         record.outcome.end_time,
         e.end.input * 1e-3,
         e.end.viscous * 1e-3,
+        hysteretic,
         e.end.impact * 1e-3,
         e.end.kinetic * 1e-3,
         e.end.strain * 1e-3,
@@ -227,6 +240,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             ]);
         }
         text.push_str(&format!("\nBuilding {}\n{table}\n", b.name()));
+        text.push_str(&elements::laws(b));
     }
     for gap in assembly.system.gaps() {
         let mut table = new_table(&[
@@ -257,6 +271,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         text.push_str(&format!("\nGap {} ({model})\n{table}\n", gap.name));
         text.push_str(&secondary_sources(levels));
     }
+    text.push_str(&elements::links(&assembly.system));
     let duration = assembly
         .options
         .duration

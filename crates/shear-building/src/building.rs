@@ -80,7 +80,11 @@ impl ShearBuilding {
             check(&name, quantity, values, mass.len())?;
         }
         let geometric = geometric(&name, &mass, &stiffness, &height, gravity)?;
-        let lateral: Vec<f64> = stiffness.iter().zip(&geometric).map(|(k, g)| k - g).collect();
+        let lateral: Vec<f64> = stiffness
+            .iter()
+            .zip(&geometric)
+            .map(|(k, g)| k - g)
+            .collect();
         let stiffness_matrix = SymmetricTridiagonal::chain(&lateral);
         let undamped = undamped(&mass, &lateral, &stiffness_matrix);
         if let Some(j) = undamped
@@ -129,10 +133,7 @@ impl ShearBuilding {
     /// # Errors
     /// A number of entries other than that of the storeys, or a law whose initial
     /// stiffness is not the stiffness of its storey.
-    pub fn with_laws(
-        mut self,
-        laws: Vec<Option<StoreyLaw>>,
-    ) -> Result<Self, ShearBuildingError> {
+    pub fn with_laws(mut self, laws: Vec<Option<StoreyLaw>>) -> Result<Self, ShearBuildingError> {
         if laws.len() != self.storeys() {
             return Err(ShearBuildingError::Length {
                 building: self.name,

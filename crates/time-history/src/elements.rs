@@ -88,9 +88,7 @@ impl Element {
         component: impl Fn(usize) -> Polynomial,
         offset: usize,
     ) -> Polynomial {
-        let at = |dof: Option<usize>| {
-            dof.map_or([0.0; COEFFICIENTS], |i| component(offset + i))
-        };
+        let at = |dof: Option<usize>| dof.map_or([0.0; COEFFICIENTS], |i| component(offset + i));
         difference(&at(self.far), &at(self.near))
     }
 
@@ -133,11 +131,7 @@ const BRANCHES_AT_ONCE: usize = 64;
 impl Elements {
     pub(crate) fn new(system: &System) -> Self {
         Self {
-            histories: system
-                .elements()
-                .iter()
-                .map(|e| e.law.virgin())
-                .collect(),
+            histories: system.elements().iter().map(|e| e.law.virgin()).collect(),
             turned: vec![false; system.elements().len()],
         }
     }

@@ -215,12 +215,9 @@ impl Finder {
         }
         let ground = context.segment.ground(tau + theta * step);
         let now = Instant::within(ground, method.information().implicit, theta * step);
-        context.dynamics.accelerations(
-            context.contacts,
-            now,
-            &self.state,
-            &mut self.acceleration,
-        );
+        context
+            .dynamics
+            .accelerations(context.contacts, now, &self.state, &mut self.acceleration);
         context.dynamics.forces[level]
     }
 }

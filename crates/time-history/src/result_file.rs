@@ -7,6 +7,7 @@
 mod buildings;
 mod datasets;
 mod dimension_scales;
+mod elements;
 mod gaps;
 
 use std::path::{Path, PathBuf};
@@ -106,6 +107,7 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     dimension_scales::attach(&a, &time, 0)?;
     buildings::buildings(&file, record, &time)?;
     gaps::gaps(&file, record, &time)?;
+    elements::links(&file, record, &time)?;
     energy(&file, record, &time)?;
     run(&file, record)?;
     file.flush()
@@ -125,15 +127,17 @@ fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<(
         }),
         (
             "strain",
-            "recoverable energy of storeys and contacts",
+            "recoverable energy of storeys, links and contacts",
             |s| s.energy.strain,
         ),
         ("viscous", "dissipated by viscous damping", |s| {
             s.energy.viscous
         }),
-        ("hysteretic", "dissipated by yielding", |s| {
-            s.energy.hysteretic
-        }),
+        (
+            "hysteretic",
+            "dissipated by storeys with laws and by links",
+            |s| s.energy.hysteretic,
+        ),
         ("impact", "dissipated in contacts", |s| s.energy.impact),
         ("residual", "what the ledger misses", |s| s.energy.residual),
     ];

@@ -13,11 +13,17 @@ const DURATION: f64 = 6.0;
 
 /// Newmark's step (s): short for laws that close a gap onto a stiff element.
 fn step(law: &str) -> f64 {
-    if matches!(law, "gap_hook" | "elastoplastic_gap") { 2.5e-5 } else { 2.0e-4 }
+    if matches!(law, "gap_hook" | "elastoplastic_gap") {
+        2.5e-5
+    } else {
+        2.0e-4
+    }
 }
 
 fn parameters(name: &str) -> LawParameters {
-    pounding_hysteresis::find(name).unwrap().example_parameters()
+    pounding_hysteresis::find(name)
+        .unwrap()
+        .example_parameters()
 }
 
 /// A building of two storeys with the law in both, of a mass that makes the elastic

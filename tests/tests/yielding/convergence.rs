@@ -4,7 +4,9 @@
 use pounding_hysteresis::LawParameters;
 use pounding_time_history::{MethodChoice, System};
 
-use super::setup::{ADAPTIVE, difference, el_centro, go, newmark, with_gaps, with_links, yielding_pair};
+use super::setup::{
+    ADAPTIVE, difference, el_centro, go, newmark, with_gaps, with_links, yielding_pair,
+};
 
 /// Seconds of El Centro.
 const DURATION: f64 = 10.0;
@@ -26,11 +28,7 @@ fn yielding() -> System {
 }
 
 fn linked() -> System {
-    with_links(
-        yielding_pair("elastic_perfectly_plastic", el_centro()),
-        "iwan_six_parameter",
-        &joint(),
-    )
+    with_links(yielding(), "iwan_six_parameter", &joint())
 }
 
 fn converge(label: &str, system: &System, method: impl Fn(f64) -> MethodChoice) {
@@ -61,7 +59,10 @@ fn converge(label: &str, system: &System, method: impl Fn(f64) -> MethodChoice) 
     let order = (first.1 / last.1).ln() / (first.0 / last.0).ln();
     println!("{label}: order {order:.2}");
     assert!(last.1 < 1.0e-5, "{label}: {points:?}");
-    assert!((1.6..2.6).contains(&order), "{label}: order {order}, {points:?}");
+    assert!(
+        (1.6..2.6).contains(&order),
+        "{label}: order {order}, {points:?}"
+    );
 }
 
 #[test]

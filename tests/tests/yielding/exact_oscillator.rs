@@ -172,7 +172,11 @@ fn elastic_perfectly_plastic_oscillator_under_el_centro() {
     for (name, method, tolerance) in [
         ("adaptive", ADAPTIVE, 1.0e-8),
         ("event_driven", event_driven, 1.0e-8),
-        ("runge_kutta_4", MethodChoice::RungeKutta4 { step: 1.0e-3 }, 1.0e-6),
+        (
+            "runge_kutta_4",
+            MethodChoice::RungeKutta4 { step: 1.0e-3 },
+            1.0e-6,
+        ),
         ("newmark", newmark(2.0e-4), 1.0e-4),
     ] {
         let outcome = go(&oscillator(yield_force), method, duration);
@@ -190,9 +194,15 @@ fn elastic_perfectly_plastic_oscillator_under_el_centro() {
         );
         assert!((peak / exact.peak - 1.0).abs() < tolerance, "{name}");
         assert!((end - exact.end).abs() < tolerance * exact.peak, "{name}");
-        assert!((storey.hysteretic_energy / exact.dissipated - 1.0).abs() < tolerance, "{name}");
+        assert!(
+            (storey.hysteretic_energy / exact.dissipated - 1.0).abs() < tolerance,
+            "{name}"
+        );
         let shear = outcome.buildings[0].storeys[0].storey_shear.value;
-        assert!((shear / yield_force - 1.0).abs() < 1.0e-9, "{name}: {shear}");
+        assert!(
+            (shear / yield_force - 1.0).abs() < 1.0e-9,
+            "{name}: {shear}"
+        );
         let ductility = storey.ductility.unwrap().value;
         assert!((ductility - peak * stiffness() / yield_force).abs() < 1.0e-9 * ductility);
     }

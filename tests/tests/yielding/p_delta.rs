@@ -41,7 +41,8 @@ fn end(outcome: &Outcome) -> (f64, f64) {
 #[test]
 fn elastic_plastic_under_gravity_is_bilinear_with_a_falling_branch() {
     let geometric = MASS * GRAVITY / HEIGHT;
-    let plain = LawParameters::from_pairs(&[("stiffness", STIFFNESS), ("yield_force", YIELD_FORCE)]);
+    let plain =
+        LawParameters::from_pairs(&[("stiffness", STIFFNESS), ("yield_force", YIELD_FORCE)]);
     let lateral = STIFFNESS - geometric;
     let falling = LawParameters::from_pairs(&[
         ("stiffness", lateral),
@@ -54,7 +55,10 @@ fn elastic_plastic_under_gravity_is_bilinear_with_a_falling_branch() {
     for (method, tolerance) in [(ADAPTIVE, 1.0e-9), (newmark(5.0e-4), 1.0e-9)] {
         let outcome = go(&under_gravity, method, 12.0);
         let (a, b) = (end(&outcome), end(&go(&equal, method, 12.0)));
-        println!("P-Delta: {a:?}, falling branch: {b:?}, residual {:e}", outcome.energy.residual_ratio);
+        println!(
+            "P-Delta: {a:?}, falling branch: {b:?}, residual {:e}",
+            outcome.energy.residual_ratio
+        );
         assert!((a.0 / b.0 - 1.0).abs() < tolerance);
         assert!((a.1 - b.1).abs() < tolerance * b.0);
         // Gravity matters here: a test that forgets it must fail.

@@ -13,8 +13,8 @@ use pounding_time_history::{
 
 /// El Centro 1940 NS as it lies in the repository.
 pub fn el_centro() -> GroundAcceleration {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../ground_motions/el_centro_1940_ns.csv");
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../ground_motions/el_centro_1940_ns.csv");
     let record = pounding_ground_motion::read(&file, &ReadOptions::default()).unwrap();
     GroundAcceleration {
         samples: record.samples().into(),
@@ -67,8 +67,7 @@ pub fn yielding_pair(name: &str, ground: GroundAcceleration) -> System {
 
 /// Gaps of 20 mm with Kelvin-Voigt contacts between all floors.
 pub fn with_gaps(mut system: System) -> System {
-    let parameters =
-        ModelParameters::from_pairs(&[("stiffness", 9.35e7), ("restitution", 0.65)]);
+    let parameters = ModelParameters::from_pairs(&[("stiffness", 9.35e7), ("restitution", 0.65)]);
     let model: Arc<dyn pounding_gap_element::ImpactModel> =
         registry::build("kelvin_voigt", &parameters).unwrap().into();
     let pairs = (0..3)

@@ -25,6 +25,8 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
             json!({
                 "name": b.name(), "mass": b.mass(), "stiffness": b.stiffness(), "height": b.height(),
                 "elevation": b.elevations(), "period": b.modes().period,
+                "geometric_stiffness": b.geometric_stiffness(),
+                "laws": b.laws().iter().map(|l| l.as_ref().map(|l| l.law.descriptor().name)).collect::<Vec<_>>(),
                 "damping_ratio": b.modes().damping_ratio, "effective_mass": b.modes().effective_mass,
             })
         })
@@ -43,9 +45,20 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
             json!({"name": g.name, "between": g.between, "levels": levels})
         })
         .collect();
+    let links: Vec<_> = system
+        .links()
+        .iter()
+        .map(|l| {
+            let laws: Vec<_> = system.elements()[l.first_element..l.first_element + l.levels]
+                .iter()
+                .map(|e| e.law.descriptor().name)
+                .collect();
+            json!({"name": l.name, "between": l.between, "laws": laws})
+        })
+        .collect();
     let record = &assembly.accelerogram;
     print(&pretty(&json!({
-        "buildings": buildings, "gaps": gaps,
+        "buildings": buildings, "gaps": gaps, "links": links,
         "ground_motion": {
             "samples": record.samples().len(), "time_step": record.time_step(),
             "peak": record.peak().value, "scale": record.scale(), "echo": record.echo(),

@@ -68,7 +68,11 @@ fn check_stiffness(
 }
 
 /// Adds a link of the case to the system.
-pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<(), TimeHistoryError> {
+pub(super) fn add_link(
+    case: &Case,
+    link: &Link,
+    system: &mut System,
+) -> Result<(), TimeHistoryError> {
     let card = card(case, &link.model)?;
     let floor = |side: Side, storey: Option<usize>| match (side, storey) {
         (Side::Building(b), Some(s)) => Floor::Storey(b, s),

@@ -1,9 +1,9 @@
 //! The end of a run.
 
 use super::Driver;
+use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
-use crate::elements::ElementPlace;
 use crate::outcome::{
     BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, YieldingStorey,
 };
@@ -138,7 +138,12 @@ impl Driver<'_> {
                 self.system.place_of_element(0)
             ));
         }
-        for (building, range) in self.system.buildings().iter().zip(self.system.offsets().windows(2)) {
+        for (building, range) in self
+            .system
+            .buildings()
+            .iter()
+            .zip(self.system.offsets().windows(2))
+        {
             let gravity = building.geometric_stiffness().iter().any(|k| *k > 0.0);
             let storeys = self.peaks.storeys[range[0]..range[1]].iter();
             let most = storeys.map(|s| s.drift_ratio.value).fold(0.0, f64::max);

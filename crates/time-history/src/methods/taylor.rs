@@ -59,12 +59,13 @@ impl Taylor {
     /// Whether every closed contact is affine in its phase.
     pub(crate) fn applies(context: &Context<'_, '_>) -> bool {
         let linear = context.dynamics.system.elements().is_empty();
-        linear && context.contacts.closed().iter().all(|&l| {
-            context.contacts.contact(l).is_some_and(|c| {
-                let model = &context.dynamics.system.levels()[l].model;
-                !c.is_stuck() && model.is_affine(&c.collision, c.phase)
+        linear
+            && context.contacts.closed().iter().all(|&l| {
+                context.contacts.contact(l).is_some_and(|c| {
+                    let model = &context.dynamics.system.levels()[l].model;
+                    !c.is_stuck() && model.is_affine(&c.collision, c.phase)
+                })
             })
-        })
     }
 
     /// State after a step of length `h`, with the energy integrals.

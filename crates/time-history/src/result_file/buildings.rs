@@ -3,7 +3,7 @@
 use hdf5::{Dataset, Group};
 
 use super::datasets::{matrix, series};
-use super::{Result, RunRecord, dimension_scales};
+use super::{Result, RunRecord, dimension_scales, elements};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::recorder::Sample;
 
@@ -85,6 +85,7 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             &record.isolated.buildings[index].storeys,
             &storey,
         )?;
+        elements::storeys((&group, &peaks), record, index, (time, &storey))?;
         let modes = building.modes();
         let period = series(&group, "period", "s", "natural periods", &modes.period)?;
         dimension_scales::make_scale(&period, "mode")?;

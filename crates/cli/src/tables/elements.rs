@@ -1,0 +1,180 @@
+//! Storeys with laws, and links.
+
+use pounding_hysteresis::{LawDescriptor, Verification};
+use pounding_shear_building::ShearBuilding;
+use pounding_time_history::{Element, Peak, RunRecord, System};
+
+use super::new_table;
+
+/// What the storeys with laws of a building went through; empty without any.
+pub(super) fn storeys(record: &RunRecord<'_>, index: usize) -> String {
+    let outcome = &record.outcome.buildings[index];
+    if outcome.yielding.iter().all(Option::is_none) {
+        return String::new();
+    }
+    let mut table = new_table(&[
+        "storey",
+        "law",
+        "ductility",
+        "residual drift ratio (%)",
+        "hysteretic energy (kJ)",
+    ]);
+    for (i, storey) in outcome.yielding.iter().enumerate().rev() {
+        let Some(s) = storey else { continue };
+        table.add_row([
+            (i + 1).to_string(),
+            s.law.to_owned(),
+            ratio(s.ductility),
+            format!("{:.3}", 100.0 * s.residual_drift_ratio),
+            kilojoules(s.hysteretic_energy),
+        ]);
+    }
+    let building = &record.assembly.system.buildings()[index];
+    format!("{table}\n{}", sources(cards(building)))
+}
+
+/// Energy in kJ; what is round-off has no sign.
+fn kilojoules(energy: f64) -> String {
+    let text = format!("{:.3}", energy * 1e-3);
+    if text == "-0.000" {
+        "0.000".to_owned()
+    } else {
+        text
+    }
+}
+
+fn ratio(peak: Option<Peak>) -> String {
+    peak.map_or_else(
+        || "-".to_owned(),
+        |p| format!("{:.2} @{:.2}", p.value, p.time),
+    )
+}
+
+/// What a link went through.
+pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
+    let outcome = &record.outcome.links[index];
+    let system = &record.assembly.system;
+    let mut table = new_table(&[
+        "level",
+        "deformation (mm)",
+        "force (kN)",
+        "ductility",
+        "deformation at the end (mm)",
+        "energy lost (kJ)",
+    ]);
+    for (l, element) in outcome.levels.iter().zip(elements(system, index)).rev() {
+        table.add_row([
+            ends(system, element),
+            format!(
+                "{:.2} @{:.2}",
+                l.deformation.value * 1e3,
+                l.deformation.time
+            ),
+            format!("{:.1} @{:.2}", l.force.value * 1e-3, l.force.time),
+            ratio(l.ductility),
+            format!("{:.2}", l.final_deformation * 1e3),
+            kilojoules(l.energy_dissipated),
+        ]);
+    }
+    let cards = elements(system, index).iter().map(|e| e.law.descriptor());
+    format!(
+        "\nLink {} ({}): peak @time (s)\n{table}\n{}",
+        outcome.name,
+        outcome.law,
+        sources(cards)
+    )
+}
+
+fn elements(system: &System, link: usize) -> &[Element] {
+    let link = &system.links()[link];
+    &system.elements()[link.first_element..link.first_element + link.levels]
+}
+
+/// Storey numbers of both ends.
+fn ends(system: &System, element: &Element) -> String {
+    let storey = |dof: Option<usize>| {
+        dof.map_or_else(
+            || "wall".to_owned(),
+            |dof| {
+                let building = system.offsets().partition_point(|o| *o <= dof) - 1;
+                (dof - system.offsets()[building] + 1).to_string()
+            },
+        )
+    };
+    format!("{}-{}", storey(element.near), storey(element.far))
+}
+
+fn cards(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescriptor> {
+    building.laws().iter().flatten().map(|l| l.law.descriptor())
+}
+
+/// The lines of laws whose rules were not read in their papers, each law once.
+fn sources(cards: impl Iterator<Item = &'static LawDescriptor>) -> String {
+    let mut text = String::new();
+    let mut told: Vec<&str> = Vec::new();
+    for card in cards {
+        if let Verification::SecondarySources(how) = card.verification
+            && !told.contains(&card.name)
+        {
+            told.push(card.name);
+            text.push_str(&format!("{} is from secondary sources: {how}\n", card.name));
+        }
+    }
+    text
+}
+
+/// What `check` says of the laws of a building, and of gravity.
+pub(super) fn laws(building: &ShearBuilding) -> String {
+    let mut text = String::new();
+    for (i, law) in building.laws().iter().enumerate() {
+        let Some(law) = law else { continue };
+        let yields = law.yield_drift.map_or_else(String::new, |y| {
+            format!(", yields at a drift of {:.3} mm", y * 1e3)
+        });
+        text.push_str(&format!(
+            "storey {}: law {}{yields}\n",
+            i + 1,
+            law.law.descriptor().name
+        ));
+    }
+    let shares = building
+        .geometric_stiffness()
+        .iter()
+        .zip(building.stiffness());
+    let greatest = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
+    if greatest > 0.0 {
+        text.push_str(&format!(
+            "P-Delta: gravity takes up to {:.2} % off a storey stiffness; periods include it\n",
+            100.0 * greatest
+        ));
+    }
+    text.push_str(&sources(cards(building)));
+    text
+}
+
+/// What `check` says of links.
+pub(super) fn links(system: &System) -> String {
+    let mut text = String::new();
+    for (index, link) in system.links().iter().enumerate() {
+        let mut table = new_table(&[
+            "left-right storey",
+            "law",
+            "initial stiffness (N/m)",
+            "yields at (mm)",
+        ]);
+        for element in elements(system, index) {
+            table.add_row([
+                ends(system, element),
+                element.law.descriptor().name.to_owned(),
+                format!("{:.4e}", element.law.initial_stiffness()),
+                element
+                    .yield_deformation
+                    .map_or_else(|| "-".to_owned(), |y| format!("{:.3}", y * 1e3)),
+            ]);
+        }
+        text.push_str(&format!("\nLink {}\n{table}\n", link.name));
+        let cards = elements(system, index).iter().map(|e| e.law.descriptor());
+        text.push_str(&sources(cards));
+    }
+    text
+}

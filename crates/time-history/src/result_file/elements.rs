@@ -1,0 +1,157 @@
+//! What storeys with laws and links add to the result.
+
+use hdf5::{Dataset, Group};
+
+use super::datasets::{matrix, series, text};
+use super::{Result, RunRecord, dimension_scales};
+use crate::elements::{Element, ElementPlace};
+use crate::outcome::{LinkLevelOutcome, Peak};
+use crate::recorder::Sample;
+
+/// Energy dissipated in every storey over time, ductility and what stays, for a building
+/// that has laws.
+pub(super) fn storeys(
+    (group, peaks): (&Group, &Group),
+    record: &RunRecord<'_>,
+    index: usize,
+    (time, storey): (&Dataset, &Dataset),
+) -> Result<()> {
+    let outcome = &record.outcome.buildings[index];
+    if outcome.yielding.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    let storeys = outcome.yielding.len();
+    let mut place = vec![None; storeys];
+    for (e, element) in record.assembly.system.elements().iter().enumerate() {
+        if let ElementPlace::Storey { building, storey } = element.place
+            && building == index
+        {
+            place[storey] = Some(e);
+        }
+    }
+    let mut rows = Vec::with_capacity(storeys * record.samples.len());
+    for sample in record.samples {
+        rows.extend(
+            place
+                .iter()
+                .map(|e| e.map_or(0.0, |e| sample.element_dissipated[e])),
+        );
+    }
+    let long_name = "energy dissipated by the law of the storey so far";
+    let data = matrix(group, "hysteretic_energy", "J", long_name, &rows, storeys)?;
+    dimension_scales::attach(&data, time, 0)?;
+    dimension_scales::attach(&data, storey, 1)?;
+    let names: Vec<&str> = outcome
+        .yielding
+        .iter()
+        .map(|y| y.map_or("linear", |y| y.law))
+        .collect();
+    text(group, "laws", &names.join(" "))?;
+    let ductility: Vec<f64> = outcome
+        .yielding
+        .iter()
+        .map(|y| y.and_then(|y| y.ductility).map_or(f64::NAN, |d| d.value))
+        .collect();
+    let residual: Vec<f64> = outcome
+        .yielding
+        .iter()
+        .map(|y| y.map_or(0.0, |y| y.residual_drift_ratio))
+        .collect();
+    for (name, long_name, values) in [
+        (
+            "ductility",
+            "greatest drift over the drift at first yield; NaN without a yield force",
+            ductility,
+        ),
+        (
+            "residual_drift_ratio",
+            "drift at the end less what elastic unloading gives back, over storey height",
+            residual,
+        ),
+    ] {
+        let data = series(peaks, name, "1", long_name, &values)?;
+        dimension_scales::attach(&data, storey, 0)?;
+    }
+    Ok(())
+}
+
+/// All links.
+pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
+    let system = &record.assembly.system;
+    if system.links().is_empty() {
+        return Ok(());
+    }
+    let all = file.create_group("link")?;
+    for (index, link) in system.links().iter().enumerate() {
+        let group = all.create_group(&link.name)?;
+        let range = link.first_element..link.first_element + link.levels;
+        let elements = &system.elements()[range.clone()];
+        let heights: Vec<f64> = elements.iter().map(|e| elevation(record, e)).collect();
+        let long_name = "elevation of the level of the link";
+        let level = series(&group, "level", "m", long_name, &heights)?;
+        dimension_scales::make_scale(&level, "level")?;
+        let outcome = &record.outcome.links[index];
+        text(&group, "law", outcome.law)?;
+        type Pick = fn(&Sample) -> &[f64];
+        let quantities: [(&str, &str, &str, Pick); 3] = [
+            (
+                "deformation",
+                "m",
+                "displacement of the right floor less that of the left",
+                |s| &s.element_deformation,
+            ),
+            (
+                "force",
+                "N",
+                "force of the link, positive in tension",
+                |s| &s.element_force,
+            ),
+            (
+                "energy_dissipated",
+                "J",
+                "energy dissipated by the link so far",
+                |s| &s.element_dissipated,
+            ),
+        ];
+        for (name, units, long_name, pick) in quantities {
+            let samples = record.samples.iter();
+            let rows: Vec<f64> = samples
+                .flat_map(|s| pick(s)[range.clone()].iter().copied())
+                .collect();
+            let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+            dimension_scales::attach(&data, time, 0)?;
+            dimension_scales::attach(&data, &level, 1)?;
+        }
+        link_peaks(&group.create_group("peak")?, &outcome.levels, &level)?;
+    }
+    Ok(())
+}
+
+fn link_peaks(group: &Group, levels: &[LinkLevelOutcome], level: &Dataset) -> Result<()> {
+    type Pick = fn(&LinkLevelOutcome) -> Peak;
+    let quantities: [(&str, &str, Pick); 2] = [
+        ("deformation", "m", |l| l.deformation),
+        ("force", "N", |l| l.force),
+    ];
+    for (name, units, pick) in quantities {
+        let values: Vec<f64> = levels.iter().map(|l| pick(l).value).collect();
+        let times: Vec<f64> = levels.iter().map(|l| pick(l).time).collect();
+        let label = format!("peak absolute {name}");
+        let value = series(group, name, units, &label, &values)?;
+        let label = format!("time of peak {name}");
+        let time = series(group, &format!("{name}_time"), "s", &label, &times)?;
+        dimension_scales::attach(&value, level, 0)?;
+        dimension_scales::attach(&time, level, 0)?;
+    }
+    Ok(())
+}
+
+/// Elevation of the left floor of a link, of the right one beside a wall.
+fn elevation(record: &RunRecord<'_>, element: &Element) -> f64 {
+    let system = &record.assembly.system;
+    let Some(dof) = element.near.or(element.far) else {
+        return 0.0;
+    };
+    let building = system.offsets().partition_point(|o| *o <= dof) - 1;
+    system.buildings()[building].elevations()[dof - system.offsets()[building]]
+}

@@ -6,12 +6,15 @@
 
 mod error;
 mod parse;
+mod process;
 mod reader;
 mod schema;
 mod types;
 mod units;
 
 pub use error::CaseError;
+pub use parse::process_steps;
+pub use process::{BaselineKind, ProcessStep, RemovedOffset};
 pub use schema::schema;
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_quantity};

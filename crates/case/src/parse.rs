@@ -1,19 +1,22 @@
 //! From the TOML tree to a case.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
 use crate::error::CaseError;
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{Analysis, Building, Case, Gap, GroundMotion, Link, Located, Scale};
+use crate::types::{Analysis, Building, Case, Gap, Link, Located};
 use crate::units::Dimension;
 
 mod building;
 mod gap;
+mod ground_motion;
 mod law;
+
+pub use ground_motion::process_steps;
 
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let name = file.display().to_string();
@@ -35,7 +38,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let buildings = buildings(&reader, &root)?;
     let gaps = gaps(&reader, &root, &buildings)?;
     let links = links(&reader, &root, &buildings)?;
-    let ground_motion = ground_motion(&reader, root.required("ground_motion")?)?;
+    let ground_motion = ground_motion::ground_motion(&reader, root.required("ground_motion")?)?;
     let analysis = match root.get("analysis") {
         Some(value) => analysis(&reader, value)?,
         None => default_analysis(),
@@ -223,66 +226,6 @@ fn spread_any<T: Clone>(
         format!("{} values where there are {count} places", values.len()),
         "give one value a storey or level of this law, or a single value for all",
     ))
-}
-
-fn ground_motion(reader: &Reader<'_>, value: &Value<'_>) -> Result<GroundMotion, CaseError> {
-    let table = reader.table(value, "[ground_motion]", schema::GROUND_MOTION)?;
-    let file = reader.text(table.required("file")?, "file")?;
-    if file.value.is_empty() {
-        return Err(reader.error(
-            file.span,
-            "`file` is empty",
-            "name the record, relative to the folder of the case file",
-        ));
-    }
-    let plain = |key: &str| Ok::<_, CaseError>(table.optional_text(key)?.map(|t| t.value));
-    Ok(GroundMotion {
-        file: Located {
-            value: PathBuf::from(file.value),
-            span: file.span,
-        },
-        format: table.optional_text("format")?,
-        time_step: table.optional_positive("time_step", Dimension::TIME)?,
-        unit: table.optional_text("unit")?,
-        layout: plain("layout")?,
-        component: plain("component")?,
-        skip_lines: table
-            .get("skip_lines")
-            .map_or(Ok(0), |v| reader.count(v, "skip_lines", 0))?,
-        prepend_zero: table.flag("prepend_zero")?,
-        lenient: table.flag("lenient")?,
-        scale: table
-            .get("scale")
-            .map_or(Ok(Scale::None), |v| scale(reader, v))?,
-    })
-}
-
-fn scale(reader: &Reader<'_>, value: &Value<'_>) -> Result<Scale, CaseError> {
-    if !matches!(value.get_ref(), DeValue::Table(_)) {
-        return Ok(Scale::Factor(reader.positive(
-            value,
-            "scale",
-            Dimension::NUMBER,
-        )?));
-    }
-    let table = reader.table(value, "scale", schema::SCALE)?;
-    match (table.get("factor"), table.get("pga")) {
-        (Some(v), None) => Ok(Scale::Factor(reader.positive(
-            v,
-            "factor",
-            Dimension::NUMBER,
-        )?)),
-        (None, Some(v)) => Ok(Scale::PeakGroundAcceleration(reader.positive(
-            v,
-            "pga",
-            Dimension::ACCELERATION,
-        )?)),
-        _ => Err(reader.error(
-            value.span(),
-            "`scale` needs `factor` or `pga`, and not both",
-            "for example { pga = \"0.35 g\" }",
-        )),
-    }
 }
 
 fn default_analysis() -> Analysis {

@@ -22,6 +22,10 @@ pub(crate) enum Kind {
     Storeys,
     /// A factor, or a table.
     Scale,
+    /// A word, or a table that holds one of these sets of keys.
+    TextOr(&'static [Key], &'static [&'static [&'static str]]),
+    /// A list of tables with one of these keys each.
+    Steps(&'static [Key]),
     Table(&'static [Key]),
     Tables(&'static [Key]),
     /// One table, or several.
@@ -257,62 +261,9 @@ pub(crate) const LINK: &[Key] = &[
     ),
 ];
 
-pub(crate) const GROUND_MOTION: &[Key] = &[
-    needed(
-        "file",
-        Kind::Text,
-        "Record, relative to the folder of the case file",
-    ),
-    key(
-        "format",
-        Kind::Text,
-        "pounding_csv, peer_at2 or plain_columns; found from the content by default",
-    ),
-    key(
-        "time_step",
-        Kind::Quantity,
-        "Time step (s), for files that do not state it",
-    ),
-    key(
-        "unit",
-        Kind::Text,
-        "Unit of the values, for files that do not state it",
-    ),
-    key(
-        "layout",
-        Kind::Text,
-        "Plain columns: \"a\", or names such as \"t,ns,ew\"",
-    ),
-    key("component", Kind::Text, "Plain columns: the column to use"),
-    key(
-        "skip_lines",
-        Kind::Count(0),
-        "Plain columns: lines to skip at the start",
-    ),
-    key(
-        "prepend_zero",
-        Kind::Flag,
-        "The first value is at one time step, after a zero",
-    ),
-    key(
-        "lenient",
-        Kind::Flag,
-        "Accept fewer samples than the header says",
-    ),
-    key(
-        "scale",
-        Kind::Scale,
-        "A factor, { factor = ... } or { pga = \"0.35 g\" }",
-    ),
-];
+pub(crate) mod ground_motion;
 
-pub(crate) const SCALE: &[Key] = &[
-    key("factor", Kind::Quantity, "Factor (-)"),
-    key("pga", Kind::Quantity, "Peak ground acceleration (m/s2)"),
-];
-
-/// The two ways to scale a record.
-const SCALE_KINDS: &[&[&str]] = &[&["factor"], &["pga"]];
+pub(crate) use ground_motion::*;
 
 pub(crate) const ANALYSIS: &[Key] = &[
     key(
@@ -428,10 +379,22 @@ fn kind(kind: Kind, explanation: &str) -> Value {
             {"type": "array", "minItems": 1, "items": object(keys, explanation)}
         ]}),
         Kind::Scale => json!({"anyOf": [quantity, choice(SCALE, SCALE_KINDS, "Scale")]}),
+        Kind::TextOr(keys, sets) => {
+            json!({"anyOf": [{"type": "string"}, choice(keys, sets, explanation)]})
+        }
+        Kind::Steps(keys) => json!({"type": "array", "items": steps(keys)}),
         Kind::Table(keys) => object(keys, explanation),
         Kind::Tables(keys) => json!({"type": "array", "items": object(keys, explanation)}),
         Kind::Choice(keys, sets) => choice(keys, sets, explanation),
     }
+}
+
+/// A table with exactly one of the keys.
+fn steps(keys: &[Key]) -> Value {
+    let mut value = object(keys, "A step of processing");
+    value["minProperties"] = json!(1);
+    value["maxProperties"] = json!(1);
+    value
 }
 
 /// An object that holds one of some sets of keys.

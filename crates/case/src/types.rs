@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::error::CaseError;
+use crate::process::ProcessStep;
 use crate::units::Quantity;
 
 /// A value and where it stands in the source (bytes).
@@ -193,20 +194,44 @@ pub struct GroundMotion {
     pub unit: Option<Located<String>>,
     /// Layout of plain columns.
     pub layout: Option<String>,
-    /// Column to use.
+    /// Component to use: name, azimuth or channel number.
     pub component: Option<String>,
+    /// Quantity to use: only an acceleration excites buildings.
+    pub quantity: Option<Located<String>>,
     /// Lines to skip.
     pub skip_lines: usize,
+    /// Characters to skip at the start of each line.
+    pub skip_columns: usize,
     /// Puts a zero before the first value.
     pub prepend_zero: bool,
     /// Accepts a truncated record.
     pub lenient: bool,
-    /// Scale.
+    /// Counts per m/s2 of a record in counts.
+    pub sensitivity: Option<f64>,
+    /// The g (m/s2) that units of gravity stand for.
+    pub gravity: Option<f64>,
+    /// What becomes of the mean.
+    pub offset: Offset,
+    /// What is done to the record, in this order.
+    pub process: Vec<Located<ProcessStep>>,
+    /// Scale, after that.
     pub scale: Scale,
 }
 
+/// What becomes of the mean of a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Offset {
+    /// Taken off raw records, kept in corrected ones.
+    #[default]
+    Automatic,
+    /// Kept.
+    Keep,
+    /// Taken off.
+    Remove,
+}
+
 /// Scale of a record.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Scale {
     /// As recorded.
     None,
@@ -214,6 +239,28 @@ pub enum Scale {
     Factor(f64),
     /// To a peak ground acceleration (m/s2).
     PeakGroundAcceleration(f64),
+    /// To a peak ground velocity (m/s).
+    PeakGroundVelocity(f64),
+    /// To a pseudo-acceleration at one period.
+    SpectralAcceleration {
+        /// Pseudo-acceleration (m/s2).
+        acceleration: f64,
+        /// Period (s).
+        period: f64,
+        /// Damping ratio.
+        damping: f64,
+    },
+    /// To a spectrum over a band of periods.
+    Band {
+        /// File of periods and pseudo-accelerations, as written.
+        target: Located<PathBuf>,
+        /// First period (s).
+        from: f64,
+        /// Last period (s).
+        to: f64,
+        /// Damping ratio.
+        damping: f64,
+    },
 }
 
 /// The analysis. Times in s.

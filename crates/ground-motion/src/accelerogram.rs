@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::error::GroundMotionError;
+use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
 /// What the agency did to a series before it published it.
@@ -64,6 +65,7 @@ pub struct Accelerogram {
     time_step: f64,
     scale: f64,
     origin: Option<Origin>,
+    steps: Vec<StepRecord>,
 }
 
 impl Accelerogram {
@@ -101,6 +103,7 @@ impl Accelerogram {
             time_step,
             scale: 1.0,
             origin: None,
+            steps: Vec::new(),
         })
     }
 
@@ -132,7 +135,13 @@ impl Accelerogram {
         let mut other = Self::new(samples, unit, time_step)?;
         other.scale = self.scale;
         other.origin.clone_from(&self.origin);
+        other.steps.clone_from(&self.steps);
         Ok(other)
+    }
+
+    /// Notes that these steps made it what it is.
+    pub(crate) fn note(&mut self, steps: &[StepRecord]) {
+        self.steps.extend_from_slice(steps);
     }
 
     /// Samples (m/s2), scale applied.
@@ -163,6 +172,12 @@ impl Accelerogram {
     #[must_use]
     pub fn origin(&self) -> Option<&Origin> {
         self.origin.as_ref()
+    }
+
+    /// What was done to it since it was read or how it was made, in order.
+    #[must_use]
+    pub fn steps(&self) -> &[StepRecord] {
+        &self.steps
     }
 
     /// Peak ground acceleration (m/s2) and its time.
@@ -232,6 +247,7 @@ impl Accelerogram {
                 origin.unit, origin.time_step
             ));
         }
+        lines.extend(self.steps.iter().map(ToString::to_string));
         let peak = self.peak();
         lines.push(format!(
             "{} samples at {} s, duration {} s, peak {:.5} m/s2 = {:.5} g at {:.4} s, scale {}",

@@ -222,7 +222,7 @@ impl Draft {
                     1.0 / s,
                     Quantity::Acceleration,
                     "counts",
-                    format!("counts, {s} per m/s2 (given in the case)"),
+                    format!("counts, {s} per m/s2 (given by the user)"),
                 )),
                 _ => Err(GroundMotionError::MissingSensitivity {
                     file: source.file.to_owned(),
@@ -234,7 +234,7 @@ impl Draft {
                     unit.in_si(gravity),
                     unit.quantity,
                     unit.symbol,
-                    format!("{} (given in the case)", unit.symbol),
+                    format!("{} (given by the user)", unit.symbol),
                 ))
             }
             (DraftUnit::Unstated, None) => {
@@ -289,14 +289,14 @@ impl Draft {
                 });
             }
             (Some(a), _) => (a, "stated in the file"),
-            (None, Some(b)) => (b, "given in the case"),
+            (None, Some(b)) => (b, "given by the user"),
         };
         if !(step.is_finite() && step > 0.0) {
             return Err(source.error(
                 line,
                 0,
                 format!("time step {step} s must be greater than zero"),
-                "correct the header, or give `time_step` in [ground_motion]",
+                "correct the header, or give `time_step`",
             ));
         }
         Ok((

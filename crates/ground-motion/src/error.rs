@@ -63,7 +63,7 @@ pub enum GroundMotionError {
         line: usize,
     },
     /// File and user disagree.
-    #[error("{file}: {quantity} is {stated} in the file but {given} in the case")]
+    #[error("{file}: {quantity} is {stated} in the file but {given} was given")]
     Contradiction {
         /// File.
         file: String,
@@ -216,7 +216,7 @@ impl GroundMotionError {
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::Io { .. } => {
-                "check the path; it is relative to the folder of the case file".to_owned()
+                "check the path; in a case file it is relative to that file's folder".to_owned()
             }
             Self::Parse { remedy, .. } => remedy.clone(),
             Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),
@@ -228,13 +228,13 @@ impl GroundMotionError {
                 )
             }
             Self::MissingUnit { .. } => {
-                "add `unit = \"g\"` (or m/s2, cm/s2, ...) to [ground_motion]; units are never guessed".to_owned()
+                "give `unit`, such as `unit = \"g\"` in [ground_motion] or `--unit g` (or m/s2, cm/s2, ...); units are never guessed".to_owned()
             }
             Self::MissingTimeStep { .. } => {
-                "add `time_step = \"0.02 s\"` (with the record's step) to [ground_motion]".to_owned()
+                "give the record's step, such as `time_step = \"0.02 s\"` in [ground_motion] or `--time-step \"0.02 s\"`".to_owned()
             }
             Self::Contradiction { quantity, .. } => {
-                format!("remove the {quantity} from [ground_motion], or use the right record")
+                format!("do not give the {quantity}, or use the right record")
             }
             Self::TooFewSamples { .. } => {
                 "the file is probably truncated: get it again, or set `lenient = true` to use what is there".to_owned()

@@ -12,6 +12,7 @@ pub mod matching;
 pub mod measures;
 pub mod processing;
 pub mod spectra;
+pub mod writers;
 
 mod accelerogram;
 mod draft;

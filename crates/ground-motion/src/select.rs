@@ -39,6 +39,52 @@ pub(crate) fn excitation(
     ready(file, series, options)
 }
 
+impl Recording {
+    /// The one series that the options name by quantity (acceleration by default) and
+    /// component, as it is in the file.
+    ///
+    /// # Errors
+    /// No series of the quantity, no such component, or a choice that is ambiguous.
+    pub fn choose(&self, options: &ReadOptions) -> Result<Series, GroundMotionError> {
+        let file = self
+            .series
+            .first()
+            .map_or(String::new(), |s| s.origin.file.clone());
+        let wanted = options.quantity.unwrap_or(Quantity::Acceleration);
+        let possible: Vec<Series> = self
+            .series
+            .iter()
+            .filter(|s| s.quantity == wanted)
+            .cloned()
+            .collect();
+        if possible.is_empty() {
+            return Err(GroundMotionError::NoSuchSeries {
+                file,
+                component: wanted.name().to_owned(),
+                available: self.series.iter().map(Series::label).collect(),
+            });
+        }
+        choose(&file, possible, options)
+    }
+}
+
+impl Series {
+    /// The series as excitation: mean, even steps and first zero as the options say.
+    ///
+    /// # Errors
+    /// A velocity or displacement, or uneven samples without a step to resample to.
+    pub fn accelerogram(&self, options: &ReadOptions) -> Result<Accelerogram, GroundMotionError> {
+        let file = &self.origin.file;
+        if self.quantity != Quantity::Acceleration {
+            return Err(GroundMotionError::NotAcceleration {
+                file: file.clone(),
+                quantity: self.quantity.name(),
+            });
+        }
+        ready(file, self.clone(), options)
+    }
+}
+
 fn choose(
     file: &str,
     possible: Vec<Series>,
@@ -124,7 +170,7 @@ fn ready(
                 "{} samples at uneven times, resampled to {step} s by linear interpolation",
                 times.len()
             ));
-            series.origin.time_step = format!("{step} s (given in the case)");
+            series.origin.time_step = format!("{step} s (given by the user)");
             (resample(file, &times, &series.samples, step)?, step)
         }
     };

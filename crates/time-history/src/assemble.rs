@@ -4,15 +4,16 @@ mod laws;
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Damping, Gap, Located, Parameter, Scale, Side};
+use pounding_case::{Building, Case, CaseError, Damping, Gap, Located, Parameter, Side};
 use pounding_gap_element::{
     ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
-use pounding_ground_motion::{AccelerationUnit, Accelerogram, Format, ReadOptions};
+use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ShearBuilding, ShearBuildingError};
 
 use crate::dimension::parameter_dimension;
 use crate::error::TimeHistoryError;
+use crate::excitation::accelerogram;
 use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 use crate::system::{Floor, GroundAcceleration, System};
 
@@ -288,49 +289,5 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
         method,
         duration: analysis.duration,
         energy_tolerance: analysis.energy_tolerance,
-    })
-}
-
-fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
-    let motion = &case.ground_motion;
-    let unit = motion
-        .unit
-        .as_ref()
-        .map(|u| {
-            u.value
-                .parse::<AccelerationUnit>()
-                .map_err(|e| case.error(u.span.clone(), e.to_string(), e.help()))
-        })
-        .transpose()?;
-    let format = motion
-        .format
-        .as_ref()
-        .map(|f| {
-            Format::from_name(&f.value).ok_or_else(|| {
-                let known: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
-                case.error(
-                    f.span.clone(),
-                    format!("unknown record format \"{}\"", f.value),
-                    Some(format!("known formats are {}", known.join(", "))),
-                )
-            })
-        })
-        .transpose()?;
-    let options = ReadOptions {
-        format,
-        time_step: motion.time_step,
-        unit,
-        layout: motion.layout.clone(),
-        component: motion.component.clone(),
-        skip_lines: motion.skip_lines,
-        prepend_zero: motion.prepend_zero,
-        lenient: motion.lenient,
-        ..ReadOptions::default()
-    };
-    let record = pounding_ground_motion::read(&case.resolve(&motion.file.value), &options)?;
-    Ok(match motion.scale {
-        Scale::None => record,
-        Scale::Factor(factor) => record.scaled_by(factor)?,
-        Scale::PeakGroundAcceleration(peak) => record.scaled_to_peak(peak)?,
     })
 }

@@ -105,6 +105,9 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
         &column(samples, |s| s.ground_acceleration),
     )?;
     dimension_scales::attach(&a, &time, 0)?;
+    // A text here ends at a NUL, which titles of damaged headers may have.
+    let echo = record.assembly.accelerogram.echo().join("\n");
+    text(&ground, "record", &echo.replace('\0', " "))?;
     buildings::buildings(&file, record, &time)?;
     gaps::gaps(&file, record, &time)?;
     elements::links(&file, record, &time)?;

@@ -88,11 +88,12 @@ impl TimeGrid {
         asked: StepRecord,
     ) -> Result<Generated, GroundMotionError> {
         let unit = AccelerationUnit::MetrePerSecondSquared;
-        let accelerogram = Accelerogram::new(samples, unit, self.time_step)?;
-        let step = achieved(asked, &accelerogram)?;
+        let mut accelerogram = Accelerogram::new(samples, unit, self.time_step)?;
+        let steps = vec![achieved(asked, &accelerogram)?];
+        accelerogram.note(&steps);
         Ok(Generated {
             accelerogram,
-            steps: vec![step],
+            steps,
         })
     }
 }

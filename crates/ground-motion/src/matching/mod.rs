@@ -181,7 +181,7 @@ fn iterate<A: Adjustment>(
             best = (current.clone(), now);
         }
     }
-    let (accelerogram, misfit) = best;
+    let (mut accelerogram, misfit) = best;
     if misfit.worst > options.tolerance {
         return Err(GroundMotionError::NotMatched {
             worst: misfit.worst,
@@ -201,6 +201,7 @@ fn iterate<A: Adjustment>(
         .number("period of the greatest deviation", misfit.period, "s")
         .number("mean deviation", misfit.mean, "-");
     let steps = vec![achieved(step, &accelerogram)?];
+    accelerogram.note(&steps);
     Ok(Matched {
         accelerogram,
         misfit,

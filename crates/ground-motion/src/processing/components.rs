@@ -50,11 +50,16 @@ fn combine(
             .collect();
         of.with_samples(sum, first.time_step())
     };
-    Ok(RotatedPair {
+    let step = step.number("samples used", count as f64, "-");
+    let mut pair = RotatedPair {
         first: component(first, weights[0])?,
         second: component(second, weights[1])?,
-        step: step.number("samples used", count as f64, "-"),
-    })
+        step,
+    };
+    for one in [&mut pair.first, &mut pair.second] {
+        one.note(std::slice::from_ref(&pair.step));
+    }
+    Ok(pair)
 }
 
 /// Two components at right angles, turned by an angle (degrees) from the first

@@ -157,6 +157,7 @@ pub fn process(
         );
         accelerogram = next;
     }
+    accelerogram.note(&done);
     Ok(Processed {
         accelerogram,
         steps: done,

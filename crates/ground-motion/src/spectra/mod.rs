@@ -1,10 +1,13 @@
 //! Response, Fourier and power spectra.
 
+pub mod design;
+
 mod fourier;
 mod oscillator;
 mod response;
 mod rotated;
 mod target;
+mod target_file;
 
 use serde::Serialize;
 

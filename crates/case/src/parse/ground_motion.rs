@@ -1,0 +1,371 @@
+//! The record of a case and what is done to it.
+
+use std::path::PathBuf;
+
+use toml::de::{DeTable, DeValue};
+
+use crate::error::CaseError;
+use crate::parse::not_negative;
+use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
+use crate::reader::{Reader, Table, Value};
+use crate::schema;
+use crate::types::{GroundMotion, Located, Offset, Scale};
+use crate::units::Dimension;
+
+/// Counts per m/s2.
+const SENSITIVITY: Dimension = Dimension {
+    mass: 0.0,
+    length: -1.0,
+    time: 2.0,
+};
+
+pub(crate) fn ground_motion(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+) -> Result<GroundMotion, CaseError> {
+    let table = reader.table(value, "[ground_motion]", schema::GROUND_MOTION)?;
+    let file = path(reader, table.required("file")?, "file")?;
+    let plain = |key: &str| Ok::<_, CaseError>(table.optional_text(key)?.map(|t| t.value));
+    let count = |key: &str| table.get(key).map_or(Ok(0), |v| reader.count(v, key, 0));
+    Ok(GroundMotion {
+        file,
+        format: table.optional_text("format")?,
+        time_step: table.optional_positive("time_step", Dimension::TIME)?,
+        unit: table.optional_text("unit")?,
+        layout: plain("layout")?,
+        component: plain("component")?,
+        quantity: table.optional_text("quantity")?,
+        skip_lines: count("skip_lines")?,
+        skip_columns: count("skip_columns")?,
+        prepend_zero: table.flag("prepend_zero")?,
+        lenient: table.flag("lenient")?,
+        sensitivity: table.optional_positive("sensitivity", SENSITIVITY)?,
+        gravity: table.optional_positive("gravity", Dimension::ACCELERATION)?,
+        offset: offset(reader, &table)?,
+        process: match table.get("process") {
+            Some(value) => process(reader, value)?,
+            None => Vec::new(),
+        },
+        scale: table
+            .get("scale")
+            .map_or(Ok(Scale::None), |v| scale(reader, v))?,
+    })
+}
+
+/// Reads a text `process = [...]`, the same list as in a case file: for programs that
+/// offer the steps elsewhere. `name` stands in messages.
+///
+/// # Errors
+/// The first thing wrong in the text, with its place.
+pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep>>, CaseError> {
+    let reader = Reader { file: name, source };
+    let tree = DeTable::parse(source).map_err(|e| {
+        reader.error(
+            e.span().unwrap_or(0..0),
+            format!("this is not TOML: {}", e.message()),
+            "write process = [{ remove_offset = \"mean\" }, ...]",
+        )
+    })?;
+    let root = Table::new(reader, tree.get_ref(), 0..0, "the steps", schema::STEPS)?;
+    process(&reader, root.required("process")?)
+}
+
+fn path(reader: &Reader<'_>, value: &Value<'_>, key: &str) -> Result<Located<PathBuf>, CaseError> {
+    let file = reader.text(value, key)?;
+    if file.value.is_empty() {
+        return Err(reader.error(
+            file.span,
+            format!("`{key}` is empty"),
+            "name the file, relative to the folder of the case file",
+        ));
+    }
+    Ok(Located {
+        value: PathBuf::from(file.value),
+        span: file.span,
+    })
+}
+
+/// One of some words.
+fn word<T: Copy>(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+    key: &str,
+    words: &[(&str, T)],
+) -> Result<T, CaseError> {
+    let text = reader.text(value, key)?;
+    let found = words.iter().find(|(w, _)| *w == text.value);
+    found.map(|(_, meaning)| *meaning).ok_or_else(|| {
+        let known: Vec<_> = words.iter().map(|(w, _)| format!("\"{w}\"")).collect();
+        reader.error(
+            text.span,
+            format!("`{key}` cannot be \"{}\"", text.value),
+            format!("write {}", known.join(" or ")),
+        )
+    })
+}
+
+fn offset(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Offset, CaseError> {
+    let words = [
+        ("automatic", Offset::Automatic),
+        ("keep", Offset::Keep),
+        ("remove", Offset::Remove),
+    ];
+    table
+        .get("offset")
+        .map_or(Ok(Offset::Automatic), |v| word(reader, v, "offset", &words))
+}
+
+fn process(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<Located<ProcessStep>>, CaseError> {
+    let DeValue::Array(items) = value.get_ref() else {
+        return Err(reader.wrong_type(value, "process", "a list of steps"));
+    };
+    items.iter().map(|item| step(reader, item)).collect()
+}
+
+fn step(reader: &Reader<'_>, item: &Value<'_>) -> Result<Located<ProcessStep>, CaseError> {
+    let table = reader.table(item, "a step of `process`", schema::PROCESS)?;
+    let entries = table.entries();
+    let [(key, value)] = entries.as_slice() else {
+        return Err(reader.error(
+            item.span(),
+            format!("a step of `process` has one key, not {}", entries.len()),
+            "write a table a step: [{ remove_offset = \"mean\" }, { pad = { after = \"10 s\" } }]",
+        ));
+    };
+    let made = match key.value.as_str() {
+        "true_unit" => ProcessStep::Unit(reader.text(value, "true_unit")?),
+        "sign" => {
+            word(reader, value, "sign", &[("reversed", ())]).map(|()| ProcessStep::ReverseSign)?
+        }
+        "remove_offset" => ProcessStep::RemoveOffset(removed(reader, value)?),
+        "filter" => filter(reader, value)?,
+        "baseline" => ProcessStep::Baseline(baseline(reader, value)?),
+        "trim" => trim(reader, value)?,
+        "taper" => {
+            let [start, end] = lengths(reader, value, "taper", schema::TAPER)?;
+            ProcessStep::Taper { start, end }
+        }
+        "pad" => {
+            let [before, after] = lengths(reader, value, "pad", schema::PAD)?;
+            ProcessStep::Pad { before, after }
+        }
+        "resample" => resample(reader, value)?,
+        _ => ProcessStep::Scale(scale(reader, value)?),
+    };
+    Ok(Located {
+        value: made,
+        span: item.span(),
+    })
+}
+
+fn removed(reader: &Reader<'_>, value: &Value<'_>) -> Result<RemovedOffset, CaseError> {
+    if !matches!(value.get_ref(), DeValue::Table(_)) {
+        return word(
+            reader,
+            value,
+            "remove_offset",
+            &[("mean", RemovedOffset::Mean)],
+        );
+    }
+    let table = reader.table(value, "remove_offset", schema::REMOVE_OFFSET)?;
+    match (table.get("pre_event"), table.get("value")) {
+        (Some(v), None) => {
+            let length = reader.positive(v, "pre_event", Dimension::TIME)?;
+            Ok(RemovedOffset::PreEventMean(length))
+        }
+        (None, Some(v)) => {
+            let value = reader.quantity(v, "value", Dimension::ACCELERATION)?;
+            Ok(RemovedOffset::Value(value))
+        }
+        _ => Err(one_of(
+            reader,
+            value,
+            "remove_offset",
+            "`pre_event` or `value`",
+        )),
+    }
+}
+
+fn one_of(reader: &Reader<'_>, value: &Value<'_>, name: &str, keys: &str) -> CaseError {
+    reader.error(
+        value.span(),
+        format!("`{name}` needs {keys}, and nothing of the other kinds"),
+        "write each kind as a step of its own",
+    )
+}
+
+fn filter(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseError> {
+    let table = reader.table(value, "filter", schema::FILTER)?;
+    let corner = |key: &str| table.optional_positive(key, Dimension::FREQUENCY);
+    let (high_pass, low_pass) = (corner("high_pass")?, corner("low_pass")?);
+    if high_pass.is_none() && low_pass.is_none() {
+        return Err(one_of(
+            reader,
+            value,
+            "filter",
+            "`high_pass`, `low_pass` or both",
+        ));
+    }
+    Ok(ProcessStep::Filter {
+        order: table
+            .get("order")
+            .map_or(Ok(4), |v| reader.count(v, "order", 1))?,
+        high_pass,
+        low_pass,
+        causal: table.get("phase").map_or(Ok(false), |v| {
+            word(reader, v, "phase", &[("zero", false), ("causal", true)])
+        })?,
+        keep_pads: table
+            .get("keep_pads")
+            .map_or(Ok(true), |v| reader.boolean(v, "keep_pads"))?,
+    })
+}
+
+fn baseline(reader: &Reader<'_>, value: &Value<'_>) -> Result<BaselineKind, CaseError> {
+    let table = reader.table(value, "baseline", schema::BASELINE)?;
+    let degree = |key: &str, least| {
+        let read = |v| reader.count(v, key, least);
+        table.get(key).map(read).transpose()
+    };
+    let time = |key: &str| {
+        let read = |v| not_negative(reader, v, key, Dimension::TIME);
+        table.get(key).map(read).transpose()
+    };
+    let (acceleration, velocity) = (degree("acceleration", 0)?, degree("velocity", 1)?);
+    let (start, end, fit_from) = (time("start")?, time("end")?, time("fit_from")?);
+    let threshold = table.optional_positive("threshold", Dimension::ACCELERATION)?;
+    match (acceleration, velocity, start, end, threshold, fit_from) {
+        (Some(degree), None, None, None, None, None) => Ok(BaselineKind::Acceleration(degree)),
+        (None, Some(degree), None, None, None, None) => Ok(BaselineKind::Velocity(degree)),
+        (None, None, Some(start), Some(end), None, fit_from) => Ok(BaselineKind::Segments {
+            start,
+            end,
+            fit_from,
+        }),
+        (None, None, None, None, Some(threshold), fit_from) => Ok(BaselineKind::Threshold {
+            threshold,
+            fit_from,
+        }),
+        _ => Err(one_of(
+            reader,
+            value,
+            "baseline",
+            "`acceleration` or `velocity` (a degree), `start` with `end`, or `threshold`",
+        )),
+    }
+}
+
+fn trim(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseError> {
+    let table = reader.table(value, "trim", schema::TRIM)?;
+    let time = |key: &str| {
+        let read = |v| not_negative(reader, v, key, Dimension::TIME);
+        table.get(key).map(read).transpose()
+    };
+    let part = |key: &str| table.optional_positive(key, Dimension::NUMBER);
+    let times = (time("start")?, time("end")?);
+    let parts = (part("arias_from")?, part("arias_to")?);
+    match (times, parts) {
+        ((start, Some(end)), (None, None)) => Ok(ProcessStep::TrimTimes {
+            start: start.unwrap_or(0.0),
+            end,
+        }),
+        ((None, None), (Some(from), Some(to))) => Ok(ProcessStep::TrimArias { from, to }),
+        _ => Err(one_of(
+            reader,
+            value,
+            "trim",
+            "`end` (and `start`), or `arias_from` with `arias_to`",
+        )),
+    }
+}
+
+/// Two lengths of time, zero where they are not given, not both.
+fn lengths(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+    name: &str,
+    keys: &'static [schema::Key],
+) -> Result<[f64; 2], CaseError> {
+    let table = reader.table(value, name, keys)?;
+    let mut found = [0.0; 2];
+    for (length, key) in found.iter_mut().zip(keys) {
+        if let Some(v) = table.get(key.name) {
+            *length = not_negative(reader, v, key.name, Dimension::TIME)?;
+        }
+    }
+    if found == [0.0; 2] {
+        let either = format!("`{}`, `{}` or both", keys[0].name, keys[1].name);
+        return Err(one_of(reader, value, name, &either));
+    }
+    Ok(found)
+}
+
+fn resample(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseError> {
+    let table = reader.table(value, "resample", schema::RESAMPLE)?;
+    let words = [("linear", false), ("band_limited", true)];
+    Ok(ProcessStep::Resample {
+        time_step: reader.positive(table.required("time_step")?, "time_step", Dimension::TIME)?,
+        band_limited: table
+            .get("interpolation")
+            .map_or(Ok(false), |v| word(reader, v, "interpolation", &words))?,
+    })
+}
+
+/// Damping ratio where none is given.
+const DAMPING: f64 = 0.05;
+
+fn scale(reader: &Reader<'_>, value: &Value<'_>) -> Result<Scale, CaseError> {
+    if !matches!(value.get_ref(), DeValue::Table(_)) {
+        return Ok(Scale::Factor(reader.positive(
+            value,
+            "scale",
+            Dimension::NUMBER,
+        )?));
+    }
+    let table = reader.table(value, "scale", schema::SCALE)?;
+    let kinds = schema::SCALE_KINDS;
+    let given: Vec<_> = kinds.iter().filter(|k| table.get(k[0]).is_some()).collect();
+    let [kind] = given.as_slice() else {
+        return Err(reader.error(
+            value.span(),
+            "`scale` needs one of `factor`, `pga`, `pgv`, `psa` and `target`",
+            "for example { pga = \"0.35 g\" }",
+        ));
+    };
+    for (key, _) in table.entries() {
+        let key_name = key.value.as_str();
+        let damped = matches!(kind[0], "psa" | "target") && key_name == "damping";
+        if !kind.contains(&key_name) && !damped {
+            return Err(reader.error(
+                key.span,
+                format!("`{key_name}` has no meaning beside `{}`", kind[0]),
+                format!("remove `{key_name}`"),
+            ));
+        }
+    }
+    let positive = |key: &str, dimension| {
+        let v = table.required(key)?;
+        reader.positive(v, key, dimension)
+    };
+    let damping = || {
+        table.get("damping").map_or(Ok(DAMPING), |v| {
+            not_negative(reader, v, "damping", Dimension::NUMBER)
+        })
+    };
+    Ok(match kind[0] {
+        "factor" => Scale::Factor(positive("factor", Dimension::NUMBER)?),
+        "pga" => Scale::PeakGroundAcceleration(positive("pga", Dimension::ACCELERATION)?),
+        "pgv" => Scale::PeakGroundVelocity(positive("pgv", Dimension::VELOCITY)?),
+        "psa" => Scale::SpectralAcceleration {
+            acceleration: positive("psa", Dimension::ACCELERATION)?,
+            period: positive("period", Dimension::TIME)?,
+            damping: damping()?,
+        },
+        _ => Scale::Band {
+            target: path(reader, table.required("target")?, "target")?,
+            from: positive("from", Dimension::TIME)?,
+            to: positive("to", Dimension::TIME)?,
+            damping: damping()?,
+        },
+    })
+}

@@ -1,0 +1,121 @@
+//! Writers of records, one layout a file. Each gives the text of a whole file; what
+//! it says is read back by the reader of the same name.
+
+mod peer_at2;
+mod plain_columns;
+mod pounding_csv;
+
+use crate::accelerogram::Accelerogram;
+use crate::error::GroundMotionError;
+use crate::quantity::Quantity;
+use crate::recording::{Sampling, Series};
+use crate::unit::AccelerationUnit;
+
+pub use peer_at2::write_peer_at2;
+pub use plain_columns::{Column, write_plain_columns};
+pub use pounding_csv::write_pounding_csv;
+
+/// A series at even steps, as a file holds it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// What it records.
+    pub quantity: Quantity,
+    /// Values (m/s2, m/s or m).
+    pub samples: Vec<f64>,
+    /// Time step (s).
+    pub time_step: f64,
+    /// Event, station and component, for the header.
+    pub title: String,
+    /// Component; empty if not known.
+    pub component: String,
+    /// What else the header says: source, steps of processing.
+    pub remarks: Vec<String>,
+}
+
+impl Written {
+    /// An accelerogram with its source and what was done to it.
+    #[must_use]
+    pub fn of(record: &Accelerogram) -> Self {
+        let mut remarks = Vec::new();
+        let origin = record.origin();
+        if let Some(o) = origin {
+            remarks.push(source(&o.file, o.format, &o.sha256));
+            remarks.push(format!("Read: unit {}, time step {}", o.unit, o.time_step));
+            remarks.extend(o.warnings.iter().map(|w| format!("Note: {w}")));
+        }
+        remarks.extend(record.steps().iter().map(|s| format!("Step: {s}")));
+        Self {
+            quantity: Quantity::Acceleration,
+            samples: record.samples().to_vec(),
+            time_step: record.time_step(),
+            title: origin.map_or(String::new(), |o| o.title.clone()),
+            component: origin.map_or(String::new(), |o| o.component.clone()),
+            remarks,
+        }
+    }
+
+    /// A series of a file with its source.
+    ///
+    /// # Errors
+    /// Samples at uneven times: resample them first.
+    pub fn of_series(series: &Series) -> Result<Self, GroundMotionError> {
+        let origin = &series.origin;
+        let time_step = match &series.sampling {
+            Sampling::Even { time_step } => *time_step,
+            Sampling::Uneven { .. } => {
+                return Err(GroundMotionError::NotPossible {
+                    step: "writing",
+                    reason: format!("{} is at uneven times", series.label()),
+                    remedy: "give `time_step`, to have an acceleration resampled to even steps",
+                });
+            }
+        };
+        Ok(Self {
+            quantity: series.quantity,
+            samples: series.samples.clone(),
+            time_step,
+            title: origin.title.clone(),
+            component: series.component.clone(),
+            remarks: vec![source(&origin.file, origin.format, &origin.sha256)],
+        })
+    }
+}
+
+fn source(file: &str, format: &str, sha256: &str) -> String {
+    // The folder is that of one machine; the digest finds the file anywhere.
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    format!("Source: {name} ({format}), SHA-256 {sha256}")
+}
+
+/// A text on one line.
+fn line(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+/// Time of a sample, without the noise of the multiplication.
+fn time(index: usize, step: f64) -> f64 {
+    let digits = 1.0e9;
+    (index as f64 * step * digits).round() / digits
+}
+
+/// Only an acceleration has these units.
+fn acceleration_only(series: &Written, layout: &'static str) -> Result<(), GroundMotionError> {
+    if series.quantity == Quantity::Acceleration {
+        return Ok(());
+    }
+    Err(GroundMotionError::NotPossible {
+        step: layout,
+        reason: format!("the series is a {}, not an acceleration", series.quantity),
+        remedy: "write peer_at2 or plain_columns, which hold velocities and displacements too",
+    })
+}
+
+/// One SI unit of a quantity in the unit that a file shall have.
+fn factor(quantity: Quantity, unit: Option<AccelerationUnit>) -> (f64, &'static str) {
+    match (quantity, unit) {
+        (Quantity::Acceleration, Some(unit)) => (1.0 / unit.in_si(), unit.symbol()),
+        (quantity, _) => (1.0, quantity.si_symbol()),
+    }
+}

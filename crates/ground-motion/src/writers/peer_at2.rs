@@ -1,0 +1,52 @@
+//! PEER AT2, VT2 and DT2.
+
+use std::fmt::Write as _;
+
+use crate::quantity::Quantity;
+use crate::unit::AccelerationUnit;
+use crate::writers::{Written, line};
+
+/// Values on a line.
+const COLUMNS: usize = 5;
+
+/// The text of an AT2 file (accelerations in g of 9.80665 m/s2), a VT2 file (cm/s) or
+/// a DT2 file (cm): four lines of header, five values of eight digits a line. The
+/// format has no room for what was done to the motion.
+#[must_use]
+pub fn write_peer_at2(series: &Written) -> String {
+    let (words, unit, factor) = match series.quantity {
+        Quantity::Acceleration => (
+            "ACCELERATION",
+            "G",
+            1.0 / AccelerationUnit::StandardGravity.in_si(),
+        ),
+        Quantity::Velocity => ("VELOCITY", "CM/SEC", 100.0),
+        Quantity::Displacement => ("DISPLACEMENT", "CM", 100.0),
+    };
+    let mut text = String::with_capacity(16 * series.samples.len() + 300);
+    let _ = writeln!(text, "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2");
+    let _ = writeln!(text, "{}, {}", line(&series.title), line(&series.component));
+    let _ = writeln!(text, "{words} TIME SERIES IN UNITS OF {unit}");
+    let _ = writeln!(
+        text,
+        "NPTS= {:6}, DT= {} SEC",
+        series.samples.len(),
+        series.time_step
+    );
+    for row in series.samples.chunks(COLUMNS) {
+        for value in row {
+            text.push_str(&exponential(value * factor));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Fortran's `1PE15.7`.
+fn exponential(value: f64) -> String {
+    let text = format!("{value:.7e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let sign = if exponent < 0 { '-' } else { '+' };
+    format!("{:>15}", format!("{digits}E{sign}{:02}", exponent.abs()))
+}

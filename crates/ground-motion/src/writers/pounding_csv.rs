@@ -1,0 +1,33 @@
+//! Our CSV layout, in m/s2 and at full precision.
+
+use std::fmt::Write as _;
+
+use crate::error::GroundMotionError;
+use crate::writers::{Written, acceleration_only, line, time};
+
+/// The text of a file in our CSV layout: a comment header that says where the motion
+/// came from and what was done to it, a column header, times (s) and accelerations
+/// (m/s2) at full precision. Reading it gives the same samples, bit for bit.
+///
+/// # Errors
+/// A velocity or a displacement, which the layout does not hold.
+pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError> {
+    acceleration_only(series, "pounding_csv")?;
+    let mut text = String::with_capacity(28 * series.samples.len() + 1000);
+    if !series.title.is_empty() {
+        let _ = writeln!(text, "# Event: {}", line(&series.title));
+    }
+    if !series.component.is_empty() {
+        let _ = writeln!(text, "# Component: {}", line(&series.component));
+    }
+    for remark in &series.remarks {
+        let _ = writeln!(text, "# {}", line(remark));
+    }
+    let _ = writeln!(text, "# Unit: m/s2");
+    let _ = writeln!(text, "# dt: {} s", series.time_step);
+    let _ = writeln!(text, "time_s,acceleration_m_s2");
+    for (i, a) in series.samples.iter().enumerate() {
+        let _ = writeln!(text, "{},{a}", time(i, series.time_step));
+    }
+    Ok(text)
+}

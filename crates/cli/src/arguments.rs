@@ -1,6 +1,7 @@
 //! Arguments of all commands.
 
 mod impact;
+mod motion;
 mod verification;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use impact::ImpactArguments;
+pub use motion::*;
 pub use verification::*;
 
 /// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
@@ -51,6 +53,9 @@ pub enum Command {
     Verify(VerifyArguments),
     /// Find a contact stiffness, with its source and limits
     Stiffness(StiffnessArguments),
+    /// Read, measure, convert, process, make and match ground motions
+    #[command(subcommand)]
+    Motion(Box<MotionCommand>),
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions

@@ -6,6 +6,7 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_case::CaseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
+use pounding_ground_motion::GroundMotionError;
 use pounding_time_history::TimeHistoryError;
 
 /// Why a command did not succeed.
@@ -112,6 +113,18 @@ impl From<CalibrationError> for Failure {
                 Self::Computation(plain(error.to_string(), help))
             }
             CalibrationError::Collision(error) => Self::from(error),
+            error => Self::input(error.to_string(), help),
+        }
+    }
+}
+
+impl From<GroundMotionError> for Failure {
+    fn from(error: GroundMotionError) -> Self {
+        let help = error.help();
+        match error {
+            GroundMotionError::NotMatched { .. } => {
+                Self::Computation(plain(error.to_string(), help))
+            }
             error => Self::input(error.to_string(), help),
         }
     }

@@ -44,12 +44,20 @@ fn warnings(assembly: &Assembly) -> Vec<String> {
         .unwrap_or_default()
 }
 
-fn new_table(header: &[&str]) -> Table {
+/// A table whose columns stand at the right.
+pub fn new_table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.set_header(header);
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
+    table
+}
+
+/// The same without lines between rows, for long tables.
+pub fn new_long_table(header: &[&str]) -> Table {
+    let mut table = new_table(header);
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     table
 }
 

@@ -43,6 +43,8 @@ pub struct Origin {
     pub low_corner: Option<f64>,
     /// Corner frequency (Hz) of the high-cut filter.
     pub high_corner: Option<f64>,
+    /// What the file says was done to the series before, a line each.
+    pub history: Vec<String>,
     /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
     /// What the user should know.

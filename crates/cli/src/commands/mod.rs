@@ -4,6 +4,7 @@ mod calibrate;
 mod check;
 mod impact;
 mod models;
+mod motion;
 mod run;
 mod stiffness;
 mod verify;
@@ -29,6 +30,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         },
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
+        Command::Motion(command) => motion::motion(&command),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -16,6 +16,8 @@ const START: &str = "time_s,acceleration_";
 #[derive(Default)]
 struct Keys {
     title: Vec<String>,
+    component: String,
+    history: Vec<String>,
     unit: Option<(usize, String)>,
     step: Option<f64>,
 }
@@ -74,7 +76,10 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     );
     draft.times = Times::Step(keys.step);
     draft.title = keys.title.join("; ");
-    Ok(vec![draft.finish(source)?])
+    draft.component = keys.component;
+    let mut series = draft.finish(source)?;
+    series.origin.history = keys.history;
+    Ok(vec![series])
 }
 
 impl Keys {
@@ -85,7 +90,9 @@ impl Keys {
         };
         let value = value.trim();
         match key.trim() {
-            "Event" | "Station" | "Component" => self.title.push(value.to_owned()),
+            "Event" | "Station" => self.title.push(value.to_owned()),
+            "Component" => value.clone_into(&mut self.component),
+            "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
             "Unit" => self.unit = Some((line.number, value.to_owned())),
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);

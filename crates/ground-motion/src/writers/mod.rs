@@ -39,6 +39,7 @@ impl Written {
         let mut remarks = Vec::new();
         let origin = record.origin();
         if let Some(o) = origin {
+            remarks.extend(o.history.iter().cloned());
             remarks.push(source(&o.file, o.format, &o.sha256));
             remarks.push(format!("Read: unit {}, time step {}", o.unit, o.time_step));
             remarks.extend(o.warnings.iter().map(|w| format!("Note: {w}")));
@@ -76,7 +77,12 @@ impl Written {
             time_step,
             title: origin.title.clone(),
             component: series.component.clone(),
-            remarks: vec![source(&origin.file, origin.format, &origin.sha256)],
+            remarks: origin
+                .history
+                .iter()
+                .cloned()
+                .chain([source(&origin.file, origin.format, &origin.sha256)])
+                .collect(),
         })
     }
 }
@@ -92,6 +98,15 @@ fn line(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect()
+}
+
+/// The shortest digits that give the value back, without long rows of zeros.
+fn number(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1.0e-4 {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
 }
 
 /// Time of a sample, without the noise of the multiplication.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::unit::AccelerationUnit;
-use crate::writers::{Written, factor, time};
+use crate::writers::{Written, factor, number, time};
 
 /// A column of a plain file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub fn write_plain_columns(
                 Column::Time => time(i, series.time_step),
                 Column::Value => a * factor,
             };
-            let _ = write!(text, "{blank}{value}");
+            let _ = write!(text, "{blank}{}", number(value));
         }
         text.push('\n');
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::error::GroundMotionError;
-use crate::writers::{Written, acceleration_only, line, time};
+use crate::writers::{Written, acceleration_only, line, number, time};
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
 /// came from and what was done to it, a column header, times (s) and accelerations
@@ -27,7 +27,7 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     let _ = writeln!(text, "# dt: {} s", series.time_step);
     let _ = writeln!(text, "time_s,acceleration_m_s2");
     for (i, a) in series.samples.iter().enumerate() {
-        let _ = writeln!(text, "{},{a}", time(i, series.time_step));
+        let _ = writeln!(text, "{},{}", time(i, series.time_step), number(*a));
     }
     Ok(text)
 }

@@ -1,0 +1,92 @@
+//! `pounding motion convert`: a series in another format.
+
+use pounding_ground_motion::writers::{
+    Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
+};
+use pounding_ground_motion::{AccelerationUnit, Offset, Quantity, read_all};
+use serde_json::json;
+
+use super::reading;
+use crate::arguments::{ConvertArguments, Layout};
+use crate::commands::{pretty, print};
+use crate::failure::Failure;
+use crate::plot;
+
+/// Writes one series, values as they are.
+pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
+    let mut options = reading::options(&arguments.read, Offset::Keep)?;
+    options.quantity = Some(reading::quantity(&arguments.quantity)?);
+    let recording = read_all(&arguments.file, &options)?;
+    let series = recording.choose(&options)?;
+    let written = if series.quantity == Quantity::Acceleration {
+        Written::of(&series.accelerogram(&options)?)
+    } else {
+        Written::of_series(&series)?
+    };
+    let unit = arguments
+        .output_unit
+        .as_deref()
+        .map(str::parse::<AccelerationUnit>)
+        .transpose()?;
+    if unit.is_some() && arguments.to != Layout::PlainColumns {
+        return Err(Failure::input(
+            "--output-unit is of plain columns: the other formats have a unit of their own",
+            Some("add --to plain_columns, or leave --output-unit out".to_owned()),
+        ));
+    }
+    let (text, symbol) = match arguments.to {
+        Layout::PoundingCsv => (write_pounding_csv(&written)?, "m/s2"),
+        Layout::PeerAt2 => (
+            write_peer_at2(&written),
+            match written.quantity {
+                Quantity::Acceleration => "g",
+                Quantity::Velocity => "cm/s",
+                Quantity::Displacement => "cm",
+            },
+        ),
+        Layout::PlainColumns => write_plain_columns(&written, &columns(&arguments.columns)?, unit),
+    };
+    plot::write(&arguments.output, &text)?;
+    if arguments.json {
+        return print(&pretty(&json!({
+            "output": arguments.output, "quantity": written.quantity.name(),
+            "component": written.component, "unit": symbol,
+            "samples": written.samples.len(), "time_step": written.time_step,
+            "remarks": written.remarks,
+        })));
+    }
+    let mut text = format!(
+        "{}: {}, {} samples at {} s\n",
+        arguments.file.display(),
+        series.label(),
+        written.samples.len(),
+        written.time_step
+    );
+    for warning in &series.origin.warnings {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    text.push_str(&format!(
+        "written to {} in {symbol}\n",
+        arguments.output.display()
+    ));
+    print(&text)
+}
+
+fn columns(text: &str) -> Result<Vec<Column>, Failure> {
+    let columns: Option<Vec<Column>> = text
+        .split(',')
+        .map(|word| match word.trim() {
+            "t" => Some(Column::Time),
+            "a" | "v" | "d" => Some(Column::Value),
+            _ => None,
+        })
+        .collect();
+    columns
+        .filter(|c| c.iter().filter(|c| **c == Column::Value).count() == 1 && c.len() <= 2)
+        .ok_or_else(|| {
+            Failure::input(
+                format!("--columns \"{text}\" is not \"a\" or \"t,a\""),
+                Some("t is the time, a the values".to_owned()),
+            )
+        })
+}

@@ -1,0 +1,201 @@
+//! From arguments to the generators of the library.
+
+use std::f64::consts::TAU;
+
+use pounding_case::Dimension;
+use pounding_ground_motion::generators::{
+    Boore2003, CloughPenzien1975, Diminution, FaultMechanism, Generated, KanaiTajimi1960,
+    MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, RezaeianDerKiureghian2010,
+    RezaeianDerKiureghianScenario, Ricker1953, Sine, StationaryMotion,
+};
+
+use super::synth::{envelope, grid};
+use crate::arguments::{
+    BooreArguments, CloughPenzienArguments, GroundArguments, KanaiTajimiArguments,
+    MakrisRoussosArguments, MavroeidisPapageorgiouArguments, MechanismWord, PulseWord,
+    RezaeianDerKiureghianArguments, RickerArguments, SineArguments,
+};
+use crate::commands::stiffness::value;
+use crate::failure::Failure;
+
+/// Frequency of Kanai's firm ground (rad/s).
+const FIRM_GROUND: f64 = 15.6;
+
+fn number(text: &str, name: &str) -> Result<f64, Failure> {
+    value(text, name, Dimension::NUMBER)
+}
+
+fn time(text: &str, name: &str) -> Result<f64, Failure> {
+    value(text, name, Dimension::TIME)
+}
+
+fn frequency(text: &str, name: &str) -> Result<f64, Failure> {
+    value(text, name, Dimension::FREQUENCY)
+}
+
+/// A sine.
+pub fn sine(a: &SineArguments) -> Result<Generated, Failure> {
+    let grid = grid(&a.grid)?;
+    let motion = Sine {
+        amplitude: value(&a.amplitude, "amplitude", Dimension::ACCELERATION)?,
+        frequency: frequency(&a.frequency, "frequency")?,
+        phase: number(&a.phase, "phase")?,
+        length: match &a.length {
+            Some(text) => time(text, "length")?,
+            None => grid.duration,
+        },
+        envelope: envelope(&a.envelope)?,
+    };
+    Ok(motion.generate(grid)?)
+}
+
+/// Ricker's wavelet.
+pub fn ricker(a: &RickerArguments) -> Result<Generated, Failure> {
+    let period = time(&a.period, "period")?;
+    let motion = Ricker1953 {
+        amplitude: value(&a.amplitude, "amplitude", Dimension::ACCELERATION)?,
+        period,
+        centre: match &a.centre {
+            Some(text) => time(text, "centre")?,
+            None => 1.5 * period,
+        },
+    };
+    Ok(motion.generate(grid(&a.grid)?)?)
+}
+
+/// The pulse of Mavroeidis and Papageorgiou.
+pub fn velocity_pulse(a: &MavroeidisPapageorgiouArguments) -> Result<Generated, Failure> {
+    let frequency = frequency(&a.frequency, "frequency")?;
+    let oscillation = number(&a.gamma, "gamma")?;
+    let motion = MavroeidisPapageorgiou2003 {
+        amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
+        frequency,
+        oscillation,
+        phase: number(&a.phase, "phase")?,
+        centre: match &a.centre {
+            Some(text) => time(text, "centre")?,
+            None => 0.5 * oscillation / frequency,
+        },
+    };
+    Ok(motion.generate(grid(&a.grid)?)?)
+}
+
+/// A pulse of Makris and Roussos.
+pub fn trigonometric_pulse(a: &MakrisRoussosArguments) -> Result<Generated, Failure> {
+    let motion = MakrisRoussos2000 {
+        pulse: match a.pulse {
+            PulseWord::A => PulseType::A,
+            PulseWord::B => PulseType::B,
+            PulseWord::C => PulseType::C { cycles: a.cycles },
+        },
+        amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
+        period: time(&a.period, "period")?,
+        start: time(&a.start, "start")?,
+    };
+    Ok(motion.generate(grid(&a.grid)?)?)
+}
+
+fn ground(a: &GroundArguments) -> Result<KanaiTajimi1960, Failure> {
+    let ground_frequency = match &a.ground_frequency {
+        Some(text) => TAU * frequency(text, "ground-frequency")?,
+        None => FIRM_GROUND,
+    };
+    Ok(KanaiTajimi1960::for_peak(
+        value(
+            &a.peak_acceleration,
+            "peak-acceleration",
+            Dimension::ACCELERATION,
+        )?,
+        number(&a.peak_factor, "peak-factor")?,
+        ground_frequency,
+        number(&a.ground_damping, "ground-damping")?,
+    )?)
+}
+
+/// Noise through the ground.
+pub fn kanai_tajimi(a: &KanaiTajimiArguments) -> Result<Generated, Failure> {
+    let motion = StationaryMotion {
+        spectrum: ground(&a.ground)?,
+        envelope: envelope(&a.ground.envelope)?,
+    };
+    Ok(motion.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)
+}
+
+/// Noise through the ground and a second filter.
+pub fn clough_penzien(a: &CloughPenzienArguments) -> Result<Generated, Failure> {
+    let ground = ground(&a.ground)?;
+    let motion = StationaryMotion {
+        spectrum: CloughPenzien1975 {
+            filter_frequency: match &a.filter_frequency {
+                Some(text) => TAU * frequency(text, "filter-frequency")?,
+                None => 0.1 * ground.ground_frequency,
+            },
+            filter_damping: number(&a.filter_damping, "filter-damping")?,
+            ground,
+        },
+        envelope: envelope(&a.ground.envelope)?,
+    };
+    Ok(motion.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)
+}
+
+/// The motion of an earthquake, or of six parameters.
+pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure> {
+    let high_pass = frequency(&a.high_pass, "high-pass")?;
+    let seed = a.seeded.seed;
+    let given = |text: &Option<String>, name: &str, dimension| {
+        let text = text
+            .as_ref()
+            .ok_or_else(|| Failure::input(format!("--{name} is missing"), None))?;
+        value(text, name, dimension)
+    };
+    let motion = if a.magnitude.is_some() {
+        let scenario = RezaeianDerKiureghianScenario {
+            magnitude: given(&a.magnitude, "magnitude", Dimension::NUMBER)?,
+            distance: given(&a.distance, "distance", Dimension::LENGTH)?,
+            shear_velocity: given(&a.shear_velocity, "shear-velocity", Dimension::VELOCITY)?,
+            mechanism: match a.mechanism {
+                MechanismWord::StrikeSlip => FaultMechanism::StrikeSlip,
+                MechanismWord::Reverse => FaultMechanism::Reverse,
+            },
+        };
+        if a.median {
+            scenario.median(high_pass)?
+        } else {
+            scenario.draw(high_pass, seed)?
+        }
+    } else {
+        RezaeianDerKiureghian2010 {
+            arias_intensity: given(&a.arias_intensity, "arias-intensity", Dimension::VELOCITY)?,
+            significant_duration: given(
+                &a.significant_duration,
+                "significant-duration",
+                Dimension::TIME,
+            )?,
+            middle_time: given(&a.middle_time, "middle-time", Dimension::TIME)?,
+            middle_frequency: given(
+                &a.middle_frequency,
+                "middle-frequency",
+                Dimension::FREQUENCY,
+            )?,
+            // Hz/s: a plain number.
+            frequency_rate: number(&a.frequency_rate, "frequency-rate")?,
+            damping: number(&a.filter_damping, "filter-damping")?,
+            high_pass,
+        }
+    };
+    Ok(motion.generate(grid(&a.seeded.grid)?, seed)?)
+}
+
+/// The motion of a point source.
+pub fn boore(a: &BooreArguments) -> Result<Generated, Failure> {
+    let mut source = Boore2003::western_north_america(
+        number(&a.magnitude, "magnitude")?,
+        value(&a.distance, "distance", Dimension::LENGTH)?,
+    );
+    source.stress_parameter = value(&a.stress_parameter, "stress-parameter", Dimension::PRESSURE)?;
+    source.diminution = Diminution::Kappa(time(&a.kappa, "kappa")?);
+    if a.hard_rock {
+        source.amplification.clear();
+    }
+    Ok(source.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)
+}

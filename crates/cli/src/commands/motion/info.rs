@@ -1,0 +1,163 @@
+//! `pounding motion info`: all that a file holds.
+
+use std::path::Path;
+
+use pounding_case::Dimension;
+use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
+use pounding_ground_motion::spectra::Evaluation;
+use pounding_ground_motion::{
+    Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
+};
+
+use super::info_output::{as_json, as_text, comma_separated};
+use super::{plots, reading};
+use crate::arguments::InfoArguments;
+use crate::commands::stiffness::value;
+use crate::commands::{pretty, print};
+use crate::failure::Failure;
+use crate::plot;
+
+/// One series with what was made of it.
+pub struct Shown {
+    /// As in the file.
+    pub series: Series,
+    /// As excitation, for accelerations.
+    pub record: Option<Accelerogram>,
+    /// Its measures; none for other quantities and for records of zeros.
+    pub measures: Option<IntensityMeasures>,
+}
+
+/// One file.
+pub struct ShownFile {
+    /// Its name.
+    pub file: String,
+    /// Its series, in the order of the file.
+    pub series: Vec<Shown>,
+}
+
+/// Shows every series of the files.
+pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
+    let mut read = reading::options(&arguments.read, Offset::Automatic)?;
+    let measured = MeasureOptions {
+        evaluation: if arguments.at_samples {
+            Evaluation::AtSamples
+        } else {
+            Evaluation::PiecewiseLinear
+        },
+        duration_threshold: value(
+            &arguments.duration_threshold,
+            "duration-threshold",
+            Dimension::ACCELERATION,
+        )?,
+        damping: value(&arguments.damping, "damping", Dimension::NUMBER)?,
+        ..MeasureOptions::default()
+    };
+    let component = read.component.take();
+    let mut files = Vec::new();
+    for file in &arguments.files {
+        let recording = read_all(file, &read)?;
+        let options = ReadOptions {
+            component: component.clone(),
+            ..read.clone()
+        };
+        files.push(shown(file, recording, &options, measured)?);
+    }
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &comma_separated(&files))?;
+    }
+    if let Some(path) = &arguments.svg {
+        picture(path, &files)?;
+    }
+    print(&if arguments.json {
+        pretty(&as_json(&files))
+    } else {
+        as_text(&files)
+    })
+}
+
+fn shown(
+    file: &Path,
+    recording: Recording,
+    options: &ReadOptions,
+    measured: MeasureOptions,
+) -> Result<ShownFile, Failure> {
+    let chosen = match &options.component {
+        None => recording.series,
+        // One component may have an acceleration, a velocity and a displacement.
+        Some(_) => {
+            let channel = recording.choose(options)?.channel;
+            let all = recording.series.into_iter();
+            all.filter(|s| s.channel == channel).collect()
+        }
+    };
+    let series = chosen
+        .into_iter()
+        .map(|series| one(series, options, measured))
+        .collect::<Result<_, _>>()?;
+    Ok(ShownFile {
+        file: file.display().to_string(),
+        series,
+    })
+}
+
+fn one(series: Series, options: &ReadOptions, measured: MeasureOptions) -> Result<Shown, Failure> {
+    if series.quantity != Quantity::Acceleration {
+        return Ok(Shown {
+            series,
+            record: None,
+            measures: None,
+        });
+    }
+    let mut options = options.clone();
+    if let (None, Sampling::Uneven { times }) = (options.time_step, &series.sampling) {
+        options.time_step = Some(own_step(times));
+    }
+    let record = series.accelerogram(&options)?;
+    let start = series.initial.unwrap_or_default();
+    let measured = MeasureOptions {
+        initial_velocity: start.0,
+        initial_displacement: start.1,
+        ..measured
+    };
+    // A record of zeros has no durations.
+    let measures = if record.peak().value > 0.0 {
+        Some(IntensityMeasures::of(&record, measured)?)
+    } else {
+        None
+    };
+    Ok(Shown {
+        series,
+        record: Some(record),
+        measures,
+    })
+}
+
+/// The median step of uneven times, not longer than their mean.
+fn own_step(times: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+    steps[steps.len() / 2].min(mean)
+}
+
+fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+    let mut named = Vec::new();
+    for file in files {
+        for one in &file.series {
+            if let Some(record) = one.record.as_ref().filter(|_| one.measures.is_some()) {
+                let name = match files.len() {
+                    1 => one.series.component.clone(),
+                    _ => format!("{} {}", file.file, one.series.component),
+                };
+                named.push((name, record));
+            }
+        }
+    }
+    if named.is_empty() {
+        return Err(Failure::input(
+            "there is no acceleration to draw",
+            Some("give a file with an acceleration that is not zero".to_owned()),
+        ));
+    }
+    plots::histories(path, &named)
+}

@@ -1,0 +1,260 @@
+//! What `motion info` prints and writes.
+
+use std::fmt::Write as _;
+
+use pounding_ground_motion::{HeaderPeak, Processing, Quantity, Sampling, Series};
+use serde_json::{Value, json};
+
+use super::info::{Shown, ShownFile};
+use super::measures::{G, rows};
+use crate::tables::new_long_table;
+
+/// Tables of each file.
+pub fn as_text(files: &[ShownFile]) -> String {
+    let mut text = String::new();
+    for file in files {
+        text.push_str(&header(file));
+        text.push_str(&series_table(file));
+        text.push_str(&differences(file));
+        text.push_str(&measures_table(file));
+        text.push('\n');
+    }
+    text
+}
+
+/// What the header says, once where all series agree.
+fn header(file: &ShownFile) -> String {
+    let mut text = String::new();
+    let Some(first) = file.series.first().map(|s| &s.series.origin) else {
+        return text;
+    };
+    let _ = writeln!(
+        text,
+        "{}\nformat {}, SHA-256 {}",
+        file.file, first.format, first.sha256
+    );
+    let mut told: Vec<String> = Vec::new();
+    for one in &file.series {
+        let origin = &one.series.origin;
+        let corner = |f: Option<f64>| f.map_or("none stated".to_owned(), |f| format!("{f} Hz"));
+        let filtered = match (origin.low_corner, origin.high_corner) {
+            (None, None) => String::new(),
+            (low, high) => format!(
+                "; filter corners low {}, high {}",
+                corner(low),
+                corner(high)
+            ),
+        };
+        let start = match origin.start_time.as_str() {
+            "" => String::new(),
+            time => format!("; first sample {time}"),
+        };
+        let line = format!(
+            "{}\n  {}{filtered}{start}",
+            origin.title,
+            processing(origin.processing)
+        );
+        if !told.contains(&line) {
+            let _ = writeln!(text, "{}", line.trim());
+            told.push(line);
+        }
+    }
+    text
+}
+
+fn processing(p: Processing) -> &'static str {
+    match p {
+        Processing::Unstated => "the file does not say how it was processed",
+        Processing::Raw => "not corrected",
+        Processing::Corrected => "corrected by the agency",
+    }
+}
+
+/// Value of a series for people, with unit.
+fn peak_text(quantity: Quantity, value: f64) -> String {
+    match quantity {
+        Quantity::Acceleration => format!("{:.5} g", value / G),
+        Quantity::Velocity => format!("{:.3} cm/s", value * 100.0),
+        Quantity::Displacement => format!("{:.4} cm", value * 100.0),
+    }
+}
+
+fn series_table(file: &ShownFile) -> String {
+    let mut table = new_long_table(&[
+        "channel",
+        "component",
+        "quantity",
+        "unit in file",
+        "samples",
+        "in header",
+        "time step (s)",
+        "peak as in file",
+        "at (s)",
+        "peak in header",
+        "at (s)",
+    ]);
+    for one in &file.series {
+        let s = &one.series;
+        let peak = s.peak();
+        let (stated, at) = match s.header_peak {
+            None => ("-".to_owned(), None),
+            Some(HeaderPeak { value, time }) => (peak_text(s.quantity, value), time),
+        };
+        table.add_row([
+            s.channel.to_string(),
+            s.component.clone(),
+            s.quantity.name().to_owned(),
+            s.unit.to_owned(),
+            s.samples.len().to_string(),
+            s.origin
+                .header_count
+                .map_or("-".to_owned(), |n| n.to_string()),
+            step_text(&s.sampling),
+            peak_text(s.quantity, peak.value),
+            format!("{:.3}", peak.time),
+            stated,
+            at.map_or("-".to_owned(), |t| format!("{t:.3}")),
+        ]);
+    }
+    format!("\n{table}\n")
+}
+
+fn step_text(sampling: &Sampling) -> String {
+    match sampling {
+        Sampling::Even { time_step } => format!("{time_step}"),
+        Sampling::Uneven { times } => {
+            let steps = || times.windows(2).map(|t| t[1] - t[0]);
+            let least = steps().fold(f64::INFINITY, f64::min);
+            format!("{least:.4} to {:.4}", steps().fold(0.0, f64::max))
+        }
+    }
+}
+
+/// What header and data disagree on, and what was done about the mean.
+fn differences(file: &ShownFile) -> String {
+    let mut text = String::new();
+    for one in &file.series {
+        for line in &one.series.origin.history {
+            let _ = writeln!(text, "before: {line}");
+        }
+        for warning in warnings(one) {
+            let _ = writeln!(text, "warning: {}: {warning}", one.series.label());
+        }
+    }
+    text
+}
+
+fn warnings(one: &Shown) -> &[String] {
+    let read = one.record.as_ref().and_then(|r| r.origin());
+    &read.unwrap_or(&one.series.origin).warnings
+}
+
+fn measures_table(file: &ShownFile) -> String {
+    let measured: Vec<_> = file
+        .series
+        .iter()
+        .filter_map(|s| Some((&s.series.component, rows(s.measures.as_ref()?))))
+        .collect();
+    let Some((_, first)) = measured.first() else {
+        return "no acceleration to measure\n".to_owned();
+    };
+    let mut header = vec!["measure"];
+    header.extend(measured.iter().map(|(name, _)| name.as_str()));
+    let mut table = new_long_table(&header);
+    if let Some(column) = table.column_mut(0) {
+        column.set_cell_alignment(comfy_table::CellAlignment::Left);
+    }
+    for (i, row) in first.iter().enumerate() {
+        let mut cells = vec![row.words.clone()];
+        cells.extend(measured.iter().map(|(_, rows)| rows[i].shown()));
+        table.add_row(cells);
+    }
+    format!("{table}\n")
+}
+
+/// One object with a list of files.
+pub fn as_json(files: &[ShownFile]) -> Value {
+    let files: Vec<_> = files
+        .iter()
+        .map(|f| {
+            let origin = f.series.first().map(|s| &s.series.origin);
+            json!({
+                "file": f.file,
+                "format": origin.map(|o| o.format),
+                "sha256": origin.map(|o| &o.sha256),
+                "series": f.series.iter().map(one_json).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({"files": files})
+}
+
+fn one_json(one: &Shown) -> Value {
+    let s = &one.series;
+    let origin = &s.origin;
+    let (even, uneven) = match &s.sampling {
+        Sampling::Even { time_step } => (Some(*time_step), false),
+        Sampling::Uneven { .. } => (None, true),
+    };
+    json!({
+        "channel": s.channel, "component": s.component, "quantity": s.quantity.name(),
+        "unit_in_file": s.unit, "samples": s.samples.len(), "time_step": even, "uneven": uneven,
+        "measured_time_step": one.record.as_ref().map(pounding_ground_motion::Accelerogram::time_step),
+        "mean": s.mean(), "peak": s.peak(),
+        "header_peak": s.header_peak.map(|p| json!({"value": p.value, "time": p.time})),
+        "header_samples": origin.header_count,
+        "initial_velocity": s.initial.map(|i| i.0), "initial_displacement": s.initial.map(|i| i.1),
+        "title": origin.title, "processing": processing_word(origin.processing),
+        "start_time": origin.start_time, "low_corner": origin.low_corner,
+        "high_corner": origin.high_corner, "history": origin.history, "warnings": warnings(one), "measures": one.measures,
+    })
+}
+
+fn processing_word(p: Processing) -> &'static str {
+    match p {
+        Processing::Unstated => "unstated",
+        Processing::Raw => "raw",
+        Processing::Corrected => "corrected",
+    }
+}
+
+/// A row for each acceleration, SI units, full precision.
+pub fn comma_separated(files: &[ShownFile]) -> String {
+    let mut text = String::new();
+    for file in files {
+        for one in &file.series {
+            let Some(measures) = &one.measures else {
+                continue;
+            };
+            let rows = rows(measures);
+            if text.is_empty() {
+                let names: Vec<_> = rows.iter().map(|r| r.name).collect();
+                text = format!("file,channel,component,{}\n", names.join(","));
+            }
+            let values: Vec<_> = rows
+                .iter()
+                .map(|r| r.value.map_or(String::new(), |v| v.to_string()))
+                .collect();
+            let Series {
+                channel, component, ..
+            } = &one.series;
+            let _ = writeln!(
+                text,
+                "{},{channel},{},{}",
+                quoted(&file.file),
+                quoted(component),
+                values.join(",")
+            );
+        }
+    }
+    text
+}
+
+/// A field of a CSV file.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

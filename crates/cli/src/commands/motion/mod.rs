@@ -1,0 +1,31 @@
+//! `pounding motion`: recorded and made motions.
+
+mod convert;
+mod generators;
+mod info;
+mod info_output;
+mod matching;
+mod measures;
+mod plots;
+mod process;
+mod reading;
+mod spectrum;
+mod spectrum_tables;
+mod synth;
+mod words;
+mod writing;
+
+use crate::arguments::MotionCommand;
+use crate::failure::Failure;
+
+/// Carries a command on motions out.
+pub fn motion(command: &MotionCommand) -> Result<(), Failure> {
+    match command {
+        MotionCommand::Info(arguments) => info::info(arguments),
+        MotionCommand::Spectrum(arguments) => spectrum::spectrum(arguments),
+        MotionCommand::Convert(arguments) => convert::convert(arguments),
+        MotionCommand::Process(arguments) => process::process(arguments),
+        MotionCommand::Synth(arguments) => synth::synth(arguments),
+        MotionCommand::Match(arguments) => matching::matching(arguments),
+    }
+}

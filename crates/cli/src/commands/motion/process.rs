@@ -1,0 +1,66 @@
+//! `pounding motion process`: steps in the order of the command line.
+
+use std::path::Path;
+
+use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
+use pounding_time_history::processing_step;
+use serde_json::json;
+
+use super::words::Words;
+use super::{reading, writing};
+use crate::arguments::ProcessArguments;
+use crate::failure::Failure;
+
+/// Does the steps and writes the motion with their numbers in its header.
+pub fn process(arguments: &ProcessArguments) -> Result<(), Failure> {
+    if arguments.steps.0.is_empty() && arguments.rotate.is_none() {
+        return Err(Failure::input(
+            "no step is asked for",
+            Some(
+                "see `pounding motion process --help`; `motion convert` changes the format alone"
+                    .into(),
+            ),
+        ));
+    }
+    let mut steps = Vec::new();
+    for (key, text) in &arguments.steps.0 {
+        steps.push((option(key), step(key, text)?));
+    }
+    let mut record = reading::acceleration(&arguments.file, &arguments.read)?;
+    if let (Some(angle), Some(second)) = (arguments.rotate, &arguments.second_component) {
+        let mut read = arguments.read.clone();
+        read.component = Some(second.clone());
+        let other = reading::acceleration(&arguments.file, &read)?;
+        record = rotate(&record, &other, angle)?.first;
+    }
+    for (option, step) in steps {
+        record = carry_out(&record, &[step])
+            .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))?
+            .accelerogram;
+    }
+    let title = format!("{}, processed", arguments.file.display());
+    writing::finish(&arguments.output, &record, &title, json!({}))
+}
+
+/// The name of a step's option.
+fn option(key: &str) -> String {
+    key.replace('_', "-")
+}
+
+/// A step from its words: those of the case file's `process` list.
+fn step(key: &str, text: &str) -> Result<ProcessingStep, Failure> {
+    let option = option(key);
+    let words = Words::of(&option, text)?;
+    let line = format!("process = [{{ {} }}]", words.as_toml(key));
+    let read = pounding_case::process_steps(&line, "process")
+        .map_err(|e| Failure::input(format!("--{option}: {}", e.message), e.help))?;
+    let [step] = read.as_slice() else {
+        return Err(Failure::input(
+            format!("--{option}: \"{text}\" is no step"),
+            None,
+        ));
+    };
+    let path = |path: &Path| path.to_owned();
+    processing_step(&step.value, &path)
+        .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))
+}

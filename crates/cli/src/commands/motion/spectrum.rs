@@ -1,0 +1,160 @@
+//! `pounding motion spectrum`: responses, all directions, Fourier amplitudes.
+
+use pounding_case::Dimension;
+use pounding_ground_motion::spectra::{
+    Evaluation, RotatedSpectrum, fourier_spectrum, logarithmic_periods, response_spectra,
+    rotated_spectrum,
+};
+use serde_json::json;
+
+use super::spectrum_tables as tables;
+use super::{plots, reading, words};
+use crate::arguments::SpectrumArguments;
+use crate::commands::stiffness::value;
+use crate::commands::{pretty, print};
+use crate::failure::Failure;
+use crate::plot;
+
+/// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
+const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
+const FREQUENCIES: (f64, f64, usize) = (0.1, 25.0, 30);
+
+/// One kind of spectrum.
+pub fn spectrum(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    if arguments.fourier {
+        fourier(arguments)
+    } else if arguments.rotated {
+        rotated(arguments)
+    } else {
+        responses(arguments)
+    }
+}
+
+/// Places of a spectrum: those given, or evenly spaced in their logarithm.
+fn places(
+    arguments: &SpectrumArguments,
+    default: (f64, f64, usize),
+    dimension: Dimension,
+) -> Result<Vec<f64>, Failure> {
+    if let Some(text) = &arguments.at {
+        return words::list(text, "at", dimension);
+    }
+    let end = |text: &Option<String>, name, default| match text {
+        Some(text) => value(text, name, dimension),
+        None => Ok(default),
+    };
+    Ok(logarithmic_periods(
+        end(&arguments.from, "from", default.0)?,
+        end(&arguments.to, "to", default.1)?,
+        arguments.count.unwrap_or(default.2),
+    )?)
+}
+
+fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
+    if arguments.at_samples {
+        Evaluation::AtSamples
+    } else {
+        Evaluation::PiecewiseLinear
+    }
+}
+
+fn responses(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    let periods = places(arguments, PERIODS, Dimension::TIME)?;
+    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let record = reading::acceleration(&arguments.file, &arguments.read)?;
+    let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))?;
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &tables::response_csv(&spectra))?;
+    }
+    if let Some(path) = &arguments.svg {
+        let named: Vec<_> = spectra
+            .iter()
+            .map(|s| (tables::percent(s.damping), s))
+            .collect();
+        plots::responses(path, &named)?;
+    }
+    print(&if arguments.json {
+        pretty(&json!({"spectra": spectra, "record": record.echo()}))
+    } else {
+        format!(
+            "{}{}",
+            reading::told(&record),
+            tables::response_text(&spectra)
+        )
+    })
+}
+
+fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    let periods = places(arguments, PERIODS, Dimension::TIME)?;
+    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    if arguments.second_file.is_none() && arguments.second_component.is_none() {
+        return Err(Failure::input(
+            "--rotated needs two components",
+            Some("give --component with --second-component, or --second-file".to_owned()),
+        ));
+    }
+    let first = reading::acceleration(&arguments.file, &arguments.read)?;
+    let mut read = arguments.read.clone();
+    read.component.clone_from(&arguments.second_component);
+    let file = arguments.second_file.as_ref().unwrap_or(&arguments.file);
+    let second = reading::acceleration(file, &read)?;
+    let spectra = dampings
+        .iter()
+        .map(|d| rotated_spectrum(&first, &second, &periods, *d, evaluation(arguments)))
+        .collect::<Result<Vec<RotatedSpectrum>, _>>()?;
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &tables::rotated_csv(&spectra))?;
+    }
+    if let Some(path) = &arguments.svg {
+        plot::write(path, &plot::figure(&[tables::rotated_panel(&spectra)])?)?;
+    }
+    print(&if arguments.json {
+        pretty(&json!({"spectra": spectra, "records": [first.echo(), second.echo()]}))
+    } else {
+        format!(
+            "{}{}{}",
+            reading::told(&first),
+            reading::told(&second),
+            tables::rotated_text(&spectra)
+        )
+    })
+}
+
+fn fourier(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    let record = reading::acceleration(&arguments.file, &arguments.read)?;
+    let whole = fourier_spectrum(&record, 0);
+    let (frequencies, amplitudes, how) = if arguments.unsmoothed {
+        let how = "not smoothed".to_owned();
+        (whole.frequencies, whole.amplitudes, how)
+    } else {
+        let bandwidth = value(&arguments.smoothing, "smoothing", Dimension::NUMBER)?;
+        let highest = FREQUENCIES.1.min(0.5 / record.time_step());
+        let default = (FREQUENCIES.0, highest, FREQUENCIES.2);
+        let centres = places(arguments, default, Dimension::FREQUENCY)?;
+        let amplitudes = whole.konno_ohmachi(&centres, bandwidth)?;
+        (
+            centres,
+            amplitudes,
+            format!("Konno and Ohmachi (1998), b = {bandwidth}"),
+        )
+    };
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &tables::fourier_csv(&frequencies, &amplitudes))?;
+    }
+    if let Some(path) = &arguments.svg {
+        let mut panel = plots::panel("Fourier amplitude of acceleration (m/s)", "frequency (Hz)");
+        panel
+            .curves
+            .push(plots::over(&how, &frequencies, &amplitudes, 1.0));
+        plot::write(path, &plot::figure(&[panel])?)?;
+    }
+    print(&if arguments.json {
+        pretty(&json!({
+            "frequencies": frequencies, "amplitudes": amplitudes, "smoothing": how,
+            "length": whole.length, "record": record.echo(),
+        }))
+    } else {
+        let table = tables::fourier_text(&frequencies, &amplitudes, &how);
+        format!("{}{table}", reading::told(&record))
+    })
+}

@@ -1,0 +1,115 @@
+//! Values such as `high_pass=0.1 Hz, order=4` and `ramped, rise=2 s`.
+
+use pounding_case::Dimension;
+
+use crate::commands::stiffness::value;
+use crate::failure::Failure;
+
+/// A word and pairs behind it, of one option.
+pub struct Words<'a> {
+    option: &'a str,
+    /// The word; empty if the text starts with a pair.
+    pub word: &'a str,
+    pairs: Vec<(&'a str, &'a str)>,
+}
+
+impl<'a> Words<'a> {
+    /// Divides the text of an option at its commas.
+    pub fn of(option: &'a str, text: &'a str) -> Result<Self, Failure> {
+        let mut words = Self {
+            option,
+            word: "",
+            pairs: Vec::new(),
+        };
+        for (place, part) in text.split(',').map(str::trim).enumerate() {
+            match part.split_once('=') {
+                Some((key, value)) => words.pairs.push((key.trim(), value.trim())),
+                None if place == 0 => words.word = part,
+                None => {
+                    return Err(Failure::input(
+                        format!("--{option}: \"{part}\" is not key=value"),
+                        Some(
+                            "write pairs divided by commas, such as \"start=2 s, end=30 s\"".into(),
+                        ),
+                    ));
+                }
+            }
+        }
+        Ok(words)
+    }
+
+    /// Refuses keys that mean nothing here, and keys given twice.
+    pub fn only(&self, known: &[&str]) -> Result<(), Failure> {
+        for (place, (key, _)) in self.pairs.iter().enumerate() {
+            let twice = self.pairs[..place].iter().any(|(k, _)| k == key);
+            if !known.contains(key) || twice {
+                let what = if twice {
+                    "is given twice"
+                } else {
+                    "is not known"
+                };
+                return Err(Failure::input(
+                    format!("--{}: \"{key}\" {what}", self.option),
+                    Some(format!("known keys: {}", known.join(", "))),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The text of a key.
+    pub fn text(&self, key: &str) -> Result<&'a str, Failure> {
+        let pair = self.pairs.iter().find(|(k, _)| *k == key);
+        pair.map(|(_, value)| *value).ok_or_else(|| {
+            Failure::input(
+                format!("--{} needs {key}", self.option),
+                Some(format!("add \"{key}=...\"")),
+            )
+        })
+    }
+
+    /// The SI value of a key.
+    pub fn value(&self, key: &str, dimension: Dimension) -> Result<f64, Failure> {
+        value(
+            self.text(key)?,
+            &format!("{}: {key}", self.option),
+            dimension,
+        )
+    }
+
+    /// The same as a line of a case file: `key = { ... }` or `key = "word"`.
+    pub fn as_toml(&self, key: &str) -> String {
+        if self.pairs.is_empty() {
+            return format!("{key} = {}", literal(self.word));
+        }
+        let pairs: Vec<_> = self
+            .pairs
+            .iter()
+            .map(|(k, v)| format!("{k} = {}", literal(v)))
+            .collect();
+        format!("{key} = {{ {} }}", pairs.join(", "))
+    }
+}
+
+/// Numbers and flags as they are, all else in quotes.
+fn literal(text: &str) -> String {
+    let plain = text.parse::<i64>().is_ok()
+        || matches!(text, "true" | "false")
+        || (text.parse::<f64>().is_ok_and(f64::is_finite)
+            && text.starts_with(|c: char| c.is_ascii_digit() || c == '-'));
+    if plain {
+        // TOML wants a digit on both sides of the point.
+        return match text.parse::<f64>() {
+            Ok(number) if text.contains(['.', 'e', 'E']) => format!("{number:?}"),
+            _ => text.to_owned(),
+        };
+    }
+    serde_json::Value::String(text.to_owned()).to_string()
+}
+
+/// SI values divided by commas.
+pub fn list(text: &str, name: &str, dimension: Dimension) -> Result<Vec<f64>, Failure> {
+    text.split(',')
+        .map(|part| value(part.trim(), name, dimension))
+        .collect()
+}

@@ -1,0 +1,99 @@
+//! A motion that was made or changed: its file, its picture, what is said of it.
+
+use std::path::Path;
+
+use pounding_ground_motion::writers::{Written, write_pounding_csv};
+use pounding_ground_motion::{Accelerogram, StepRecord};
+use serde_json::{Value, json};
+
+use super::plots;
+use crate::arguments::OutputArguments;
+use crate::commands::{pretty, print};
+use crate::failure::Failure;
+use crate::plot;
+
+/// Writes a motion in our layout; its title stands in for that of a record.
+pub fn write(path: &Path, motion: &Accelerogram, title: &str) -> Result<(), Failure> {
+    let mut written = Written::of(motion);
+    if written.title.is_empty() {
+        title.clone_into(&mut written.title);
+    }
+    plot::write(path, &write_pounding_csv(&written)?)
+}
+
+/// Writes file and picture of a motion and says what was done.
+pub fn finish(
+    output: &OutputArguments,
+    motion: &Accelerogram,
+    title: &str,
+    more: Value,
+) -> Result<(), Failure> {
+    write(&output.output, motion, title)?;
+    if let Some(path) = &output.svg {
+        plots::histories(path, &[(title.to_owned(), motion)])?;
+    }
+    if output.json {
+        let mut told = json!({
+            "output": output.output, "samples": motion.samples().len(),
+            "time_step": motion.time_step(), "peak_acceleration": motion.peak(),
+            "scale": motion.scale(), "steps": motion.steps(),
+            "warnings": motion.origin().map_or(&[][..], |o| &o.warnings),
+        });
+        if let (Some(told), Value::Object(more)) = (told.as_object_mut(), more) {
+            told.extend(more);
+        }
+        return print(&pretty(&told));
+    }
+    let mut text = format!("{title}\n");
+    if let Some(origin) = motion.origin() {
+        text.push_str(&format!(
+            "read: unit {}, time step {}\n",
+            origin.unit, origin.time_step
+        ));
+        for warning in &origin.warnings {
+            text.push_str(&format!("warning: {warning}\n"));
+        }
+    }
+    for step in motion.steps() {
+        text.push_str(&step_text(step));
+    }
+    let peak = motion.peak();
+    text.push_str(&format!(
+        "\n{} samples at {} s, peak acceleration {:.5} g at {:.4} s, written to {}\n",
+        motion.samples().len(),
+        motion.time_step(),
+        peak.value / super::measures::G,
+        peak.time,
+        output.output.display()
+    ));
+    print(&text)
+}
+
+/// A step with a line a number.
+pub fn step_text(step: &StepRecord) -> String {
+    let mut text = format!("\n{}\n", step.step);
+    for number in &step.numbers {
+        let unit = if number.unit == "-" { "" } else { number.unit };
+        let value = shown(number.value);
+        text.push_str(&format!("  {:34} {value:>14} {unit}\n", number.name).replace(" \n", "\n"));
+    }
+    for remark in &step.remarks {
+        text.push_str(&format!("  {remark}\n"));
+    }
+    text
+}
+
+/// Six digits, without an exponent where there is no need.
+fn shown(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1.0e-3..1.0e7).contains(&size) {
+        let digits = (5 - size.max(1.0e-3).log10().floor() as i32).clamp(0, 8) as usize;
+        let text = format!("{value:.digits$}");
+        return if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text
+        };
+    }
+    format!("{value:.5e}")
+}

@@ -1,0 +1,184 @@
+//! The card of a provision.
+
+use crate::error::SeparationError;
+use crate::inputs::{Input, Site, Situation, Structure};
+use crate::working::{Requirement, Working};
+
+/// What a rule measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// From one building to the border of its own site.
+    Boundary,
+    /// Between two buildings.
+    Between,
+}
+
+impl Place {
+    /// A word for tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Boundary => "boundary",
+            Self::Between => "between",
+        }
+    }
+}
+
+/// What a rule rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// Computed displacements.
+    Displacement,
+    /// Heights and kinds of structure alone.
+    Prescriptive,
+}
+
+impl Basis {
+    /// A word for tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Prescriptive => "prescriptive",
+        }
+    }
+}
+
+/// How far a formula has been checked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Seen in an accessible text, which is named.
+    Verified(&'static str),
+    /// Not compared with a text: check the standard before it enters a design report.
+    FromMemory(&'static str),
+}
+
+impl Status {
+    /// `verified` or `from memory`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Verified(_) => "verified",
+            Self::FromMemory(_) => "from memory",
+        }
+    }
+
+    /// What was seen, or what is uncertain.
+    #[must_use]
+    pub fn remark(self) -> &'static str {
+        match self {
+            Self::Verified(text) | Self::FromMemory(text) => text,
+        }
+    }
+
+    /// Whether the formula was seen in a text.
+    #[must_use]
+    pub fn is_verified(self) -> bool {
+        matches!(self, Self::Verified(_))
+    }
+}
+
+/// How a provision computes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Rule {
+    /// One building, height of the level (m).
+    Boundary(fn(&mut Working, &Structure, f64, &Site) -> Result<f64, SeparationError>),
+    /// Two buildings.
+    Between(fn(&mut Working, &Situation) -> Result<f64, SeparationError>),
+}
+
+/// Everything that is known of a provision without applying it.
+#[derive(Debug, Clone, Copy)]
+pub struct ProvisionDescriptor {
+    /// Name: code, edition, and what it measures.
+    pub name: &'static str,
+    /// Country or city.
+    pub region: &'static str,
+    /// Code with its edition.
+    pub edition: &'static str,
+    /// Clause; empty if not known.
+    pub clause: &'static str,
+    /// What it rests on.
+    pub basis: Basis,
+    /// Formula in plain characters. `u` is the unreduced peak displacement, `d` that
+    /// under the reduced forces of the code, `I u / R` unless given; `h` the height of
+    /// the level.
+    pub formula: &'static str,
+    /// Inputs that it needs beside heights and storeys.
+    pub inputs: &'static [Input],
+    /// How far the formula has been checked.
+    pub status: Status,
+    /// What else a user should know.
+    pub remarks: &'static [&'static str],
+    pub(crate) rule: Rule,
+}
+
+impl ProvisionDescriptor {
+    /// What the rule measures.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        match self.rule {
+            Rule::Boundary(_) => Place::Boundary,
+            Rule::Between(_) => Place::Between,
+        }
+    }
+
+    /// Distance of one building from the border of its site (m).
+    ///
+    /// # Errors
+    /// An input that is missing, a situation that the provision does not cover, or a
+    /// rule that holds between two buildings.
+    pub fn boundary(
+        &self,
+        structure: &Structure,
+        elevation: f64,
+        site: &Site,
+    ) -> Result<Requirement, SeparationError> {
+        let mut working = Working::new(self.name);
+        let Rule::Boundary(rule) = self.rule else {
+            return Err(working.not_applicable("it needs a building on either side"));
+        };
+        let width = rule(&mut working, structure, elevation, site)?;
+        Ok(working.finish(self.formula, width))
+    }
+
+    /// Distance between two buildings (m). A boundary rule gives the sum of the
+    /// distances that either building keeps from the border.
+    ///
+    /// # Errors
+    /// An input that is missing, or a situation that the provision does not cover.
+    pub fn between(&self, situation: &Situation) -> Result<Requirement, SeparationError> {
+        let mut working = Working::new(self.name);
+        match self.rule {
+            Rule::Between(rule) => {
+                let width = rule(&mut working, situation)?;
+                Ok(working.finish(self.formula, width))
+            }
+            Rule::Boundary(rule) => {
+                let Situation {
+                    left,
+                    right,
+                    elevation,
+                    site,
+                } = situation;
+                let left = rule(&mut working, left, *elevation, site)?;
+                let right = rule(&mut working, right, *elevation, site)?;
+                let width = working.note("own side, left", left, "m")
+                    + working.note("own side, right", right, "m");
+                let formula = format!("{}, summed over both sides", self.formula);
+                Ok(working.finish(&formula, width))
+            }
+        }
+    }
+}
+
+/// A code that is known to speak of gaps, with no formula here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unavailable {
+    /// Country or city.
+    pub region: &'static str,
+    /// Code with its edition.
+    pub edition: &'static str,
+    /// Why there is no formula.
+    pub reason: &'static str,
+}

@@ -1,0 +1,49 @@
+//! AS 1170.4 of Australia.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Site, Structure};
+use crate::working::Working;
+
+/// Height (m) from which the rule speaks.
+const LOWEST: f64 = 15.0;
+
+fn boundary(
+    working: &mut Working,
+    _: &Structure,
+    elevation: f64,
+    _: &Site,
+) -> Result<f64, SeparationError> {
+    if elevation <= LOWEST {
+        return Err(working.not_applicable("it speaks of structures above 15 m"));
+    }
+    Ok(0.01 * working.elevation(elevation))
+}
+
+pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
+    name: "as_1170_4_boundary",
+    region: "Australia",
+    edition: "AS 1170.4",
+    clause: "",
+    basis: Basis::Prescriptive,
+    formula: "h / 100, or by analysis",
+    inputs: &[],
+    status: Status::FromMemory("the rule and its limit of 15 m"),
+    remarks: &["For levels above 15 m."],
+    rule: Rule::Boundary(boundary),
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// 20 m: 200 mm. Below 15 m: nothing.
+    #[test]
+    fn by_hand() {
+        let own = |h| BOUNDARY.boundary(&Structure::default(), h, &Site::default());
+        assert!((own(20.0).unwrap().width - 0.2).abs() < 1.0e-12);
+        assert!(matches!(own(15.0), Err(SeparationError::NotApplicable { .. })));
+    }
+}

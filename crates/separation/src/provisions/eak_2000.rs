@@ -1,0 +1,74 @@
+//! Greek seismic code EAK 2000.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Situation};
+use crate::working::{Working, root};
+
+fn displacement(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let left = working.displacement(&situation.left)?;
+    let right = working.displacement(&situation.right)?;
+    Ok(root(left, right))
+}
+
+fn joint(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let storeys = situation.left.storeys.min(situation.right.storeys);
+    working.note("storeys in contact", storeys as f64, "-");
+    Ok(match storeys {
+        0..=3 => 0.04,
+        4..=8 => 0.08,
+        _ => 0.10,
+    })
+}
+
+pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
+    name: "eak_2000_between",
+    region: "Greece",
+    edition: "EAK 2000",
+    clause: "4.1.7.2",
+    basis: Basis::Displacement,
+    formula: "sqrt(u1^2 + u2^2)",
+    inputs: &[Input::Displacement],
+    status: Status::FromMemory("that the square root is allowed; a sum is the safe reading"),
+    remarks: &[],
+    rule: Rule::Between(displacement),
+};
+
+pub(crate) static JOINT: ProvisionDescriptor = ProvisionDescriptor {
+    name: "eak_2000_joint",
+    basis: Basis::Prescriptive,
+    formula: "40 mm up to 3 storeys in contact, 80 mm up to 8, 100 mm above",
+    inputs: &[],
+    status: Status::FromMemory("the widths, and the numbers of storeys at which they change"),
+    remarks: &["The storeys in contact are taken as those of the lower building."],
+    rule: Rule::Between(joint),
+    ..DISPLACEMENT
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::inputs::Structure;
+
+    /// 80 and 60 mm: 100 mm. Joints by the lower building.
+    #[test]
+    fn by_hand() {
+        let structure = |u, storeys| Structure {
+            displacement: Some(u),
+            storeys,
+            ..Structure::default()
+        };
+        let situation = |storeys| Situation {
+            left: structure(0.08, storeys),
+            right: structure(0.06, 20),
+            ..Situation::default()
+        };
+        let root = DISPLACEMENT.between(&situation(3)).unwrap().width;
+        assert!((root - 0.1).abs() < 1.0e-12);
+        for (storeys, width) in [(1, 0.04), (3, 0.04), (4, 0.08), (8, 0.08), (9, 0.1)] {
+            assert_eq!(JOINT.between(&situation(storeys)).unwrap().width, width);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Standard 2800 of Iran, fourth edition, and a rule of Tehran.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Site, Situation, Structure};
+use crate::working::{Working, root};
+
+fn by_height(
+    working: &mut Working,
+    structure: &Structure,
+    elevation: f64,
+    _: &Site,
+) -> Result<f64, SeparationError> {
+    if structure.storeys > 8 {
+        let reason = "above 8 storeys it asks for an analysis: see iran_2800_boundary_by_analysis";
+        return Err(working.not_applicable(reason));
+    }
+    Ok(0.005 * working.elevation(elevation))
+}
+
+fn by_analysis(
+    working: &mut Working,
+    structure: &Structure,
+    _: f64,
+    _: &Site,
+) -> Result<f64, SeparationError> {
+    working.displacement(structure)
+}
+
+fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let left = working.displacement(&situation.left)?;
+    let right = working.displacement(&situation.right)?;
+    Ok(root(left, right))
+}
+
+fn tehran(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let Situation { left, right, .. } = situation;
+    let low = |s: &Structure| s.height <= 12.0 && s.storeys <= 4;
+    if low(left) && low(right) {
+        return Err(working.not_applicable("it speaks of more than 12 m or 4 storeys"));
+    }
+    Ok(0.01 * working.elevation(situation.elevation))
+}
+
+pub(crate) static BOUNDARY_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor {
+    name: "iran_2800_boundary_by_height",
+    region: "Iran",
+    edition: "Standard 2800, 4th edition, and Mabhas 6",
+    clause: "1-6, 3-5",
+    basis: Basis::Prescriptive,
+    formula: "0.005 h",
+    inputs: &[],
+    status: Status::Verified("the sentence for up to 8 storeys"),
+    remarks: &["Buildings of high or very high importance need the analysis."],
+    rule: Rule::Boundary(by_height),
+};
+
+pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescriptor {
+    name: "iran_2800_boundary_by_analysis",
+    basis: Basis::Displacement,
+    formula: "u",
+    inputs: &[Input::Displacement],
+    status: Status::FromMemory("the rule for more than 8 storeys or high importance"),
+    remarks: &["Nonlinear displacement with P-delta, which u has to include."],
+    rule: Rule::Boundary(by_analysis),
+    ..BOUNDARY_BY_HEIGHT
+};
+
+pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "iran_2800_between",
+    basis: Basis::Displacement,
+    formula: "sqrt(u1^2 + u2^2)",
+    inputs: &[Input::Displacement],
+    status: Status::FromMemory("the square root"),
+    remarks: &["Beside an unknown neighbour a rule of 70 % holds, which is not here."],
+    rule: Rule::Between(between),
+    ..BOUNDARY_BY_HEIGHT
+};
+
+pub(crate) static TEHRAN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "tehran_between",
+    region: "Tehran",
+    edition: "municipal rule",
+    clause: "",
+    formula: "h / 100",
+    status: Status::Verified("as quoted; what it is measured from was not said"),
+    remarks: &["Above 12 m or 4 storeys."],
+    rule: Rule::Between(tehran),
+    ..BOUNDARY_BY_HEIGHT
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn situation(storeys: usize, height: f64) -> Situation {
+        let structure = |u| Structure {
+            displacement: Some(u),
+            storeys,
+            height,
+            ..Structure::default()
+        };
+        Situation {
+            left: structure(0.08),
+            right: structure(0.06),
+            elevation: height,
+            site: Site::default(),
+        }
+    }
+
+    /// 18 m: 90 mm on either side, 180 mm between in Tehran; 80 and 60 mm: 100 mm.
+    #[test]
+    fn by_hand() {
+        let s = situation(6, 18.0);
+        let own = |c: &ProvisionDescriptor| c.boundary(&s.left, 18.0, &s.site).unwrap().width;
+        assert!((own(&BOUNDARY_BY_HEIGHT) - 0.09).abs() < 1.0e-12);
+        assert!((own(&BOUNDARY_BY_ANALYSIS) - 0.08).abs() < 1.0e-12);
+        assert!((BETWEEN.between(&s).unwrap().width - 0.1).abs() < 1.0e-12);
+        assert!((TEHRAN.between(&s).unwrap().width - 0.18).abs() < 1.0e-12);
+    }
+
+    #[test]
+    fn limits() {
+        let refused = |c: &ProvisionDescriptor, s: &Situation| {
+            matches!(c.between(s), Err(SeparationError::NotApplicable { .. }))
+        };
+        assert!(refused(&BOUNDARY_BY_HEIGHT, &situation(9, 27.0)));
+        assert!(refused(&TEHRAN, &situation(4, 12.0)));
+        assert!(!refused(&TEHRAN, &situation(5, 12.0)));
+    }
+}

@@ -1,0 +1,74 @@
+//! IS 1893 (Part 1) of India, editions 2016 and 2002.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Situation};
+use crate::working::Working;
+
+/// `R1 d1 + R2 d2`, half of it where floors are aligned.
+fn sum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let sum = working.restored(&situation.left)? + working.restored(&situation.right)?;
+    let aligned = working.floors_aligned(&situation.site)?;
+    Ok(sum * working.note("factor", if aligned { 0.5 } else { 1.0 }, "-"))
+}
+
+pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
+    name: "is_1893_2016_between",
+    region: "India",
+    edition: "IS 1893 (Part 1):2016",
+    clause: "7.11.3",
+    basis: Basis::Displacement,
+    formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
+    inputs: &[
+        Input::Displacement,
+        Input::Importance,
+        Input::FloorsAligned,
+    ],
+    status: Status::FromMemory("the formula; that the clause exists was seen"),
+    remarks: &[],
+    rule: Rule::Between(sum),
+};
+
+pub(crate) static EDITION_2002: ProvisionDescriptor = ProvisionDescriptor {
+    name: "is_1893_2002_between",
+    edition: "IS 1893 (Part 1):2002",
+    status: Status::FromMemory("the formula"),
+    remarks: &["R is halved where floors are aligned."],
+    ..EDITION_2016
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::inputs::{Site, Structure};
+
+    /// d = 16 mm with R = 5 and u = 60 mm with I = 1: 80 + 60 = 140 mm; 70 mm with
+    /// aligned floors.
+    #[test]
+    fn by_hand() {
+        let structure = |u| Structure {
+            displacement: Some(u),
+            importance: Some(1.0),
+            response_modification: Some(5.0),
+            ..Structure::default()
+        };
+        for (aligned, width) in [(false, 0.14), (true, 0.07)] {
+            let mut situation = Situation {
+                left: structure(0.2),
+                right: structure(0.06),
+                elevation: 9.0,
+                site: Site {
+                    floors_aligned: Some(aligned),
+                    ..Site::default()
+                },
+            };
+            situation.left.elastic_displacement = Some(0.016);
+            for card in [&EDITION_2016, &EDITION_2002] {
+                let found = card.between(&situation).unwrap().width;
+                assert!((found - width).abs() < 1.0e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! IS 4326 of India.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Situation, Structure, StructuralSystem};
+use crate::working::Working;
+
+/// Coefficient at which the table holds.
+const REFERENCE: f64 = 0.12;
+/// Narrowest gap (m).
+const LEAST: f64 = 0.025;
+
+/// Width for one storey (m).
+fn for_a_storey(working: &Working, structure: &Structure) -> Result<f64, SeparationError> {
+    let system = working.need(structure.system, Input::StructuralSystem, &structure.name)?;
+    Ok(match system {
+        StructuralSystem::BoxWall | StructuralSystem::Wall => 0.015,
+        StructuralSystem::Frame | StructuralSystem::FrameWall => 0.020,
+        StructuralSystem::SteelFrame => 0.030,
+    })
+}
+
+fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let left = for_a_storey(working, &situation.left)?;
+    let width = left.max(for_a_storey(working, &situation.right)?);
+    let width = working.note("width for a storey", width, "m");
+    let storeys = situation.left.storeys.min(situation.right.storeys);
+    let storeys = working.note("storeys of the lower building", storeys as f64, "-");
+    let given = situation.site.seismic_coefficient;
+    let coefficient = working.need(given, Input::SeismicCoefficient, "")?;
+    let coefficient = working.note("alpha_h", coefficient, "-");
+    Ok((storeys * width * coefficient / REFERENCE).max(LEAST))
+}
+
+pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "is_4326_between",
+    region: "India",
+    edition: "IS 4326:1993 and 2013",
+    clause: "Table 1",
+    basis: Basis::Prescriptive,
+    formula: "storeys * (15 mm walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
+    inputs: &[Input::StructuralSystem, Input::SeismicCoefficient],
+    status: Status::FromMemory("the table"),
+    remarks: &[
+        "Of two kinds of structure the wider width is taken.",
+        "The table's kinds are box of walls, frame of reinforced concrete and steel; walls and frames with walls are counted to the nearest of them.",
+    ],
+    rule: Rule::Between(between),
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::inputs::Site;
+
+    /// Four storeys beside nine: at 0.12 frames need 80 mm, boxes 60 mm, steel beside a
+    /// box 120 mm; at 0.03 boxes need the least, 25 mm.
+    #[test]
+    fn by_hand() {
+        use StructuralSystem::{BoxWall, Frame, SteelFrame};
+        for (left, right, coefficient, width) in [
+            (Frame, Frame, 0.12, 0.08),
+            (BoxWall, BoxWall, 0.12, 0.06),
+            (BoxWall, SteelFrame, 0.12, 0.12),
+            (Frame, Frame, 0.06, 0.04),
+            (BoxWall, BoxWall, 0.03, 0.025),
+        ] {
+            let structure = |system, storeys| Structure {
+                system: Some(system),
+                storeys,
+                ..Structure::default()
+            };
+            let situation = Situation {
+                left: structure(left, 4),
+                right: structure(right, 9),
+                elevation: 12.0,
+                site: Site {
+                    seismic_coefficient: Some(coefficient),
+                    ..Site::default()
+                },
+            };
+            let found = BETWEEN.between(&situation).unwrap().width;
+            assert!((found - width).abs() < 1.0e-12, "{found} {width}");
+        }
+    }
+}

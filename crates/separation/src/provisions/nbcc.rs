@@ -1,0 +1,51 @@
+//! National Building Code of Canada.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Situation};
+use crate::working::{Working, root};
+
+/// Deflections of 4.1.8.13 are elastic ones times `Rd Ro / IE`: the unreduced `u`.
+fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let left = working.displacement(&situation.left)?;
+    let right = working.displacement(&situation.right)?;
+    Ok(root(left, right))
+}
+
+pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "nbcc_2015_between",
+    region: "Canada",
+    edition: "NBCC 2015 and 2020",
+    clause: "4.1.8.14",
+    basis: Basis::Displacement,
+    formula: "sqrt(u1^2 + u2^2)",
+    inputs: &[Input::Displacement],
+    status: Status::Verified("text of Ontario"),
+    remarks: &[
+        "Or tie the buildings: by a rigid tie, with the lower Rd Ro of the two; by any other, with a special study.",
+    ],
+    rule: Rule::Between(between),
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::inputs::Structure;
+
+    /// 80 and 60 mm: 100 mm.
+    #[test]
+    fn by_hand() {
+        let structure = |u| Structure {
+            displacement: Some(u),
+            ..Structure::default()
+        };
+        let situation = Situation {
+            left: structure(0.08),
+            right: structure(0.06),
+            ..Situation::default()
+        };
+        assert!((BETWEEN.between(&situation).unwrap().width - 0.1).abs() < 1.0e-12);
+    }
+}

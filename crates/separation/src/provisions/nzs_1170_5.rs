@@ -1,0 +1,66 @@
+//! NZS 1170.5 of New Zealand.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Site, Situation, Structure};
+use crate::working::Working;
+
+fn boundary(
+    working: &mut Working,
+    structure: &Structure,
+    _: f64,
+    _: &Site,
+) -> Result<f64, SeparationError> {
+    working.displacement(structure)
+}
+
+fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    Ok(working.displacement(&situation.left)? + working.displacement(&situation.right)?)
+}
+
+pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
+    name: "nzs_1170_5_boundary",
+    region: "New Zealand",
+    edition: "NZS 1170.5:2004",
+    clause: "7.4",
+    basis: Basis::Displacement,
+    formula: "u",
+    inputs: &[Input::Displacement],
+    status: Status::FromMemory("the clause"),
+    remarks: &["For deflections of the ultimate limit state."],
+    rule: Rule::Boundary(boundary),
+};
+
+pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "nzs_1170_5_between",
+    formula: "u1 + u2",
+    remarks: &[
+        "For deflections of the ultimate limit state; no relief by a square root.",
+    ],
+    rule: Rule::Between(between),
+    ..BOUNDARY
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// 80 and 60 mm: 80 mm on the own side, 140 mm between.
+    #[test]
+    fn by_hand() {
+        let structure = |u| Structure {
+            displacement: Some(u),
+            ..Structure::default()
+        };
+        let situation = Situation {
+            left: structure(0.08),
+            right: structure(0.06),
+            ..Situation::default()
+        };
+        let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
+        assert!((own.unwrap().width - 0.08).abs() < 1.0e-12);
+        assert!((BETWEEN.between(&situation).unwrap().width - 0.14).abs() < 1.0e-12);
+    }
+}

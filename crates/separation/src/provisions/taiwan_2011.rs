@@ -1,0 +1,78 @@
+//! Seismic design code of Taiwan, 2011.
+
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::error::SeparationError;
+use crate::inputs::{Input, Site, Situation, Structure};
+use crate::working::Working;
+
+fn own(working: &mut Working, structure: &Structure) -> Result<f64, SeparationError> {
+    let factors = working.note("factor", 0.6, "-")
+        * working.note("1.4", 1.4, "-")
+        * working.yield_amplification(structure)?;
+    Ok(factors * working.restored(structure)?)
+}
+
+fn boundary(
+    working: &mut Working,
+    structure: &Structure,
+    _: f64,
+    _: &Site,
+) -> Result<f64, SeparationError> {
+    own(working, structure)
+}
+
+fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    Ok(own(working, &situation.left)? + own(working, &situation.right)?)
+}
+
+pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
+    name: "taiwan_2011_boundary",
+    region: "Taiwan",
+    edition: "seismic design code, 2011",
+    clause: "2.16",
+    basis: Basis::Displacement,
+    formula: "0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
+    inputs: &[
+        Input::Displacement,
+        Input::Importance,
+        Input::YieldAmplification,
+    ],
+    status: Status::FromMemory("the factors; Ra stands under response_modification"),
+    remarks: &[],
+    rule: Rule::Boundary(boundary),
+};
+
+pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
+    name: "taiwan_2011_between",
+    formula: "sum over both buildings of 0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
+    status: Status::FromMemory("the factors; the sum across the property line was seen"),
+    rule: Rule::Between(between),
+    ..BOUNDARY
+};
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// alpha_y = 1.5, I = 1, u = 80 and 60 mm: 0.6 * 1.4 * 1.5 = 1.26; 100.8 mm on the
+    /// own side, 1.26 * 140 = 176.4 mm between.
+    #[test]
+    fn by_hand() {
+        let structure = |u| Structure {
+            displacement: Some(u),
+            importance: Some(1.0),
+            yield_amplification: Some(1.5),
+            ..Structure::default()
+        };
+        let situation = Situation {
+            left: structure(0.08),
+            right: structure(0.06),
+            ..Situation::default()
+        };
+        let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
+        assert!((own.unwrap().width - 0.100_8).abs() < 1.0e-12);
+        assert!((BETWEEN.between(&situation).unwrap().width - 0.176_4).abs() < 1.0e-12);
+    }
+}

@@ -1,0 +1,164 @@
+//! The working of a provision: every factor with its number.
+
+use crate::error::SeparationError;
+use crate::inputs::{Input, Site, Structure};
+
+/// One number that went into a gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// Name, with the structure it belongs to.
+    pub name: String,
+    /// Value in the unit.
+    pub value: f64,
+    /// Unit.
+    pub unit: &'static str,
+}
+
+/// The gap that a provision requires.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Requirement {
+    /// Width (m).
+    pub width: f64,
+    /// Everything that went into it, in the order of use.
+    pub factors: Vec<Factor>,
+    /// Formula, factors and result in a line.
+    pub explanation: String,
+}
+
+/// Collects factors and complains of missing ones.
+#[derive(Debug)]
+pub(crate) struct Working {
+    provision: &'static str,
+    factors: Vec<Factor>,
+}
+
+type Number = Result<f64, SeparationError>;
+
+impl Working {
+    pub(crate) fn new(provision: &'static str) -> Self {
+        Self {
+            provision,
+            factors: Vec::new(),
+        }
+    }
+
+    /// The requirement with its explanation.
+    pub(crate) fn finish(self, formula: &str, width: f64) -> Requirement {
+        let factors: Vec<String> = self.factors.iter().map(shown).collect();
+        let explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
+        Requirement {
+            width,
+            factors: self.factors,
+            explanation,
+        }
+    }
+
+    /// Notes a number and hands it on.
+    pub(crate) fn note(&mut self, name: impl Into<String>, value: f64, unit: &'static str) -> f64 {
+        let name = name.into();
+        let known = |f: &Factor| f.name == name && f.value == value;
+        if !self.factors.iter().any(known) {
+            self.factors.push(Factor { name, value, unit });
+        }
+        value
+    }
+
+    pub(crate) fn not_applicable(&self, reason: impl Into<String>) -> SeparationError {
+        SeparationError::NotApplicable {
+            provision: self.provision,
+            reason: reason.into(),
+        }
+    }
+
+    /// A value that must be given.
+    pub(crate) fn need<T>(
+        &self,
+        value: Option<T>,
+        input: Input,
+        structure: &str,
+    ) -> Result<T, SeparationError> {
+        value.ok_or_else(|| SeparationError::MissingInput {
+            provision: self.provision,
+            input,
+            structure: structure.to_owned(),
+        })
+    }
+
+    fn of(&mut self, s: &Structure, value: Option<f64>, input: Input, symbol: &str) -> Number {
+        let value = self.need(value, input, &s.name)?;
+        Ok(self.note(format!("{symbol}({})", s.name), value, "-"))
+    }
+
+    /// Peak displacement `u`, not reduced (m).
+    pub(crate) fn displacement(&mut self, s: &Structure) -> Number {
+        let value = self.need(s.displacement, Input::Displacement, &s.name)?;
+        let allowed = value.is_finite() && value >= 0.0;
+        if !allowed {
+            return Err(SeparationError::OutOfRange {
+                quantity: "displacement",
+                value,
+                range: "[0, inf)",
+            });
+        }
+        Ok(self.note(format!("u({})", s.name), value, "m"))
+    }
+
+    /// `R` (-).
+    pub(crate) fn response_modification(&mut self, s: &Structure) -> Number {
+        self.of(s, s.response_modification, Input::ResponseModification, "R")
+    }
+
+    /// `Cd` (-).
+    pub(crate) fn displacement_amplification(&mut self, s: &Structure) -> Number {
+        let input = Input::DisplacementAmplification;
+        self.of(s, s.displacement_amplification, input, "Cd")
+    }
+
+    /// `I` (-).
+    pub(crate) fn importance(&mut self, s: &Structure) -> Number {
+        self.of(s, s.importance, Input::Importance, "I")
+    }
+
+    /// `alpha_y` (-).
+    pub(crate) fn yield_amplification(&mut self, s: &Structure) -> Number {
+        let input = Input::YieldAmplification;
+        self.of(s, s.yield_amplification, input, "alpha_y")
+    }
+
+    /// `R d`, with the displacement `d` under reduced forces: `R` times that where it is
+    /// known, else `I u`, in which `R` cancels (m).
+    pub(crate) fn restored(&mut self, s: &Structure) -> Number {
+        let value = match s.elastic_displacement {
+            Some(d) => {
+                let d = self.note(format!("d({})", s.name), d, "m");
+                self.response_modification(s)? * d
+            }
+            None => self.importance(s)? * self.displacement(s)?,
+        };
+        Ok(value)
+    }
+
+    /// Whether the floors of both structures lie at equal elevations.
+    pub(crate) fn floors_aligned(&mut self, site: &Site) -> Result<bool, SeparationError> {
+        self.need(site.floors_aligned, Input::FloorsAligned, "")
+    }
+
+    /// Elevation of the level (m).
+    pub(crate) fn elevation(&mut self, elevation: f64) -> f64 {
+        self.note("h", elevation, "m")
+    }
+}
+
+fn shown(factor: &Factor) -> String {
+    let Factor { name, value, unit } = factor;
+    match *unit {
+        "m" => format!("{name} = {value:.6} m"),
+        "-" => format!("{name} = {value}"),
+        unit => format!("{name} = {value} {unit}"),
+    }
+}
+
+/// Square root of the sum of squares.
+pub(crate) fn root(a: f64, b: f64) -> f64 {
+    a.hypot(b)
+}

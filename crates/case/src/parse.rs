@@ -8,15 +8,17 @@ use toml::de::{DeTable, DeValue};
 use crate::error::CaseError;
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{Analysis, Building, Case, Gap, Link, Located};
+use crate::types::{Analysis, Building, Case, Gap, Link, Located, Separation};
 use crate::units::Dimension;
 
 mod building;
 mod gap;
 mod ground_motion;
 mod law;
+mod separation;
 
 pub use ground_motion::process_steps;
+pub(crate) use separation::keys as separation_keys;
 
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let name = file.display().to_string();
@@ -43,6 +45,10 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
         Some(value) => analysis(&reader, value)?,
         None => default_analysis(),
     };
+    let separation = match root.get("separation") {
+        Some(value) => separation::separation(&reader, value, buildings.len())?,
+        None => Separation::default(),
+    };
     Ok(Case {
         title,
         buildings,
@@ -50,6 +56,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
         links,
         ground_motion,
         analysis,
+        separation,
         source: source.to_owned(),
         file: file.to_owned(),
     })

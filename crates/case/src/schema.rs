@@ -15,6 +15,8 @@ pub(crate) enum Kind {
     /// The same, or a list of them.
     Quantities,
     Names,
+    /// A text, or a list of them.
+    Texts,
     /// Two different modes, from 1.
     Modes,
     Levels,
@@ -86,6 +88,75 @@ pub(crate) const CASE: &[Key] = &[
         "analysis",
         Kind::Table(ANALYSIS),
         "Method, duration, output",
+    ),
+    key(
+        "separation",
+        Kind::Table(SEPARATION),
+        "What provisions for the gap need to know",
+    ),
+];
+
+pub(crate) const SEPARATION: &[Key] = &[
+    key(
+        "response_modification",
+        Kind::Quantities,
+        "R, q, Rd Ro, R* or Ra (-), one for all buildings or a list",
+    ),
+    key(
+        "displacement_amplification",
+        Kind::Quantities,
+        "Cd (-), one for all buildings or a list",
+    ),
+    key(
+        "importance",
+        Kind::Quantities,
+        "Importance factor (-), one for all buildings or a list",
+    ),
+    key(
+        "yield_amplification",
+        Kind::Quantities,
+        "alpha_y of the code of Taiwan (-), one for all buildings or a list",
+    ),
+    key(
+        "ductility",
+        Kind::Quantities,
+        "Ductility (-) for effective period and damping, one for all buildings or a list",
+    ),
+    key(
+        "structural_system",
+        Kind::Texts,
+        "frame, frame_wall, wall, steel_frame or box_wall, one for all buildings or a list",
+    ),
+    key(
+        "floors_aligned",
+        Kind::Flag,
+        "Whether all floors face floors; by default found from the elevations",
+    ),
+    key(
+        "same_owner",
+        Kind::Flag,
+        "Whether no property line lies in the gaps",
+    ),
+    key(
+        "fortification_intensity",
+        Kind::Count(1),
+        "Fortification intensity of the Chinese code, 6 to 9",
+    ),
+    key("soil_zone", Kind::Text, "Zone of Mexico City: I, II or III"),
+    key(
+        "design_ground_acceleration",
+        Kind::Quantity,
+        "a_g S of Eurocode 8 and NTC (m/s2)",
+    ),
+    key(
+        "seismic_coefficient",
+        Kind::Quantity,
+        "alpha_h of the Indian code (-)",
+    ),
+    key(
+        "provisions",
+        Kind::Texts,
+        "Provisions to apply, by default all that apply",
     ),
 ];
 
@@ -360,6 +431,10 @@ fn kind(kind: Kind, explanation: &str) -> Value {
         Kind::Names => {
             json!({"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2})
         }
+        Kind::Texts => json!({"anyOf": [
+            {"type": "string"},
+            {"type": "array", "minItems": 1, "items": {"type": "string"}}
+        ]}),
         Kind::Modes => json!({
             "type": "array", "items": {"type": "integer", "minimum": 1},
             "minItems": 2, "maxItems": 2, "uniqueItems": true

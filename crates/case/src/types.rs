@@ -31,6 +31,8 @@ pub struct Case {
     pub ground_motion: GroundMotion,
     /// Analysis.
     pub analysis: Analysis,
+    /// What provisions for the gap need to know.
+    pub separation: Separation,
     /// The TOML text.
     pub source: String,
     /// Name of the file in messages, and the base of relative paths.
@@ -286,6 +288,74 @@ pub struct Analysis {
     pub relative_tolerance: Option<f64>,
     /// Allowed energy residual.
     pub energy_tolerance: Option<f64>,
+}
+
+/// What provisions for the gap need to know beside the buildings themselves; lists
+/// hold one value a building. What is not given is `None`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Separation {
+    /// `R`, `q`, `Rd Ro`, `R*`, `Ra`.
+    pub response_modification: Option<Vec<f64>>,
+    /// `Cd`.
+    pub displacement_amplification: Option<Vec<f64>>,
+    /// Importance factors.
+    pub importance: Option<Vec<f64>>,
+    /// `alpha_y` of the code of Taiwan.
+    pub yield_amplification: Option<Vec<f64>>,
+    /// Ductilities, for effective periods and damping.
+    pub ductility: Option<Vec<f64>>,
+    /// Kinds of structure.
+    pub structural_system: Option<Vec<Located<String>>>,
+    /// Whether all floors face floors; by default found from the elevations.
+    pub floors_aligned: Option<bool>,
+    /// Whether no property line lies in the gaps.
+    pub same_owner: Option<bool>,
+    /// Fortification intensity of the Chinese code.
+    pub fortification_intensity: Option<usize>,
+    /// Soil zone of Mexico City.
+    pub soil_zone: Option<Located<String>>,
+    /// `a_g S` (m/s2).
+    pub design_ground_acceleration: Option<f64>,
+    /// `alpha_h` of the Indian code.
+    pub seismic_coefficient: Option<f64>,
+    /// Names of the provisions to apply; all by default.
+    pub provisions: Option<Vec<Located<String>>>,
+}
+
+impl Separation {
+    /// Reads the keys of `[separation]` from a text of their own, for so many buildings.
+    ///
+    /// # Errors
+    /// The first thing wrong in it, with its place in the text.
+    pub fn parse(text: &str, buildings: usize) -> Result<Self, CaseError> {
+        crate::parse::separation_keys(text, buildings)
+    }
+
+    /// The same with what `other` gives in the place of what this one has.
+    #[must_use]
+    pub fn overridden_by(self, other: Self) -> Self {
+        Self {
+            response_modification: other.response_modification.or(self.response_modification),
+            displacement_amplification: other
+                .displacement_amplification
+                .or(self.displacement_amplification),
+            importance: other.importance.or(self.importance),
+            yield_amplification: other.yield_amplification.or(self.yield_amplification),
+            ductility: other.ductility.or(self.ductility),
+            structural_system: other.structural_system.or(self.structural_system),
+            floors_aligned: other.floors_aligned.or(self.floors_aligned),
+            same_owner: other.same_owner.or(self.same_owner),
+            fortification_intensity: other
+                .fortification_intensity
+                .or(self.fortification_intensity),
+            soil_zone: other.soil_zone.or(self.soil_zone),
+            design_ground_acceleration: other
+                .design_ground_acceleration
+                .or(self.design_ground_acceleration),
+            seismic_coefficient: other.seismic_coefficient.or(self.seismic_coefficient),
+            provisions: other.provisions.or(self.provisions),
+        }
+    }
 }
 
 impl Case {

@@ -1,0 +1,83 @@
+//! The table `[separation]`.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_case::{Case, Separation};
+
+const CASE: &str = r#"
+[[building]]
+name = "a"
+storeys = 1
+mass = 1
+stiffness = 1
+height = 3
+damping = { modal = 0.05 }
+[[building]]
+name = "b"
+storeys = 1
+mass = 1
+stiffness = 1
+height = 3
+damping = { modal = 0.05 }
+[ground_motion]
+file = "record.csv"
+[separation]
+response_modification = [8, 5]
+importance = 1.25
+structural_system = "frame"
+same_owner = true
+soil_zone = "II"
+design_ground_acceleration = "0.25 g"
+provisions = ["asce_7_10_between"]
+"#;
+
+#[test]
+fn read_and_spread_over_buildings() {
+    let s = Case::parse(CASE, Path::new("case.toml"))
+        .unwrap()
+        .separation;
+    assert_eq!(s.response_modification, Some(vec![8.0, 5.0]));
+    assert_eq!(s.importance, Some(vec![1.25, 1.25]));
+    assert_eq!(s.structural_system.unwrap().len(), 2);
+    assert_eq!(s.same_owner, Some(true));
+    assert_eq!(s.floors_aligned, None);
+    assert_eq!(s.soil_zone.unwrap().value, "II");
+    assert!((s.design_ground_acceleration.unwrap() - 0.25 * 9.80665).abs() < 1.0e-12);
+    assert_eq!(s.provisions.unwrap()[0].value, "asce_7_10_between");
+}
+
+#[test]
+fn absent_table_gives_nothing() {
+    let text = CASE.split("[separation]").next().unwrap();
+    let case = Case::parse(text, Path::new("case.toml")).unwrap();
+    assert_eq!(case.separation, Separation::default());
+}
+
+#[test]
+fn arguments_override_the_table() {
+    let case = Case::parse(CASE, Path::new("case.toml")).unwrap();
+    let argument = Separation::parse("importance = 1.5", 2).unwrap();
+    let both = case.separation.clone().overridden_by(argument);
+    assert_eq!(both.importance, Some(vec![1.5, 1.5]));
+    assert_eq!(both.response_modification, Some(vec![8.0, 5.0]));
+}
+
+#[test]
+fn mistakes_are_placed() {
+    for (from, to, line, says) in [
+        ("importance", "importanse", 20, "did you mean `importance`?"),
+        ("[8, 5]", "[8, 5, 3]", 19, "one value a building"),
+        ("[8, 5]", "[8, -5]", 19, "correct the value"),
+        ("\"frame\"", "[\"frame\"]", 21, "one value a building"),
+        ("\"0.25 g\"", "\"0.25 m\"", 24, "correct the unit"),
+        ("same_owner = true", "same_owner = 1", 22, "true or false"),
+    ] {
+        let error = Case::parse(&CASE.replace(from, to), Path::new("case.toml")).unwrap_err();
+        assert_eq!(error.line, line, "{error}");
+        let all = format!("{error} {}", error.help.clone().unwrap_or_default());
+        assert!(all.contains(says), "{all}");
+    }
+    let error = Separation::parse("soil_zone = II", 2).unwrap_err();
+    assert!(error.help.unwrap().contains("texts in quotes"));
+}

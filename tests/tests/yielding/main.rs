@@ -6,4 +6,5 @@ mod all_laws;
 mod convergence;
 mod exact_oscillator;
 mod p_delta;
+mod properties;
 mod setup;

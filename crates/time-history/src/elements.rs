@@ -82,14 +82,23 @@ impl Element {
         }
     }
 
-    /// Its deformation (offset zero) or the rate of it (offset of the velocities).
+    /// Its deformation (offset zero) or the rate of it (offset of the velocities). What is
+    /// round-off of the motions of its ends, which may be far greater, is left out.
     pub(crate) fn polynomial(
         &self,
         component: impl Fn(usize) -> Polynomial,
         offset: usize,
     ) -> Polynomial {
         let at = |dof: Option<usize>| dof.map_or([0.0; COEFFICIENTS], |i| component(offset + i));
-        difference(&at(self.far), &at(self.near))
+        let (far, near) = (at(self.far), at(self.near));
+        let largest = far.iter().chain(&near).fold(0.0_f64, |m, c| m.max(c.abs()));
+        let mut p = difference(&far, &near);
+        for c in &mut p[1..] {
+            if c.abs() < ROUND_OFF * largest {
+                *c = 0.0;
+            }
+        }
+        p
     }
 
     /// Law of the element at a state. Within a step of a method that locates events,
@@ -119,8 +128,12 @@ pub(crate) struct Elements {
     pub turned: Vec<bool>,
 }
 
-/// Motion below which (m/s) a change of direction is round-off.
-const STANDSTILL: f64 = 1.0e-13;
+/// Round-off of a coefficient over the largest of the motions that it is made from.
+const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
+
+/// Speed (m/s) below which an element stands still over a step, as between floors in
+/// lasting contact: what moves it there is round-off.
+const STANDSTILL: f64 = 1.0e-11;
 
 /// Part of its own scale beyond which a guard counts as passed after a jump.
 const PASSED: f64 = 1.0e-12;
@@ -255,7 +268,7 @@ fn passed(
     (motion, variables): (Motion, &[f64]),
 ) -> bool {
     let size = match guard {
-        Guard::Turning => STANDSTILL / PASSED,
+        Guard::Turning => 0.1,
         Guard::Above | Guard::Below => motion.deformation.abs().max(1.0e-9),
         Guard::Faster | Guard::Slower => motion.velocity.abs().max(1.0e-9),
         Guard::Variable(_) => 1.0e-3,
@@ -272,16 +285,15 @@ pub(crate) fn guard_function(
     layout: Layout,
     component: impl Fn(usize) -> Polynomial,
 ) -> Option<Polynomial> {
+    let velocity = element.polynomial(&component, layout.dofs);
+    if velocity.iter().map(|c| c.abs()).sum::<f64>() < STANDSTILL {
+        return None;
+    }
     let function = match guard {
         Guard::Variable(i) => component(element.range(layout).start + usize::from(i)),
         Guard::Above | Guard::Below => element.polynomial(component, 0),
-        Guard::Turning | Guard::Faster | Guard::Slower => {
-            element.polynomial(component, layout.dofs)
-        }
+        Guard::Turning | Guard::Faster | Guard::Slower => velocity,
     };
-    if guard == Guard::Turning && function.iter().map(|c| c.abs()).sum::<f64>() < STANDSTILL {
-        return None;
-    }
     // Guards are affine in the one quantity that they watch.
     let at = |x: f64| {
         let (mut motion, mut variables) = (Motion::default(), [0.0; 2]);

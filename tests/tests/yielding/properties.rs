@@ -160,3 +160,24 @@ proptest! {
         }
     }
 }
+
+/// Floors in lasting contact beside a link: it stands still but for round-off, and must
+/// not change its branch for that.
+#[test]
+fn lasting_contact_beside_a_link() {
+    let pair = Pair {
+        laws: [2, 0],
+        strength: [0.387_116_717_619_984_8, 0.251_592_795_566_577_54],
+        period: [0.350_875_787_648_502_1, 0.984_595_888_443_596_7],
+        width: 0.023_571_025_044_995,
+        rigid: true,
+        linked: true,
+    };
+    let outcome = go(
+        &pair.system(false, pair.width, &el_centro()),
+        ADAPTIVE,
+        DURATION,
+    );
+    assert!(outcome.gaps[0].levels.iter().any(|l| l.sticks > 0));
+    assert!(outcome.energy.residual_ratio < 1.0e-9);
+}

@@ -1,0 +1,163 @@
+//! Laws of storeys and links that cannot be: exit code 2, place, reason, remedy.
+#![allow(clippy::unwrap_used)]
+
+use std::process::{Command, Output};
+
+const LAW: &str =
+    "law = { model = \"bilinear\", yield_force = \"120 kN\", hardening_ratio = 0.05 }";
+const LINK: &str = "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"iwan_six_parameter\"\ndensity = \"4e8 N/m^1.7\"\nexponent = -0.3\nphi_2 = \"5 mm\"\n";
+
+fn case(law: &str, link: &str) -> String {
+    format!(
+        r#"
+[[building]]
+name = "a"
+storeys = 2
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = {{ stiffness_proportional = 0.05 }}
+{law}
+[[building]]
+name = "b"
+storeys = 2
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = {{ ratio = 0.05, modes = [1, 2] }}
+{link}
+[ground_motion]
+file = "record.csv"
+[analysis]
+duration = "2 s"
+"#
+    )
+}
+
+fn run(case: &str, more: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let mut record = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+    for i in 0..120 {
+        let t = f64::from(i) * 0.02;
+        record.push_str(&format!("{t:.2},{:.5}\n", 0.4 * (7.0 * t).sin()));
+    }
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    std::fs::write(folder.path().join("record.csv"), record).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .current_dir(folder.path())
+        .env("NO_COLOR", "1")
+        .args(["run", "case.toml", "--no-output"])
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+fn refused(law: &str, link: &str, wanted: &[&str]) {
+    let output = run(&case(law, link), &[]);
+    let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    for word in wanted {
+        assert!(text.contains(word), "{word:?} is not in: {text}");
+    }
+    assert!(text.contains("case.toml:"), "no place: {text}");
+}
+
+#[test]
+fn the_case_itself_runs() {
+    let output = run(&case(LAW, LINK), &[]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        text.contains("ductility") && text.contains("Link a-b"),
+        "{text}"
+    );
+    // The method was not asked for: what happens in its place is said.
+    assert!(text.contains("adaptive pair"), "{text}");
+}
+
+#[test]
+fn laws_of_storeys() {
+    let with = |from: &str, to: &str| LAW.replace(from, to);
+    refused(&with("bilinear", "bilinaer"), "", &["unknown", "bilinear"]);
+    refused(
+        &with("hardening_ratio", "hardning_ratio"),
+        "",
+        &["hardening_ratio"],
+    );
+    refused(&with("120 kN", "120 kg"), "", &["yield_force", "force"]);
+    refused(&with("120 kN", "0 kN"), "", &["yield_force", "0"]);
+    refused(&with("0.05", "-1.5"), "", &["hardening_ratio", "-1"]);
+    refused(
+        &with(", yield_force = \"120 kN\"", ""),
+        "",
+        &["yield_force", "add"],
+    );
+    refused(
+        &with("\"120 kN\"", "[1e5, 1e5, 1e5]"),
+        "",
+        &["3 values", "2 places"],
+    );
+    refused(&with("{ ", "{ storeys = [3], "), "", &["storey 3"]);
+    refused(
+        &with("{ ", "{ stiffness = 1e6, "),
+        "",
+        &["1000000 N/m", "3460000 N/m"],
+    );
+    refused(&with("model", "modell"), "", &["did you mean `model`"]);
+    refused(
+        "law = [{ model = \"bilinear\", yield_force = 1e5 }, { model = \"linear\", storeys = [2] }]",
+        "",
+        &["storey 2", "two laws"],
+    );
+    refused(
+        "law = { model = \"viscous_damper\", damping = 1e5 }",
+        "",
+        &["[[link]]"],
+    );
+}
+
+#[test]
+fn gravity_that_overturns() {
+    let weak = "p_delta = true\ninitial_displacement = 0";
+    let heavy = case(weak, "").replace("\"25 t\"", "\"900 t\"");
+    let output = run(&heavy, &[]);
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("cannot"), "{text}");
+}
+
+#[test]
+fn laws_of_links() {
+    let with = |from: &str, to: &str| LINK.replace(from, to);
+    refused(
+        "",
+        &with("\"5 mm\"", "\"5 mm\"\nphi_1 = \"6 mm\""),
+        &["phi_1"],
+    );
+    refused("", &with("-0.3", "-1.0"), &["exponent", "-1"]);
+    refused("", &with("N/m^1.7", "N/m^1.5"), &["density"]);
+    refused(
+        "",
+        &with("[\"a\", \"b\"]", "[\"a\", \"c\"]"),
+        &["no building \"c\""],
+    );
+    refused("", &format!("{LINK}{LINK}"), &["two links"]);
+    refused("", &with("phi_2 = \"5 mm\"", ""), &["phi_2"]);
+}
+
+#[test]
+fn rigid_time_stepping_knows_linear_storeys_only() {
+    let moreau = case(LAW, "").replace(
+        "duration = \"2 s\"",
+        "duration = \"2 s\"\nmethod = \"moreau_jean\"\nstep = \"1 ms\"",
+    );
+    let output = run(&moreau, &[]);
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("a storey 1"), "{text}");
+}

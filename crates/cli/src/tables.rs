@@ -190,19 +190,29 @@ fn held_and_widened(levels: &[LevelOutcome]) -> String {
 
 fn energy(record: &RunRecord<'_>) -> String {
     let (e, statistics) = (record.outcome.energy, record.outcome.statistics);
+    let gravity = record.assembly.system.buildings().iter();
+    let gravity = gravity
+        .flat_map(|b| b.geometric_stiffness())
+        .any(|k| *k > 0.0);
+    let strain = if gravity {
+        "strain less work of gravity"
+    } else {
+        "strain"
+    };
     let hysteretic = if record.assembly.system.elements().is_empty() {
         String::new()
     } else {
         format!("hysteretic {:.3} + ", e.end.hysteretic * 1e-3)
     };
     format!(
-        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + {}impact {:.3} + kinetic {:.3} + strain {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
+        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + {}impact {:.3} + kinetic {:.3} + {} {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
         record.outcome.end_time,
         e.end.input * 1e-3,
         e.end.viscous * 1e-3,
         hysteretic,
         e.end.impact * 1e-3,
         e.end.kinetic * 1e-3,
+        strain,
         e.end.strain * 1e-3,
         e.residual_ratio,
         record.outcome.method.title,

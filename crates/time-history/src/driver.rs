@@ -7,13 +7,14 @@ mod open_flight;
 mod result;
 mod rigid_impacts;
 mod stepped_impacts;
+mod watch;
 
 use pounding_hysteresis::History;
 
 use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Instant, Segment};
 use crate::error::TimeHistoryError;
-use crate::events::{Candidate, EventKind, Finder};
+use crate::events::{Candidate, Finder};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
@@ -407,84 +408,5 @@ impl<'a> Driver<'a> {
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
         self.stands(segment.start + tau + step)?;
         self.balance(segment.start + tau + step)
-    }
-
-    /// Ends the run where gravity has overturned a building.
-    fn stands(&self, time: f64) -> Result<(), TimeHistoryError> {
-        let buildings = self.system.buildings().iter();
-        for (building, offset) in buildings.zip(self.system.offsets()) {
-            for (storey, geometric) in building.geometric_stiffness().iter().enumerate() {
-                let drift = self.peaks.storeys[offset + storey].drift_ratio.value;
-                if *geometric > 0.0 && drift > 1.0 {
-                    return Err(TimeHistoryError::Collapse {
-                        time,
-                        building: building.name().to_owned(),
-                        storey: storey + 1,
-                        height: building.height()[storey],
-                    });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Takes the ledger at the present state; a motion that is not finite ends the run.
-    fn balance(&mut self, time: f64) -> Result<(), TimeHistoryError> {
-        let energy = ledger::energy(
-            self.system,
-            self.dynamics.layout,
-            &self.contacts,
-            &self.state,
-            None,
-        );
-        self.ledger.end = energy;
-        self.residual = energy.residual;
-        if !energy.residual.is_finite() {
-            return Err(self.not_finite(time));
-        }
-        self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
-        self.largest_residual = self.largest_residual.max(energy.residual.abs());
-        Ok(())
-    }
-
-    fn not_finite(&self, time: f64) -> TimeHistoryError {
-        TimeHistoryError::NotFinite {
-            time,
-            method: self.method.information().title,
-            place: self.places_in_touch(),
-        }
-    }
-
-    /// A level that had an event, or an element.
-    fn place_of(&self, event: &Candidate) -> String {
-        match event.kind {
-            EventKind::Branch(_) => self.system.place_of_element(event.level),
-            _ => self.place(event.level),
-        }
-    }
-
-    fn place(&self, level: usize) -> String {
-        let gap = self
-            .system
-            .gaps()
-            .iter()
-            .find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
-        gap.map_or_else(String::new, |g| {
-            format!("{} level {}", g.name, level - g.first_level + 1)
-        })
-    }
-
-    fn places_in_touch(&self) -> String {
-        let places: Vec<_> = self
-            .contacts
-            .closed()
-            .iter()
-            .map(|l| self.place(*l))
-            .collect();
-        if places.is_empty() {
-            "none".to_owned()
-        } else {
-            places.join(", ")
-        }
     }
 }

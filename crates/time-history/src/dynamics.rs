@@ -4,7 +4,7 @@
 //! carries, beside displacements and velocities, the integrals that the energy
 //! ledger needs, so that every method integrates them with its own accuracy.
 
-use pounding_hysteresis::History;
+use pounding_hysteresis::{History, Motion};
 
 use crate::contact::Contacts;
 use crate::elements::Element;
@@ -192,9 +192,21 @@ impl<'a> Dynamics<'a> {
     ) -> f64 {
         let n = self.layout.dofs;
         let element = &self.system.elements()[index];
-        let history = &contacts.elements.histories[index];
         let motion = element.motion(&state[..n], &state[n..2 * n]);
         let variables = &state[element.range(self.layout)];
+        self.element_force_at(contacts, index, (motion, variables), elapsed)
+    }
+
+    /// The same from its own motion and internal variables.
+    pub(crate) fn element_force_at(
+        &mut self,
+        contacts: &Contacts,
+        index: usize,
+        (motion, variables): (Motion, &[f64]),
+        elapsed: Option<f64>,
+    ) -> f64 {
+        let element = &self.system.elements()[index];
+        let history = &contacts.elements.histories[index];
         let Some(scratch) = &mut self.scratch else {
             return 0.0;
         };

@@ -1,5 +1,6 @@
 //! Peaks, found inside every accepted step.
 
+use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 use pounding_shear_building::ShearBuilding;
 
 use crate::dynamics::{Instant, Layout};
@@ -131,16 +132,23 @@ impl Peaks {
             peak.raise(top, start + theta * step);
         }
         let implicit = method.information().implicit;
-        let mut force = |state: &mut [f64], theta: f64| {
-            for (k, y) in state.iter_mut().enumerate() {
-                *y = value(method.polynomial(k), theta);
+        let velocity = element.polynomial(|i| *method.polynomial(i), context.dynamics.layout.dofs);
+        let own = element.range(context.dynamics.layout);
+        let mut variables = [0.0; MAXIMUM_INTERNAL_VARIABLES];
+        let mut force = |theta: f64| {
+            let motion = Motion {
+                deformation: value(&deformation, theta),
+                velocity: value(&velocity, theta),
+            };
+            for (variable, i) in variables.iter_mut().zip(own.clone()) {
+                *variable = value(method.polynomial(i), theta);
             }
             let elapsed = (implicit && theta > 0.0).then_some(theta * step);
-            context
-                .dynamics
-                .element_force(context.contacts, index, state, elapsed)
+            let at = (motion, &variables[..own.len()]);
+            let dynamics = &mut *context.dynamics;
+            dynamics.element_force_at(context.contacts, index, at, elapsed)
         };
-        let samples = fit_nodes().map(|theta| force(&mut self.state, theta));
+        let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
         let greatest = self.elements[index].force.value;
         if bound(&fitted).max(bound(&fitted.map(|c| -c))) <= greatest * NEAR {
@@ -152,7 +160,7 @@ impl Peaks {
         // What the law of a step holds is smooth only where its branches are located.
         let near = self.elements[index].force.value * NEAR;
         if let (false, Some((theta, _))) = (implicit, absolute_maximum(&fitted, near)) {
-            let exact = force(&mut self.state, theta).abs();
+            let exact = force(theta).abs();
             self.raise_force(element, index, exact, start + theta * step);
         }
     }

@@ -1,0 +1,88 @@
+//! What is watched after every step: that buildings stand, that the ledger is finite; and
+//! how places are named in messages.
+
+use super::Driver;
+use crate::error::TimeHistoryError;
+use crate::events::{Candidate, EventKind};
+use crate::ledger;
+
+impl Driver<'_> {
+    /// Ends the run where gravity has overturned a building.
+    pub(super) fn stands(&self, time: f64) -> Result<(), TimeHistoryError> {
+        let buildings = self.system.buildings().iter();
+        for (building, offset) in buildings.zip(self.system.offsets()) {
+            for (storey, geometric) in building.geometric_stiffness().iter().enumerate() {
+                let drift = self.peaks.storeys[offset + storey].drift_ratio.value;
+                if *geometric > 0.0 && drift > 1.0 {
+                    return Err(TimeHistoryError::Collapse {
+                        time,
+                        building: building.name().to_owned(),
+                        storey: storey + 1,
+                        height: building.height()[storey],
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the ledger at the present state; a motion that is not finite ends the run.
+    pub(super) fn balance(&mut self, time: f64) -> Result<(), TimeHistoryError> {
+        let energy = ledger::energy(
+            self.system,
+            self.dynamics.layout,
+            &self.contacts,
+            &self.state,
+            None,
+        );
+        self.ledger.end = energy;
+        self.residual = energy.residual;
+        if !energy.residual.is_finite() {
+            return Err(self.not_finite(time));
+        }
+        self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
+        self.largest_residual = self.largest_residual.max(energy.residual.abs());
+        Ok(())
+    }
+
+    pub(super) fn not_finite(&self, time: f64) -> TimeHistoryError {
+        TimeHistoryError::NotFinite {
+            time,
+            method: self.method.information().title,
+            place: self.places_in_touch(),
+        }
+    }
+
+    /// A level that had an event, or an element.
+    pub(super) fn place_of(&self, event: &Candidate) -> String {
+        match event.kind {
+            EventKind::Branch(_) => self.system.place_of_element(event.level),
+            _ => self.place(event.level),
+        }
+    }
+
+    pub(super) fn place(&self, level: usize) -> String {
+        let gap = self
+            .system
+            .gaps()
+            .iter()
+            .find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
+        gap.map_or_else(String::new, |g| {
+            format!("{} level {}", g.name, level - g.first_level + 1)
+        })
+    }
+
+    pub(super) fn places_in_touch(&self) -> String {
+        let places: Vec<_> = self
+            .contacts
+            .closed()
+            .iter()
+            .map(|l| self.place(*l))
+            .collect();
+        if places.is_empty() {
+            "none".to_owned()
+        } else {
+            places.join(", ")
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Elements with memory in a system: storeys with laws, and links between floors.
+
+use std::sync::Arc;
+
+use pounding_hysteresis::HysteresisLaw;
+use pounding_shear_building::{ShearBuilding, StoreyLaw};
+
+use super::{Floor, System};
+use crate::elements::{Element, ElementPlace};
+use crate::error::TimeHistoryError;
+
+/// A link: laws that join floors of two neighbours.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// Name in the case file and the result.
+    pub name: String,
+    /// Names of the left and right neighbour, `wall` for a rigid wall.
+    pub between: [String; 2],
+    /// Range of its levels in [`System::elements`].
+    pub first_element: usize,
+    /// Number of levels.
+    pub levels: usize,
+}
+
+/// One level of a link, for its definition.
+#[derive(Debug, Clone)]
+pub struct LinkedPair {
+    /// Floor at the left end.
+    pub left: Floor,
+    /// Floor at the right end.
+    pub right: Floor,
+    /// The law.
+    pub law: Arc<dyn HysteresisLaw>,
+    /// Deformation (m) at which it begins to yield or slip, if the law has one.
+    pub yield_deformation: Option<f64>,
+}
+
+impl System {
+    /// Joins floors of neighbours by a law. `pairs` holds left floor, right floor, law
+    /// and the deformation at which it begins to yield, of each level. The deformation
+    /// is the displacement of the right floor less that of the left one: the link
+    /// lengthens.
+    ///
+    /// # Errors
+    /// A floor that does not exist, or a level between two walls.
+    pub fn add_link(
+        &mut self,
+        name: &str,
+        between: [String; 2],
+        pairs: Vec<LinkedPair>,
+    ) -> Result<(), TimeHistoryError> {
+        let first_element = self.elements.len();
+        let link = self.links.len();
+        let levels = pairs.len();
+        for (level, pair) in pairs.into_iter().enumerate() {
+            let wrong = |reason: String| TimeHistoryError::LinkDefinition {
+                link: name.to_owned(),
+                reason,
+            };
+            let place = |floor: Floor| -> Result<Option<usize>, TimeHistoryError> {
+                let Floor::Storey(b, s) = floor else {
+                    return Ok(None);
+                };
+                let there = self.buildings.get(b).is_some_and(|x| s < x.storeys());
+                if there {
+                    Ok(Some(self.offsets[b] + s))
+                } else {
+                    Err(wrong(format!("building {b} has no storey {}", s + 1)))
+                }
+            };
+            let (left, right) = (place(pair.left)?, place(pair.right)?);
+            if left.is_none() && right.is_none() {
+                return Err(wrong("a level lies between two walls".to_owned()));
+            }
+            self.elements.push(Element {
+                place: ElementPlace::Link { link, level },
+                far: right,
+                near: left,
+                law: pair.law,
+                yield_deformation: pair.yield_deformation,
+                carried: 0.0,
+                first_variable: next_variable(&self.elements),
+            });
+        }
+        self.links.push(Link {
+            name: name.to_owned(),
+            between,
+            first_element,
+            levels,
+        });
+        Ok(())
+    }
+
+    /// Links in the order of the case file.
+    #[must_use]
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Where an element sits, in words.
+    #[must_use]
+    pub fn place_of_element(&self, element: usize) -> String {
+        match self.elements[element].place {
+            ElementPlace::Storey { building, storey } => {
+                format!("{} storey {}", self.buildings[building].name(), storey + 1)
+            }
+            ElementPlace::Link { link, level } => {
+                format!("{} level {}", self.links[link].name, level + 1)
+            }
+        }
+    }
+
+    /// Storeys with laws, buildings from the left and storeys from the bottom, then the
+    /// levels of all links.
+    #[must_use]
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+}
+
+/// Stiffnesses that store strain energy, and the elements of storeys with laws.
+pub(super) fn storeys(
+    buildings: &[Arc<ShearBuilding>],
+    offsets: &[usize],
+) -> (Vec<f64>, Vec<Element>) {
+    let (mut spring, mut elements) = (Vec::new(), Vec::new());
+    for (b, building) in buildings.iter().enumerate() {
+        for (storey, law) in building.laws().iter().enumerate() {
+            let elastic = building.stiffness()[storey];
+            let geometric = building.geometric_stiffness()[storey];
+            let dof = offsets[b] + storey;
+            let Some(StoreyLaw { law, yield_drift }) = law else {
+                spring.push(elastic - geometric);
+                continue;
+            };
+            spring.push(-geometric);
+            elements.push(Element {
+                place: ElementPlace::Storey {
+                    building: b,
+                    storey,
+                },
+                far: Some(dof),
+                near: (storey > 0).then(|| dof - 1),
+                law: Arc::clone(law),
+                yield_deformation: *yield_drift,
+                carried: elastic,
+                first_variable: next_variable(&elements),
+            });
+        }
+    }
+    (spring, elements)
+}
+
+fn next_variable(elements: &[Element]) -> usize {
+    elements
+        .last()
+        .map_or(0, |e| e.first_variable + e.law.internal_variables())
+}

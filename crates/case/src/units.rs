@@ -239,6 +239,7 @@ const UNITS: &[Unit] = &[
     unit("Gg", 1e6, 1.0, Dimension::MASS),
     unit("lb", 45_359_237.0, 1e8, Dimension::MASS),
     unit("m", 1.0, 1.0, Dimension::LENGTH),
+    unit("km", 1000.0, 1.0, Dimension::LENGTH),
     unit("cm", 1.0, 100.0, Dimension::LENGTH),
     unit("mm", 1.0, 1e3, Dimension::LENGTH),
     unit("in", 254.0, 1e4, Dimension::LENGTH),

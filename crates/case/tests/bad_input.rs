@@ -186,7 +186,7 @@ const ROWS: &[Row] = &[
         "\"r\"\nscale = { factor = 2, pga = 1 }",
         23,
         9,
-        "`factor` or `pga`",
+        "one of `factor`, `pga`",
     ),
 ];
 

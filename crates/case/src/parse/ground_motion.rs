@@ -1,5 +1,6 @@
 //! The record of a case and what is done to it.
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
@@ -196,7 +197,14 @@ fn one_of(reader: &Reader<'_>, value: &Value<'_>, name: &str, keys: &str) -> Cas
 
 fn filter(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseError> {
     let table = reader.table(value, "filter", schema::FILTER)?;
-    let corner = |key: &str| table.optional_positive(key, Dimension::FREQUENCY);
+    let corner = |key: &str| -> Result<Option<f64>, CaseError> {
+        let found = table.optional_positive(key, Dimension::FREQUENCY)?;
+        // An angle a second is a circular frequency.
+        let circular = table
+            .get(key)
+            .is_some_and(|v| matches!(v.get_ref(), DeValue::String(text) if text.contains("rad")));
+        Ok(found.map(|f| if circular { f / TAU } else { f }))
+    };
     let (high_pass, low_pass) = (corner("high_pass")?, corner("low_pass")?);
     if high_pass.is_none() && low_pass.is_none() {
         return Err(one_of(

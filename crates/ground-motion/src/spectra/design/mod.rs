@@ -11,7 +11,7 @@ pub use eurocode_8_2004::{Eurocode8Of2004, GroundType, SpectrumType};
 
 /// Points between two corners: with straight lines between logarithms, the greatest
 /// error of a quadratic piece is below 1e-4.
-const POINTS: usize = 40;
+const POINTS: usize = 80;
 
 /// A target through all corners of a spectrum, many points between them.
 fn through(

@@ -1,0 +1,334 @@
+//! The record of a case: how it is read and what is done to it.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_case::{
+    BaselineKind, Case, CaseError, Offset, ProcessStep, RemovedOffset, Scale, process_steps, schema,
+};
+
+const START: &str = r#"[[building]]
+name = "a"
+mass = ["25 t"]
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[ground_motion]
+file = "record.at2"
+"#;
+
+fn parse(keys: &str) -> Result<Case, CaseError> {
+    Case::parse(&format!("{START}{keys}"), Path::new("case.toml"))
+}
+
+#[test]
+fn nothing_is_done_unless_asked_for() {
+    let motion = parse("").unwrap().ground_motion;
+    assert_eq!(motion.offset, Offset::Automatic);
+    assert!(motion.process.is_empty());
+    assert_eq!(motion.scale, Scale::None);
+    assert_eq!(
+        (
+            motion.quantity,
+            motion.sensitivity,
+            motion.gravity,
+            motion.skip_columns
+        ),
+        (None, None, None, 0)
+    );
+}
+
+#[test]
+fn options_of_the_reader() {
+    let motion = parse(
+        "quantity = \"acceleration\"\nskip_columns = 12\nsensitivity = 213945\ngravity = \"981 gal\"\noffset = \"remove\"\ncomponent = \"N10E\"",
+    )
+    .unwrap()
+    .ground_motion;
+    assert_eq!(motion.quantity.unwrap().value, "acceleration");
+    assert_eq!(motion.skip_columns, 12);
+    assert_eq!(motion.sensitivity, Some(213_945.0));
+    assert_eq!(motion.gravity, Some(9.81));
+    assert_eq!(motion.offset, Offset::Remove);
+    assert_eq!(motion.component.as_deref(), Some("N10E"));
+    let counts = parse("sensitivity = \"2139.45 s^2/cm\"").unwrap();
+    assert!((counts.ground_motion.sensitivity.unwrap() - 213_945.0).abs() < 1e-9);
+}
+
+/// Every step in SI units, in the order of the file.
+#[test]
+fn steps() {
+    let text = r#"process = [
+        { true_unit = "g" },
+        { sign = "reversed" },
+        { remove_offset = "mean" },
+        { remove_offset = { pre_event = "5 s" } },
+        { remove_offset = { value = "-2 gal" } },
+        { filter = { high_pass = "0.1 Hz", low_pass = "25 Hz" } },
+        { filter = { low_pass = "62.83185307179586 rad/s", order = 2, phase = "causal" } },
+        { baseline = { acceleration = 0 } },
+        { baseline = { velocity = 2 } },
+        { baseline = { start = "3 s", end = "10 s", fit_from = "20 s" } },
+        { baseline = { threshold = "0.5 m/s^2" } },
+        { trim = { end = "30 s" } },
+        { trim = { arias_from = "0.1 %", arias_to = 0.999 } },
+        { taper = { end = "2 s" } },
+        { pad = { before = 1, after = "10 s" } },
+        { resample = { time_step = "5 ms", interpolation = "band_limited" } },
+        { scale = { psa = "0.8 g", period = "1 s" } },
+    ]"#;
+    let case = parse(text).unwrap();
+    let steps: Vec<_> = case
+        .ground_motion
+        .process
+        .iter()
+        .map(|s| &s.value)
+        .collect();
+    assert_eq!(steps.len(), 17);
+    assert!(matches!(steps[0], ProcessStep::Unit(unit) if unit.value == "g"));
+    assert_eq!(*steps[1], ProcessStep::ReverseSign);
+    assert_eq!(*steps[2], ProcessStep::RemoveOffset(RemovedOffset::Mean));
+    let pre_event = RemovedOffset::PreEventMean(5.0);
+    assert_eq!(*steps[3], ProcessStep::RemoveOffset(pre_event));
+    let value = RemovedOffset::Value(-0.02);
+    assert_eq!(*steps[4], ProcessStep::RemoveOffset(value));
+    let filter = ProcessStep::Filter {
+        order: 4,
+        high_pass: Some(0.1),
+        low_pass: Some(25.0),
+        causal: false,
+        keep_pads: true,
+    };
+    assert_eq!(*steps[5], filter);
+    // 20 pi rad/s are 10 Hz.
+    assert!(matches!(
+        steps[6],
+        ProcessStep::Filter { order: 2, high_pass: None, low_pass: Some(f), causal: true, .. }
+            if (f - 10.0).abs() < 1e-12
+    ));
+    assert_eq!(
+        *steps[7],
+        ProcessStep::Baseline(BaselineKind::Acceleration(0))
+    );
+    assert_eq!(*steps[8], ProcessStep::Baseline(BaselineKind::Velocity(2)));
+    let segments = BaselineKind::Segments {
+        start: 3.0,
+        end: 10.0,
+        fit_from: Some(20.0),
+    };
+    assert_eq!(*steps[9], ProcessStep::Baseline(segments));
+    let threshold = BaselineKind::Threshold {
+        threshold: 0.5,
+        fit_from: None,
+    };
+    assert_eq!(*steps[10], ProcessStep::Baseline(threshold));
+    assert_eq!(
+        *steps[11],
+        ProcessStep::TrimTimes {
+            start: 0.0,
+            end: 30.0
+        }
+    );
+    assert_eq!(
+        *steps[12],
+        ProcessStep::TrimArias {
+            from: 0.001,
+            to: 0.999
+        }
+    );
+    assert_eq!(
+        *steps[13],
+        ProcessStep::Taper {
+            start: 0.0,
+            end: 2.0
+        }
+    );
+    assert_eq!(
+        *steps[14],
+        ProcessStep::Pad {
+            before: 1.0,
+            after: 10.0
+        }
+    );
+    let resample = ProcessStep::Resample {
+        time_step: 0.005,
+        band_limited: true,
+    };
+    assert_eq!(*steps[15], resample);
+    let scale = Scale::SpectralAcceleration {
+        acceleration: 0.8 * 9.80665,
+        period: 1.0,
+        damping: 0.05,
+    };
+    assert_eq!(*steps[16], ProcessStep::Scale(scale));
+}
+
+#[test]
+fn scales() {
+    let scale = |text: &str| parse(&format!("scale = {text}")).map(|c| c.ground_motion.scale);
+    assert_eq!(scale("2").unwrap(), Scale::Factor(2.0));
+    assert_eq!(
+        scale("{ pgv = \"40 cm/s\" }").unwrap(),
+        Scale::PeakGroundVelocity(0.4)
+    );
+    let band = scale("{ target = \"s.csv\", from = \"0.2 s\", to = \"2 s\", damping = \"2 %\" }");
+    assert!(matches!(
+        band.unwrap(),
+        Scale::Band { target, from: 0.2, to: 2.0, damping: 0.02 } if target.value == Path::new("s.csv")
+    ));
+}
+
+/// What is wrong, its column in line 9, and a part of message or remedy.
+const WRONG: &[(&str, usize, &str)] = &[
+    ("gravity = \"9.81 m\"", 11, "must be an acceleration"),
+    ("sensitivity = 0", 15, "greater than zero"),
+    ("sensitivity = \"2 m/s^2\"", 15, "`sensitivity` must be"),
+    ("skip_columns = -1", 16, "whole number from 0"),
+    (
+        "offset = \"removed\"",
+        10,
+        "write \"automatic\" or \"keep\" or \"remove\"",
+    ),
+    ("offset = true", 10, "must be a text"),
+    ("process = { }", 11, "must be a list of steps"),
+    ("process = [\"mean\"]", 12, "must be a table"),
+    ("process = [{ }]", 12, "has one key, not 0"),
+    (
+        "process = [{ sign = \"reversed\", taper = { end = 1 } }]",
+        12,
+        "has one key, not 2",
+    ),
+    ("process = [{ filtr = { } }]", 14, "did you mean `filter`?"),
+    (
+        "process = [{ filter = { high_pass = \"1 s\" } }]",
+        37,
+        "must be a frequency",
+    ),
+    (
+        "process = [{ filter = { order = 4 } }]",
+        23,
+        "`high_pass`, `low_pass` or both",
+    ),
+    (
+        "process = [{ filter = { low_pass = 5, order = 0 } }]",
+        47,
+        "whole number from 1",
+    ),
+    (
+        "process = [{ filter = { low_pass = 5, phase = \"minimum\" } }]",
+        47,
+        "write \"zero\" or \"causal\"",
+    ),
+    (
+        "process = [{ remove_offset = { } }]",
+        30,
+        "`pre_event` or `value`",
+    ),
+    (
+        "process = [{ remove_offset = { pre_event = 1, value = 1 } }]",
+        30,
+        "nothing of the other kinds",
+    ),
+    (
+        "process = [{ baseline = { acceleration = 1, velocity = 1 } }]",
+        25,
+        "nothing of the other kinds",
+    ),
+    (
+        "process = [{ baseline = { start = 1 } }]",
+        25,
+        "`start` with `end`",
+    ),
+    (
+        "process = [{ trim = { start = 1 } }]",
+        21,
+        "`end` (and `start`)",
+    ),
+    (
+        "process = [{ trim = { end = \"-1 s\" } }]",
+        29,
+        "zero or more",
+    ),
+    ("process = [{ taper = { } }]", 22, "`start`, `end` or both"),
+    ("process = [{ resample = { } }]", 25, "time_step"),
+    (
+        "process = [{ scale = { pga = \"1 g\", pgv = 1 } }]",
+        22,
+        "needs one of",
+    ),
+    ("scale = { psa = \"1 g\" }", 9, "period"),
+    (
+        "scale = { pga = \"1 g\", damping = 0.05 }",
+        24,
+        "no meaning beside `pga`",
+    ),
+    (
+        "scale = { target = \"\", from = 1, to = 2 }",
+        20,
+        "`target` is empty",
+    ),
+    (
+        "scale = { target = \"a\", from = 1, to = \"2 m\" }",
+        40,
+        "must be a time",
+    ),
+];
+
+#[test]
+fn errors_point_at_the_place() {
+    for (text, column, part) in WRONG {
+        let error = parse(text).unwrap_err();
+        let all = format!("{error} {}", error.help.clone().unwrap_or_default());
+        assert_eq!((error.line, error.column), (9, *column), "{text}: {all}");
+        assert!(all.contains(part), "{text}: {all}");
+        assert!(error.help.is_some(), "{text}");
+    }
+}
+
+#[test]
+fn a_list_by_itself() {
+    let steps = process_steps("process = [{ pad = { after = \"10 s\" } }]", "--pad").unwrap();
+    assert_eq!(
+        steps[0].value,
+        ProcessStep::Pad {
+            before: 0.0,
+            after: 10.0
+        }
+    );
+    for wrong in ["", "process = [", "other = 1", "process = 1"] {
+        let error = process_steps(wrong, "--pad").unwrap_err();
+        assert!(error.to_string().starts_with("--pad:"), "{error}");
+    }
+}
+
+/// The schema knows the keys with their kinds.
+#[test]
+fn schema_of_the_record() {
+    let schema = schema();
+    let motion = &schema["properties"]["ground_motion"];
+    let keys = &motion["properties"];
+    for key in [
+        "quantity",
+        "skip_columns",
+        "sensitivity",
+        "gravity",
+        "offset",
+        "process",
+    ] {
+        assert!(keys[key]["description"].is_string(), "{key}");
+    }
+    let step = &keys["process"]["items"];
+    assert_eq!(step["maxProperties"], 1);
+    assert_eq!(step["properties"].as_object().unwrap().len(), 10);
+    let filter = &step["properties"]["filter"]["properties"];
+    assert!(
+        filter["high_pass"]["description"]
+            .as_str()
+            .unwrap()
+            .contains("Hz")
+    );
+    assert_eq!(
+        keys["scale"]["anyOf"][1]["oneOf"].as_array().unwrap().len(),
+        5
+    );
+}

@@ -1,0 +1,209 @@
+//! Exit codes, and what is said beside them.
+
+use super::*;
+
+/// Refused with this exit code and these words.
+fn refused(code: i32, arguments: &[&str], wanted: &[&str]) {
+    let output = run(arguments);
+    let message = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty());
+    for part in wanted {
+        assert!(message.contains(part), "\"{part}\" is not in: {message}");
+    }
+}
+
+#[test]
+fn bad_input() {
+    let folder = Folder::new();
+    let file = el_centro();
+    let out = folder.name("o.csv");
+    std::fs::write(folder.path("bare.txt"), "0.1\n0.2\n0.3\n").unwrap();
+    std::fs::write(folder.path("target.csv"), "period_s,psa_g\n0.1,0.8\n1,x\n").unwrap();
+    std::fs::write(folder.path("unit.csv"), "period_s,psa\n0.1,0.8\n").unwrap();
+    let (bare, target, unit) = (
+        folder.name("bare.txt"),
+        folder.name("target.csv"),
+        folder.name("unit.csv"),
+    );
+    let missing = folder.name("missing.csv");
+    refused(
+        2,
+        &["info", &missing],
+        &["cannot read the record", "check the path"],
+    );
+    refused(2, &["info", &bare], &["unit", "--unit g"]);
+    refused(
+        2,
+        &["info", &file, "--format", "peer"],
+        &["unknown record format", "peer_at2"],
+    );
+    refused(
+        2,
+        &["spectrum", &file, "--at", "1 m"],
+        &["--at must be a time (s)"],
+    );
+    refused(2, &["spectrum", &file, "--at", "-1 s"], &["period = -1"]);
+    refused(
+        2,
+        &["spectrum", &file, "--damping", "5"],
+        &["damping ratio = 5 is outside [0, 1)"],
+    );
+    refused(
+        2,
+        &["spectrum", &file, "--rotated"],
+        &["--second-component"],
+    );
+    refused(
+        2,
+        &["spectrum", &file, "--component", "EW"],
+        &["no component \"EW\"", "NS"],
+    );
+    let process = |step: &str, value: &str, wanted: &[&str]| {
+        refused(2, &["process", &file, "-o", &out, step, value], wanted);
+    };
+    process(
+        "--filter",
+        "high_pass=0.1 s",
+        &["--filter", "must be a frequency"],
+    );
+    process(
+        "--filter",
+        "high_pas=0.1 Hz",
+        &["unknown key `high_pas`", "high_pass"],
+    );
+    process(
+        "--filter",
+        "high_pass=30 Hz",
+        &["--filter", "high-pass corner"],
+    );
+    process(
+        "--filter",
+        "phase=zero",
+        &["`high_pass`, `low_pass` or both"],
+    );
+    process("--scale", "-1", &["greater than zero"]);
+    process(
+        "--scale",
+        "pga=1 g, period=1 s",
+        &["`period` has no meaning beside `pga`"],
+    );
+    process("--remove-offset", "median", &["write \"mean\""]);
+    process("--trim", "start=2 s", &["`end`"]);
+    process("--taper", "start=1 s, 2 s", &["\"2 s\" is not key=value"]);
+    process("--sign", "positive", &["write \"reversed\""]);
+    process("--true-unit", "furlong", &["\"furlong\" is not a unit"]);
+    refused(
+        2,
+        &["process", &file, "-o", &out],
+        &["no step is asked for"],
+    );
+    refused(
+        2,
+        &["convert", &file, "-o", &out, "--quantity", "velocity"],
+        &["no component \"velocity\""],
+    );
+    refused(
+        2,
+        &["convert", &file, "-o", &out, "--output-unit", "g"],
+        &["--to plain_columns"],
+    );
+    let synth = [
+        "synth",
+        "sine",
+        "--amplitude",
+        "1 g",
+        "--duration",
+        "5 s",
+        "-o",
+        &out,
+    ];
+    refused(
+        2,
+        &[&synth[..], &["--frequency", "80 Hz"]].concat(),
+        &["frequency = 80"],
+    );
+    refused(
+        2,
+        &[&synth[..], &["--frequency", "1 s"]].concat(),
+        &["must be a frequency"],
+    );
+    refused(
+        2,
+        &[
+            &synth[..],
+            &["--frequency", "1 Hz", "--envelope", "ramped, rise=1 s"],
+        ]
+        .concat(),
+        &["--envelope needs fall"],
+    );
+    refused(
+        2,
+        &["match", &file, "-o", &out, "--target", &target],
+        &["target.csv:3:3: \"x\" is not a number"],
+    );
+    refused(
+        2,
+        &["match", &file, "-o", &out, "--target", &unit],
+        &["unit.csv:1:1", "psa_UNIT"],
+    );
+    refused(
+        2,
+        &[
+            "match",
+            &file,
+            "-o",
+            &out,
+            "--code",
+            "eurocode_8_2004, ag=0.2 g, ground=F, type=1",
+        ],
+        &["ground cannot be \"F\""],
+    );
+    refused(
+        2,
+        &[
+            "match",
+            &file,
+            "-o",
+            &out,
+            "--code",
+            "eurocode_8_2004, ag=0.2 g, ground=B, type=1",
+            "--to",
+            "5 s",
+        ],
+        &["target spectrum: period", "outside [0.01, 4]"],
+    );
+    assert!(!folder.path("o.csv").exists());
+}
+
+#[test]
+fn what_cannot_be_computed_or_written() {
+    let folder = Folder::new();
+    let file = el_centro();
+    let out = folder.name("o.csv");
+    let code = "eurocode_8_2004, ag=0.25 g, ground=B, type=1";
+    refused(
+        3,
+        &[
+            "match",
+            &file,
+            "--code",
+            code,
+            "--iterations",
+            "0",
+            "-o",
+            &out,
+        ],
+        &["after 0 iterations"],
+    );
+    assert!(!folder.path("o.csv").exists());
+    let nowhere = folder.name("none/o.csv");
+    refused(4, &["convert", &file, "-o", &nowhere], &["cannot write"]);
+    let a_folder = folder.0.path().display().to_string();
+    refused(
+        4,
+        &["convert", &file, "-o", &a_folder],
+        &["not a regular file"],
+    );
+}

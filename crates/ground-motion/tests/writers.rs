@@ -1,0 +1,162 @@
+//! What is written is read back.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::processing::{OffsetCorrection, ProcessingStep, process};
+use pounding_ground_motion::writers::{
+    Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
+};
+use pounding_ground_motion::{
+    AccelerationUnit, Accelerogram, Format, Offset, Quantity, ReadOptions, Recording,
+    read_all_bytes, read_bytes,
+};
+use proptest::prelude::*;
+
+fn any_written() -> impl Strategy<Value = Written> {
+    let sample = prop_oneof![
+        -20.0..20.0_f64,
+        Just(0.0),
+        (-1.0..1.0_f64, -30..0_i32).prop_map(|(a, n)| a * 10.0_f64.powi(n)),
+    ];
+    let samples = proptest::collection::vec(sample, 2..200);
+    (samples, 1_u32..400, "[ -~\n\u{e9}]{0,40}").prop_map(|(samples, step, title)| Written {
+        quantity: Quantity::Acceleration,
+        samples,
+        time_step: f64::from(step) * 1.0e-3,
+        title,
+        component: "N10E".to_owned(),
+        remarks: vec!["Step: made up".to_owned()],
+    })
+}
+
+fn keep() -> ReadOptions {
+    ReadOptions {
+        offset: Offset::Keep,
+        ..ReadOptions::default()
+    }
+}
+
+proptest! {
+    /// Our layout: every bit, whatever the title holds.
+    #[test]
+    fn pounding_csv_returns_every_bit(written in any_written()) {
+        let text = write_pounding_csv(&written).unwrap();
+        let read = read_all_bytes("a.csv", text.as_bytes(), &keep()).unwrap();
+        prop_assert_eq!(read.series[0].origin.format, "pounding_csv");
+        prop_assert_eq!(&read.series[0].samples, &written.samples);
+        prop_assert_eq!(&read.series[0].component, "N10E");
+        prop_assert_eq!(&read.series[0].origin.history, &["Step: made up".to_owned()]);
+        let record = read_bytes("a.csv", text.as_bytes(), &keep()).unwrap();
+        prop_assert_eq!(record.time_step(), written.time_step);
+    }
+
+    /// AT2, VT2 and DT2: eight digits.
+    #[test]
+    fn peer_returns_eight_digits(written in any_written(), kind in 0..3_usize) {
+        let quantity =
+            [Quantity::Acceleration, Quantity::Velocity, Quantity::Displacement][kind];
+        let written = Written { quantity, title: "A title".to_owned(), ..written };
+        let text = write_peer_at2(&written);
+        let options = ReadOptions { format: Some(Format::PeerAt2), ..keep() };
+        let read = read_all_bytes("a.at2", text.as_bytes(), &options).unwrap();
+        let series = &read.series[0];
+        prop_assert_eq!(series.quantity, quantity);
+        prop_assert_eq!(series.samples.len(), written.samples.len());
+        for (a, b) in series.samples.iter().zip(&written.samples) {
+            prop_assert!((a - b).abs() <= 6e-8 * b.abs(), "{} {}", a, b);
+        }
+    }
+
+    /// Plain columns in g: a rounding of the unit.
+    #[test]
+    fn plain_columns_return(written in any_written()) {
+        let g = AccelerationUnit::StandardGravity;
+        let columns = [Column::Time, Column::Value];
+        let (text, symbol) = write_plain_columns(&written, &columns, Some(g));
+        prop_assert_eq!(symbol, "g");
+        let options = ReadOptions {
+            format: Some(Format::PlainColumns),
+            layout: Some("t,a".to_owned()),
+            unit: Some(g),
+            ..keep()
+        };
+        let record = read_bytes("a.txt", text.as_bytes(), &options).unwrap();
+        prop_assert!((record.time_step() / written.time_step - 1.0).abs() < 1e-9);
+        for (a, b) in record.samples().iter().zip(&written.samples) {
+            prop_assert!((a - b).abs() <= 5e-16 * b.abs(), "{} {}", a, b);
+        }
+    }
+}
+
+/// A record that is written twice tells of both times.
+#[test]
+fn history_grows() {
+    let samples = vec![0.1, 0.2, -0.3, 0.4];
+    let record = Accelerogram::new(samples, AccelerationUnit::MetrePerSecondSquared, 0.01).unwrap();
+    let steps = [ProcessingStep::Offset(OffsetCorrection::Value(0.05))];
+    let once = process(&record, &steps).unwrap().accelerogram;
+    let text = write_pounding_csv(&Written::of(&once)).unwrap();
+    let read = read_bytes("once.csv", text.as_bytes(), &keep()).unwrap();
+    let twice = process(&read, &[ProcessingStep::Sign])
+        .unwrap()
+        .accelerogram;
+    let remarks = Written::of(&twice).remarks;
+    let starts: Vec<&str> = remarks
+        .iter()
+        .map(|r| r.split_once(": ").unwrap().0)
+        .collect();
+    assert_eq!(starts, ["Step", "Source", "Read", "Step"]);
+    assert!(
+        remarks[0].starts_with("Step: offset: offset 0.05 m/s2"),
+        "{remarks:?}"
+    );
+    assert!(remarks[1].starts_with("Source: once.csv (pounding_csv), SHA-256 "));
+    assert!(remarks[3].starts_with("Step: sign: "));
+}
+
+/// Velocities have no place in our layout, uneven times in none.
+#[test]
+fn what_cannot_be_written() {
+    let velocity = Written {
+        quantity: Quantity::Velocity,
+        samples: vec![0.0, 1.0],
+        time_step: 0.01,
+        title: String::new(),
+        component: String::new(),
+        remarks: Vec::new(),
+    };
+    let error = write_pounding_csv(&velocity).unwrap_err();
+    assert!(error.help().unwrap().contains("peer_at2"));
+    let text = "0 1\n0.01 2\n0.03 3\n0.04 1\n0.07 5\n";
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        layout: Some("t,a".to_owned()),
+        ..keep()
+    };
+    let read: Recording = read_all_bytes("a.txt", text.as_bytes(), &options).unwrap();
+    let error = Written::of_series(&read.series[0]).unwrap_err();
+    assert!(error.to_string().contains("uneven"), "{error}");
+}
+
+/// The series that a quantity and a component name.
+#[test]
+fn series_are_chosen() {
+    let text = "0 1 4\n0.01 2 5\n0.02 3 6\n";
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        layout: Some("t,ns,ew".to_owned()),
+        ..keep()
+    };
+    let read = read_all_bytes("a.txt", text.as_bytes(), &options).unwrap();
+    assert!(read.choose(&options).is_err());
+    let east = ReadOptions {
+        component: Some("ew".to_owned()),
+        ..options.clone()
+    };
+    assert_eq!(read.choose(&east).unwrap().samples, [0.04, 0.05, 0.06]);
+    let velocity = ReadOptions {
+        quantity: Some(Quantity::Velocity),
+        ..east
+    };
+    let error = read.choose(&velocity).unwrap_err();
+    assert!(error.to_string().contains("velocity"), "{error}");
+}

@@ -96,14 +96,8 @@ fn holds(matched: &Matched, target: &TargetSpectrum, tolerance: f64) {
 fn wavelets_reach_the_target_without_drift() {
     let target = target();
     for (name, seed) in seeds() {
-        // Noise without a dominant phase has many peaks alike: it stays at 7 %.
-        let tolerance = if name == "synthetic" { 0.10 } else { 0.05 };
-        let options = MatchOptions {
-            tolerance,
-            ..MatchOptions::band(0.1, 3.0)
-        };
-        let matched = match_by_wavelets(&seed, &target, options).unwrap();
-        holds(&matched, &target, tolerance);
+        let matched = match_by_wavelets(&seed, &target, MatchOptions::band(0.1, 3.0)).unwrap();
+        holds(&matched, &target, 0.05);
         // The ground ends where it did, times the scale.
         let factor = matched.steps[0].get("scale before").unwrap();
         let before = GroundMotion::of(&seed, 0.0, 0.0);
@@ -115,18 +109,18 @@ fn wavelets_reach_the_target_without_drift() {
     }
 }
 
-/// This method's own bound: 7.7 to 8.5 % is where it stays with these three.
+/// Ratios alone stay at 7.7 to 8.5 % with these three. 5 % takes some 50 iterations:
+/// the bound here is what few reach.
 #[test]
 fn fourier_amplitudes_come_near_the_target_without_drift() {
     let target = target();
     for (_, seed) in seeds() {
         let options = MatchOptions {
-            tolerance: 0.10,
-            iterations: 120,
+            tolerance: 0.065,
             ..MatchOptions::band(0.1, 3.0)
         };
         let matched = match_by_fourier_amplitudes(&seed, &target, options).unwrap();
-        holds(&matched, &target, 0.10);
+        holds(&matched, &target, 0.065);
         let after = GroundMotion::of(&matched.accelerogram, 0.0, 0.0);
         assert!(after.end_velocity().abs() < 1e-10);
         assert!(after.end_displacement().abs() < 1e-9);

@@ -2,6 +2,8 @@
 
 mod drift;
 mod frequency_domain;
+mod least_squares;
+mod peaks;
 mod wavelets;
 
 use serde::Serialize;
@@ -38,7 +40,7 @@ pub struct MatchOptions {
 }
 
 impl MatchOptions {
-    /// 80 periods of a band (s) to 5 % within 40 iterations.
+    /// 80 periods of a band (s) to 5 % within 60 iterations.
     #[must_use]
     pub fn band(from: f64, to: f64) -> Self {
         Self {
@@ -46,7 +48,7 @@ impl MatchOptions {
             to,
             periods: 80,
             tolerance: 0.05,
-            iterations: 40,
+            iterations: 60,
         }
     }
 }

@@ -23,7 +23,10 @@ pub fn unavailable() -> &'static [Unavailable] {
 pub fn find(name: &str) -> Result<&'static ProvisionDescriptor, SeparationError> {
     let all = provisions::ALL;
     all.iter().find(|p| p.name == name).copied().ok_or_else(|| {
-        let nearest = all.iter().min_by_key(|p| edit_distance(name, p.name));
+        let part = all
+            .iter()
+            .find(|p| !name.is_empty() && p.name.contains(name));
+        let nearest = part.or(all.iter().min_by_key(|p| edit_distance(name, p.name)));
         SeparationError::UnknownProvision {
             name: name.to_owned(),
             nearest: nearest.map_or("", |p| p.name),

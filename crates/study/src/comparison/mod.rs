@@ -1,0 +1,1 @@
+//! Does the answer hang on the impact model?

@@ -1,0 +1,351 @@
+//! Gaps by code and by combination rules, beside the demand.
+
+use pounding_case::{Case, Located, Separation};
+use pounding_separation::{
+    CombinationRule, EffectiveProperties, Oscillator, ProvisionDescriptor, Requirement,
+    SeparationError, Site, Situation, SoilZone, Status, StructuralSystem, Structure,
+    YieldingOscillator, correlation_coefficient, descriptors, find,
+};
+use pounding_shear_building::ShearBuilding;
+use pounding_time_history::{BuildingOutcome, Gap, System};
+
+use super::demand::RecordDemand;
+use super::error::CheckError;
+
+/// Floors this close in elevation (m) are level.
+const LEVEL: f64 = 0.01;
+
+/// A gap by one provision.
+#[derive(Debug, Clone)]
+pub struct CodeGap {
+    /// The provision.
+    pub provision: &'static ProvisionDescriptor,
+    /// What it requires for each record and level, or why it says nothing.
+    pub records: Vec<Vec<Result<Requirement, SeparationError>>>,
+}
+
+impl CodeGap {
+    /// Why the provision says nothing at any level under any record; `None` if it does.
+    #[must_use]
+    pub fn refusal(&self) -> Option<&SeparationError> {
+        let mut results = self.records.iter().flatten();
+        if results.clone().any(Result::is_ok) {
+            return None;
+        }
+        results.find_map(|r| r.as_ref().err())
+    }
+
+    /// Width for one record (m): the greatest over the levels.
+    #[must_use]
+    pub fn width(&self, record: usize) -> Option<f64> {
+        let widths = self.records.get(record)?.iter().flatten().map(|r| r.width);
+        widths.fold(None, |most: Option<f64>, w| {
+            Some(most.map_or(w, |m| m.max(w)))
+        })
+    }
+}
+
+/// A gap by one combination rule.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CombinationGap {
+    /// The rule.
+    pub rule: CombinationRule,
+    /// How period and damping of yielding buildings came about; `None` for elastic ones.
+    pub effective: Option<EffectiveProperties>,
+    /// How far rule and effective properties have been checked, together.
+    pub status: Status,
+    /// Correlation coefficient (-); `None` where the rule needs none.
+    pub correlation: Option<f64>,
+    /// Width for each record and level (m).
+    pub records: Vec<Vec<LevelCombination>>,
+}
+
+/// A combination at one level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelCombination {
+    /// Peak displacement of the left building alone (m).
+    pub left: f64,
+    /// Peak displacement of the right building alone (m).
+    pub right: f64,
+    /// Width (m).
+    pub width: f64,
+}
+
+/// One gap of a system.
+pub(crate) struct GapPlace<'a> {
+    pub system: &'a System,
+    pub gap: usize,
+}
+
+impl GapPlace<'_> {
+    fn gap(&self) -> &Gap {
+        &self.system.gaps()[self.gap]
+    }
+
+    /// Building and storey (from zero) on both sides of each level; `None` is a wall.
+    fn levels(&self) -> Vec<[Option<(usize, usize)>; 2]> {
+        let offsets = self.system.offsets();
+        let place = |dof: Option<usize>| {
+            dof.map(|dof| {
+                let building = offsets.partition_point(|o| *o <= dof) - 1;
+                (building, dof - offsets[building])
+            })
+        };
+        let gap = self.gap();
+        self.system.levels()[gap.first_level..gap.first_level + gap.levels]
+            .iter()
+            .map(|l| [place(l.left), place(l.right)])
+            .collect()
+    }
+
+    fn elevation(&self, level: usize) -> f64 {
+        self.system.levels()[self.gap().first_level + level].elevation
+    }
+
+    /// Whether every floor of the lower building faces a floor of the other.
+    fn floors_aligned(&self) -> bool {
+        let levels = self.levels();
+        let Some([Some((left, _)), Some((right, _))]) = levels.first() else {
+            return false;
+        };
+        let buildings = self.system.buildings();
+        let (a, b) = (
+            buildings[*left].elevations(),
+            buildings[*right].elevations(),
+        );
+        let (low, high) = if a.last() <= b.last() { (a, b) } else { (b, a) };
+        low.iter()
+            .all(|z| high.iter().any(|other| (z - other).abs() <= LEVEL))
+    }
+}
+
+/// What the case says, in the terms of provisions.
+pub(crate) struct Inputs<'a> {
+    separation: &'a Separation,
+    systems: Option<Vec<StructuralSystem>>,
+    soil_zone: Option<SoilZone>,
+}
+
+impl<'a> Inputs<'a> {
+    pub(crate) fn of(case: &Case, separation: &'a Separation) -> Result<Self, CheckError> {
+        let system = |name: &Located<String>| {
+            StructuralSystem::from_name(&name.value).ok_or_else(|| {
+                let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
+                let message = format!("unknown structural system \"{}\"", name.value);
+                let help = format!("known ones are {}", known.join(", "));
+                unknown(case, name, message, Some(help))
+            })
+        };
+        let systems = separation.structural_system.as_ref();
+        let systems = systems.map(|all| all.iter().map(system).collect::<Result<_, _>>());
+        let zone = |name: &Located<String>| {
+            SoilZone::from_name(&name.value).ok_or_else(|| {
+                let message = format!("unknown soil zone \"{}\"", name.value);
+                unknown(
+                    case,
+                    name,
+                    message,
+                    Some("zones are I, II and III".to_owned()),
+                )
+            })
+        };
+        Ok(Self {
+            systems: systems.transpose()?,
+            soil_zone: separation.soil_zone.as_ref().map(zone).transpose()?,
+            separation,
+        })
+    }
+
+    fn site(&self, place: &GapPlace<'_>) -> Site {
+        let s = self.separation;
+        let intensity = s.fortification_intensity;
+        Site {
+            floors_aligned: s.floors_aligned.or_else(|| Some(place.floors_aligned())),
+            same_owner: s.same_owner,
+            // One that no byte holds is as wrong as zero, which provisions refuse.
+            fortification_intensity: intensity.map(|i| u8::try_from(i).unwrap_or(0)),
+            soil_zone: self.soil_zone,
+            design_ground_acceleration: s.design_ground_acceleration,
+            seismic_coefficient: s.seismic_coefficient,
+        }
+    }
+
+    fn structure(
+        &self,
+        building: &ShearBuilding,
+        (index, storey): (usize, usize),
+        alone: &[BuildingOutcome],
+    ) -> Structure {
+        let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
+        let systems = self.systems.as_ref();
+        Structure {
+            name: building.name().to_owned(),
+            height: building.elevations().last().copied().unwrap_or(0.0),
+            storeys: building.storeys(),
+            displacement: Some(alone[index].storeys[storey].displacement.value),
+            elastic_displacement: None,
+            response_modification: of(&self.separation.response_modification),
+            displacement_amplification: of(&self.separation.displacement_amplification),
+            importance: of(&self.separation.importance),
+            yield_amplification: of(&self.separation.yield_amplification),
+            system: systems.and_then(|l| l.get(index)).copied(),
+        }
+    }
+}
+
+/// A word that is not known: with its place if it stands in the case, and not in an
+/// argument.
+fn unknown(
+    case: &Case,
+    name: &Located<String>,
+    message: String,
+    help: Option<String>,
+) -> CheckError {
+    let there = case.source.get(name.span.clone());
+    if there.is_some_and(|text| text.contains(&name.value)) {
+        case.error(name.span.clone(), message, help).into()
+    } else {
+        CheckError::Word { message, help }
+    }
+}
+
+/// Provisions that the case names; all without a list.
+pub(crate) fn chosen(
+    case: &Case,
+    separation: &Separation,
+) -> Result<Vec<&'static ProvisionDescriptor>, CheckError> {
+    let Some(names) = &separation.provisions else {
+        return Ok(descriptors().to_vec());
+    };
+    let one = |name: &Located<String>| {
+        find(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
+    };
+    names.iter().map(one).collect()
+}
+
+/// What the provisions require for every record and level.
+pub(crate) fn by_code(
+    place: &GapPlace<'_>,
+    chosen: &[&'static ProvisionDescriptor],
+    inputs: &Inputs<'_>,
+    records: &[RecordDemand],
+) -> Vec<CodeGap> {
+    let site = inputs.site(place);
+    let buildings = place.system.buildings();
+    let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
+        at.map(|at| inputs.structure(&buildings[at.0], at, &record.isolated))
+    };
+    let apply =
+        |card: &ProvisionDescriptor, record: &RecordDemand, level: usize, sides: &[_; 2]| {
+            let elevation = place.elevation(level);
+            match (structure(sides[0], record), structure(sides[1], record)) {
+                (Some(left), Some(right)) => card.between(&Situation {
+                    left,
+                    right,
+                    elevation,
+                    site,
+                }),
+                (Some(one), None) | (None, Some(one)) => card.boundary(&one, elevation, &site),
+                (None, None) => Err(SeparationError::NotApplicable {
+                    provision: card.name,
+                    reason: "the level lies between two walls".to_owned(),
+                }),
+            }
+        };
+    let levels = place.levels();
+    let for_record = |card: &ProvisionDescriptor, record: &RecordDemand| {
+        let levels = levels.iter().enumerate();
+        levels
+            .map(|(level, sides)| apply(card, record, level, sides))
+            .collect()
+    };
+    chosen
+        .iter()
+        .map(|card| CodeGap {
+            provision: card,
+            records: records.iter().map(|r| for_record(card, r)).collect(),
+        })
+        .collect()
+}
+
+/// Combination rules at every level; none beside a wall.
+pub(crate) fn combinations(
+    place: &GapPlace<'_>,
+    inputs: &Inputs<'_>,
+    records: &[RecordDemand],
+) -> Result<Vec<CombinationGap>, CheckError> {
+    let levels = place.levels();
+    let sides = levels.iter().filter_map(|l| Some((l[0]?, l[1]?)));
+    let sides: Vec<_> = sides.collect();
+    let Some(&((left, _), (right, _))) = sides.first() else {
+        return Ok(Vec::new());
+    };
+    let mut gaps = Vec::new();
+    for (rule, effective) in rules(inputs) {
+        let correlation = if rule == CombinationRule::DoubleDifference {
+            let a = oscillator(place, inputs, left, effective)?;
+            let b = oscillator(place, inputs, right, effective)?;
+            Some(correlation_coefficient(a, b)?)
+        } else {
+            None
+        };
+        let peak =
+            |r: &RecordDemand, (b, s): (usize, usize)| r.isolated[b].storeys[s].displacement.value;
+        let at_levels = |r: &RecordDemand| {
+            let pairs = sides.iter().map(|(a, b)| (peak(r, *a), peak(r, *b)));
+            let level = pairs.map(|(left, right)| LevelCombination {
+                left,
+                right,
+                width: rule.gap(left, right, correlation.unwrap_or(0.0)),
+            });
+            level.collect()
+        };
+        let by_effective = effective.map(EffectiveProperties::status);
+        gaps.push(CombinationGap {
+            rule,
+            effective,
+            status: by_effective
+                .filter(|s| !s.is_verified())
+                .unwrap_or(rule.status()),
+            correlation,
+            records: records.iter().map(at_levels).collect(),
+        });
+    }
+    Ok(gaps)
+}
+
+/// The rules, and for yielding buildings every way to effective properties.
+fn rules(inputs: &Inputs<'_>) -> Vec<(CombinationRule, Option<EffectiveProperties>)> {
+    let mut rules: Vec<_> = CombinationRule::ALL.map(|r| (r, None)).into();
+    if inputs.separation.ductility.is_some() {
+        rules.pop();
+        let effective = EffectiveProperties::ALL.map(Some);
+        rules.extend(effective.map(|e| (CombinationRule::DoubleDifference, e)));
+    }
+    rules
+}
+
+/// Period and damping of a building's first mode, effective ones if it yields.
+fn oscillator(
+    place: &GapPlace<'_>,
+    inputs: &Inputs<'_>,
+    building: usize,
+    effective: Option<EffectiveProperties>,
+) -> Result<Oscillator, CheckError> {
+    let modes = place.system.buildings()[building].modes();
+    let first = Oscillator {
+        period: modes.period.first().copied().unwrap_or(f64::NAN),
+        damping_ratio: modes.damping_ratio.first().copied().unwrap_or(f64::NAN),
+    };
+    let list = inputs.separation.ductility.as_ref();
+    let ductility = list.and_then(|l| l.get(building));
+    match (effective, ductility) {
+        (Some(effective), Some(ductility)) => Ok(effective.apply(&YieldingOscillator {
+            period: first.period,
+            damping_ratio: first.damping_ratio,
+            ductility: *ductility,
+            hardening: 0.0,
+        })?),
+        _ => Ok(first),
+    }
+}

@@ -1,0 +1,130 @@
+//! Demand of each record, and what pounding does at the provided gap.
+
+use pounding_time_history::{BuildingOutcome, Gap, GapOutcome, Peak, System, isolated_demand, run};
+
+use super::error::CheckError;
+use super::parallel::{Progress, in_parallel};
+use super::records::CaseUnderRecord;
+
+/// A contact level of a gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapLevel {
+    /// Storey of the left building, from 1; `None` for a wall.
+    pub left_storey: Option<usize>,
+    /// Storey of the right building, from 1; `None` for a wall.
+    pub right_storey: Option<usize>,
+    /// Elevation (m).
+    pub elevation: f64,
+    /// Provided width (m).
+    pub width: f64,
+}
+
+/// Peaks with pounding over peaks alone, of one storey (-); infinite where the storey
+/// alone does not move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Amplification {
+    /// Of the floor displacement.
+    pub displacement: f64,
+    /// Of the storey shear.
+    pub storey_shear: f64,
+    /// Of the absolute floor acceleration. The jumps of rigid impacts have none.
+    pub acceleration_absolute: f64,
+}
+
+/// One record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordDemand {
+    /// Name.
+    pub name: String,
+    /// Peak ground acceleration as used (m/s2).
+    pub peak_ground_acceleration: f64,
+    /// Width that the record would just not close, for each gap and level (m).
+    pub demand: Vec<Vec<Peak>>,
+    /// Peaks of the buildings alone.
+    pub isolated: Vec<BuildingOutcome>,
+    /// Peaks of buildings and gaps at the provided widths, or why there are none.
+    pub pounding: Result<(Vec<BuildingOutcome>, Vec<GapOutcome>), String>,
+}
+
+impl RecordDemand {
+    /// Amplification of each building and storey at the provided widths; `None` if that
+    /// run failed.
+    #[must_use]
+    pub fn amplification(&self) -> Option<Vec<Vec<Amplification>>> {
+        let (with, _) = self.pounding.as_ref().ok()?;
+        Some(amplification(with, &self.isolated))
+    }
+}
+
+pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {
+    system.levels()[gap.first_level..gap.first_level + gap.levels]
+        .iter()
+        .map(|l| GapLevel {
+            left_storey: l.left_storey,
+            right_storey: l.right_storey,
+            elevation: l.elevation,
+            width: l.width,
+        })
+        .collect()
+}
+
+/// Ratio of two peaks; 1 where both are zero.
+fn ratio(with: Peak, alone: Peak) -> f64 {
+    if with.value == alone.value {
+        1.0
+    } else {
+        with.value / alone.value
+    }
+}
+
+pub(crate) fn amplification(
+    with: &[BuildingOutcome],
+    alone: &[BuildingOutcome],
+) -> Vec<Vec<Amplification>> {
+    with.iter()
+        .zip(alone)
+        .map(|(a, b)| {
+            let storeys = a.storeys.iter().zip(&b.storeys);
+            storeys
+                .map(|(a, b)| Amplification {
+                    displacement: ratio(a.displacement, b.displacement),
+                    storey_shear: ratio(a.storey_shear, b.storey_shear),
+                    acceleration_absolute: ratio(a.acceleration_absolute, b.acceleration_absolute),
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// All records, on so many threads.
+pub(crate) fn demands(
+    records: &[CaseUnderRecord],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<Vec<RecordDemand>, CheckError> {
+    let results = in_parallel(records.len(), threads, progress, |i| one(&records[i]));
+    results.into_iter().collect()
+}
+
+fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
+    let (system, options) = (&record.assembly.system, &record.assembly.options);
+    let failed = |source| CheckError::Record {
+        record: record.name.clone(),
+        source: Box::new(source),
+    };
+    let (_, peaks) = isolated_demand(system, options).map_err(failed)?;
+    // Without a recorder, as the runs with gaps: where nothing touches, their peaks are
+    // then the same to the last bit, and amplifications are exactly one.
+    let isolated = run(&system.isolated(), options, &mut [], &mut |_| {}).map_err(failed)?;
+    let of_gap = |gap: &Gap| peaks[gap.first_level..gap.first_level + gap.levels].to_vec();
+    let pounding = run(system, options, &mut [], &mut |_| {});
+    Ok(RecordDemand {
+        name: record.name.clone(),
+        peak_ground_acceleration: record.assembly.accelerogram.peak().value.abs(),
+        demand: system.gaps().iter().map(of_gap).collect(),
+        isolated: isolated.buildings,
+        pounding: pounding
+            .map(|o| (o.buildings, o.gaps))
+            .map_err(|e| e.to_string()),
+    })
+}

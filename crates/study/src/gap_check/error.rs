@@ -1,0 +1,99 @@
+//! Why a gap check or a comparison of models could not be made.
+
+use std::path::PathBuf;
+
+use pounding_case::CaseError;
+use pounding_separation::SeparationError;
+use pounding_time_history::TimeHistoryError;
+
+/// What keeps a check from an answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckError {
+    /// The case is wrong at a place.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A record could not be used, or the isolated buildings not integrated under it.
+    #[error("record {record}: {source}")]
+    Record {
+        /// Record.
+        record: String,
+        /// Why.
+        source: Box<TimeHistoryError>,
+    },
+    /// A provision that is not known.
+    #[error(transparent)]
+    Separation(#[from] SeparationError),
+    /// A word that is not known, from an argument.
+    #[error("{message}")]
+    Word {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: Option<String>,
+    },
+    /// The case has no gap.
+    #[error("the case has no gap")]
+    NoGap,
+    /// No gap of this name.
+    #[error("the case has no gap \"{name}\"")]
+    UnknownGap {
+        /// The name asked for.
+        name: String,
+        /// Gaps of the case.
+        known: Vec<String>,
+    },
+    /// A folder of records that cannot be listed or holds none.
+    #[error("no records in {}: {reason}", path.display())]
+    NoRecords {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// An option out of range.
+    #[error("{option} = {value} is out of range: {reason}")]
+    Option {
+        /// Option.
+        option: &'static str,
+        /// Value.
+        value: f64,
+        /// What is allowed.
+        reason: &'static str,
+    },
+    /// A model that is not known.
+    #[error("unknown impact model \"{name}\"")]
+    UnknownModel {
+        /// The name asked for.
+        name: String,
+        /// What to do.
+        help: String,
+    },
+    /// The gap's own law does not give what the others are calibrated to.
+    #[error("models cannot be calibrated alike: {reason}")]
+    Calibration {
+        /// Why.
+        reason: String,
+        /// What to do.
+        help: &'static str,
+    },
+}
+
+impl CheckError {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Case(error) => error.help.clone(),
+            Self::Record { source, .. } => source.help(),
+            Self::Separation(error) => error.help(),
+            Self::Word { help, .. } => help.clone(),
+            Self::NoGap => Some("add a [[gap]] to the case".to_owned()),
+            Self::UnknownGap { known, .. } => Some(format!("its gaps are {}", known.join(", "))),
+            Self::NoRecords { .. } => Some("name record files, or a folder of them".to_owned()),
+            Self::Option { reason, .. } => Some((*reason).to_owned()),
+            Self::UnknownModel { help, .. } => Some(help.clone()),
+            Self::Calibration { help, .. } => Some((*help).to_owned()),
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Is the gap wide enough? Demand by simulation of the isolated buildings, gaps by code,
+//! and what pounding does at the provided gap and at many others.
+
+mod codes;
+mod demand;
+mod error;
+mod parallel;
+mod records;
+mod required;
+mod statistics;
+mod sweep;
+mod systems;
+
+pub use codes::{CodeGap, CombinationGap, LevelCombination};
+pub use demand::{Amplification, GapLevel, RecordDemand};
+pub use error::CheckError;
+pub use parallel::Progress;
+pub use records::{CaseUnderRecord, under_records};
+pub use required::{LognormalFit, RequiredGap};
+pub use statistics::binomial_bounds;
+pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
+
+use pounding_case::{Case, Separation};
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapCheckOptions {
+    /// Part of the records that may bring the buildings into contact (-): zero asks for
+    /// a gap that no record closes.
+    pub target_probability: f64,
+    /// Confidence of two-sided bounds (-).
+    pub confidence: f64,
+    /// Sweep over widths; `None`: no sweep.
+    pub sweep: Option<SweepOptions>,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// One gap of the case with its answer.
+#[derive(Debug, Clone)]
+pub struct GapReport {
+    /// Name.
+    pub name: String,
+    /// Left and right neighbour.
+    pub between: [String; 2],
+    /// Contact levels from the bottom.
+    pub levels: Vec<GapLevel>,
+    /// Level with the greatest demand over all records, from zero.
+    pub governing_level: usize,
+    /// Greatest demand over the levels for each record (m): the uniform width that the
+    /// record would just not close.
+    pub demand: Vec<f64>,
+    /// Records that close the provided gap at some level.
+    pub records_in_contact: usize,
+    /// Bounds of the probability of contact under records like these, by Clopper and
+    /// Pearson (Biometrika 26 (1934) 404), at the confidence asked for.
+    pub contact_bounds: (f64, f64),
+    /// Uniform width for the target probability.
+    pub required: RequiredGap,
+    /// Gaps by code, in the order of the registry.
+    pub codes: Vec<CodeGap>,
+    /// Gaps by combination rules; none beside a wall.
+    pub combinations: Vec<CombinationGap>,
+    /// Whether no more records than the target probability allows close the gap.
+    pub adequate: bool,
+}
+
+/// The whole check.
+#[derive(Debug, Clone)]
+pub struct GapCheck {
+    /// What was asked for.
+    pub options: GapCheckOptions,
+    /// Each record with its demands, isolated responses and responses with pounding.
+    pub records: Vec<RecordDemand>,
+    /// Gaps in the order of the case.
+    pub gaps: Vec<GapReport>,
+    /// Sweep over widths.
+    pub sweep: Option<GapSweep>,
+}
+
+impl GapCheck {
+    /// Whether every gap is adequate.
+    #[must_use]
+    pub fn adequate(&self) -> bool {
+        self.gaps.iter().all(|g| g.adequate)
+    }
+}
+
+/// Checks the gaps of a case under records, made by [`under_records`].
+///
+/// # Errors
+/// A case without gaps, unknown provisions, options out of range, or isolated buildings
+/// that cannot be integrated. Runs with pounding that fail are kept with their diagnosis.
+pub fn gap_check(
+    case: &Case,
+    separation: &Separation,
+    records: &[CaseUnderRecord],
+    options: &GapCheckOptions,
+    progress: Progress<'_>,
+) -> Result<GapCheck, CheckError> {
+    check_options(options)?;
+    let chosen = codes::chosen(case, separation)?;
+    let inputs = codes::Inputs::of(case, separation)?;
+    let first = records.first().ok_or(CheckError::NoGap)?;
+    if first.assembly.system.gaps().is_empty() {
+        return Err(CheckError::NoGap);
+    }
+    let swept = options.sweep.as_ref();
+    let gap = swept.and_then(|s| s.gap.as_deref());
+    let gap = gap.map(|name| sweep::find(&first.assembly.system, name));
+    let gap = gap.transpose()?;
+    let runs = swept.map_or(0, |s| s.points) * records.len();
+    let total = records.len() + runs;
+    let demands = demand::demands(records, options.threads, &|done, _| progress(done, total))?;
+    let mut gaps = Vec::new();
+    for index in 0..first.assembly.system.gaps().len() {
+        let place = codes::GapPlace {
+            system: &first.assembly.system,
+            gap: index,
+        };
+        let codes = codes::by_code(&place, &chosen, &inputs, &demands);
+        let combinations = codes::combinations(&place, &inputs, &demands)?;
+        gaps.push(report(&place, &demands, options, (codes, combinations))?);
+    }
+    let sweep = swept.map(|asked| {
+        let tell = |done, _| progress(records.len() + done, total);
+        sweep::sweep(records, &demands, (asked, gap), options.threads, &tell)
+    });
+    Ok(GapCheck {
+        options: options.clone(),
+        records: demands,
+        gaps,
+        sweep: sweep.transpose()?,
+    })
+}
+
+fn check_options(options: &GapCheckOptions) -> Result<(), CheckError> {
+    let refuse = |option, value, reason| {
+        Err(CheckError::Option {
+            option,
+            value,
+            reason,
+        })
+    };
+    let p = options.target_probability;
+    if !(0.0..1.0).contains(&p) {
+        return refuse("target probability", p, "it is at least 0 and less than 1");
+    }
+    let c = options.confidence;
+    if !(c > 0.0 && c < 1.0) {
+        return refuse("confidence", c, "it lies between 0 and 1");
+    }
+    if let Some(sweep) = &options.sweep {
+        sweep.check()?;
+    }
+    Ok(())
+}
+
+fn report(
+    place: &codes::GapPlace<'_>,
+    records: &[RecordDemand],
+    options: &GapCheckOptions,
+    (codes, combinations): (Vec<CodeGap>, Vec<CombinationGap>),
+) -> Result<GapReport, CheckError> {
+    let gap = &place.system.gaps()[place.gap];
+    let levels = demand::levels(place.system, gap);
+    let at = |record: &RecordDemand, level: usize| record.demand[place.gap][level].value;
+    let over_levels = |r: &RecordDemand| (0..levels.len()).fold(0.0_f64, |m, l| m.max(at(r, l)));
+    let demand: Vec<f64> = records.iter().map(over_levels).collect();
+    let greatest = |l: usize| records.iter().fold(0.0_f64, |m, r| m.max(at(r, l)));
+    // Of equals the lowest: `max_by` alone would take the last.
+    let governing_level = (0..levels.len())
+        .rev()
+        .max_by(|a, b| greatest(*a).total_cmp(&greatest(*b)))
+        .unwrap_or(0);
+    let touches = |r: &&RecordDemand| (0..levels.len()).any(|l| at(r, l) > levels[l].width);
+    let records_in_contact = records.iter().filter(touches).count();
+    let allowed = required::allowed_contacts(options.target_probability, records.len());
+    Ok(GapReport {
+        name: gap.name.clone(),
+        between: gap.between.clone(),
+        governing_level,
+        contact_bounds: binomial_bounds(records_in_contact, records.len(), options.confidence),
+        required: required::required_gap(&demand, options),
+        adequate: records_in_contact <= allowed,
+        records_in_contact,
+        demand,
+        levels,
+        codes,
+        combinations,
+    })
+}

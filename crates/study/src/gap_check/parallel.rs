@@ -1,0 +1,70 @@
+//! Work on all cores, in the order of its numbers.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Told how many of how many pieces of work are done.
+pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+/// Does `work` for the numbers from zero to `count - 1` on so many threads (at least
+/// one). Results are in order and do not depend on the number of threads.
+pub(crate) fn in_parallel<T: Send>(
+    count: usize,
+    threads: usize,
+    progress: Progress<'_>,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(0);
+    let one_thread = || {
+        let mut kept = Vec::new();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= count {
+                return kept;
+            }
+            kept.push((number, work(number)));
+            // Counted under the lock: nobody is told of fewer after more.
+            let mut done = done.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            *done += 1;
+            progress(*done, count);
+        }
+    };
+    let mut kept = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads.min(count))
+            .map(|_| scope.spawn(one_thread))
+            .collect();
+        let mut kept = one_thread();
+        for other in others {
+            match other.join() {
+                Ok(more) => kept.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        kept
+    });
+    kept.sort_unstable_by_key(|(number, _)| *number);
+    kept.into_iter().map(|(_, kept)| kept).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_order_for_any_number_of_threads() {
+        for threads in [0, 1, 2, 7, 100] {
+            let told = Mutex::new(Vec::new());
+            let tell = |done, count| {
+                if let Ok(mut told) = told.lock() {
+                    told.push((done, count));
+                }
+            };
+            let squares = in_parallel(20, threads, &tell, |i| i * i);
+            assert_eq!(squares, (0..20).map(|i| i * i).collect::<Vec<_>>());
+            let told = told.into_inner().unwrap_or_default();
+            assert_eq!(told, (1..=20).map(|i| (i, 20)).collect::<Vec<_>>());
+        }
+        assert!(in_parallel(0, 2, &|_, _| {}, |i| i).is_empty());
+    }
+}

@@ -1,0 +1,186 @@
+//! Distributions that bounds of small samples need.
+
+use std::f64::consts::PI;
+
+/// Beyond this many standard deviations the normal distribution is taken as 0 or 1: it
+/// differs by less than 1e-15.
+const FAR: f64 = 8.0;
+
+/// Standard normal distribution function. Source: Marsaglia, Journal of Statistical
+/// Software 11 (2004) no. 4, the series in odd powers.
+pub(crate) fn normal(x: f64) -> f64 {
+    if x.abs() > FAR {
+        return if x > 0.0 { 1.0 } else { 0.0 };
+    }
+    let (mut sum, mut term, mut odd) = (x, x, 1.0);
+    while term.abs() > 1.0e-18 * sum.abs() && term != 0.0 {
+        odd += 2.0;
+        term *= x * x / odd;
+        sum += term;
+    }
+    0.5 + sum * (-0.5 * x * x).exp() / (2.0 * PI).sqrt()
+}
+
+/// The argument at which an increasing function reaches a value, between two bounds.
+fn inverse(mut low: f64, mut high: f64, wanted: f64, of: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Standard normal quantile.
+pub(crate) fn normal_quantile(probability: f64) -> f64 {
+    inverse(-FAR, FAR, probability, normal)
+}
+
+/// Distribution function of the noncentral t distribution: `P(Z + noncentrality <= t S)`
+/// with `S^2` chi-square over its degrees of freedom, by Simpson's rule over `S`.
+fn noncentral_t(t: f64, degrees: f64, noncentrality: f64) -> f64 {
+    const INTERVALS: usize = 2000;
+    // The density of S and its logarithm at its top, so that nothing overflows.
+    let reach = 12.0 / degrees.sqrt();
+    let (low, high) = ((1.0 - reach).max(0.0), 1.0 + reach);
+    let logarithm = |s: f64| {
+        if s > 0.0 {
+            (degrees - 1.0) * s.ln() - 0.5 * degrees * s * s
+        } else if degrees == 1.0 {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        }
+    };
+    let top = logarithm(((degrees - 1.0) / degrees).sqrt());
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for i in 0..=INTERVALS {
+        let s = low + (high - low) * i as f64 / INTERVALS as f64;
+        let weight = match i {
+            0 | INTERVALS => 1.0,
+            i if i % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        let density = weight * (logarithm(s) - top).exp();
+        whole += density;
+        sum += density * normal(t * s - noncentrality);
+    }
+    sum / whole
+}
+
+/// Factor `k` such that `mean + k deviation` of a normal sample of this size lies above
+/// the quantile of this probability with this confidence. Source: Owen, Technometrics 10
+/// (1968) 445: `k = t' / sqrt(n)`, noncentral t with `n - 1` degrees of freedom and
+/// noncentrality `z sqrt(n)`.
+pub(crate) fn tolerance_factor(size: usize, probability: f64, confidence: f64) -> f64 {
+    let root = (size as f64).sqrt();
+    let shift = normal_quantile(probability) * root;
+    let degrees = size as f64 - 1.0;
+    let mut reach = 10.0 + 2.0 * shift.abs();
+    while noncentral_t(reach, degrees, shift) < confidence
+        || noncentral_t(-reach, degrees, shift) > confidence
+    {
+        reach *= 2.0;
+    }
+    inverse(-reach, reach, confidence, |t| {
+        noncentral_t(t, degrees, shift)
+    }) / root
+}
+
+/// Two-sided bounds of a probability of which `hits` of `trials` were seen. Source:
+/// Clopper and Pearson, Biometrika 26 (1934) 404.
+#[must_use]
+pub fn binomial_bounds(hits: usize, trials: usize, confidence: f64) -> (f64, f64) {
+    let tail = 0.5 * (1.0 - confidence);
+    let low = if hits == 0 {
+        0.0
+    } else {
+        inverse(0.0, 1.0, tail, |p| 1.0 - at_most(hits - 1, trials, p))
+    };
+    let high = if hits >= trials {
+        1.0
+    } else {
+        inverse(0.0, 1.0, 1.0 - tail, |p| 1.0 - at_most(hits, trials, p))
+    };
+    (low, high)
+}
+
+/// Probability of at most `hits` in `trials`.
+fn at_most(hits: usize, trials: usize, p: f64) -> f64 {
+    if p <= 0.0 {
+        return 1.0;
+    }
+    if p >= 1.0 {
+        return 0.0;
+    }
+    let mut logarithm = trials as f64 * (-p).ln_1p();
+    let odds = p.ln() - (-p).ln_1p();
+    let mut sum = logarithm.exp();
+    for i in 1..=hits {
+        logarithm += odds + ((trials - i + 1) as f64 / i as f64).ln();
+        sum += logarithm.exp();
+    }
+    sum.min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Abramowitz and Stegun, table 26.1.
+    #[test]
+    fn normal_distribution() {
+        for (x, p) in [
+            (0.0, 0.5),
+            (1.0, 0.841_344_746_068_543),
+            (2.0, 0.977_249_868_051_821),
+            (-3.0, 0.001_349_898_031_630),
+        ] {
+            assert!((normal(x) - p).abs() < 1.0e-14, "{x}");
+        }
+        assert!((normal_quantile(0.95) - 1.644_853_626_951_472).abs() < 1.0e-12);
+    }
+
+    /// One-sided tolerance factors of normal samples at 95 % confidence: Natrella,
+    /// Experimental Statistics, NBS Handbook 91 (1963), table A-7.
+    #[test]
+    fn tolerance_factors() {
+        for (size, probability, factor) in [
+            (5, 0.90, 3.407),
+            (10, 0.90, 2.355),
+            (10, 0.95, 2.911),
+            (10, 0.99, 3.981),
+            (20, 0.95, 2.396),
+            (50, 0.95, 2.065),
+        ] {
+            let found = tolerance_factor(size, probability, 0.95);
+            assert!(
+                (found - factor).abs() < 2.0e-3,
+                "{size} {probability}: {found}"
+            );
+        }
+    }
+
+    /// Two records: P(T <= t) with one degree of freedom has the closed form of the
+    /// central t for the median, `t = tan(pi (p - 1/2))`.
+    #[test]
+    fn two_records() {
+        let found = tolerance_factor(2, 0.5, 0.95);
+        let exact = (PI * 0.45).tan() / 2.0_f64.sqrt();
+        assert!((found - exact).abs() < 1.0e-6, "{found} {exact}");
+    }
+
+    /// No hit in ten: 1 - 0.025^(1/10). Five of ten: 0.1871 and 0.8129 in the paper's
+    /// charts and every table since.
+    #[test]
+    fn clopper_pearson() {
+        let (low, high) = binomial_bounds(0, 10, 0.95);
+        assert!(low == 0.0 && (high - (1.0 - 0.025_f64.powf(0.1))).abs() < 1.0e-12);
+        let (low, high) = binomial_bounds(5, 10, 0.95);
+        assert!((low - 0.187_1).abs() < 5.0e-5 && (high - 0.812_9).abs() < 5.0e-5);
+        assert_eq!(binomial_bounds(3, 3, 0.9).1, 1.0);
+    }
+}

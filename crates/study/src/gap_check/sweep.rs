@@ -1,0 +1,231 @@
+//! What pounding does at many widths: a gap slightly too small can be worse than none.
+
+use std::sync::Arc;
+
+use pounding_time_history::{System, run};
+
+use super::demand::{Amplification, RecordDemand, amplification};
+use super::error::CheckError;
+use super::parallel::{Progress, in_parallel};
+use super::records::CaseUnderRecord;
+use super::systems::rebuilt;
+
+/// Which widths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepOptions {
+    /// Gap whose width varies; `None`: all gaps of the case, all with the same width.
+    pub gap: Option<String>,
+    /// Smallest width (m).
+    pub from: f64,
+    /// Greatest width (m); `None`: 1.05 of the greatest demand of the gaps that vary.
+    pub to: Option<f64>,
+    /// Number of widths, evenly spaced, both ends among them.
+    pub points: usize,
+}
+
+impl SweepOptions {
+    pub(crate) fn check(&self) -> Result<(), CheckError> {
+        let refuse = |option, value, reason| {
+            Err(CheckError::Option {
+                option,
+                value,
+                reason,
+            })
+        };
+        if self.points < 2 {
+            return refuse(
+                "points of the sweep",
+                self.points as f64,
+                "a sweep has two widths or more",
+            );
+        }
+        if !(self.from.is_finite() && self.from >= 0.0) {
+            return refuse("first width", self.from, "it is zero or more");
+        }
+        match self.to {
+            Some(to) if !(to.is_finite() && to > self.from) => refuse(
+                "last width of the sweep",
+                to,
+                "it is greater than the first width",
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// One run of the sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepRun {
+    /// Amplification of each building and storey.
+    pub amplification: Vec<Vec<Amplification>>,
+    /// Impacts in all gaps.
+    pub impacts: usize,
+    /// Greatest contact force (N); NaN where there were velocity jumps alone.
+    pub peak_force: f64,
+    /// Energy dissipated in all contacts (J).
+    pub impact_energy: f64,
+}
+
+/// The width at which pounding does most harm to one quantity of a building. A width of
+/// the sweep, never one between two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorstWidth {
+    /// Amplification (-).
+    pub amplification: f64,
+    /// Width (m).
+    pub width: f64,
+    /// Record, from zero.
+    pub record: usize,
+    /// Storey, from zero.
+    pub storey: usize,
+}
+
+/// The whole sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapSweep {
+    /// Gap whose width varies; `None`: all.
+    pub gap: Option<String>,
+    /// Widths (m), ascending.
+    pub widths: Vec<f64>,
+    /// A run for each width and record, or why it failed.
+    pub runs: Vec<Vec<Result<SweepRun, String>>>,
+}
+
+impl GapSweep {
+    /// Greatest amplification of a quantity over the storeys of a building, at one width
+    /// under one record, with its storey (from zero).
+    #[must_use]
+    pub fn of_building(
+        run: &SweepRun,
+        building: usize,
+        quantity: fn(&Amplification) -> f64,
+    ) -> Option<(usize, f64)> {
+        let storeys = run.amplification.get(building)?.iter().map(quantity);
+        // Of equals the lowest storey.
+        storeys.enumerate().fold(None, |best, (i, x)| match best {
+            Some((_, top)) if top >= x => best,
+            _ => Some((i, x)),
+        })
+    }
+
+    /// Greatest amplification of a quantity of a building over all widths and records;
+    /// `None` if every run failed.
+    #[must_use]
+    pub fn worst(
+        &self,
+        building: usize,
+        quantity: fn(&Amplification) -> f64,
+    ) -> Option<WorstWidth> {
+        let mut worst: Option<WorstWidth> = None;
+        for (width, runs) in self.widths.iter().zip(&self.runs) {
+            for (record, run) in runs.iter().enumerate() {
+                let Ok(run) = run else { continue };
+                let Some((storey, x)) = Self::of_building(run, building, quantity) else {
+                    continue;
+                };
+                if worst.is_none_or(|w| x > w.amplification) {
+                    worst = Some(WorstWidth {
+                        amplification: x,
+                        width: *width,
+                        record,
+                        storey,
+                    });
+                }
+            }
+        }
+        worst
+    }
+
+    /// Runs that failed.
+    #[must_use]
+    pub fn failures(&self) -> usize {
+        self.runs.iter().flatten().filter(|r| r.is_err()).count()
+    }
+}
+
+/// Number of the gap of this name.
+pub(crate) fn find(system: &System, name: &str) -> Result<usize, CheckError> {
+    let gaps = system.gaps();
+    let found = gaps.iter().position(|g| g.name == name);
+    found.ok_or_else(|| CheckError::UnknownGap {
+        name: name.to_owned(),
+        known: gaps.iter().map(|g| g.name.clone()).collect(),
+    })
+}
+
+pub(crate) fn sweep(
+    records: &[CaseUnderRecord],
+    demands: &[RecordDemand],
+    (asked, gap): (&SweepOptions, Option<usize>),
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<GapSweep, CheckError> {
+    let to = match asked.to {
+        Some(to) => to,
+        None => widest(demands, asked.from, gap)?,
+    };
+    let steps = (asked.points - 1) as f64;
+    let width = |i: usize| asked.from + (to - asked.from) * i as f64 / steps;
+    let widths: Vec<f64> = (0..asked.points).map(width).collect();
+    let count = widths.len() * records.len();
+    let mut runs = in_parallel(count, threads, progress, |number| {
+        let (i, r) = (number / records.len(), number % records.len());
+        one(&records[r], &demands[r], widths[i], gap)
+    })
+    .into_iter();
+    let by_width = widths.iter();
+    let runs = by_width.map(|_| runs.by_ref().take(records.len()).collect());
+    Ok(GapSweep {
+        gap: asked.gap.clone(),
+        runs: runs.collect(),
+        widths,
+    })
+}
+
+/// A little more than the greatest demand.
+fn widest(demands: &[RecordDemand], from: f64, gap: Option<usize>) -> Result<f64, CheckError> {
+    let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
+    let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
+    let peaks = varied.flat_map(|(_, levels)| levels);
+    let widest = 1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value));
+    if widest > from {
+        return Ok(widest);
+    }
+    Err(CheckError::Option {
+        option: "first width of the sweep",
+        value: from,
+        reason: "it is not less than what any record demands: give the last width too",
+    })
+}
+
+fn one(
+    record: &CaseUnderRecord,
+    demand: &RecordDemand,
+    width: f64,
+    gap: Option<usize>,
+) -> Result<SweepRun, String> {
+    let system = rebuilt(&record.assembly.system, |index, level| {
+        let varies = gap.is_none_or(|g| g == index);
+        let width = if varies { width } else { level.width };
+        (width, Arc::clone(&level.model))
+    });
+    let system = system.map_err(|e| e.to_string())?;
+    let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
+    let outcome = outcome.map_err(|e| e.to_string())?;
+    let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
+    let forces = levels()
+        .filter(|l| l.impacts > 0)
+        .map(|l| l.peak_force.value);
+    let jumps = levels().any(|l| l.impacts > 0 && l.peak_force.value.is_nan());
+    let peak_force = forces.fold(0.0, f64::max);
+    Ok(SweepRun {
+        amplification: amplification(&outcome.buildings, &demand.isolated),
+        impacts: levels().map(|l| l.impacts).sum(),
+        peak_force: if jumps && peak_force == 0.0 {
+            f64::NAN
+        } else {
+            peak_force
+        },
+        impact_energy: levels().map(|l| l.energy_dissipated).sum(),
+    })
+}

@@ -1,0 +1,36 @@
+//! Systems with the same buildings and other gaps.
+
+use std::sync::Arc;
+
+use pounding_gap_element::ImpactModel;
+use pounding_time_history::{ContactLevel, Floor, System, TimeHistoryError};
+
+/// The place of a degree of freedom in the row.
+fn floor(system: &System, dof: Option<usize>) -> Floor {
+    let Some(dof) = dof else {
+        return Floor::Wall;
+    };
+    let offsets = system.offsets();
+    let building = offsets.partition_point(|o| *o <= dof) - 1;
+    Floor::Storey(building, dof - offsets[building])
+}
+
+/// The same buildings under the same motion, with another width (m) and model at every
+/// contact level: `change` is told the gap and the level. What the buildings alone
+/// determine is shared with `system`.
+pub(crate) fn rebuilt(
+    system: &System,
+    change: impl Fn(usize, &ContactLevel) -> (f64, Arc<dyn ImpactModel>),
+) -> Result<System, TimeHistoryError> {
+    let mut other = system.isolated();
+    for (index, gap) in system.gaps().iter().enumerate() {
+        let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+        let pairs = levels.iter().map(|level| {
+            let (width, model) = change(index, level);
+            let (left, right) = (floor(system, level.left), floor(system, level.right));
+            (left, right, width, model)
+        });
+        other.add_gap(&gap.name, gap.between.clone(), pairs.collect())?;
+    }
+    Ok(other)
+}

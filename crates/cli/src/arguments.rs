@@ -1,5 +1,6 @@
 //! Arguments of all commands.
 
+mod gap;
 mod impact;
 mod motion;
 mod verification;
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
+pub use gap::GapArguments;
 pub use impact::ImpactArguments;
 pub use motion::*;
 pub use verification::*;
@@ -51,6 +53,8 @@ pub enum Command {
     Impact(Box<ImpactArguments>),
     /// Compute published results and compare
     Verify(VerifyArguments),
+    /// Is the gap wide enough? Demand by simulation, by code, and what pounding does
+    Gap(Box<GapArguments>),
     /// Find a contact stiffness, with its source and limits
     Stiffness(StiffnessArguments),
     /// Read, measure, convert, process, make and match ground motions

@@ -100,7 +100,7 @@ fn a_wider_gap_can_be_worse() {
     let mut asked = GapCheckOptions {
         sweep: Some(SweepOptions {
             gap: None,
-            from: 0.02,
+            from: Some(0.02),
             to: Some(0.12),
             points: 6,
         }),
@@ -174,7 +174,7 @@ fn mistakes() {
     let sweep = |gap: Option<&str>, from, to, points| GapCheckOptions {
         sweep: Some(SweepOptions {
             gap: gap.map(str::to_owned),
-            from,
+            from: Some(from),
             to,
             points,
         }),

@@ -2,9 +2,11 @@
 
 mod calibrate;
 mod check;
+mod gap;
 mod impact;
 mod models;
 mod motion;
+mod progress;
 mod run;
 mod stiffness;
 mod verify;
@@ -28,6 +30,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
             Some(ImpactCommand::Calibrate(arguments)) => calibrate::calibrate(arguments),
             None => impact::impact(&arguments),
         },
+        Command::Gap(arguments) => gap::gap(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command),

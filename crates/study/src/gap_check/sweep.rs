@@ -15,8 +15,8 @@ use super::systems::rebuilt;
 pub struct SweepOptions {
     /// Gap whose width varies; `None`: all gaps of the case, all with the same width.
     pub gap: Option<String>,
-    /// Smallest width (m).
-    pub from: f64,
+    /// Smallest width (m); `None`: one step, so that the next below were zero.
+    pub from: Option<f64>,
     /// Greatest width (m); `None`: 1.05 of the greatest demand of the gaps that vary.
     pub to: Option<f64>,
     /// Number of widths, evenly spaced, both ends among them.
@@ -39,11 +39,12 @@ impl SweepOptions {
                 "a sweep has two widths or more",
             );
         }
-        if !(self.from.is_finite() && self.from >= 0.0) {
-            return refuse("first width", self.from, "it is zero or more");
+        let from = self.from.unwrap_or(0.0);
+        if !(from.is_finite() && from >= 0.0) {
+            return refuse("first width of the sweep", from, "it is zero or more");
         }
         match self.to {
-            Some(to) if !(to.is_finite() && to > self.from) => refuse(
+            Some(to) if !(to.is_finite() && to > from) => refuse(
                 "last width of the sweep",
                 to,
                 "it is greater than the first width",
@@ -162,10 +163,11 @@ pub(crate) fn sweep(
 ) -> Result<GapSweep, CheckError> {
     let to = match asked.to {
         Some(to) => to,
-        None => widest(demands, asked.from, gap)?,
+        None => widest(demands, asked.from.unwrap_or(0.0), gap)?,
     };
+    let from = asked.from.unwrap_or(to / asked.points as f64);
     let steps = (asked.points - 1) as f64;
-    let width = |i: usize| asked.from + (to - asked.from) * i as f64 / steps;
+    let width = |i: usize| from + (to - from) * i as f64 / steps;
     let widths: Vec<f64> = (0..asked.points).map(width).collect();
     let count = widths.len() * records.len();
     let mut runs = in_parallel(count, threads, progress, |number| {

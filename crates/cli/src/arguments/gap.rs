@@ -1,0 +1,59 @@
+//! Arguments of `gap`.
+
+use std::path::PathBuf;
+
+/// Arguments of `gap`.
+#[derive(Debug, clap::Args)]
+pub struct GapArguments {
+    /// Case file (TOML)
+    #[arg(required_unless_present = "list")]
+    pub case: Option<PathBuf>,
+    /// List the provisions and what each needs, instead of a check
+    #[arg(long, conflicts_with_all = ["case", "records"])]
+    pub list: bool,
+    /// Records, or folders of them [default: that of the case]
+    #[arg(long, num_args = 1.., value_name = "FILE")]
+    pub records: Vec<PathBuf>,
+    /// Provisions to apply [default: those of the case, or all]
+    #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
+    pub provisions: Vec<String>,
+    /// An entry of the table [separation], such as importance=1.25 or 'soil_zone="II"'
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Part of the records that may bring the buildings into contact
+    #[arg(long, default_value_t = 0.0, value_name = "P")]
+    pub probability: f64,
+    /// Confidence of two-sided bounds
+    #[arg(long, default_value_t = 0.9, value_name = "C")]
+    pub confidence: f64,
+    /// Widths in the sweep; 0 for none
+    #[arg(long, default_value_t = 120, value_name = "N")]
+    pub points: usize,
+    /// First width of the sweep, such as "5 mm" [default: one step]
+    #[arg(long, value_name = "WIDTH")]
+    pub from: Option<String>,
+    /// Last width of the sweep [default: a little more than the greatest demand]
+    #[arg(long, value_name = "WIDTH")]
+    pub to: Option<String>,
+    /// Gap whose width varies in the sweep [default: all, with the same width]
+    #[arg(long, value_name = "NAME")]
+    pub gap: Option<String>,
+    /// Write every width, record, building and storey of the sweep into this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write demand, code gaps and their ratios for every record and level into this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub codes_csv: Option<PathBuf>,
+    /// Draw amplification over the width into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Show provisions that lack an input or do not apply too
+    #[arg(long)]
+    pub all: bool,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,156 @@
+//! Tables and pictures of the gap check.
+
+use pounding_study::gap_check::GapCheck;
+
+use super::text::{QUANTITIES, over_records};
+use crate::failure::Failure;
+use crate::plot::{Curve, Panel, figure as draw};
+
+/// A CSV text from rows.
+pub fn csv(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<String, Failure> {
+    let failed = |e: String| Failure::output(&std::io::Error::other(e), "a table");
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer
+        .write_record(header)
+        .map_err(|e| failed(e.to_string()))?;
+    for row in rows {
+        writer
+            .write_record(&row)
+            .map_err(|e| failed(e.to_string()))?;
+    }
+    let bytes = writer.into_inner().map_err(|e| failed(e.to_string()))?;
+    String::from_utf8(bytes).map_err(|e| failed(e.to_string()))
+}
+
+/// Every width, record, building and storey of the sweep.
+pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
+    let mut rows = Vec::new();
+    let Some(sweep) = &check.sweep else {
+        return Ok(String::new());
+    };
+    for (width, runs) in sweep.widths.iter().zip(&sweep.runs) {
+        for (record, run) in check.records.iter().zip(runs) {
+            let start = [width.to_string(), record.name.clone()];
+            let run = match run {
+                Ok(run) => run,
+                Err(failure) => {
+                    let mut row = start.to_vec();
+                    row.extend(vec![String::new(); 8]);
+                    row.push(failure.clone());
+                    rows.push(row);
+                    continue;
+                }
+            };
+            for (building, storeys) in record.isolated.iter().zip(&run.amplification) {
+                for (storey, a) in storeys.iter().enumerate() {
+                    let mut row = start.to_vec();
+                    row.push(building.name.clone());
+                    row.push((storey + 1).to_string());
+                    row.extend(QUANTITIES.map(|(_, of)| of(a).to_string()));
+                    row.push(run.impacts.to_string());
+                    row.push(run.peak_force.to_string());
+                    row.push(run.impact_energy.to_string());
+                    row.push(String::new());
+                    rows.push(row);
+                }
+            }
+        }
+    }
+    let header = [
+        "width_m",
+        "record",
+        "building",
+        "storey",
+        "displacement_amplification",
+        "storey_shear_amplification",
+        "acceleration_absolute_amplification",
+        "impacts",
+        "peak_force_n",
+        "impact_energy_j",
+        "failure",
+    ];
+    csv(&header, rows.into_iter())
+}
+
+/// Every rule at every level under every record.
+pub fn codes(check: &GapCheck) -> Result<String, Failure> {
+    let mut rows = Vec::new();
+    for (index, gap) in check.gaps.iter().enumerate() {
+        for (r, record) in check.records.iter().enumerate() {
+            for level in 0..gap.levels.len() {
+                let demand = record.demand[index][level].value;
+                let start = [
+                    gap.name.clone(),
+                    record.name.clone(),
+                    (level + 1).to_string(),
+                    gap.levels[level].width.to_string(),
+                    demand.to_string(),
+                ];
+                let mut add = |rule: &str, status: &str, width: Result<f64, String>| {
+                    let mut row = start.to_vec();
+                    row.extend([rule.to_owned(), status.to_owned()]);
+                    match width {
+                        Ok(width) => row.extend([
+                            width.to_string(),
+                            (width / demand).to_string(),
+                            String::new(),
+                        ]),
+                        Err(refusal) => row.extend([String::new(), String::new(), refusal]),
+                    }
+                    rows.push(row);
+                };
+                for c in &gap.combinations {
+                    let name = match c.effective {
+                        Some(e) => format!("{} ({})", c.rule.name(), e.name()),
+                        None => c.rule.name().to_owned(),
+                    };
+                    add(&name, c.status.name(), Ok(c.records[r][level].width));
+                }
+                for c in &gap.codes {
+                    let width = c.records[r][level].as_ref();
+                    let width = width.map(|w| w.width).map_err(ToString::to_string);
+                    add(c.provision.name, c.provision.status.name(), width);
+                }
+            }
+        }
+    }
+    let header = [
+        "gap",
+        "record",
+        "level",
+        "provided_m",
+        "demand_m",
+        "rule",
+        "status",
+        "width_m",
+        "ratio_to_demand",
+        "refusal",
+    ];
+    csv(&header, rows.into_iter())
+}
+
+/// Greatest amplification over storeys and records, over the width.
+pub fn figure(check: &GapCheck) -> Result<String, Failure> {
+    let (Some(sweep), Some(first)) = (&check.sweep, check.records.first()) else {
+        return Ok(String::new());
+    };
+    let panels = QUANTITIES.map(|(quantity, of)| {
+        let curve = |(building, name): (usize, &String)| {
+            let points = sweep.widths.iter().enumerate().filter_map(|(i, width)| {
+                let x = over_records(sweep, i, building, of).filter(|x| x.is_finite())?;
+                Some((width * 1e3, x))
+            });
+            Curve {
+                name: name.clone(),
+                points: points.collect(),
+            }
+        };
+        let names = first.isolated.iter().map(|b| &b.name).enumerate();
+        Panel {
+            caption: format!("Amplification of {quantity} (-), greatest over storeys and records"),
+            horizontal: "width of the gap (mm)".to_owned(),
+            curves: names.map(curve).collect(),
+        }
+    });
+    draw(&panels)
+}

@@ -1,0 +1,348 @@
+//! The gap check for people.
+
+use pounding_case::Case;
+use pounding_separation::Basis;
+use pounding_study::gap_check::{
+    Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
+};
+
+use crate::tables::new_table;
+
+/// More records than this are summed up instead of listed.
+const LISTED: usize = 6;
+/// Rows of the printed sweep; every width is in the CSV file.
+const ROWS: usize = 16;
+
+type Quantity = (&'static str, fn(&Amplification) -> f64);
+
+/// The quantities that pounding amplifies.
+pub const QUANTITIES: [Quantity; 3] = [
+    ("displacement", |a| a.displacement),
+    ("storey shear", |a| a.storey_shear),
+    ("absolute acceleration", |a| a.acceleration_absolute),
+];
+
+/// The whole report.
+pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
+    let mut text = String::new();
+    if !case.title.is_empty() {
+        text.push_str(&format!("{}\n", case.title));
+    }
+    for gap in 0..check.gaps.len() {
+        text.push_str(&demand(check, gap));
+        text.push_str(&codes(check, &check.gaps[gap], all));
+        text.push_str(&required(check, &check.gaps[gap]));
+    }
+    text.push_str(&provided(check));
+    if let Some(sweep) = &check.sweep {
+        text.push_str(&swept(check, sweep));
+    }
+    for gap in &check.gaps {
+        text.push_str(&verdict(check, gap));
+    }
+    text
+}
+
+fn storey(s: Option<usize>) -> String {
+    s.map_or("wall".to_owned(), |s| s.to_string())
+}
+
+/// Demand at every level under every record.
+fn demand(check: &GapCheck, index: usize) -> String {
+    let gap = &check.gaps[index];
+    let few = check.records.len() <= LISTED;
+    let mut header = vec!["level".to_owned(), "provided (mm)".to_owned()];
+    if few {
+        header.extend(check.records.iter().map(|r| format!("{} (mm)", r.name)));
+    }
+    header.extend(["greatest (mm)", "records in contact"].map(str::to_owned));
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let mut table = new_table(&header);
+    for (l, level) in gap.levels.iter().enumerate().rev() {
+        let peaks = check.records.iter().map(|r| r.demand[index][l]);
+        let mut row = vec![
+            format!(
+                "{}-{}",
+                storey(level.left_storey),
+                storey(level.right_storey)
+            ),
+            format!("{:.1}", level.width * 1e3),
+        ];
+        if few {
+            row.extend(
+                peaks
+                    .clone()
+                    .map(|p| format!("{:.2} @{:.3}", p.value * 1e3, p.time)),
+            );
+        }
+        let greatest = peaks.clone().fold(0.0_f64, |m, p| m.max(p.value));
+        let contacts = peaks.filter(|p| p.value > level.width).count();
+        row.push(format!("{:.2}", greatest * 1e3));
+        row.push(format!("{contacts} of {}", check.records.len()));
+        table.add_row(row);
+    }
+    format!(
+        "\nGap {}: demand, greatest approach of the buildings alone @time (s)\n{table}\n",
+        gap.name
+    )
+}
+
+/// The record under which a code gap is smallest beside its demand, with that ratio.
+fn least_ratio(gap: &GapReport, width: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
+    let ratios = (0..gap.demand.len()).filter_map(|r| Some((r, width(r)? / gap.demand[r])));
+    ratios
+        .filter(|(_, x)| !x.is_nan())
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Records whose demand exceeds the width.
+fn unsafe_records(gap: &GapReport, width: impl Fn(usize) -> Option<f64>) -> usize {
+    let exceeds = |r: &usize| width(*r).is_some_and(|w| w < gap.demand[*r]);
+    (0..gap.demand.len()).filter(exceeds).count()
+}
+
+fn row(
+    gap: &GapReport,
+    name: &str,
+    kind: &str,
+    status: &str,
+    width: impl Fn(usize) -> Option<f64> + Copy,
+) -> [String; 6] {
+    let widths = (0..gap.demand.len()).filter_map(width);
+    let (low, high) = widths.fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(w), h.max(w)));
+    let range = if high - low > 5.0e-5 {
+        format!("{:.1} to {:.1}", low * 1e3, high * 1e3)
+    } else {
+        format!("{:.1}", high * 1e3)
+    };
+    let ratio = least_ratio(gap, width).map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
+    let few = format!("{} of {}", unsafe_records(gap, width), gap.demand.len());
+    [
+        name.to_owned(),
+        kind.to_owned(),
+        range,
+        ratio,
+        few,
+        status.to_owned(),
+    ]
+}
+
+/// Gaps by code and by combination rules.
+fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
+    let mut table = new_table(&[
+        "rule",
+        "kind",
+        "width (mm)",
+        "least of width / demand",
+        "records that exceed it",
+        "status",
+    ]);
+    for c in &gap.combinations {
+        let level = gap.governing_level;
+        let width = |r: usize| c.records.get(r)?.get(level).map(|l| l.width);
+        let name = match c.effective {
+            Some(effective) => format!("{} ({})", c.rule.name(), effective.name()),
+            None => c.rule.name().to_owned(),
+        };
+        table.add_row(row(gap, &name, "combination", c.status.name(), width));
+    }
+    let spoken = |basis| {
+        let of = move |c: &&CodeGap| c.refusal().is_none() && c.provision.basis == basis;
+        gap.codes.iter().filter(of)
+    };
+    for c in spoken(Basis::Displacement).chain(spoken(Basis::Prescriptive)) {
+        let kind = format!(
+            "{}, {}",
+            c.provision.place().name(),
+            c.provision.basis.name()
+        );
+        let status = c.provision.status.name();
+        table.add_row(row(gap, c.provision.name, &kind, status, |r| c.width(r)));
+    }
+    let mut text = format!(
+        "\nGap {}: widths by rule under {} record{}; boundary rules summed over both sides\n{table}\n",
+        gap.name,
+        check.records.len(),
+        if check.records.len() == 1 { "" } else { "s" },
+    );
+    text.push_str(
+        "\"from memory\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
+    );
+    let refused: Vec<_> = gap.codes.iter().filter_map(CodeGap::refusal).collect();
+    if all {
+        for refusal in refused {
+            text.push_str(&format!("  {refusal}\n"));
+        }
+    } else if !refused.is_empty() {
+        text.push_str(&format!(
+            "{} provisions lack an input or do not apply: --all says which\n",
+            refused.len()
+        ));
+    }
+    text
+}
+
+fn required(check: &GapCheck, gap: &GapReport) -> String {
+    let p = check.options.target_probability;
+    let confidence = 100.0 * check.options.confidence;
+    let required = &gap.required;
+    let mut text = format!(
+        "\nGap {}: required {:.2} mm by count ({} of {} records may touch)\n",
+        gap.name,
+        required.by_count * 1e3,
+        required.allowed_contacts,
+        gap.demand.len(),
+    );
+    match &required.lognormal {
+        Ok(fit) => text.push_str(&format!(
+            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {:.2} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
+            fit.median * 1e3,
+            fit.dispersion,
+            fit.width * 1e3,
+            fit.bounds.0 * 1e3,
+            fit.bounds.1 * 1e3,
+        )),
+        Err(reason) => text.push_str(&format!("  no lognormal fit: {reason}\n")),
+    }
+    text
+}
+
+/// Greatest over the storeys of a building, as "x1.23 (storey 3)".
+fn greatest(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> String {
+    let values = storeys.iter().map(quantity).enumerate();
+    let top = values.fold((0, f64::NEG_INFINITY), |best, (i, x)| {
+        if x > best.1 { (i, x) } else { best }
+    });
+    format!("x{:.3} (storey {})", top.1, top.0 + 1)
+}
+
+/// What pounding does at the provided gap.
+fn provided(check: &GapCheck) -> String {
+    let mut table = new_table(&[
+        "record",
+        "building",
+        "displacement",
+        "storey shear",
+        "absolute acceleration",
+        "impacts",
+    ]);
+    let mut failures = String::new();
+    for record in &check.records {
+        let RecordDemand { name, pounding, .. } = record;
+        let (with, gaps) = match pounding {
+            Ok(pounding) => pounding,
+            Err(diagnosis) => {
+                failures.push_str(&format!("{name}: the run failed: {diagnosis}\n"));
+                continue;
+            }
+        };
+        let impacts: usize = gaps.iter().flat_map(|g| &g.levels).map(|l| l.impacts).sum();
+        for (building, storeys) in with.iter().zip(record.amplification().unwrap_or_default()) {
+            let mut row = vec![name.clone(), building.name.clone()];
+            row.extend(QUANTITIES.map(|(_, q)| greatest(&storeys, q)));
+            row.push(impacts.to_string());
+            table.add_row(row);
+        }
+    }
+    format!(
+        "\nAt the provided gaps: greatest ratio of a storey's peak with pounding to that alone\n{table}\n{failures}"
+    )
+}
+
+/// Greatest over records of what `of_building` finds, at one width.
+pub fn over_records(
+    sweep: &GapSweep,
+    width: usize,
+    building: usize,
+    quantity: fn(&Amplification) -> f64,
+) -> Option<f64> {
+    let runs = sweep.runs.get(width)?.iter().flatten();
+    let values = runs.filter_map(|run| GapSweep::of_building(run, building, quantity));
+    values.map(|(_, x)| x).reduce(f64::max)
+}
+
+fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
+    let Some(first) = check.records.first() else {
+        return String::new();
+    };
+    let buildings: Vec<&str> = first.isolated.iter().map(|b| b.name.as_str()).collect();
+    let mut header = vec!["width (mm)".to_owned()];
+    for name in &buildings {
+        header.extend(QUANTITIES.map(|(quantity, _)| format!("{name}: {quantity}")));
+    }
+    header.push("impacts".to_owned());
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let mut table = new_table(&header);
+    let every = sweep.widths.len().div_ceil(ROWS);
+    for (i, width) in sweep.widths.iter().enumerate().step_by(every) {
+        let mut row = vec![format!("{:.2}", width * 1e3)];
+        for building in 0..buildings.len() {
+            let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.3}"));
+            row.extend(QUANTITIES.map(|(_, q)| cell(over_records(sweep, i, building, q))));
+        }
+        let impacts = sweep.runs[i].iter().flatten().map(|r| r.impacts).max();
+        row.push(impacts.map_or("-".to_owned(), |n| n.to_string()));
+        table.add_row(row);
+    }
+    let which = sweep.gap.as_deref().unwrap_or("all gaps alike");
+    let shown = if every == 1 {
+        "every width shown".to_owned()
+    } else {
+        format!("one width of {every} shown, --csv writes all")
+    };
+    let mut text = format!(
+        "\nSweep over {} widths ({which}): greatest amplification over storeys and records; {shown}\n{table}\n",
+        sweep.widths.len(),
+    );
+    text.push_str(&worst(check, sweep, &buildings));
+    if sweep.failures() > 0 {
+        text.push_str(&format!(
+            "{} runs of the sweep failed; --json and --csv say why\n",
+            sweep.failures()
+        ));
+    }
+    text
+}
+
+/// The worst width of every quantity: computed ones, nothing in between.
+fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
+    let mut text = String::new();
+    for (building, name) in buildings.iter().enumerate() {
+        for (quantity, of) in QUANTITIES {
+            let Some(w) = sweep.worst(building, of) else {
+                continue;
+            };
+            if w.amplification <= 1.0 {
+                text.push_str(&format!("{name}: no width raises the {quantity}\n"));
+                continue;
+            }
+            text.push_str(&format!(
+                "{name}: {quantity} worst at {:.2} mm: x{:.3} at storey {} under {}\n",
+                w.width * 1e3,
+                w.amplification,
+                w.storey + 1,
+                check.records[w.record].name
+            ));
+        }
+    }
+    text
+}
+
+fn verdict(check: &GapCheck, gap: &GapReport) -> String {
+    let (low, high) = gap.contact_bounds;
+    format!(
+        "\nGap {}: {} - {} of {} records close it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n",
+        gap.name,
+        if gap.adequate {
+            "WIDE ENOUGH"
+        } else {
+            "TOO SMALL"
+        },
+        gap.records_in_contact,
+        gap.demand.len(),
+        gap.required.allowed_contacts,
+        low,
+        high,
+        100.0 * check.options.confidence,
+    )
+}

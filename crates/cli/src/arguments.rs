@@ -1,5 +1,6 @@
 //! Arguments of all commands.
 
+mod compare;
 mod gap;
 mod impact;
 mod motion;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
+pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use gap::GapArguments;
 pub use impact::ImpactArguments;
 pub use motion::*;
@@ -55,6 +57,8 @@ pub enum Command {
     Verify(VerifyArguments),
     /// Is the gap wide enough? Demand by simulation, by code, and what pounding does
     Gap(Box<GapArguments>),
+    /// Does the answer hang on the impact model? Every model on every record
+    Compare(Box<CompareArguments>),
     /// Find a contact stiffness, with its source and limits
     Stiffness(StiffnessArguments),
     /// Read, measure, convert, process, make and match ground motions

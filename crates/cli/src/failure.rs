@@ -43,6 +43,11 @@ impl Failure {
         Self::Input(plain(message.into(), help))
     }
 
+    /// A computation that came to nothing.
+    pub fn computation(message: String, help: String) -> Self {
+        Self::Computation(plain(message, Some(help)))
+    }
+
     /// Bad input at a place (byte range) in a file.
     pub fn in_file(
         file: &str,

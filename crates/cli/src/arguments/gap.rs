@@ -27,7 +27,7 @@ pub struct GapArguments {
     #[arg(long, default_value_t = 0.9, value_name = "C")]
     pub confidence: f64,
     /// Widths in the sweep; 0 for none
-    #[arg(long, default_value_t = 120, value_name = "N")]
+    #[arg(long, default_value_t = 400, value_name = "N")]
     pub points: usize,
     /// First width of the sweep, such as "5 mm" [default: one step]
     #[arg(long, value_name = "WIDTH")]

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod check;
+mod compare;
 mod gap;
 mod impact;
 mod models;
@@ -31,6 +32,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
             None => impact::impact(&arguments),
         },
         Command::Gap(arguments) => gap::gap(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command),

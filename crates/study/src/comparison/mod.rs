@@ -1,1 +1,325 @@
-//! Does the answer hang on the impact model?
+//! Does the answer hang on the impact model? Every model on every record, calibrated
+//! alike, with the spread between models beside that between records.
+
+mod calibration;
+mod conclusions;
+mod quantities;
+mod spread;
+
+pub use calibration::{CalibratedModel, ReferenceCollision, RestitutionRule, StiffnessRule};
+pub use conclusions::{Conclusion, Holds};
+pub use quantities::{Quantity, QuantityKind};
+pub use spread::{Ranking, Spread};
+
+use std::sync::Arc;
+
+use pounding_case::Case;
+use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
+use pounding_time_history::{Outcome, run};
+
+use crate::gap_check::{CaseUnderRecord, CheckError, Progress, in_parallel, rebuilt};
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparisonOptions {
+    /// Names of the models; empty: all of the registry.
+    pub models: Vec<String>,
+    /// How stiffnesses follow from that of the gap's own law.
+    pub stiffness_rule: StiffnessRule,
+    /// Whether the restitution is asked for or returned exactly.
+    pub restitution_rule: RestitutionRule,
+    /// Restitution (-); `None`: that of the gap's own law.
+    pub restitution: Option<f64>,
+    /// Approach velocity of the reference collision (m/s); `None`: the greatest that the
+    /// gap's own law meets under the records.
+    pub approach_velocity: Option<f64>,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// One model.
+#[derive(Debug, Clone)]
+pub struct ComparedModel {
+    /// The model's card.
+    pub descriptor: &'static ModelDescriptor,
+    /// Calibrated for each gap, or why it cannot be.
+    pub calibrated: Result<Vec<CalibratedModel>, String>,
+    /// Values in the order of [`Comparison::quantities`] for each record (NaN where one
+    /// has no meaning), or why the run failed.
+    pub records: Vec<Result<Vec<f64>, String>>,
+}
+
+impl ComparedModel {
+    /// Whether it ran under every record.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.records.iter().all(Result::is_ok)
+    }
+
+    /// The first reason why it did not.
+    #[must_use]
+    pub fn diagnosis(&self) -> Option<&str> {
+        self.records
+            .iter()
+            .find_map(|r| r.as_ref().err())
+            .map(String::as_str)
+    }
+}
+
+/// The whole comparison.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// What was asked for.
+    pub options: ComparisonOptions,
+    /// The collision that models are calibrated in, for each gap.
+    pub references: Vec<ReferenceCollision>,
+    /// Names of the records.
+    pub records: Vec<String>,
+    /// What is compared.
+    pub quantities: Vec<Quantity>,
+    /// Values without pounding for each record, in the order of `quantities`; NaN for
+    /// those of gaps.
+    pub isolated: Vec<Vec<f64>>,
+    /// The models, those that failed among them.
+    pub models: Vec<ComparedModel>,
+    /// Spread of each quantity over the models that ran under every record.
+    pub spreads: Vec<Spread>,
+    /// Order of these models in each quantity; numbers are those of `models`.
+    pub rankings: Vec<Ranking>,
+    /// What holds for all these models, and what does not.
+    pub conclusions: Vec<Conclusion>,
+}
+
+/// Compares models on a case under records, made by
+/// [`crate::gap_check::under_records`].
+///
+/// # Errors
+/// A case without gaps, unknown models, a gap whose own law gives nothing to calibrate
+/// to, or own runs that fail. Models that fail are kept with their diagnosis.
+pub fn compare(
+    case: &Case,
+    records: &[CaseUnderRecord],
+    options: &ComparisonOptions,
+    progress: Progress<'_>,
+) -> Result<Comparison, CheckError> {
+    let first = records.first().ok_or(CheckError::NoGap)?;
+    let system = &first.assembly.system;
+    if system.gaps().is_empty() {
+        return Err(CheckError::NoGap);
+    }
+    let cards = cards(&options.models)?;
+    let total = 2 * records.len() + cards.len() * records.len();
+    let tell = |done, _| progress(done, total);
+    let own = own_runs(records, options.threads, &tell)?;
+    let references = references(case, records, &own, options)?;
+    let rules = (options.stiffness_rule, options.restitution_rule);
+    let mut models: Vec<ComparedModel> =
+        in_parallel(cards.len(), options.threads, &|_, _| {}, |i| {
+            let gaps = references.iter();
+            ComparedModel {
+                descriptor: cards[i],
+                calibrated: gaps
+                    .map(|reference| calibration::calibrated(cards[i], reference, rules))
+                    .collect(),
+                records: Vec::new(),
+            }
+        });
+    let quantities = quantities::of_system(system);
+    let tell = |done, _| progress(2 * records.len() + done, total);
+    let count = models.len() * records.len();
+    let runs = in_parallel(count, options.threads, &tell, |number| {
+        let model = &models[number / records.len()];
+        one(model, &records[number % records.len()], &quantities)
+    });
+    let mut runs = runs.into_iter();
+    for model in &mut models {
+        model.records = runs.by_ref().take(records.len()).collect();
+    }
+    let isolated = own.iter().map(|(alone, _)| isolated(&quantities, alone));
+    let mut comparison = Comparison {
+        options: options.clone(),
+        references,
+        records: records.iter().map(|r| r.name.clone()).collect(),
+        isolated: isolated.collect(),
+        quantities,
+        models,
+        spreads: Vec::new(),
+        rankings: Vec::new(),
+        conclusions: Vec::new(),
+    };
+    comparison.sum_up();
+    Ok(comparison)
+}
+
+impl Comparison {
+    /// Numbers of the models that ran under every record.
+    #[must_use]
+    pub fn complete(&self) -> Vec<usize> {
+        let all = 0..self.models.len();
+        all.filter(|m| self.models[*m].is_complete()).collect()
+    }
+
+    /// Value of a quantity; NaN where a model failed or it has no meaning.
+    #[must_use]
+    pub fn value(&self, model: usize, record: usize, quantity: usize) -> f64 {
+        let values = self.models[model].records[record].as_ref();
+        values.map_or(f64::NAN, |v| v[quantity])
+    }
+
+    fn sum_up(&mut self) {
+        let complete = self.complete();
+        for quantity in 0..self.quantities.len() {
+            let of_model = |m: &usize| -> Vec<f64> {
+                let records = 0..self.records.len();
+                records.map(|r| self.value(*m, r, quantity)).collect()
+            };
+            let values: Vec<Vec<f64>> = complete.iter().map(of_model).collect();
+            let mut ranking = spread::ranking(&values);
+            for place in &mut ranking.order {
+                *place = complete[*place];
+            }
+            self.spreads.push(spread::spread(&values));
+            self.rankings.push(ranking);
+        }
+        self.conclusions = conclusions::draw(self);
+    }
+}
+
+fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
+    if names.is_empty() {
+        return Ok(registry::descriptors().to_vec());
+    }
+    let mut cards: Vec<&'static ModelDescriptor> = Vec::new();
+    for name in names {
+        let card = registry::find(name).map_err(|e| CheckError::UnknownModel {
+            name: name.clone(),
+            help: e.help().unwrap_or_default(),
+        })?;
+        // A model and its alias are one.
+        if !cards.iter().any(|c| c.name == card.name) {
+            cards.push(card);
+        }
+    }
+    Ok(cards)
+}
+
+/// Each record alone, and with the gaps' own laws.
+fn own_runs(
+    records: &[CaseUnderRecord],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<Vec<(Outcome, Outcome)>, CheckError> {
+    let runs = in_parallel(2 * records.len(), threads, progress, |number| {
+        let record = &records[number / 2];
+        let (system, options) = (&record.assembly.system, &record.assembly.options);
+        let outcome = if number % 2 == 0 {
+            run(&system.isolated(), options, &mut [], &mut |_| {})
+        } else {
+            run(system, options, &mut [], &mut |_| {})
+        };
+        outcome.map_err(|source| CheckError::Record {
+            record: record.name.clone(),
+            source: Box::new(source),
+        })
+    });
+    let mut runs = runs.into_iter();
+    let mut pairs = Vec::new();
+    while let (Some(alone), Some(with)) = (runs.next(), runs.next()) {
+        pairs.push((alone?, with?));
+    }
+    Ok(pairs)
+}
+
+/// The collision of each gap that its models are calibrated in: the fastest one that the
+/// gap's own law meets.
+fn references(
+    case: &Case,
+    records: &[CaseUnderRecord],
+    own: &[(Outcome, Outcome)],
+    options: &ComparisonOptions,
+) -> Result<Vec<ReferenceCollision>, CheckError> {
+    if let Some(e) = options.restitution
+        && !(e > 0.0 && e <= 1.0)
+    {
+        return Err(CheckError::Option {
+            option: "restitution",
+            value: e,
+            reason: "it is greater than 0 and at most 1",
+        });
+    }
+    let system = &records[0].assembly.system;
+    let fastest = |gap: usize| {
+        let levels = own
+            .iter()
+            .flat_map(|(_, with)| with.gaps[gap].levels.iter().enumerate());
+        levels.fold((0, 0.0_f64), |best, (l, level)| {
+            let velocity = level.approach_velocity_max;
+            if velocity > best.1 {
+                (l, velocity)
+            } else {
+                best
+            }
+        })
+    };
+    let over_all = (0..system.gaps().len()).fold(0.0_f64, |m, g| m.max(fastest(g).1));
+    let mut references = Vec::new();
+    for (index, gap) in system.gaps().iter().enumerate() {
+        let (level, velocity) = fastest(index);
+        let velocity = if velocity > 0.0 { velocity } else { over_all };
+        let velocity = options.approach_velocity.unwrap_or(velocity);
+        if !(velocity.is_finite() && velocity > 0.0) {
+            return Err(CheckError::Calibration {
+                reason: "the buildings touch under no record, so that no collision is known"
+                    .to_owned(),
+                help: "give --approach-velocity, or a narrower gap",
+            });
+        }
+        let place = &system.levels()[gap.first_level + level];
+        let (stiffness, exponent) = calibration::own_law(case, index)?;
+        let mut reference = ReferenceCollision {
+            approach_velocity: velocity,
+            effective_mass: place.effective_mass,
+            stiffness,
+            exponent,
+            restitution: f64::NAN,
+        };
+        reference.restitution = match options.restitution {
+            Some(e) => e,
+            None => calibration::own_restitution(case, index, place.model.as_ref(), &reference)?,
+        };
+        references.push(reference);
+    }
+    Ok(references)
+}
+
+fn isolated(quantities: &[Quantity], alone: &Outcome) -> Vec<f64> {
+    let value = |q: &Quantity| {
+        if q.is_of_building() {
+            quantities::of_building(q.kind, &alone.buildings[q.index])
+        } else {
+            f64::NAN
+        }
+    };
+    quantities.iter().map(value).collect()
+}
+
+/// One model under one record.
+fn one(
+    model: &ComparedModel,
+    record: &CaseUnderRecord,
+    quantities: &[Quantity],
+) -> Result<Vec<f64>, String> {
+    let calibrated = model.calibrated.as_ref().map_err(Clone::clone)?;
+    let laws: Vec<Arc<dyn ImpactModel>> = calibrated.iter().map(|c| Arc::clone(&c.model)).collect();
+    let system = rebuilt(&record.assembly.system, |gap, level| {
+        (level.width, Arc::clone(&laws[gap]))
+    });
+    let system = system.map_err(|e| e.to_string())?;
+    let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
+    let outcome = outcome.map_err(|e| e.to_string())?;
+    let rigid = laws.iter().any(|l| l.rigid_restitution().is_some());
+    let values = quantities.iter();
+    Ok(values
+        .map(|q| quantities::value(q, &outcome, rigid))
+        .collect())
+}

@@ -20,6 +20,9 @@ pub use required::{LognormalFit, RequiredGap};
 pub use statistics::binomial_bounds;
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
 
+pub(crate) use parallel::in_parallel;
+pub(crate) use systems::rebuilt;
+
 use pounding_case::{Case, Separation};
 
 /// What is asked for.

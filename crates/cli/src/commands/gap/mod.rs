@@ -5,6 +5,8 @@ mod numbers;
 mod provisions;
 mod text;
 
+pub use files::csv;
+
 use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation, parse_quantity};

@@ -1,0 +1,60 @@
+//! Arguments of `compare`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+/// Arguments of `compare`.
+#[derive(Debug, clap::Args)]
+pub struct CompareArguments {
+    /// Case file (TOML); its first law gives stiffness and restitution
+    pub case: PathBuf,
+    /// Models, separated by commas [default: all]
+    #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "MODEL")]
+    pub models: Vec<String>,
+    /// Records, or folders of them [default: that of the case]
+    #[arg(long, num_args = 1.., value_name = "FILE")]
+    pub records: Vec<PathBuf>,
+    /// What elastic laws of different exponents share in the reference collision
+    #[arg(long, value_enum, default_value_t = StiffnessChoice::Penetration)]
+    pub stiffness_rule: StiffnessChoice,
+    /// Ask for the restitution by each model's relation, or have it returned exactly
+    #[arg(long, value_enum, default_value_t = RestitutionChoice::Published)]
+    pub restitution_rule: RestitutionChoice,
+    /// Restitution of all models [default: that of the case's law]
+    #[arg(long, value_name = "E")]
+    pub restitution: Option<f64>,
+    /// Approach velocity of the reference collision (m/s) [default: the greatest of the case's law]
+    #[arg(long, value_name = "V")]
+    pub approach_velocity: Option<f64>,
+    /// Write every value into this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw peaks over the models into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What laws of different exponents share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StiffnessChoice {
+    /// Greatest penetration
+    Penetration,
+    /// Contact time
+    Duration,
+}
+
+/// What a model is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RestitutionChoice {
+    /// The restitution, by the model's own relation
+    Published,
+    /// Whatever returns the restitution exactly
+    Exact,
+}

@@ -1,0 +1,64 @@
+//! `pounding compare`: does the answer hang on the impact model?
+
+mod files;
+mod numbers;
+mod text;
+
+use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
+use pounding_study::gap_check::under_records;
+
+use super::gap::failure;
+use super::progress::{bar, threads};
+use super::run::read_case;
+use super::{pretty, print};
+use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
+use crate::failure::Failure;
+use crate::plot;
+
+/// Runs every model on every record. Models that fail are listed with their diagnosis;
+/// if none is left, the computation failed.
+pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
+    let case = read_case(&arguments.case)?;
+    let failed = |e| failure(e, &case);
+    let records = under_records(&case, &arguments.records).map_err(failed)?;
+    let options = ComparisonOptions {
+        models: arguments.models.clone(),
+        stiffness_rule: match arguments.stiffness_rule {
+            StiffnessChoice::Penetration => StiffnessRule::Penetration,
+            StiffnessChoice::Duration => StiffnessRule::Duration,
+        },
+        restitution_rule: match arguments.restitution_rule {
+            RestitutionChoice::Published => RestitutionRule::AsPublished,
+            RestitutionChoice::Exact => RestitutionRule::Exact,
+        },
+        restitution: arguments.restitution,
+        approach_velocity: arguments.approach_velocity,
+        threads: threads(arguments.threads),
+    };
+    let bar = bar();
+    let tell = |done: usize, total: usize| {
+        bar.set_length(total as u64);
+        bar.set_position(done as u64);
+    };
+    let comparison = compare(&case, &records, &options, &tell).map_err(failed)?;
+    bar.finish_and_clear();
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &files::table(&comparison)?)?;
+    }
+    if let Some(path) = &arguments.plot {
+        plot::write(path, &files::figure(&comparison)?)?;
+    }
+    if arguments.json {
+        print(&pretty(&numbers::comparison(&comparison)))?;
+    } else {
+        print(&text::report(&case, &comparison))?;
+    }
+    if comparison.complete().is_empty() {
+        let message = "no model ran under every record".to_owned();
+        return Err(Failure::computation(
+            message,
+            "the table says why".to_owned(),
+        ));
+    }
+    Ok(())
+}

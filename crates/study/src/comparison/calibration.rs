@@ -1,0 +1,404 @@
+//! Models calibrated alike: the same stiffness rule, the same restitution.
+
+use std::sync::Arc;
+
+use pounding_case::Case;
+use pounding_gap_element::contact_stiffness::{Approach, duration, penetration};
+use pounding_gap_element::{
+    Bodies, GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit, collide,
+    registry,
+};
+
+use crate::gap_check::CheckError;
+
+/// How the stiffness of a law follows from that of the gap's own. Laws of one exponent
+/// have one stiffness; between exponents a reference collision decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StiffnessRule {
+    /// The elastic laws penetrate equally deep in the reference collision.
+    Penetration,
+    /// The elastic laws stay in contact equally long in the reference collision.
+    Duration,
+}
+
+impl StiffnessRule {
+    /// Name in arguments and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Penetration => "penetration",
+            Self::Duration => "duration",
+        }
+    }
+}
+
+/// What a model is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RestitutionRule {
+    /// The restitution, by the model's own relation, whatever that returns.
+    AsPublished,
+    /// Whatever makes the reference collision return the restitution exactly.
+    Exact,
+}
+
+impl RestitutionRule {
+    /// Name in arguments and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AsPublished => "published",
+            Self::Exact => "exact",
+        }
+    }
+}
+
+/// The free collision of two floors that models are calibrated in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReferenceCollision {
+    /// Approach velocity (m/s).
+    pub approach_velocity: f64,
+    /// Effective mass (kg).
+    pub effective_mass: f64,
+    /// Stiffness of the gap's own law (N/m^n).
+    pub stiffness: f64,
+    /// Exponent of the gap's own law (-).
+    pub exponent: f64,
+    /// Restitution that all models are asked for (-).
+    pub restitution: f64,
+}
+
+/// A model ready for one gap.
+#[derive(Debug, Clone)]
+pub struct CalibratedModel {
+    /// The model's card.
+    pub descriptor: &'static ModelDescriptor,
+    /// Its parameters (SI).
+    pub parameters: ModelParameters,
+    /// Restitution that it returns in the reference collision (-).
+    pub free_restitution: f64,
+    /// What else was done to it.
+    pub notes: Vec<String>,
+    /// The model.
+    pub model: Arc<dyn ImpactModel>,
+}
+
+/// Restitution of the free collision, by closed form where there is one.
+fn achieved(
+    model: &dyn ImpactModel,
+    reference: &ReferenceCollision,
+) -> Result<f64, GapElementError> {
+    let (velocity, mass) = (reference.approach_velocity, reference.effective_mass);
+    if let Some(closed) = model.closed_form(velocity, mass) {
+        return Ok(closed.restitution);
+    }
+    // A body against a wall has its own mass as effective mass.
+    let bodies = Bodies {
+        mass_left: mass,
+        mass_right: None,
+        velocity_left: velocity,
+        velocity_right: 0.0,
+    };
+    Ok(collide(model, &bodies)?.restitution)
+}
+
+/// Exponent of a law with these parameters; `None` for one without a stiffness.
+fn exponent(descriptor: &ModelDescriptor, given: Option<f64>) -> Option<f64> {
+    let parameters = descriptor.parameters;
+    let stiffness = parameters.iter().find(|p| p.name == "stiffness")?;
+    if stiffness.unit == ParameterUnit::NewtonPerMetre {
+        return Some(1.0);
+    }
+    let free = parameters.iter().find(|p| p.name == "exponent");
+    Some(free.map_or(1.5, |p| given.or(p.default).unwrap_or(1.5)))
+}
+
+/// Stiffness and exponent of the gap's own law.
+pub(super) fn own_law(case: &Case, gap: usize) -> Result<(f64, f64), CheckError> {
+    let gap = &case.gaps[gap];
+    let value = |key: &str| {
+        let found = gap.parameters.iter().find(|p| p.key.value == key);
+        found.map(|p| p.value.value.value)
+    };
+    let law = registry::find(&gap.model.value)
+        .ok()
+        .and_then(|descriptor| {
+            Some((
+                value("stiffness")?,
+                exponent(descriptor, value("exponent"))?,
+            ))
+        });
+    law.ok_or_else(|| CheckError::Calibration {
+        reason: format!(
+            "{} of gap {} has no stiffness that others could be given",
+            gap.model.value, gap.name
+        ),
+        help: "give the gap a model with a stiffness, such as exact_hunt_crossley",
+    })
+}
+
+/// Restitution of the gap's own law: the one asked for in the case, or what the law
+/// returns in the reference collision.
+pub(super) fn own_restitution(
+    case: &Case,
+    gap: usize,
+    model: &dyn ImpactModel,
+    reference: &ReferenceCollision,
+) -> Result<f64, CheckError> {
+    let parameters = &case.gaps[gap].parameters;
+    let given = parameters.iter().find(|p| p.key.value == "restitution");
+    if let Some(given) = given {
+        return Ok(given.value.value.value);
+    }
+    achieved(model, reference).map_err(|e| CheckError::Calibration {
+        reason: e.to_string(),
+        help: "give --restitution",
+    })
+}
+
+/// A stiffness for the exponent that is like the gap's own.
+fn stiffness(
+    reference: &ReferenceCollision,
+    rule: StiffnessRule,
+    exponent: f64,
+) -> Result<f64, String> {
+    if exponent == reference.exponent {
+        return Ok(reference.stiffness);
+    }
+    let approach = Approach {
+        velocity: reference.approach_velocity,
+        effective_mass: reference.effective_mass,
+    };
+    let n = reference.exponent;
+    // (n + 1) m v^2 / (2 k) is the power n + 1 of the elastic penetration.
+    let energy = approach.effective_mass * approach.velocity * approach.velocity;
+    let depth = (0.5 * (n + 1.0) * energy / reference.stiffness).powf(1.0 / (n + 1.0));
+    let found = match rule {
+        StiffnessRule::Penetration => penetration(depth, exponent, approach, None, None),
+        StiffnessRule::Duration => {
+            // The contact time is proportional to the penetration: that of any stiffness
+            // of the law gives the factor.
+            let time = duration_of(n, depth, approach)?;
+            duration(time, exponent, approach, None)
+        }
+    };
+    found.map(|s| s.value).map_err(|e| e.to_string())
+}
+
+/// Contact time (s) of the elastic law of this exponent and penetration (m): the time for
+/// which [`duration`] gives back the stiffness of that penetration.
+fn duration_of(exponent: f64, depth: f64, approach: Approach) -> Result<f64, String> {
+    let text = |e: pounding_gap_element::contact_stiffness::ContactStiffnessError| e.to_string();
+    let wanted = penetration(depth, exponent, approach, None, None).map_err(text)?;
+    let trial = depth / approach.velocity;
+    let other = duration(trial, exponent, approach, None).map_err(text)?;
+    // k is proportional to T^-(n + 1) at one velocity.
+    Ok(trial * (other.value / wanted.value).powf(1.0 / (exponent + 1.0)))
+}
+
+/// Calibrates a model for one gap.
+pub(super) fn calibrated(
+    descriptor: &'static ModelDescriptor,
+    reference: &ReferenceCollision,
+    rules: (StiffnessRule, RestitutionRule),
+) -> Result<CalibratedModel, String> {
+    let mut parameters = ModelParameters::default();
+    let mut notes = Vec::new();
+    if let Some(n) = exponent(descriptor, None) {
+        let value = stiffness(reference, rules.0, n)?;
+        parameters.values.insert("stiffness".to_owned(), value);
+    }
+    let text = |e: GapElementError| e.to_string();
+    let asks = descriptor.takes_restitution();
+    if asks {
+        let key = "restitution".to_owned();
+        parameters.values.insert(key, reference.restitution);
+    }
+    for (name, value) in descriptor.example {
+        if *name != "stiffness" && !parameters.values.contains_key(*name) {
+            parameters.values.insert((*name).to_owned(), *value);
+            notes.push(format!("{name} = {value:e} of the model's example"));
+        }
+    }
+    let model = registry::build(descriptor.name, &parameters).map_err(text)?;
+    let free = achieved(model.as_ref(), reference).map_err(text)?;
+    let mut calibrated = CalibratedModel {
+        descriptor,
+        parameters,
+        free_restitution: free,
+        notes,
+        model: model.into(),
+    };
+    let wanted = reference.restitution;
+    let damping = ["dissipation_time", "damping"]
+        .into_iter()
+        .find(|name| calibrated.parameters.values.contains_key(*name));
+    if asks && rules.1 == RestitutionRule::Exact && (free - wanted).abs() > 1.0e-9 {
+        solve(&mut calibrated, reference, "restitution", (1.0e-3, 1.0))?;
+    } else if let (false, Some(name)) = (asks, damping) {
+        let about = calibrated.parameters.values[name];
+        solve(
+            &mut calibrated,
+            reference,
+            name,
+            (1.0e-3 * about, 1.0e3 * about),
+        )?;
+        calibrated.notes.retain(|n| !n.starts_with(name));
+    } else if !asks && wanted != free {
+        let note = format!("cannot be asked for a restitution, returns {free:.3}");
+        calibrated.notes.push(note);
+    }
+    Ok(calibrated)
+}
+
+/// Finds the parameter with which the reference collision returns what is wanted, by
+/// bisection of its logarithm.
+fn solve(
+    calibrated: &mut CalibratedModel,
+    reference: &ReferenceCollision,
+    parameter: &str,
+    range: (f64, f64),
+) -> Result<(), String> {
+    let descriptor = calibrated.descriptor;
+    let at = |value: f64| -> Result<(ModelParameters, Arc<dyn ImpactModel>, f64), String> {
+        let mut parameters = calibrated.parameters.clone();
+        parameters.values.insert(parameter.to_owned(), value);
+        let model = registry::build(descriptor.name, &parameters).map_err(|e| e.to_string())?;
+        let free = achieved(model.as_ref(), reference).map_err(|e| e.to_string())?;
+        Ok((parameters, model.into(), free))
+    };
+    let wanted = reference.restitution;
+    // An end where the collision never ends is as good as one that returns nothing.
+    let returned = |value: f64| at(value).map_or(0.0, |r| r.2);
+    let (mut low, mut high) = range;
+    let (first, last) = (returned(low), returned(high));
+    if (first - wanted) * (last - wanted) > 0.0 {
+        let (least, most) = (first.min(last), first.max(last));
+        return Err(format!(
+            "no {parameter} returns {wanted}: the reference collision returns {least:.4} to {most:.4}"
+        ));
+    }
+    let rising = last > first;
+    for _ in 0..60 {
+        let middle = (low * high).sqrt();
+        if (returned(middle) < wanted) == rising {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let (parameters, model, free) = at((low * high).sqrt())?;
+    if (free - wanted).abs() > 1.0e-6 {
+        return Err(format!(
+            "no {parameter} returns {wanted}: the restitution jumps to {free:.4} at {:e}",
+            (low * high).sqrt()
+        ));
+    }
+    calibrated.notes.push(format!(
+        "{parameter} = {:.6e} found so that the reference collision returns {wanted}",
+        parameters.values[parameter]
+    ));
+    calibrated.parameters = parameters;
+    calibrated.model = model;
+    calibrated.free_restitution = free;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn reference(exponent: f64, stiffness: f64) -> ReferenceCollision {
+        ReferenceCollision {
+            approach_velocity: 0.6,
+            effective_mass: 24_390.0,
+            stiffness,
+            exponent,
+            restitution: 0.65,
+        }
+    }
+
+    /// Collisions of the elastic laws, integrated: equal depth and equal time.
+    #[test]
+    fn elastic_laws_alike() {
+        let from = reference(1.5, 2.75e9);
+        let bodies = Bodies {
+            mass_left: from.effective_mass,
+            mass_right: None,
+            velocity_left: from.approach_velocity,
+            velocity_right: 0.0,
+        };
+        let collision = |name: &str, stiffness: f64| {
+            let parameters = ModelParameters::from_pairs(&[("stiffness", stiffness)]);
+            collide(
+                registry::build(name, &parameters).unwrap().as_ref(),
+                &bodies,
+            )
+            .unwrap()
+        };
+        let hertz = collision("hertz_1882", from.stiffness);
+        let deep = stiffness(&from, StiffnessRule::Penetration, 1.0).unwrap();
+        let long = stiffness(&from, StiffnessRule::Duration, 1.0).unwrap();
+        let (deep, long) = (
+            collision("linear_elastic", deep),
+            collision("linear_elastic", long),
+        );
+        assert!((deep.peak_penetration / hertz.peak_penetration - 1.0).abs() < 1.0e-8);
+        assert!((long.duration / hertz.duration - 1.0).abs() < 1.0e-8);
+        assert!(
+            (deep.duration / hertz.duration - 1.0).abs() > 1.0e-2,
+            "not both at once"
+        );
+        let same = stiffness(&from, StiffnessRule::Duration, 1.5).unwrap();
+        assert_eq!(same, from.stiffness);
+    }
+
+    /// Exact: what the reference collision returns is what was asked for, checked by
+    /// integrating it. As published: the numbers of the papers' relations.
+    #[test]
+    fn exact_and_published() {
+        let from = reference(1.5, 2.75e9);
+        let rules = |r| (StiffnessRule::Penetration, r);
+        for (name, published) in [("jankowski_2005", 0.6470), ("anagnostopoulos_2004", 0.65)] {
+            let card = registry::find(name).unwrap();
+            let as_published =
+                calibrated(card, &from, rules(RestitutionRule::AsPublished)).unwrap();
+            assert!(
+                (as_published.free_restitution - published).abs() < 5.0e-5,
+                "{name}"
+            );
+            let exact = calibrated(card, &from, rules(RestitutionRule::Exact)).unwrap();
+            let bodies = Bodies {
+                mass_left: from.effective_mass,
+                mass_right: None,
+                velocity_left: from.approach_velocity,
+                velocity_right: 0.0,
+            };
+            let collided = collide(exact.model.as_ref(), &bodies).unwrap();
+            assert!((collided.restitution - 0.65).abs() < 1.0e-6, "{name}");
+        }
+    }
+
+    /// Every model of the registry is calibrated, or says why not.
+    #[test]
+    fn every_model() {
+        let from = reference(1.5, 2.75e9);
+        for card in registry::descriptors() {
+            for rule in [RestitutionRule::AsPublished, RestitutionRule::Exact] {
+                let result = calibrated(card, &from, (StiffnessRule::Penetration, rule));
+                match result {
+                    Ok(c) => assert!(
+                        rule == RestitutionRule::AsPublished
+                            || (c.free_restitution - 0.65).abs() < 1.0e-6
+                            || !c.notes.is_empty(),
+                        "{}: {}",
+                        card.name,
+                        c.free_restitution
+                    ),
+                    Err(reason) => assert!(!reason.is_empty(), "{}", card.name),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! What models are compared by.
+
+use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
+
+/// Kind of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum QuantityKind {
+    /// Greatest floor displacement of a building (m).
+    Displacement,
+    /// Greatest drift ratio of a building (-).
+    DriftRatio,
+    /// Greatest storey shear of a building (N).
+    StoreyShear,
+    /// Greatest absolute floor acceleration of a building (m/s2); not of rigid impacts.
+    AccelerationAbsolute,
+    /// Impacts in a gap (-).
+    Impacts,
+    /// Greatest contact force of a gap (N); not of rigid impacts.
+    PeakForce,
+    /// Greatest impulse of one impact in a gap (N s).
+    Impulse,
+    /// Greatest approach velocity in a gap (m/s).
+    ApproachVelocity,
+    /// Energy dissipated in a gap (J).
+    ImpactEnergy,
+    /// Restitution over all impacts in a gap (-).
+    AchievedRestitution,
+}
+
+impl QuantityKind {
+    const OF_BUILDINGS: [Self; 4] = [
+        Self::Displacement,
+        Self::DriftRatio,
+        Self::StoreyShear,
+        Self::AccelerationAbsolute,
+    ];
+    const OF_GAPS: [Self; 6] = [
+        Self::Impacts,
+        Self::PeakForce,
+        Self::Impulse,
+        Self::ApproachVelocity,
+        Self::ImpactEnergy,
+        Self::AchievedRestitution,
+    ];
+
+    /// Name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::DriftRatio => "drift_ratio",
+            Self::StoreyShear => "storey_shear",
+            Self::AccelerationAbsolute => "acceleration_absolute",
+            Self::Impacts => "impacts",
+            Self::PeakForce => "peak_force",
+            Self::Impulse => "impulse",
+            Self::ApproachVelocity => "approach_velocity",
+            Self::ImpactEnergy => "impact_energy",
+            Self::AchievedRestitution => "achieved_restitution",
+        }
+    }
+
+    /// SI unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Displacement => "m",
+            Self::StoreyShear | Self::PeakForce => "N",
+            Self::AccelerationAbsolute => "m/s2",
+            Self::Impulse => "N s",
+            Self::ApproachVelocity => "m/s",
+            Self::ImpactEnergy => "J",
+            Self::DriftRatio | Self::Impacts | Self::AchievedRestitution => "-",
+        }
+    }
+
+    fn peak(self, storey: &StoreyPeaks) -> Peak {
+        match self {
+            Self::Displacement => storey.displacement,
+            Self::DriftRatio => storey.drift_ratio,
+            Self::StoreyShear => storey.storey_shear,
+            _ => storey.acceleration_absolute,
+        }
+    }
+}
+
+/// A quantity of a building or a gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// Kind.
+    pub kind: QuantityKind,
+    /// Name of the building or gap.
+    pub of: String,
+    /// Its number, from zero.
+    pub index: usize,
+}
+
+impl Quantity {
+    /// Whether it belongs to a building, and has a value without pounding.
+    #[must_use]
+    pub fn is_of_building(&self) -> bool {
+        QuantityKind::OF_BUILDINGS.contains(&self.kind)
+    }
+
+    /// Name and owner.
+    #[must_use]
+    pub fn label(&self) -> String {
+        format!("{} {}", self.of, self.kind.name())
+    }
+}
+
+/// All quantities of a system: of its buildings, then of its gaps.
+pub(super) fn of_system(system: &System) -> Vec<Quantity> {
+    let quantity = |kind, of: &str, index| Quantity {
+        kind,
+        of: of.to_owned(),
+        index,
+    };
+    let mut all = Vec::new();
+    for (index, b) in system.buildings().iter().enumerate() {
+        all.extend(QuantityKind::OF_BUILDINGS.map(|kind| quantity(kind, b.name(), index)));
+    }
+    for (index, g) in system.gaps().iter().enumerate() {
+        all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));
+    }
+    all
+}
+
+/// Greatest over the storeys of a building.
+pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64 {
+    let peaks = building.storeys.iter().map(|s| kind.peak(s).value);
+    peaks.fold(0.0, f64::max)
+}
+
+/// Value in an outcome; NaN where it has no meaning.
+pub(super) fn value(quantity: &Quantity, outcome: &Outcome, rigid: bool) -> f64 {
+    let jumps = rigid && outcome.impacts.iter().any(|i| i.peak_force.value.is_nan());
+    if quantity.is_of_building() {
+        if jumps && quantity.kind == QuantityKind::AccelerationAbsolute {
+            return f64::NAN;
+        }
+        return of_building(quantity.kind, &outcome.buildings[quantity.index]);
+    }
+    let levels = &outcome.gaps[quantity.index].levels;
+    let greatest = |of: fn(&pounding_time_history::LevelOutcome) -> f64| {
+        levels.iter().map(of).fold(0.0, f64::max)
+    };
+    match quantity.kind {
+        QuantityKind::Impacts => levels.iter().map(|l| l.impacts).sum::<usize>() as f64,
+        QuantityKind::PeakForce if jumps => f64::NAN,
+        QuantityKind::PeakForce => greatest(|l| l.peak_force.value),
+        QuantityKind::Impulse => greatest(|l| l.impulse_max),
+        QuantityKind::ApproachVelocity => greatest(|l| l.approach_velocity_max),
+        QuantityKind::ImpactEnergy => levels.iter().map(|l| l.energy_dissipated).sum(),
+        _ => restitution(outcome, quantity.index),
+    }
+}
+
+/// `sqrt(sum v_out^2 / sum v_in^2)` over the finished impacts of a gap.
+fn restitution(outcome: &Outcome, gap: usize) -> f64 {
+    let finished = outcome
+        .impacts
+        .iter()
+        .filter(|i| i.gap == gap && i.separation_velocity.is_finite());
+    let (mut before, mut after) = (0.0, 0.0);
+    for impact in finished {
+        before += impact.approach_velocity.powi(2);
+        after += impact.separation_velocity.powi(2);
+    }
+    (after / before).sqrt()
+}

@@ -1,0 +1,185 @@
+//! Spread between models beside spread between records, and the order of the models.
+
+/// Spread of one quantity. A value without meaning (NaN) is left out wherever it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Standard deviation over mean between models, root mean square over records (-).
+    pub between_models: f64,
+    /// The same between records, root mean square over models (-); NaN with one record.
+    pub between_records: f64,
+    /// Greatest over smallest value between models, of the record where that is greatest
+    /// (-); NaN where a smallest value is zero.
+    pub greatest_ratio: f64,
+}
+
+/// The order of the models in one quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranking {
+    /// Numbers of the models, greatest value first; models without a value are left out.
+    pub order: Vec<usize>,
+    /// Mean over records of value over the mean of the models (-), in that order.
+    pub relative: Vec<f64>,
+    /// Agreement of the records on the order (-), 0 to 1: Kendall's W (Kendall and
+    /// Babington Smith, Annals of Mathematical Statistics 10 (1939) 275), ties with mean
+    /// ranks; NaN with one record or one model.
+    pub concordance: f64,
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Standard deviation (with `n - 1`) over mean; `None` for fewer than two values, zero
+/// where all are zero.
+fn variation(values: &[f64]) -> Option<f64> {
+    if values.len() < 2 {
+        return None;
+    }
+    let mean = mean(values);
+    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+    if squares == 0.0 {
+        return Some(0.0);
+    }
+    Some((squares / (values.len() - 1) as f64).sqrt() / mean)
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let squares: Vec<f64> = values.map(|x| x * x).collect();
+    mean(&squares).sqrt()
+}
+
+/// Finite values of one record, over models.
+fn of_record(values: &[Vec<f64>], record: usize) -> Vec<f64> {
+    let column = values.iter().map(|m| m[record]);
+    column.filter(|x| x.is_finite()).collect()
+}
+
+/// Spread of `values[model][record]`.
+pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
+    let records = values.first().map_or(0, Vec::len);
+    let columns: Vec<Vec<f64>> = (0..records).map(|r| of_record(values, r)).collect();
+    let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
+    let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
+    let ratio = |column: &Vec<f64>| {
+        let low = column.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = column.iter().copied().fold(0.0, f64::max);
+        (column.len() > 1 && low > 0.0).then(|| high / low)
+    };
+    Spread {
+        between_models: root_mean_square(columns.iter().filter_map(|c| variation(c))),
+        between_records: root_mean_square(rows.iter().filter_map(|r| variation(r))),
+        greatest_ratio: columns.iter().filter_map(ratio).fold(f64::NAN, f64::max),
+    }
+}
+
+/// Order of the models in `values[model][record]`.
+pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
+    let records = values.first().map_or(0, Vec::len);
+    let full = |row: &&Vec<f64>| row.iter().all(|x| x.is_finite());
+    let kept: Vec<usize> = (0..values.len()).filter(|m| full(&&values[*m])).collect();
+    let column = |r: usize| -> Vec<f64> { kept.iter().map(|m| values[*m][r]).collect() };
+    let columns: Vec<Vec<f64>> = (0..records).map(column).collect();
+    let relative = |place: usize| {
+        let ratios = columns.iter().map(|c| {
+            let mean = mean(c);
+            if mean == 0.0 { 1.0 } else { c[place] / mean }
+        });
+        mean(&ratios.collect::<Vec<_>>())
+    };
+    let mut order: Vec<(usize, f64)> = kept
+        .iter()
+        .enumerate()
+        .map(|(place, model)| (*model, relative(place)))
+        .collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Ranking {
+        concordance: concordance(&columns),
+        order: order.iter().map(|o| o.0).collect(),
+        relative: order.iter().map(|o| o.1).collect(),
+    }
+}
+
+/// Ranks from 1, ties with their mean.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let rank = |x: &f64| {
+        let below = values.iter().filter(|y| *y < x).count() as f64;
+        let equal = values.iter().filter(|y| *y == x).count() as f64;
+        below + 0.5 * (equal + 1.0)
+    };
+    values.iter().map(rank).collect()
+}
+
+/// Kendall's W with its correction for ties.
+fn concordance(columns: &[Vec<f64>]) -> f64 {
+    let judges = columns.len() as f64;
+    let models = columns.first().map_or(0, Vec::len);
+    if columns.len() < 2 || models < 2 {
+        return f64::NAN;
+    }
+    let ranked: Vec<Vec<f64>> = columns.iter().map(|c| ranks(c)).collect();
+    let sums: Vec<f64> = (0..models)
+        .map(|m| ranked.iter().map(|r| r[m]).sum())
+        .collect();
+    let centre = mean(&sums);
+    let squares: f64 = sums.iter().map(|s| (s - centre).powi(2)).sum();
+    let ties: f64 = ranked
+        .iter()
+        .map(|r| {
+            // Each of t equal ranks brings t^2 - 1: together t^3 - t.
+            r.iter()
+                .map(|x| (r.iter().filter(|y| *y == x).count() as f64).powi(2) - 1.0)
+                .sum::<f64>()
+        })
+        .sum();
+    let n = models as f64;
+    12.0 * squares / (judges * judges * n * (n * n - 1.0) - judges * ties)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two models of 1 and 3, records that scale both: deviation sqrt(2) over mean 2 in
+    /// each record; between records 1 and 2: sqrt(0.5) over 1.5.
+    #[test]
+    fn by_hand() {
+        let s = spread(&[vec![1.0, 2.0], vec![3.0, 6.0]]);
+        assert!((s.between_models - 0.5_f64.sqrt()).abs() < 1.0e-15);
+        assert!((s.between_records - 0.5_f64.sqrt() / 1.5).abs() < 1.0e-15);
+        assert!((s.greatest_ratio - 3.0).abs() < 1.0e-15);
+    }
+
+    #[test]
+    fn values_without_meaning_are_left_out() {
+        let s = spread(&[vec![1.0], vec![f64::NAN], vec![3.0]]);
+        assert!((s.between_models - 0.5_f64.sqrt()).abs() < 1.0e-15);
+        assert!(s.between_records.is_nan());
+        let r = ranking(&[vec![1.0], vec![f64::NAN], vec![3.0]]);
+        assert_eq!(r.order, [2, 0]);
+        assert_eq!(r.relative, [1.5, 0.5]);
+        assert!(r.concordance.is_nan());
+    }
+
+    /// Records that agree: 1. Two that contradict one another: 0. Three judges on three
+    /// with ranks 123, 132, 213: sums 4, 6, 8, W = 12 * 8 / (9 * 24) = 4/9.
+    #[test]
+    fn agreement() {
+        let values = |columns: [[f64; 3]; 2]| -> Vec<Vec<f64>> {
+            (0..3)
+                .map(|m| columns.iter().map(|c| c[m]).collect())
+                .collect()
+        };
+        let same = ranking(&values([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]));
+        assert!((same.concordance - 1.0).abs() < 1.0e-15);
+        let contrary = ranking(&values([[1.0, 2.0, 3.0], [3.0, 2.0, 1.0]]));
+        assert!(contrary.concordance.abs() < 1.0e-15);
+        let some = concordance(&[
+            vec![1.0, 2.0, 3.0],
+            vec![1.0, 3.0, 2.0],
+            vec![2.0, 1.0, 3.0],
+        ]);
+        assert!((some - 4.0 / 9.0).abs() < 1.0e-15, "{some}");
+        let tied = concordance(&[vec![1.0, 1.0, 2.0], vec![5.0, 5.0, 9.0]]);
+        assert!((tied - 1.0).abs() < 1.0e-15, "ties that agree: {tied}");
+    }
+}

@@ -4,6 +4,7 @@ mod compare;
 mod gap;
 mod impact;
 mod motion;
+mod study;
 mod verification;
 
 use std::path::PathBuf;
@@ -15,6 +16,7 @@ pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use gap::GapArguments;
 pub use impact::ImpactArguments;
 pub use motion::*;
+pub use study::*;
 pub use verification::*;
 
 /// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
@@ -64,6 +66,10 @@ pub enum Command {
     /// Read, measure, convert, process, make and match ground motions
     #[command(subcommand)]
     Motion(Box<MotionCommand>),
+    /// Run a case many times with other values, models or records
+    Sweep(Box<SweepArguments>),
+    /// Merge the results of all shards of a sweep
+    Merge(MergeArguments),
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions

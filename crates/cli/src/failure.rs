@@ -43,11 +43,6 @@ impl Failure {
         Self::Input(plain(message.into(), help))
     }
 
-    /// A computation that came to nothing.
-    pub fn computation(message: String, help: String) -> Self {
-        Self::Computation(plain(message, Some(help)))
-    }
-
     /// Bad input at a place (byte range) in a file.
     pub fn in_file(
         file: &str,
@@ -70,6 +65,16 @@ impl Failure {
             format!("cannot write {what}: {error}"),
             Some("check that the folder exists, may be written to and has room".to_owned()),
         ))
+    }
+
+    /// A computation that came to no result.
+    pub fn computation(message: String, help: Option<String>) -> Self {
+        Self::Computation(plain(message, help))
+    }
+
+    /// Output that could not be written, in the words of who tried.
+    pub fn unwritten(message: String, help: Option<String>) -> Self {
+        Self::Output(plain(message, help))
     }
 
     /// An error of the case, with the line it stands in.

@@ -1,5 +1,29 @@
 //! Many runs of one case: is the gap wide enough, does the answer hang on the
 //! impact model, and how likely is pounding?
+//!
+//! A [`Study`] is read from a file: a case, variables that replace its entries, and a
+//! [`Design`] that samples them. [`sweep`] makes its runs on all cores, stores finished
+//! ones so that an interruption loses at most the chunk in flight, and writes one HDF5
+//! file whose contents depend on the study alone.
 
 pub mod comparison;
 pub mod gap_check;
+
+mod case_text;
+mod design;
+mod error;
+mod parts;
+mod result_file;
+mod runs;
+mod study_file;
+mod sweep;
+
+pub use design::{Design, MOST_DIMENSIONS};
+pub use error::StudyError;
+pub use result_file::{Coordinate, CsvTable, Description, ResultReader, merge};
+pub use runs::{Axis, Layout, Place, Quantity, RecordReport, Row};
+pub use study_file::{
+    DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
+    Variable,
+};
+pub use sweep::{Progress, Shard, SweepOptions, SweepReport, case_of_run, sweep, writable};

@@ -1,6 +1,9 @@
 //! From a case to a system: the place where words meet physics.
 
+mod again;
 mod laws;
+
+pub use again::{assemble_with_record, regap};
 
 use std::sync::Arc;
 
@@ -41,18 +44,40 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
         .iter()
         .map(|b| building(case, b).map(Arc::new))
         .collect::<Result<Vec<_>, _>>()?;
-    let models = case
-        .gaps
-        .iter()
-        .map(|gap| model(case, gap))
-        .collect::<Result<Vec<_>, _>>()?;
+    let models = models(case)?;
     let options = options(case)?;
     let accelerogram = accelerogram(case)?;
-    let ground = GroundAcceleration {
+    let system = with_gaps(case, &models, System::new(buildings, ground(&accelerogram)))?;
+    options.check(&system)?;
+    Ok(Assembly {
+        system,
+        options,
+        output_step: case.analysis.output_step,
+        accelerogram,
+    })
+}
+
+type Models = Vec<Arc<dyn ImpactModel>>;
+
+/// The impact model of each gap.
+fn models(case: &Case) -> Result<Models, CaseError> {
+    case.gaps.iter().map(|gap| model(case, gap)).collect()
+}
+
+fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
+    GroundAcceleration {
         samples: accelerogram.samples().into(),
         time_step: accelerogram.time_step(),
-    };
-    let mut system = System::new(buildings, ground);
+    }
+}
+
+/// Puts the gaps of a case between buildings that have none, and lets them go from
+/// where the case says.
+fn with_gaps(
+    case: &Case,
+    models: &[Arc<dyn ImpactModel>],
+    mut system: System,
+) -> Result<System, TimeHistoryError> {
     for (gap, model) in case.gaps.iter().zip(models) {
         let floor = |side: Side, storey: Option<usize>| match (side, storey) {
             (Side::Building(b), Some(s)) => Floor::Storey(b, s),
@@ -64,7 +89,7 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
             .map(|l| {
                 let left = floor(gap.between[0], l.left);
                 let right = floor(gap.between[1], l.right);
-                (left, right, l.width, Arc::clone(&model))
+                (left, right, l.width, Arc::clone(model))
             })
             .collect();
         let names = gap.between.map(|side| match side {
@@ -76,14 +101,7 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
     for link in &case.links {
         laws::add_link(case, link, &mut system)?;
     }
-    let system = released(case, system)?;
-    options.check(&system)?;
-    Ok(Assembly {
-        system,
-        options,
-        output_step: case.analysis.output_step,
-        accelerogram,
-    })
+    Ok(released(case, system)?)
 }
 
 /// Puts the buildings where the case lets them go.

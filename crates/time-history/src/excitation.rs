@@ -17,6 +17,15 @@ use crate::error::TimeHistoryError;
 
 /// The ground acceleration of a case.
 pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
+    scale_record(case, read_record(case)?)
+}
+
+/// Reads and processes the record of a case; its scale is not applied.
+///
+/// # Errors
+/// An unknown unit or format, with its place in the case, or a record that cannot be
+/// read or processed.
+pub fn read_record(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
     let motion = &case.ground_motion;
     let options = read_options(case)?;
     let mut record = pounding_ground_motion::read(&case.resolve(&motion.file.value), &options)?;
@@ -25,8 +34,16 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError
         let made = processing_step(&step.value, &|path| case.resolve(path)).map_err(refused)?;
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
+    Ok(record)
+}
+
+/// Applies the scale of a case to a record.
+///
+/// # Errors
+/// A target spectrum that cannot be read, or a scale that the record does not allow.
+pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, TimeHistoryError> {
     let folder = |path: &Path| case.resolve(path);
-    match scale_of(&motion.scale, &folder)? {
+    match scale_of(&case.ground_motion.scale, &folder)? {
         None => Ok(record),
         Some(scale) => {
             let factor = scale.factor(&record)?;

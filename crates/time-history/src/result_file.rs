@@ -6,7 +6,7 @@
 
 mod buildings;
 mod datasets;
-mod dimension_scales;
+pub mod dimension_scales;
 mod elements;
 mod gaps;
 

@@ -1,6 +1,7 @@
 //! What is integrated: buildings in a row, contact levels between them, ground motion.
 
 mod links;
+mod under;
 
 use pounding_gap_element::ImpactModel;
 use pounding_shear_building::ShearBuilding;

@@ -10,6 +10,7 @@ mod motion;
 mod progress;
 mod run;
 mod stiffness;
+mod sweep;
 mod verify;
 
 use std::io::Write;
@@ -36,6 +37,8 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Merge(arguments) => sweep::merge(&arguments),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_case::{Case, GroundMotion, Located};
+use pounding_case::{Case, GroundMotion, Located, Offset};
 use pounding_time_history::{Assembly, TimeHistoryError, assemble};
 
 use super::error::CheckError;
@@ -115,10 +115,17 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
         unit: None,
         layout: None,
         component: None,
+        quantity: None,
         skip_lines: 0,
+        skip_columns: 0,
         prepend_zero: false,
         lenient: false,
-        scale: case.ground_motion.scale,
+        sensitivity: None,
+        gravity: None,
+        offset: Offset::default(),
+        // What the case does to its own record it does to all.
+        process: case.ground_motion.process.clone(),
+        scale: case.ground_motion.scale.clone(),
     }
 }
 

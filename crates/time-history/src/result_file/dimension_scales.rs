@@ -14,7 +14,10 @@ unsafe extern "C" {
 }
 
 /// Makes a one-dimensional dataset the scale of a dimension.
-pub(super) fn make_scale(data: &Dataset, name: &str) -> hdf5::Result<()> {
+///
+/// # Errors
+/// What HDF5 says, for example if the dataset is attached to a scale itself.
+pub fn make_scale(data: &Dataset, name: &str) -> hdf5::Result<()> {
     let name = CString::new(name).map_err(|e| hdf5::Error::from(e.to_string()))?;
     // SAFETY: the identifier is open as long as `data` lives, the name is a C
     // string that outlives the call, and the library's global lock is held.
@@ -22,8 +25,11 @@ pub(super) fn make_scale(data: &Dataset, name: &str) -> hdf5::Result<()> {
     checked(status, "set")
 }
 
-/// Attaches a scale to a dimension of a dataset.
-pub(super) fn attach(data: &Dataset, scale: &Dataset, dimension: u32) -> hdf5::Result<()> {
+/// Attaches a scale to a dimension, from zero, of a dataset.
+///
+/// # Errors
+/// What HDF5 says, for example if the dataset has no such dimension.
+pub fn attach(data: &Dataset, scale: &Dataset, dimension: u32) -> hdf5::Result<()> {
     // SAFETY: both identifiers are open as long as their datasets live, and the
     // library's global lock is held.
     let status = hdf5::sync::sync(|| unsafe { H5DSattach_scale(data.id(), scale.id(), dimension) });

@@ -57,7 +57,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
         let message = "no model ran under every record".to_owned();
         return Err(Failure::computation(
             message,
-            "the table says why".to_owned(),
+            Some("the table says why".to_owned()),
         ));
     }
     Ok(())

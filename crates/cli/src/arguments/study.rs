@@ -1,0 +1,65 @@
+//! Arguments of `sweep`, `merge` and `ida`.
+
+use std::path::PathBuf;
+
+/// Arguments of `sweep`.
+#[derive(Debug, clap::Args)]
+pub struct SweepArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// How it is run
+    #[command(flatten)]
+    pub running: RunningArguments,
+    /// Run only part I of N, into a result that `merge` takes
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<String>,
+    /// Print the number of runs and lines for HyperQueue and Slurm; run nothing
+    #[arg(long)]
+    pub plan: bool,
+    /// Shards of the plan
+    #[arg(long, default_value_t = 8, requires = "plan", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub shards: u32,
+    /// Print the case of this run; run nothing
+    #[arg(long, value_name = "RUN", conflicts_with = "plan")]
+    pub show: Option<usize>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How the runs of a study are made.
+#[derive(Debug, clap::Args)]
+pub struct RunningArguments {
+    /// Result (HDF5); by default the study's name with .h5 in the current folder
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Also write the runs as a CSV table
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Threads; all cores by default. Results do not depend on it
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// Go on with the finished runs of an interrupted call
+    #[arg(long)]
+    pub resume: bool,
+    /// Record runs whose record cannot be read as failed, and make all others
+    #[arg(long)]
+    pub keep_going: bool,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, clap::Args)]
+pub struct MergeArguments {
+    /// Results of all shards of a study
+    #[arg(required = true)]
+    pub shards: Vec<PathBuf>,
+    /// Result of the whole study (HDF5)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Also write the runs as a CSV table
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,197 @@
+//! `pounding sweep` and `pounding merge`: many runs of one case.
+
+mod plan;
+mod progress;
+
+use std::path::{Path, PathBuf};
+
+use pounding_study::{
+    Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run, sweep as make, writable,
+};
+use serde_json::{Value, json};
+
+use super::{pretty, print};
+use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
+use crate::failure::Failure;
+
+/// Runs a study, or shows what it would run.
+pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+    let study = Study::read(&arguments.study)?;
+    if let Some(run) = arguments.show {
+        return print(&case_of_run(&study, run)?);
+    }
+    if arguments.plan {
+        return plan::plan(&study, arguments);
+    }
+    let shard = match &arguments.shard {
+        Some(text) => text.parse()?,
+        None => Shard::WHOLE,
+    };
+    let options = options(&arguments.study, &arguments.running, shard)?;
+    let report = run(&study, &options)?;
+    if arguments.json {
+        print(&pretty(&as_json(&report, &options)))?;
+    } else {
+        print(&summary(&study, &report, &options))?;
+    }
+    all_failed(&report)
+}
+
+/// Merges the results of all shards.
+pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+    writable(&arguments.output)?;
+    let (runs, failed) = pounding_study::merge(
+        &arguments.shards,
+        &arguments.output,
+        arguments.csv.as_deref(),
+    )?;
+    if arguments.json {
+        let output = arguments.output.display().to_string();
+        return print(&pretty(
+            &json!({"runs": runs, "failed": failed, "output": output}),
+        ));
+    }
+    print(&format!(
+        "{runs} runs, {failed} of them failed, merged from {} shards into {}",
+        arguments.shards.len(),
+        arguments.output.display()
+    ))
+}
+
+/// How a study is run, as the arguments say; finds out before the runs that the result
+/// has no place.
+pub fn options(
+    study: &Path,
+    running: &RunningArguments,
+    shard: Shard,
+) -> Result<SweepOptions, Failure> {
+    let output = running
+        .output
+        .clone()
+        .unwrap_or_else(|| default_output(study, shard));
+    writable(&output)?;
+    if let Some(csv) = &running.csv {
+        writable(csv)?;
+    }
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    Ok(SweepOptions {
+        output,
+        csv: running.csv.clone(),
+        threads: running.threads.map_or(cores, |n| n as usize),
+        shard,
+        resume: running.resume,
+        keep_going: running.keep_going,
+    })
+}
+
+/// The study's name, or that of its folder where it is called `study.toml`.
+fn default_output(study: &Path, shard: Shard) -> PathBuf {
+    let stem = study.file_stem().unwrap_or_default();
+    let folder = study
+        .canonicalize()
+        .ok()
+        .and_then(|p| Some(p.parent()?.file_name()?.to_owned()));
+    let name = match folder {
+        Some(folder) if stem == "study" => folder,
+        _ => stem.to_owned(),
+    };
+    let name = name.to_string_lossy();
+    PathBuf::from(if shard == Shard::WHOLE {
+        format!("{name}.h5")
+    } else {
+        format!("{name}.shard-{}-of-{}.h5", shard.index, shard.count)
+    })
+}
+
+/// Runs a study with progress on a terminal.
+pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure> {
+    let mut bar = progress::Bar::new();
+    let report = make(study, options, &mut |now| bar.show(now));
+    bar.finish();
+    Ok(report?)
+}
+
+/// A study of which no run succeeded has computed nothing.
+pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
+    match report.failures.first() {
+        Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
+            format!("all {} runs failed; run {run}: {reason}", report.runs),
+            Some(format!(
+                "pounding sweep STUDY --show {run} prints the case of that run"
+            )),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The object that `--json` prints.
+pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
+    let failures = report
+        .failures
+        .iter()
+        .map(|(run, reason)| json!({"run": run, "diagnosis": reason}));
+    let records = report
+        .records
+        .iter()
+        .map(|r| json!({"name": r.name, "sha256": r.sha256, "intensity_as_recorded": r.intensity}));
+    json!({
+        "status": "complete",
+        "runs": report.runs, "made": report.made, "failed": report.failed,
+        "first_failures": failures.collect::<Vec<_>>(),
+        "study_sha256": report.study_sha256,
+        "records": records.collect::<Vec<_>>(),
+        "output": options.output.display().to_string(),
+        "csv": options.csv.as_ref().map(|p| p.display().to_string()),
+    })
+}
+
+/// What a sweep tells people at its end.
+pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> String {
+    let mut text = String::new();
+    if !study.title.is_empty() {
+        text.push_str(&format!("{}\n", study.title));
+    }
+    let before = report.runs - report.made;
+    text.push_str(&format!(
+        "{} runs in {}",
+        report.runs,
+        options.output.display()
+    ));
+    if before > 0 {
+        text.push_str(&format!(", {before} of them stored by an earlier call"));
+    }
+    text.push_str(&match report.failed {
+        0 => "; none failed\n".to_owned(),
+        n => format!("; {n} failed:\n"),
+    });
+    for (run, reason) in &report.failures {
+        text.push_str(&format!("  run {run}: {reason}\n"));
+    }
+    if report.failed > report.failures.len() {
+        text.push_str("  ... all of them in the group failures of the result\n");
+    }
+    if let Some(csv) = &options.csv {
+        text.push_str(&format!("Table written to {}\n", csv.display()));
+    }
+    text
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        let help = error.help();
+        match error {
+            StudyError::Text { error, source_text } => Self::case(*error, &source_text),
+            StudyError::Base(error) => Self::time_history(error, ""),
+            e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
+                Self::unwritten(e.to_string(), help)
+            }
+            e @ StudyError::File { what, .. }
+                if what.starts_with("write") || what.starts_with("make") =>
+            {
+                Self::unwritten(e.to_string(), help)
+            }
+            e @ StudyError::Evaluation { .. } => Self::computation(e.to_string(), help),
+            e => Self::input(e.to_string(), help),
+        }
+    }
+}

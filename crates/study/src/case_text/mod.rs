@@ -1,0 +1,13 @@
+//! The text of a case with some of its entries replaced.
+//!
+//! Runs of a study differ from their case in a few entries. Replacing them in the text
+//! puts every run through the same reading and checking as a case file, and gives a run
+//! that can be written out and repeated alone.
+
+mod edits;
+mod identity;
+mod path;
+
+pub(crate) use edits::{Edits, Entry, Lost, apply, entry, options_of_gap, options_of_motion};
+pub(crate) use identity::{canonical, hexadecimal};
+pub(crate) use path::Path;

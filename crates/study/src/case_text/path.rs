@@ -1,0 +1,136 @@
+//! Where an entry stands: `gap.0.width`, `gap["light-heavy"].width`, `building.light.mass`.
+
+use std::fmt;
+
+/// One step into a table or a list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// A key of a table, or the name of a table in a list of tables.
+    Key(String),
+    /// A place in a list, from zero.
+    Index(usize),
+}
+
+/// The way from the root to an entry.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Path(pub Vec<Step>);
+
+impl Path {
+    /// Reads `gap.0.width` or `gap["light-heavy"].width`; the reason if it cannot.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        let mut steps = Vec::new();
+        let mut rest = text.trim();
+        loop {
+            if let Some(inner) = rest.strip_prefix('[') {
+                let (name, after) = inner
+                    .split_once(']')
+                    .ok_or_else(|| "a bracket is not closed".to_owned())?;
+                let quoted = name.len() >= 2 && name.starts_with('"') && name.ends_with('"');
+                steps.push(match name.parse() {
+                    Ok(index) => Step::Index(index),
+                    Err(_) if quoted => Step::Key(name[1..name.len() - 1].to_owned()),
+                    Err(_) => {
+                        return Err(format!("[{name}] is neither a number nor a name in quotes"));
+                    }
+                });
+                rest = after;
+            } else {
+                let end = rest.find(['.', '[']).unwrap_or(rest.len());
+                let word = &rest[..end];
+                if word.is_empty() {
+                    return Err("a name is empty".to_owned());
+                }
+                steps.push(
+                    word.parse()
+                        .map_or_else(|_| Step::Key(word.to_owned()), Step::Index),
+                );
+                rest = &rest[end..];
+            }
+            if rest.is_empty() {
+                return Ok(Self(steps));
+            }
+            // A dot may lead to a bracket or a name; a bracket needs none.
+            if let Some(after) = rest.strip_prefix('.') {
+                rest = after;
+            } else if !rest.starts_with('[') {
+                return Err(format!("\"{rest}\" cannot follow a bracket"));
+            }
+        }
+    }
+
+    /// The first step, if it is a key.
+    pub(crate) fn table(&self) -> &str {
+        match self.0.first() {
+            Some(Step::Key(key)) => key,
+            _ => "",
+        }
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Index(n) if i == 0 => write!(f, "{n}")?,
+                Step::Index(n) => write!(f, ".{n}")?,
+                Step::Key(key) => {
+                    let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+                    match (plain, i) {
+                        (true, 0) => f.write_str(key)?,
+                        (true, _) => write!(f, ".{key}")?,
+                        (false, _) => write!(f, "[\"{key}\"]")?,
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn paths_are_read() {
+        let key = |k: &str| Step::Key(k.to_owned());
+        for (text, steps, shown) in [
+            (
+                "gap.0.width",
+                vec![key("gap"), Step::Index(0), key("width")],
+                "gap.0.width",
+            ),
+            (
+                "gap[0].width",
+                vec![key("gap"), Step::Index(0), key("width")],
+                "gap.0.width",
+            ),
+            (
+                "gap[\"light-heavy\"].width",
+                vec![key("gap"), key("light-heavy"), key("width")],
+                "gap[\"light-heavy\"].width",
+            ),
+            (
+                "building.light.mass.2",
+                vec![key("building"), key("light"), key("mass"), Step::Index(2)],
+                "building.light.mass.2",
+            ),
+        ] {
+            let path = Path::parse(text).unwrap();
+            assert_eq!(path.0, steps);
+            assert_eq!(path.to_string(), shown);
+            assert_eq!(Path::parse(shown).unwrap(), path);
+        }
+        for wrong in [
+            "",
+            "gap..width",
+            "gap[light].width",
+            "gap[0",
+            "gap[0]width",
+            ".",
+        ] {
+            assert!(Path::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! What can go wrong with a study.
+
+use std::path::PathBuf;
+
+use pounding_case::CaseError;
+use pounding_ground_motion::GroundMotionError;
+use pounding_time_history::TimeHistoryError;
+
+/// A study that cannot be read, run, written or evaluated. A run that fails is none: it
+/// is recorded with its diagnosis.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// Something wrong in the study file or in its case, with its place.
+    #[error("{error}")]
+    Text {
+        /// What and where.
+        error: Box<CaseError>,
+        /// The text that it points into.
+        source_text: String,
+    },
+    /// The case of the study cannot be assembled.
+    #[error(transparent)]
+    Base(#[from] TimeHistoryError),
+    /// A motion cannot be made or measured.
+    #[error(transparent)]
+    GroundMotion(#[from] GroundMotionError),
+    /// Records that cannot be read.
+    #[error("{count} of the {of} records cannot be read:\n{list}")]
+    Records {
+        /// How many.
+        count: usize,
+        /// Records of the study.
+        of: usize,
+        /// Each with its reason, a line each.
+        list: String,
+    },
+    /// A file cannot be read or written.
+    #[error("cannot {what} {path}: {source}")]
+    File {
+        /// What was tried.
+        what: &'static str,
+        /// File or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A finished chunk cannot be stored; what was stored before stays.
+    #[error(
+        "cannot store runs in {folder}: {source}; {stored} of {of} runs are stored there and intact"
+    )]
+    Store {
+        /// Folder of the finished chunks.
+        folder: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// Runs stored.
+        stored: usize,
+        /// Runs asked for.
+        of: usize,
+    },
+    /// Finished runs of an earlier, interrupted call.
+    #[error("{folder} holds {stored} finished runs of this study from an interrupted call")]
+    Unfinished {
+        /// Folder of the finished chunks.
+        folder: PathBuf,
+        /// Runs stored.
+        stored: usize,
+    },
+    /// Finished runs of another study, or of another version of this one.
+    #[error("{folder} holds runs of another study or of another version of it")]
+    OtherStudy {
+        /// Folder of the finished chunks.
+        folder: PathBuf,
+    },
+    /// Another process works on the same runs.
+    #[error("another process is working in {folder}")]
+    Busy {
+        /// Folder of the finished chunks.
+        folder: PathBuf,
+    },
+    /// The result cannot be written or read.
+    #[error("cannot {what} the result {path}: {reason}")]
+    ResultFile {
+        /// What was tried.
+        what: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What HDF5 or the file system said.
+        reason: String,
+    },
+    /// Files that do not make one study together.
+    #[error("cannot merge: {reason}")]
+    Merge {
+        /// Why.
+        reason: String,
+    },
+    /// A shard that does not exist.
+    #[error("\"{text}\" is no shard")]
+    Shard {
+        /// As given.
+        text: String,
+    },
+    /// A run that does not exist.
+    #[error("run {run} does not exist; the study has runs 0 to {last}")]
+    NoSuchRun {
+        /// Number asked for.
+        run: usize,
+        /// Last number.
+        last: usize,
+    },
+    /// Counts or a hazard curve that allow no answer.
+    #[error("{what}: {reason}")]
+    Evaluation {
+        /// What was to be computed.
+        what: &'static str,
+        /// Why it cannot be.
+        reason: String,
+    },
+}
+
+impl StudyError {
+    /// What to try.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::Text { error, .. } => return error.help.clone(),
+            Self::Base(error) => return error.help(),
+            Self::GroundMotion(error) => return error.help(),
+            Self::Records { .. } => {
+                "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are made"
+            }
+            Self::File { .. } | Self::ResultFile { .. } => {
+                "check that the folder exists, may be written to and has room, or name another file with -o"
+            }
+            Self::Store { .. } => {
+                "make room, then go on with --resume: only the runs that are not stored are made"
+            }
+            Self::Unfinished { .. } => "go on with --resume, or remove the folder to begin anew",
+            Self::OtherStudy { .. } => {
+                "name another result with -o, or remove the folder if its runs are of no use"
+            }
+            Self::Busy { .. } => "wait for it, or name another result with -o",
+            Self::Merge { .. } => {
+                "merge all shards i/n of one study for one n, made by one version of the program"
+            }
+            Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",
+            Self::NoSuchRun { .. } => return None,
+            Self::Evaluation { .. } => {
+                "choose levels of intensity from where no record pounds to where all do, and more records"
+            }
+        };
+        Some(text.to_owned())
+    }
+}

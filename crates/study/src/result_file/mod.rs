@@ -1,0 +1,69 @@
+//! The HDF5 file of a study, netCDF-4 style: dimensions `run`, `storey` and `level`, a
+//! coordinate for every variable. The layout is in `docs/studies.md`.
+
+mod merge;
+mod reading;
+mod table;
+mod writing;
+
+pub use merge::merge;
+pub use reading::ResultReader;
+pub use table::CsvTable;
+pub(crate) use writing::ResultWriter;
+
+use crate::runs::Layout;
+use crate::study_file::{Study, Values};
+
+/// A coordinate of the runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Name of its dataset.
+    pub name: String,
+    /// What it is.
+    pub long_name: String,
+    /// Unit of its numbers; empty if there is none or it is a choice.
+    pub unit: String,
+    /// Names of its choices; `None` if it holds numbers.
+    pub choices: Option<Vec<String>>,
+}
+
+/// All that a result says beside its rows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Description {
+    /// Title of the study.
+    pub title: String,
+    /// Identity of the study.
+    pub study_sha256: String,
+    /// The study's text.
+    pub study: String,
+    /// The text of its case.
+    pub case: String,
+    /// SHA-256 of each record, a line each with its name.
+    pub records: String,
+    /// Version of the program.
+    pub version: String,
+    /// Number of runs of the whole study.
+    pub runs: usize,
+    /// Runs that are stored at once.
+    pub chunk: usize,
+    /// Which shard this is, from 1, and of how many; `(1, 1)` is the whole.
+    pub shard: (usize, usize),
+    /// Columns.
+    pub layout: Layout,
+    /// Variables of the study.
+    pub coordinates: Vec<Coordinate>,
+}
+
+/// The coordinates of a study.
+pub(crate) fn coordinates(study: &Study) -> Vec<Coordinate> {
+    let coordinate = |v: &crate::study_file::Variable| Coordinate {
+        name: v.name.clone(),
+        long_name: v.long_name.clone(),
+        unit: v.unit.clone(),
+        choices: match &v.values {
+            Values::Choices(labels) => Some(labels.clone()),
+            _ => None,
+        },
+    };
+    study.variables.iter().map(coordinate).collect()
+}

@@ -1,0 +1,292 @@
+//! The columns of a result: which quantities, of what, in which unit.
+
+use pounding_time_history::{Outcome, System};
+
+/// What a quantity belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// The whole run.
+    Run,
+    /// Each storey of each building.
+    Storey,
+    /// Each contact level of each gap.
+    Level,
+}
+
+/// A quantity of the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// Name of its dataset.
+    pub name: &'static str,
+    /// Unit, SI.
+    pub unit: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// What it belongs to.
+    pub axis: Axis,
+}
+
+const fn quantity(
+    axis: Axis,
+    name: &'static str,
+    unit: &'static str,
+    long_name: &'static str,
+) -> Quantity {
+    Quantity {
+        name,
+        unit,
+        long_name,
+        axis,
+    }
+}
+
+/// Quantities of every study.
+const QUANTITIES: [Quantity; 17] = [
+    quantity(
+        Axis::Storey,
+        "peak_displacement",
+        "m",
+        "greatest displacement relative to the ground",
+    ),
+    quantity(
+        Axis::Storey,
+        "peak_drift_ratio",
+        "1",
+        "greatest storey drift over storey height",
+    ),
+    quantity(
+        Axis::Storey,
+        "peak_storey_shear",
+        "N",
+        "greatest storey shear",
+    ),
+    quantity(
+        Axis::Storey,
+        "peak_acceleration_absolute",
+        "m s-2",
+        "greatest absolute floor acceleration",
+    ),
+    quantity(Axis::Level, "impacts", "1", "number of impacts"),
+    quantity(
+        Axis::Level,
+        "first_contact",
+        "s",
+        "time of the first contact, missing without contact",
+    ),
+    quantity(
+        Axis::Level,
+        "peak_force",
+        "N",
+        "greatest contact force, missing for rigid impacts",
+    ),
+    quantity(Axis::Level, "peak_penetration", "m", "greatest penetration"),
+    quantity(
+        Axis::Level,
+        "approach_velocity_max",
+        "m s-1",
+        "greatest velocity at closure",
+    ),
+    quantity(Axis::Level, "impulse", "N s", "impulse of all impacts"),
+    quantity(
+        Axis::Level,
+        "impulse_max",
+        "N s",
+        "greatest impulse of one impact",
+    ),
+    quantity(
+        Axis::Level,
+        "energy_dissipated",
+        "J",
+        "energy dissipated in contact",
+    ),
+    quantity(
+        Axis::Run,
+        "energy_input",
+        "J",
+        "energy put in by the ground at the end of the run",
+    ),
+    quantity(
+        Axis::Run,
+        "energy_viscous",
+        "J",
+        "energy dissipated by viscous damping",
+    ),
+    quantity(
+        Axis::Run,
+        "energy_hysteretic",
+        "J",
+        "energy dissipated by yielding",
+    ),
+    quantity(
+        Axis::Run,
+        "energy_impact",
+        "J",
+        "energy dissipated in contacts",
+    ),
+    quantity(
+        Axis::Run,
+        "energy_residual_ratio",
+        "1",
+        "greatest residual of the energy ledger over the largest input",
+    ),
+];
+
+/// The quantity of studies that ask for it.
+const ISOLATED_DEMAND: Quantity = quantity(
+    Axis::Level,
+    "isolated_demand",
+    "m",
+    "greatest approach of the isolated buildings: the gap that just keeps them apart",
+);
+
+/// Whether a name is taken by the results.
+pub(crate) fn is_result(name: &str) -> bool {
+    let labels = [
+        "storey_building",
+        "storey_number",
+        "level_gap",
+        "level_left_storey",
+        "level_right_storey",
+        "failures",
+    ];
+    QUANTITIES
+        .iter()
+        .chain([&ISOLATED_DEMAND])
+        .any(|q| q.name == name)
+        || labels.contains(&name)
+}
+
+/// A storey or a contact level.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Label, unique along its axis.
+    pub label: String,
+    /// Building or gap.
+    pub of: String,
+    /// Storeys from 1: of the building, or left and right of the gap; 0 is a wall.
+    pub storeys: Vec<usize>,
+}
+
+/// The shape of the results of a study: the same for all its runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    /// Storeys of all buildings, from the left and from the bottom.
+    pub storeys: Vec<Place>,
+    /// Contact levels of all gaps, in the order of the case and from the bottom.
+    pub levels: Vec<Place>,
+    /// Quantities in the order of the columns.
+    pub quantities: Vec<Quantity>,
+}
+
+impl Layout {
+    /// The shape of the results of a system.
+    pub(crate) fn of(system: &System, isolated_demand: bool) -> Self {
+        let storeys = system.buildings().iter().flat_map(|b| {
+            (1..=b.storeys()).map(|n| Place {
+                label: format!("{} {n}", b.name()),
+                of: b.name().to_owned(),
+                storeys: vec![n],
+            })
+        });
+        let levels = system.gaps().iter().flat_map(|gap| {
+            let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+            levels.iter().map(|l| {
+                let pair = [l.left_storey.unwrap_or(0), l.right_storey.unwrap_or(0)];
+                let shown = pair.map(|n| {
+                    if n == 0 {
+                        "wall".to_owned()
+                    } else {
+                        n.to_string()
+                    }
+                });
+                Place {
+                    label: format!("{} {}", gap.name, shown.join("-")),
+                    of: gap.name.clone(),
+                    storeys: pair.to_vec(),
+                }
+            })
+        });
+        Self::from_places(storeys.collect(), levels.collect(), isolated_demand)
+    }
+
+    /// The shape with these storeys and levels.
+    pub(crate) fn from_places(
+        storeys: Vec<Place>,
+        levels: Vec<Place>,
+        isolated_demand: bool,
+    ) -> Self {
+        let mut quantities = QUANTITIES.to_vec();
+        if isolated_demand {
+            quantities.push(ISOLATED_DEMAND);
+        }
+        Self {
+            storeys,
+            levels,
+            quantities,
+        }
+    }
+
+    /// Number of values of a quantity.
+    #[must_use]
+    pub fn width(&self, axis: Axis) -> usize {
+        match axis {
+            Axis::Run => 1,
+            Axis::Storey => self.storeys.len(),
+            Axis::Level => self.levels.len(),
+        }
+    }
+
+    /// Number of all values of a run.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.quantities.iter().map(|q| self.width(q.axis)).sum()
+    }
+
+    /// Columns of a quantity; empty if the study has none of that name.
+    #[must_use]
+    pub fn range(&self, name: &str) -> std::ops::Range<usize> {
+        let mut at = 0;
+        for q in &self.quantities {
+            let width = self.width(q.axis);
+            if q.name == name {
+                return at..at + width;
+            }
+            at += width;
+        }
+        at..at
+    }
+
+    /// Puts an outcome into columns; `demand` holds the isolated demand of each level.
+    pub(crate) fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
+        out.extend(storeys().map(|s| s.displacement.value));
+        out.extend(storeys().map(|s| s.drift_ratio.value));
+        out.extend(storeys().map(|s| s.storey_shear.value));
+        out.extend(storeys().map(|s| s.acceleration_absolute.value));
+        let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
+        out.extend(levels().map(|l| l.impacts as f64));
+        out.extend(levels().map(|l| l.first_contact.unwrap_or(f64::NAN)));
+        out.extend(levels().map(|l| l.peak_force.value));
+        out.extend(levels().map(|l| l.peak_penetration.value));
+        out.extend(levels().map(|l| l.approach_velocity_max));
+        out.extend(levels().map(|l| l.impulse));
+        out.extend(levels().map(|l| l.impulse_max));
+        out.extend(levels().map(|l| l.energy_dissipated));
+        let end = outcome.energy.end;
+        out.extend([end.input, end.viscous, end.hysteretic, end.impact]);
+        out.push(outcome.energy.residual_ratio);
+        out.extend(demand);
+    }
+
+    /// A text that two layouts share if and only if they are equal.
+    pub(crate) fn signature(&self) -> String {
+        let labels = self
+            .storeys
+            .iter()
+            .chain(&self.levels)
+            .map(|p| p.label.as_str());
+        let names = self.quantities.iter().map(|q| q.name);
+        labels.chain(names).collect::<Vec<_>>().join("\n")
+    }
+}

@@ -1,0 +1,15 @@
+//! Runs of a study: from a number to a row of results.
+
+mod cache;
+mod columns;
+mod demand;
+mod engine;
+mod motions;
+mod runner;
+
+pub(crate) use columns::is_result;
+pub use columns::{Axis, Layout, Place, Quantity};
+pub(crate) use engine::run_all;
+pub use motions::RecordReport;
+pub use runner::Row;
+pub(crate) use runner::{Runner, written};

@@ -1,0 +1,313 @@
+//! One run of a study: from its number to its row.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+use pounding_case::{Case, Scale};
+use pounding_ground_motion::Accelerogram;
+use pounding_time_history::{
+    GroundAcceleration, System, TimeHistoryError, assemble_with_record, regap, run, scale_record,
+};
+use sha2::{Digest, Sha256};
+
+use super::cache::Cache;
+use super::columns::Layout;
+use super::demand::isolated_demand;
+use super::motions::{Motion, Motions};
+use crate::case_text::{Edits, apply, canonical, hexadecimal};
+use crate::error::StudyError;
+use crate::study_file::{RecordKind, Study, Target, Value};
+
+/// Bytes of a run's identity.
+pub(crate) const ID: usize = 16;
+/// Buildings and motions kept for runs to come.
+const KEPT: usize = 64;
+
+/// The result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Number of the run.
+    pub run: usize,
+    /// Identity: the first bytes of the SHA-256 of what the case says, of the bytes of the
+    /// record and of the version of the program.
+    pub id: [u8; ID],
+    /// Values in the columns of the [`Layout`]; all missing (NaN) if the run failed.
+    pub values: Vec<f64>,
+    /// Why it failed.
+    pub failure: Option<String>,
+}
+
+/// A number as it stands in the case of a run.
+pub(crate) fn written(x: f64) -> String {
+    // Counts must stay whole numbers; all else is read back to the same bits.
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        format!("{x:.0}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// Makes runs.
+#[derive(Debug)]
+pub(crate) struct Runner<'s> {
+    pub study: &'s Study,
+    pub motions: Motions,
+    pub layout: Layout,
+    version: &'static str,
+    buildings: Cache<Result<Arc<System>, String>>,
+    demands: Cache<Result<Arc<Vec<f64>>, String>>,
+}
+
+/// The version that counts in identities.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+impl<'s> Runner<'s> {
+    pub(crate) fn new(study: &'s Study, keep_failures: bool) -> Result<Self, StudyError> {
+        let motions = Motions::read(study, keep_failures)?;
+        let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
+        let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
+        let system = assemble_with_record(&study.base, &rest)?.system;
+        Ok(Self {
+            layout: Layout::of(&system, study.isolated_demand),
+            study,
+            motions,
+            version: VERSION,
+            buildings: Cache::new(KEPT),
+            demands: Cache::new(KEPT),
+        })
+    }
+
+    /// The text of the case of a run.
+    pub(crate) fn text(study: &Study, point: &[Value]) -> String {
+        apply(&study.base.source, edits(study, point))
+    }
+
+    /// Makes a run. Whatever goes wrong is in the row.
+    pub(crate) fn row(&self, number: usize) -> Row {
+        let point = self.study.point(number);
+        let text = Self::text(self.study, &point);
+        let motion = self.motion(&point);
+        let factor = intensity_factor(self.study, &point, motion);
+        let mut row = Row {
+            run: number,
+            id: self.identity(&text, motion, factor.as_ref().ok().copied().flatten()),
+            values: Vec::new(),
+            failure: None,
+        };
+        let made = catch_unwind(AssertUnwindSafe(|| {
+            let motion = motion.map_err(Clone::clone)?;
+            self.values(&point, &text, motion, factor?)
+        }));
+        let values =
+            made.unwrap_or_else(|panic| Err(format!("the program broke off: {}", said(&*panic))));
+        match values {
+            Ok(values) => row.values = values,
+            Err(reason) => {
+                row.failure = Some(reason);
+                row.values = vec![f64::NAN; self.layout.columns()];
+            }
+        }
+        row
+    }
+
+    fn motion(&self, point: &[Value]) -> Result<&Motion, &String> {
+        let chosen =
+            self.study
+                .variables
+                .iter()
+                .zip(point)
+                .find_map(|(v, x)| match (&v.target, x) {
+                    (Target::Record, Value::Choice(i)) => Some(*i),
+                    _ => None,
+                });
+        self.motions.all[chosen.unwrap_or(0)].as_ref()
+    }
+
+    fn values(
+        &self,
+        point: &[Value],
+        text: &str,
+        motion: &Motion,
+        factor: Option<f64>,
+    ) -> Result<Vec<f64>, String> {
+        let said = |e: TimeHistoryError| e.to_string();
+        let case = Case::parse(text, &self.study.base.file).map_err(|e| e.to_string())?;
+        let record = scaled(&case, motion, factor)?;
+        let key = key(self.study, point);
+        let base = self.buildings.get(&key.buildings, || {
+            // Without gaps, which are those of this run alone.
+            let mut alone = case.clone();
+            alone.gaps.clear();
+            let assembly = assemble_with_record(&alone, &record).map_err(said)?;
+            Ok(Arc::new(assembly.system))
+        })?;
+        let base = if key.motion.is_empty() {
+            base
+        } else {
+            Arc::new(base.under(GroundAcceleration {
+                samples: record.samples().into(),
+                time_step: record.time_step(),
+            }))
+        };
+        let (system, options) = regap(&case, &base).map_err(said)?;
+        let shape = Layout::of(&system, self.study.isolated_demand);
+        if (shape.storeys.len(), shape.levels.len())
+            != (self.layout.storeys.len(), self.layout.levels.len())
+        {
+            return Err(format!(
+                "the run has {} storeys and {} contact levels, the study {} and {}",
+                shape.storeys.len(),
+                shape.levels.len(),
+                self.layout.storeys.len(),
+                self.layout.levels.len()
+            ));
+        }
+        let outcome = run(&system, &options, &mut [], &mut |_| {}).map_err(said)?;
+        let demand = if self.study.isolated_demand {
+            let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();
+            self.demands.get(&all, || {
+                isolated_demand(&system, &options)
+                    .map(Arc::new)
+                    .map_err(said)
+            })?
+        } else {
+            Arc::default()
+        };
+        let mut values = Vec::with_capacity(self.layout.columns());
+        self.layout.fill(&outcome, &demand, &mut values);
+        Ok(values)
+    }
+
+    fn identity(
+        &self,
+        text: &str,
+        motion: Result<&Motion, &String>,
+        factor: Option<f64>,
+    ) -> [u8; ID] {
+        let mut hash = Sha256::new();
+        hash.update(canonical(text));
+        hash.update([0]);
+        hash.update(motion.map_or("unreadable", |m| m.sha256.as_str()));
+        hash.update(factor.map_or([0; 8], f64::to_le_bytes));
+        hash.update(self.version);
+        let mut id = [0; ID];
+        id.copy_from_slice(&hash.finalize()[..ID]);
+        id
+    }
+
+    /// Identity of the whole study: all that decides what its runs are and in which
+    /// columns their results stand.
+    pub(crate) fn study_identity(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update(canonical(&self.study.base.source));
+        hash.update([0]);
+        // What is made of the results afterwards changes none of them.
+        for line in canonical(&self.study.source)
+            .lines()
+            .filter(|l| !l.starts_with("ida."))
+        {
+            hash.update(line);
+            hash.update([0]);
+        }
+        for motion in &self.motions.all {
+            hash.update(motion.as_ref().map_or("unreadable", |m| m.sha256.as_str()));
+        }
+        hash.update(self.layout.signature());
+        hash.update(self.version);
+        hexadecimal(&hash.finalize())
+    }
+}
+
+/// Replacements that make the case of a run.
+fn edits(study: &Study, point: &[Value]) -> Edits {
+    let mut all = Edits::new();
+    for (variable, value) in study.variables.iter().zip(point) {
+        match (&variable.target, value) {
+            (Target::Entry { entry, .. }, Value::Number(x)) => {
+                all.push((
+                    entry.span.clone(),
+                    format!("{}{}", entry.before, written(*x)),
+                ));
+            }
+            (Target::Entry { entry, texts, .. }, Value::Choice(i)) => {
+                all.push((entry.span.clone(), format!("{}{}", entry.before, texts[*i])));
+            }
+            (Target::Model { edits }, Value::Choice(i)) => all.extend(edits[*i].iter().cloned()),
+            (Target::Record, Value::Choice(i)) => {
+                if let RecordKind::File { edits, .. } = &study.records[*i].kind {
+                    all.extend(edits.iter().cloned());
+                }
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
+/// The factor that brings a motion to the intensity of a run; `None` if the study leaves
+/// scaling to the case.
+fn intensity_factor(
+    study: &Study,
+    point: &[Value],
+    motion: Result<&Motion, &String>,
+) -> Result<Option<f64>, String> {
+    let wanted = study
+        .variables
+        .iter()
+        .zip(point)
+        .find_map(|(v, x)| match (&v.target, x) {
+            (Target::Intensity(_), Value::Number(x)) => Some(*x),
+            _ => None,
+        });
+    let (Some(wanted), Ok(motion)) = (wanted, motion) else {
+        return Ok(None);
+    };
+    match motion.intensity {
+        Some(as_recorded) if as_recorded > 0.0 => Ok(Some(wanted / as_recorded)),
+        _ => Err("the record has no intensity that could be scaled".to_owned()),
+    }
+}
+
+/// The motion as this run has it.
+fn scaled(case: &Case, motion: &Motion, factor: Option<f64>) -> Result<Arc<Accelerogram>, String> {
+    let record = &motion.record;
+    let scaled = match (factor, &case.ground_motion.scale) {
+        (Some(factor), _) => record.scaled_by(factor).map_err(|e| e.to_string()),
+        (None, Scale::None) => return Ok(Arc::clone(record)),
+        (None, _) => scale_record(case, Accelerogram::clone(record)).map_err(|e| e.to_string()),
+    };
+    scaled.map(Arc::new)
+}
+
+/// What tells runs apart for sharing: runs with equal numbers have equal buildings, or
+/// equal motions.
+struct Key {
+    buildings: Vec<u64>,
+    motion: Vec<u64>,
+}
+
+fn key(study: &Study, point: &[Value]) -> Key {
+    let mut key = Key {
+        buildings: Vec::new(),
+        motion: Vec::new(),
+    };
+    for (variable, value) in study.variables.iter().zip(point) {
+        let bits = match value {
+            Value::Number(x) => x.to_bits(),
+            Value::Choice(i) => *i as u64,
+        };
+        match &variable.target {
+            Target::Entry { of_gap: true, .. } | Target::Model { .. } => {}
+            Target::Entry { .. } => key.buildings.push(bits),
+            Target::Record | Target::Intensity(_) => key.motion.push(bits),
+        }
+    }
+    key
+}
+
+/// What a panic said.
+fn said(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "without a reason".to_owned())
+}

@@ -1,0 +1,185 @@
+//! Intensity measures to which records are scaled.
+
+use pounding_case::{Case, Dimension};
+use pounding_ground_motion::Accelerogram;
+use pounding_ground_motion::measures::GroundMotion;
+use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
+
+use super::reader::{Result, Table};
+use crate::error::StudyError;
+
+/// What is held at a value by scaling a record. Every measure grows in proportion to the
+/// record.
+#[derive(Debug, Clone, PartialEq)]
+pub enum IntensityMeasure {
+    /// Greatest ground acceleration (m/s2).
+    PeakGroundAcceleration,
+    /// Greatest ground velocity (m/s), from rest, exact for an acceleration that is linear
+    /// between samples.
+    PeakGroundVelocity,
+    /// Geometric mean of pseudo-spectral accelerations (m/s2) over some periods: one
+    /// period is Sa(T); those of two buildings are their geometric mean; a band is the
+    /// average Sa of Eads, Miranda and Lignos (2015), Earthq. Eng. Struct. Dyn. 44, 2057.
+    SpectralAcceleration {
+        /// Periods (s).
+        periods: Vec<f64>,
+        /// Damping ratio (-).
+        damping: f64,
+    },
+}
+
+/// Periods of a default average, 0.2 to 3 times the building's, evenly spaced in their
+/// logarithm.
+const AVERAGED: usize = 30;
+
+impl IntensityMeasure {
+    /// Value of a motion (SI).
+    ///
+    /// # Errors
+    /// Periods too short for the time step of the record.
+    pub fn of(&self, record: &Accelerogram) -> std::result::Result<f64, StudyError> {
+        let evaluation = Evaluation::PiecewiseLinear;
+        Ok(match self {
+            Self::PeakGroundAcceleration => record.peak().value,
+            Self::PeakGroundVelocity => {
+                GroundMotion::of(record, 0.0, 0.0)
+                    .peak_velocity(evaluation)
+                    .value
+            }
+            Self::SpectralAcceleration { periods, damping } => {
+                let spectrum = response_spectrum(record, periods, *damping, evaluation)?;
+                let values = &spectrum.pseudo_acceleration;
+                let sum: f64 = values.iter().map(|a| a.ln()).sum();
+                (sum / values.len() as f64).exp()
+            }
+        })
+    }
+
+    /// What it is, for people.
+    #[must_use]
+    pub fn title(&self) -> String {
+        match self {
+            Self::PeakGroundAcceleration => "peak ground acceleration".to_owned(),
+            Self::PeakGroundVelocity => "peak ground velocity".to_owned(),
+            Self::SpectralAcceleration { periods, damping } => {
+                let part = format!("{} % damping", damping * 100.0);
+                match periods.as_slice() {
+                    [one] => format!("Sa({one:.4} s), {part}"),
+                    [a, b] => format!("geometric mean of Sa({a:.4} s) and Sa({b:.4} s), {part}"),
+                    many => format!(
+                        "average Sa over {} periods from {:.4} to {:.4} s, {part}",
+                        many.len(),
+                        many.iter().copied().fold(f64::INFINITY, f64::min),
+                        many.iter().copied().fold(0.0, f64::max)
+                    ),
+                }
+            }
+        }
+    }
+
+    /// Dimension of its values.
+    #[must_use]
+    pub fn dimension(&self) -> Dimension {
+        match self {
+            Self::PeakGroundVelocity => Dimension::VELOCITY,
+            _ => Dimension::ACCELERATION,
+        }
+    }
+}
+
+/// First periods (s) of the buildings of a case.
+pub(super) type FirstPeriods = Vec<f64>;
+
+/// Reads `intensity` with `building`, `buildings`, `period`, `periods` and `damping`.
+pub(super) fn intensity(
+    table: &Table<'_, '_>,
+    base: &Case,
+    first: &FirstPeriods,
+) -> Result<IntensityMeasure> {
+    let reader = table.reader;
+    let value = table.required("intensity")?;
+    let name = reader.text(value, "intensity")?;
+    let averaged = match name.as_str() {
+        "peak_ground_acceleration" | "peak_ground_velocity" => {
+            for key in ["building", "period", "damping"] {
+                if let Some(extra) = table.get(key) {
+                    return Err(reader.error(
+                        extra.span(),
+                        format!("`{key}` has no meaning for {name}"),
+                        "remove it",
+                    ));
+                }
+            }
+            return Ok(match name.as_str() {
+                "peak_ground_acceleration" => IntensityMeasure::PeakGroundAcceleration,
+                _ => IntensityMeasure::PeakGroundVelocity,
+            });
+        }
+        "spectral_acceleration" => false,
+        "average_spectral_acceleration" => true,
+        _ => {
+            return Err(reader.error(
+                value.span(),
+                format!("unknown intensity measure \"{name}\""),
+                "known are peak_ground_acceleration, peak_ground_velocity, spectral_acceleration, average_spectral_acceleration",
+            ));
+        }
+    };
+    let damping = table
+        .get("damping")
+        .map(|v| reader.positive(v, "damping", Dimension::NUMBER));
+    let periods = periods(table, base, first)?;
+    Ok(IntensityMeasure::SpectralAcceleration {
+        periods: if averaged { band(&periods) } else { periods },
+        damping: damping.transpose()?.unwrap_or(0.05),
+    })
+}
+
+/// The periods that a table names, by themselves or by buildings.
+fn periods(table: &Table<'_, '_>, base: &Case, first: &FirstPeriods) -> Result<Vec<f64>> {
+    let reader = table.reader;
+    table.not_both("building", "period")?;
+    if let Some(value) = table.get("period") {
+        let read = |v| reader.positive(v, "period", Dimension::TIME);
+        return match reader.list(value, "period") {
+            Ok(items) => items.iter().map(read).collect(),
+            Err(_) => Ok(vec![read(value)?]),
+        };
+    }
+    let Some(value) = table.get("building") else {
+        // Neither building is the one that counts.
+        return Ok(first.clone());
+    };
+    let items = match value.get_ref().as_array() {
+        Some(_) => reader.list(value, "building")?.iter().collect(),
+        None => vec![value],
+    };
+    let period = |item: &&super::reader::Value<'_>| {
+        let name = reader.text(item, "building")?;
+        let at = base.buildings.iter().position(|b| b.name.value == name);
+        at.map(|i| first[i]).ok_or_else(|| {
+            let names: Vec<&str> = base
+                .buildings
+                .iter()
+                .map(|b| b.name.value.as_str())
+                .collect();
+            reader.error(
+                item.span(),
+                format!("the case has no building \"{name}\""),
+                format!("its buildings are {}", names.join(", ")),
+            )
+        })
+    };
+    items.iter().map(period).collect()
+}
+
+/// From 0.2 to 3 times the geometric mean of some periods.
+fn band(periods: &[f64]) -> Vec<f64> {
+    let sum: f64 = periods.iter().map(|t| t.ln()).sum();
+    let middle = (sum / periods.len() as f64).exp();
+    let (from, to) = (0.2 * middle, 3.0 * middle);
+    let step = (to / from).ln() / (AVERAGED - 1) as f64;
+    (0..AVERAGED)
+        .map(|i| from * (step * i as f64).exp())
+        .collect()
+}

@@ -1,0 +1,149 @@
+//! The study file: a case, what varies in it, and how it is sampled.
+
+mod ida;
+mod intensity;
+mod read;
+mod reader;
+mod records;
+mod values;
+mod variables;
+
+use std::path::{Path as FilePath, PathBuf};
+
+pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
+pub use intensity::IntensityMeasure;
+pub use values::{Spacing, Values};
+
+use pounding_case::Case;
+use pounding_ground_motion::Accelerogram;
+
+use crate::case_text::{Edits, Entry};
+use crate::design::Design;
+use crate::error::StudyError;
+
+/// A study: one case, and what varies in it.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// Title, may be empty.
+    pub title: String,
+    /// The study file.
+    pub file: PathBuf,
+    /// Its text.
+    pub source: String,
+    /// The case that everything is compared with.
+    pub base: Case,
+    /// What varies, in the order of the file: coordinates of the runs.
+    pub variables: Vec<Variable>,
+    /// How the variables are sampled.
+    pub design: Design,
+    /// Runs that are stored at once.
+    pub chunk: usize,
+    /// Whether the greatest relative displacement of the isolated buildings is wanted.
+    pub isolated_demand: bool,
+    /// What an incremental dynamic analysis evaluates.
+    pub ida: Option<IdaSettings>,
+    /// Motions: those of the variable `records`, else the one of the case alone.
+    pub(crate) records: Vec<RecordSource>,
+}
+
+/// Something that varies from run to run.
+#[derive(Debug, Clone)]
+pub struct Variable {
+    /// Name of the coordinate in results.
+    pub name: String,
+    /// What it is, for people.
+    pub long_name: String,
+    /// Unit of its numbers, in SI; empty for choices.
+    pub unit: String,
+    /// The values that it takes.
+    pub values: Values,
+    pub(crate) target: Target,
+}
+
+/// What a variable changes.
+#[derive(Debug, Clone)]
+pub(crate) enum Target {
+    /// An entry of the case; `of_gap` if it cannot change buildings or motion.
+    Entry {
+        entry: Entry,
+        of_gap: bool,
+        /// For choices: the texts as they stand in the study.
+        texts: Vec<String>,
+    },
+    /// The model of a gap with all its options: an edit for each choice.
+    Model { edits: Vec<Edits> },
+    /// The motion.
+    Record,
+    /// The intensity of the motion, by scaling it.
+    Intensity(IntensityMeasure),
+}
+
+/// Where a motion comes from.
+#[derive(Debug, Clone)]
+pub(crate) struct RecordSource {
+    /// Name in results.
+    pub name: String,
+    pub kind: RecordKind,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum RecordKind {
+    /// A file, read as this case says; and what makes this case of the base.
+    File { case: Box<Case>, edits: Edits },
+    /// A motion made from a seed.
+    Made(Box<Accelerogram>),
+}
+
+/// The value of a variable in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// A number in SI units.
+    Number(f64),
+    /// Which of the choices, from zero.
+    Choice(usize),
+}
+
+impl Study {
+    /// Reads a study and its case.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or the first thing wrong in it, with its place. Every
+    /// value of every variable is tried in the case alone.
+    pub fn read(path: &FilePath) -> Result<Self, StudyError> {
+        let source = std::fs::read_to_string(path).map_err(|source| StudyError::File {
+            what: "read the study file",
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::parse(&source, path)
+    }
+
+    /// Reads a study from a text; `file` names it and is the base of its paths.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn parse(source: &str, file: &FilePath) -> Result<Self, StudyError> {
+        read::study(source, file)
+    }
+
+    /// Number of runs.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.design.runs()
+    }
+
+    /// Values of all variables in run number `run`.
+    #[must_use]
+    pub fn point(&self, run: usize) -> Vec<Value> {
+        self.design.point(run, &self.variables)
+    }
+
+    /// Name of a choice of a variable, as results show it.
+    #[must_use]
+    pub fn label(&self, variable: usize, choice: usize) -> &str {
+        match &self.variables[variable].values {
+            Values::Choices(labels) => labels.get(choice).map_or("", String::as_str),
+            _ => "",
+        }
+    }
+}

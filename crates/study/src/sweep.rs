@@ -1,0 +1,338 @@
+//! A study from its file to its result: resume, shards, failures.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::error::StudyError;
+use crate::parts::Parts;
+use crate::result_file::{CsvTable, Description, ResultReader, ResultWriter, coordinates};
+use crate::runs::{RecordReport, Row, Runner, run_all};
+use crate::study_file::{Study, Value};
+
+/// Part `index` of `count` of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, from 1.
+    pub index: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+impl Shard {
+    /// All runs.
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
+}
+
+impl FromStr for Shard {
+    type Err = StudyError;
+
+    /// Reads `i/n`.
+    fn from_str(text: &str) -> Result<Self, StudyError> {
+        let parts = text.split_once('/');
+        let numbers =
+            parts.and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+        match numbers {
+            Some((index, count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
+            _ => Err(StudyError::Shard {
+                text: text.to_owned(),
+            }),
+        }
+    }
+}
+
+/// How a study is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepOptions {
+    /// The result.
+    pub output: PathBuf,
+    /// A table of the same rows.
+    pub csv: Option<PathBuf>,
+    /// Threads; the results do not depend on it.
+    pub threads: usize,
+    /// Which part of the study.
+    pub shard: Shard,
+    /// Goes on with the finished runs of an interrupted call.
+    pub resume: bool,
+    /// Records runs whose motion cannot be read as failed, instead of refusing the study.
+    pub keep_going: bool,
+}
+
+/// What is known while a study runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Progress {
+    /// Runs of this call.
+    pub total: usize,
+    /// Runs that were stored before.
+    pub stored_before: usize,
+    /// Runs made by this call.
+    pub made: usize,
+    /// Failures among them.
+    pub failed: usize,
+}
+
+/// A finished study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepReport {
+    /// Runs in the result.
+    pub runs: usize,
+    /// Runs made by this call; the others were stored before.
+    pub made: usize,
+    /// Failed runs in the result.
+    pub failed: usize,
+    /// The first few of them: number and diagnosis.
+    pub failures: Vec<(usize, String)>,
+    /// Identity of the study.
+    pub study_sha256: String,
+    /// Its motions; those that could be read.
+    pub records: Vec<RecordReport>,
+}
+
+/// Failures that are shown.
+const SHOWN: usize = 5;
+
+/// Runs a study, or what is left of it, and writes its result.
+///
+/// A run that fails is recorded with its diagnosis. Finished runs are stored in
+/// `<output>.parts` until the result is complete; `progress` is told of every run.
+///
+/// # Errors
+/// A motion that cannot be read, a disk that is full: see [`StudyError`]. Runs finished
+/// until then stay stored.
+pub fn sweep(
+    study: &Study,
+    options: &SweepOptions,
+    progress: &mut dyn FnMut(&Progress),
+) -> Result<SweepReport, StudyError> {
+    let runner = Runner::new(study, options.keep_going)?;
+    let description = describe(&runner, options.shard);
+    if let Some(report) = complete(&runner, &description, options)? {
+        return Ok(report);
+    }
+    let chunks = chunks(study.runs(), study.chunk, options.shard);
+    let total = chunks.iter().map(Range::len).sum();
+    let parts = Parts::open(
+        &options.output,
+        &signature(&description),
+        chunks,
+        options.resume,
+    )?;
+    let stored = parts.stored();
+    let mut now = Progress {
+        total,
+        stored_before: stored.iter().map(Range::len).sum(),
+        ..Progress::default()
+    };
+    let left: Vec<_> = parts
+        .chunks
+        .iter()
+        .filter(|c| !stored.contains(c))
+        .cloned()
+        .collect();
+    let mut kept = now.stored_before;
+    progress(&now);
+    let mut tick = |row: &Row| {
+        now.made += 1;
+        now.failed += usize::from(row.failure.is_some());
+        progress(&now);
+    };
+    let mut store = |chunk: Range<usize>, rows: Vec<Row>| {
+        let failed = |source| StudyError::Store {
+            folder: parts.folder.clone(),
+            source,
+            stored: kept,
+            of: total,
+        };
+        parts.write(&chunk, &rows).map_err(failed)?;
+        kept += rows.len();
+        Ok(())
+    };
+    run_all(&runner, &left, options.threads, &mut tick, &mut store)?;
+    let mut report = assemble(&runner, &description, &parts, options)?;
+    report.made = now.made;
+    // Its runs are in the result; a folder that stays does no harm.
+    let _ = parts.remove();
+    Ok(report)
+}
+
+/// Runs of each chunk of a shard: chunks are dealt out in turn.
+fn chunks(runs: usize, chunk: usize, shard: Shard) -> Vec<Range<usize>> {
+    let all = (0..runs)
+        .step_by(chunk)
+        .map(|start| start..(start + chunk).min(runs));
+    all.skip(shard.index - 1).step_by(shard.count).collect()
+}
+
+/// What chunks of a result must share.
+fn signature(d: &Description) -> String {
+    format!("{} {}/{}", d.study_sha256, d.shard.0, d.shard.1)
+}
+
+fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
+    let study = runner.study;
+    let records = runner.motions.all.iter().zip(&study.records);
+    let lines: Vec<String> = records
+        .map(|(m, s)| {
+            format!(
+                "{} {}",
+                m.as_ref().map_or("unreadable", |m| m.sha256.as_str()),
+                s.name
+            )
+        })
+        .collect();
+    Description {
+        title: study.title.clone(),
+        study_sha256: runner.study_identity(),
+        study: study.source.clone(),
+        case: study.base.source.clone(),
+        records: lines.join("\n"),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        runs: study.runs(),
+        chunk: study.chunk,
+        shard: (shard.index, shard.count),
+        layout: runner.layout.clone(),
+        coordinates: coordinates(study),
+    }
+}
+
+fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
+    let records = runner.motions.all.iter().zip(&runner.study.records);
+    let records = records.filter_map(|(m, s)| {
+        let m = m.as_ref().ok()?;
+        Some(RecordReport {
+            name: s.name.clone(),
+            sha256: m.sha256.clone(),
+            intensity: m.intensity,
+        })
+    });
+    SweepReport {
+        runs: 0,
+        made: 0,
+        failed: 0,
+        failures: Vec::new(),
+        study_sha256: description.study_sha256.clone(),
+        records: records.collect(),
+    }
+}
+
+impl SweepReport {
+    fn count(&mut self, row: &Row) {
+        self.runs += 1;
+        if let Some(reason) = &row.failure {
+            self.failed += 1;
+            if self.failures.len() < SHOWN {
+                self.failures.push((row.run, reason.clone()));
+            }
+        }
+    }
+}
+
+/// When going on finds the result of this very study, there is nothing left to do but the
+/// table.
+fn complete(
+    runner: &Runner<'_>,
+    description: &Description,
+    options: &SweepOptions,
+) -> Result<Option<SweepReport>, StudyError> {
+    if !options.resume || !options.output.is_file() {
+        return Ok(None);
+    }
+    let reader = match ResultReader::open(&options.output) {
+        Ok(reader) if signature(&reader.description) == signature(description) => reader,
+        _ => return Ok(None),
+    };
+    let mut report = empty_report(runner, description);
+    let mut table = table(options, description)?;
+    for start in (0..reader.rows).step_by(READ_AT_ONCE) {
+        for (row, point) in reader.block(start..(start + READ_AT_ONCE).min(reader.rows))? {
+            report.count(&row);
+            if let Some(table) = &mut table {
+                table.push(&row, &point)?;
+            }
+        }
+    }
+    table.map_or(Ok(()), CsvTable::finish)?;
+    Ok(Some(report))
+}
+
+/// Rows of a result that are held at once.
+const READ_AT_ONCE: usize = 1024;
+
+fn table(options: &SweepOptions, d: &Description) -> Result<Option<CsvTable>, StudyError> {
+    options
+        .csv
+        .as_ref()
+        .map(|path| CsvTable::create(path, d))
+        .transpose()
+}
+
+/// Writes the result from the stored chunks, one after another.
+fn assemble(
+    runner: &Runner<'_>,
+    description: &Description,
+    parts: &Parts,
+    options: &SweepOptions,
+) -> Result<SweepReport, StudyError> {
+    let rows = parts.chunks.iter().map(Range::len).sum();
+    let mut report = empty_report(runner, description);
+    let mut writer = ResultWriter::create(&options.output, description, rows)?;
+    let mut table = table(options, description)?;
+    for chunk in &parts.chunks {
+        let rows = parts.read(chunk).map_err(|source| StudyError::File {
+            what: "read the finished runs in",
+            path: parts.folder.clone(),
+            source,
+        })?;
+        for row in rows {
+            let point: Vec<Value> = runner.study.point(row.run);
+            report.count(&row);
+            if let Some(table) = &mut table {
+                table.push(&row, &point)?;
+            }
+            writer.push(row, point)?;
+        }
+    }
+    table.map_or(Ok(()), CsvTable::finish)?;
+    writer.finish()?;
+    Ok(report)
+}
+
+/// The case of one run as a text that `pounding run` takes, if it lies in the folder of
+/// the study's case.
+///
+/// # Errors
+/// [`StudyError::NoSuchRun`].
+pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
+    if run >= study.runs() {
+        return Err(StudyError::NoSuchRun {
+            run,
+            last: study.runs().saturating_sub(1),
+        });
+    }
+    Ok(Runner::text(study, &study.point(run)))
+}
+
+/// Whether a path can be the place of a result.
+///
+/// # Errors
+/// [`StudyError::ResultFile`] if it is a folder or a device, or the folder is not there.
+pub fn writable(path: &Path) -> Result<(), StudyError> {
+    let failed = |reason: String| StudyError::ResultFile {
+        what: "write",
+        path: path.to_owned(),
+        reason,
+    };
+    if path.exists() && !path.is_file() {
+        return Err(failed("it is not a regular file".to_owned()));
+    }
+    let folder = path
+        .parent()
+        .filter(|f| !f.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    let found = std::fs::metadata(folder).map_err(|e| failed(e.to_string()))?;
+    if found.is_dir() {
+        Ok(())
+    } else {
+        Err(failed("its folder is no folder".to_owned()))
+    }
+}

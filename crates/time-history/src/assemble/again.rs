@@ -1,0 +1,56 @@
+//! Assembly of many cases that have much in common: records are read once, and buildings
+//! keep what was computed of them.
+
+use std::sync::Arc;
+
+use pounding_case::Case;
+use pounding_ground_motion::Accelerogram;
+
+use super::{Assembly, building, ground, models, options, with_gaps};
+use crate::error::TimeHistoryError;
+use crate::options::RunOptions;
+use crate::system::System;
+
+/// Builds the system of a case under this motion, which is taken as it is: neither the
+/// record nor the scale of the case is looked at.
+///
+/// # Errors
+/// As [`crate::assemble`], but for the record.
+pub fn assemble_with_record(
+    case: &Case,
+    accelerogram: &Accelerogram,
+) -> Result<Assembly, TimeHistoryError> {
+    let buildings = case
+        .buildings
+        .iter()
+        .map(|b| building(case, b).map(Arc::new))
+        .collect::<Result<Vec<_>, _>>()?;
+    let models = models(case)?;
+    let options = options(case)?;
+    let system = System::new(buildings, ground(accelerogram));
+    let system = with_gaps(case, &models, system)?;
+    options.check(&system)?;
+    Ok(Assembly {
+        system,
+        options,
+        output_step: case.analysis.output_step,
+        accelerogram: accelerogram.clone(),
+    })
+}
+
+/// The gaps, the start and the options of a case on the buildings and the motion of
+/// `base`, a system made from a case with the same buildings. What depends on the
+/// buildings alone is computed once for all systems made this way, and results are, to
+/// the last bit, those of [`crate::assemble`].
+///
+/// # Errors
+/// What the case says of models, gaps or options cannot be.
+pub fn regap(case: &Case, base: &System) -> Result<(System, RunOptions), TimeHistoryError> {
+    let models = models(case)?;
+    let options = options(case)?;
+    let rest = vec![0.0; base.degrees_of_freedom()];
+    let alone = base.isolated().with_initial_state(&rest, &rest)?;
+    let system = with_gaps(case, &models, alone)?;
+    options.check(&system)?;
+    Ok((system, options))
+}

@@ -1,0 +1,24 @@
+//! The same buildings under another motion.
+
+use std::sync::Arc;
+
+use super::{GroundAcceleration, System};
+
+impl System {
+    /// The same buildings and gaps under another ground motion. With the same time step,
+    /// what depends on the buildings alone stays shared with this system.
+    #[must_use]
+    pub fn under(&self, ground: GroundAcceleration) -> Self {
+        // Constants of open flight belong to one time step.
+        let same_step = ground.time_step == self.ground.time_step;
+        Self {
+            free_flight: if same_step {
+                Arc::clone(&self.free_flight)
+            } else {
+                Arc::default()
+            },
+            ground,
+            ..self.clone()
+        }
+    }
+}

@@ -70,6 +70,8 @@ pub enum Command {
     Sweep(Box<SweepArguments>),
     /// Merge the results of all shards of a sweep
     Merge(MergeArguments),
+    /// Scale records to rising intensities: fragility, and the gap for a frequency
+    Ida(Box<IdaArguments>),
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions

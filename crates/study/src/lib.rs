@@ -12,6 +12,7 @@ pub mod gap_check;
 mod case_text;
 mod design;
 mod error;
+mod ida;
 mod parts;
 mod result_file;
 mod runs;
@@ -20,6 +21,7 @@ mod sweep;
 
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
+pub use ida::*;
 pub use result_file::{Coordinate, CsvTable, Description, ResultReader, merge};
 pub use runs::{Axis, Layout, Place, Quantity, RecordReport, Row};
 pub use study_file::{

@@ -63,3 +63,22 @@ pub struct MergeArguments {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Arguments of `ida`.
+#[derive(Debug, clap::Args)]
+pub struct IdaArguments {
+    /// Study file (TOML) with a part [ida]
+    pub study: PathBuf,
+    /// How it is run
+    #[command(flatten)]
+    pub running: RunningArguments,
+    /// Write the counts of every state at every intensity as a CSV table
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
+    /// Draw fragilities and frequencies into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+}

@@ -4,6 +4,7 @@ mod calibrate;
 mod check;
 mod compare;
 mod gap;
+mod ida;
 mod impact;
 mod models;
 mod motion;
@@ -39,6 +40,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Motion(command) => motion::motion(&command),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Merge(arguments) => sweep::merge(&arguments),
+        Command::Ida(arguments) => ida::ida(&arguments),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -1,0 +1,77 @@
+//! Fragility curves, demands against intensity, and frequency against gap, as SVG.
+
+use pounding_study::{FragilityFit, IdaReport, LimitResult};
+
+use crate::failure::Failure;
+use crate::plot::{Curve, Panel, figure};
+
+/// Points of a drawn curve.
+const POINTS: usize = 200;
+/// Curves of one panel that can still be told apart.
+const MOST: usize = 7;
+
+/// The picture.
+pub fn curves(report: &IdaReport) -> Result<String, Failure> {
+    let highest = report.levels.last().map_or(1.0, |l| l.intensity);
+    let horizontal = format!("{} ({})", report.measure, report.unit);
+    let panel = |caption: &str, curves: Vec<Curve>| Panel {
+        caption: caption.to_owned(),
+        horizontal: horizontal.clone(),
+        curves,
+    };
+    let states: Vec<&LimitResult> = report.limits.iter().collect();
+    let mut panels = vec![panel(
+        "Probability of a state: counts (broken lines) and fitted curves",
+        fragilities(&states, highest),
+    )];
+    for gap in &report.gaps {
+        let widths: Vec<&LimitResult> = gap.widths.iter().map(|w| &w.result).collect();
+        if !widths.is_empty() {
+            let caption = format!("Probability of pounding, {}, by width of the gap", gap.gap);
+            panels.push(panel(&caption, fragilities(&widths, highest)));
+        }
+        let frequencies: Vec<(f64, f64)> = gap
+            .widths
+            .iter()
+            .filter_map(|w| Some((w.width * 1e3, w.result.frequency?.log10())))
+            .collect();
+        if frequencies.len() > 1 {
+            panels.push(Panel {
+                caption: format!(
+                    "Mean annual frequency of pounding, {} (decimal logarithm)",
+                    gap.gap
+                ),
+                horizontal: "gap (mm)".to_owned(),
+                curves: vec![Curve {
+                    name: gap.gap.clone(),
+                    points: frequencies,
+                }],
+            });
+        }
+    }
+    figure(&panels)
+}
+
+/// Fitted curves with the fractions they were fitted to.
+fn fragilities(states: &[&LimitResult], highest: f64) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for state in states.iter().take(MOST) {
+        if let FragilityFit::Lognormal(f) = state.fit {
+            let at = |i: usize| highest * i as f64 / POINTS as f64;
+            curves.push(Curve {
+                name: state.name.clone(),
+                points: (0..=POINTS)
+                    .map(|i| (at(i), f.probability(at(i))))
+                    .collect(),
+            });
+        }
+        let fractions = state.counts.iter().filter(|c| c.runs > 0);
+        curves.push(Curve {
+            name: format!("{}, counts", state.name),
+            points: fractions
+                .map(|c| (c.intensity, c.reached as f64 / c.runs as f64))
+                .collect(),
+        });
+    }
+    curves
+}

@@ -1,0 +1,184 @@
+//! Tables of an incremental dynamic analysis.
+
+use comfy_table::{CellAlignment, Table};
+use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, PoundingDemand};
+
+/// The report for people.
+pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
+    let mut text = format!(
+        "\n{} in {}, {} records; 16, 50 and 84 % fractiles (SI)\n{}\n",
+        report.measure,
+        report.unit,
+        report.records,
+        levels(report)
+    );
+    text.push_str(&format!(
+        "\nFragility: lognormal, maximum likelihood; bounds at {} % confidence\n{}\n",
+        settings.confidence * 100.0,
+        limits(report, settings)
+    ));
+    for gap in &report.gaps {
+        text.push_str(&widths(gap, settings));
+    }
+    text
+}
+
+fn table(header: Vec<String>) -> Table {
+    let mut table = Table::new();
+    table.set_header(header);
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn levels(report: &IdaReport) -> Table {
+    let mut header = vec!["intensity".to_owned(), "runs".to_owned()];
+    if report.levels.iter().any(|l| l.failed > 0) {
+        header.push("failed".to_owned());
+    }
+    let with_failures = header.len() == 3;
+    header.extend(
+        report
+            .demands
+            .iter()
+            .map(|(name, unit)| match unit.as_str() {
+                "1" => name.clone(),
+                _ => format!("{name} ({unit})"),
+            }),
+    );
+    let mut table = table(header);
+    for level in &report.levels {
+        let mut cells = vec![digits(level.intensity), level.runs.to_string()];
+        if with_failures {
+            cells.push(level.failed.to_string());
+        }
+        cells.extend(level.fractiles.iter().map(|f| f.map(digits).join(" ")));
+        table.add_row(cells);
+    }
+    table
+}
+
+fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
+    let mut header = [
+        "state",
+        "reached of runs, by intensity",
+        "median",
+        "dispersion",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    if settings.hazard.is_some() {
+        header.push("mean annual frequency".to_owned());
+    }
+    let mut table = table(header);
+    for limit in &report.limits {
+        let mut cells = vec![limit.name.clone(), counts(limit)];
+        cells.extend(fitted(limit, settings.confidence));
+        if settings.hazard.is_some() {
+            cells.push(limit.frequency.map_or_else(|| "-".to_owned(), digits));
+        }
+        table.add_row(cells);
+    }
+    table
+}
+
+fn widths(gap: &PoundingDemand, settings: &IdaSettings) -> String {
+    let mut text = String::new();
+    if !gap.widths.is_empty() {
+        let mut header = [
+            "gap (mm)",
+            "pounding of runs, by intensity",
+            "median",
+            "dispersion",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        if settings.hazard.is_some() {
+            header.push("mean annual frequency".to_owned());
+        }
+        let mut table = table(header);
+        for width in &gap.widths {
+            let mut cells = vec![format!("{:.1}", width.width * 1e3), counts(&width.result)];
+            cells.extend(fitted(&width.result, settings.confidence));
+            if settings.hazard.is_some() {
+                cells.push(
+                    width
+                        .result
+                        .frequency
+                        .map_or_else(|| "-".to_owned(), digits),
+                );
+            }
+            table.add_row(cells);
+        }
+        text.push_str(&format!(
+            "\nPounding of {} by width of the gap\n{table}\n",
+            gap.gap
+        ));
+    }
+    if let (Some(minimum), Some(target)) = (gap.minimum, settings.target_frequency) {
+        text.push_str(&match minimum.width {
+            Some(width) => format!(
+                "Least gap of {} for a mean annual frequency of {}: {:.1} mm, with {}\n",
+                gap.gap,
+                digits(target),
+                width * 1e3,
+                digits(minimum.frequency)
+            ),
+            None => format!(
+                "The intensities do not reach far enough to find the gap of {} for a mean annual frequency of {}: the least that they can show is {}\n",
+                gap.gap,
+                digits(target),
+                digits(minimum.frequency)
+            ),
+        });
+    }
+    text
+}
+
+fn counts(limit: &LimitResult) -> String {
+    let shown = limit
+        .counts
+        .iter()
+        .map(|c| format!("{}/{}", c.reached, c.runs));
+    shown.collect::<Vec<_>>().join(" ")
+}
+
+/// Median and dispersion with their bounds, or why there are none.
+fn fitted(limit: &LimitResult, confidence: f64) -> [String; 2] {
+    let with = |value: f64, bounds: [f64; 2]| {
+        format!(
+            "{} ({}..{})",
+            digits(value),
+            digits(bounds[0]),
+            digits(bounds[1])
+        )
+    };
+    match limit.fit {
+        FragilityFit::Lognormal(f) => [
+            with(f.median, f.median_bounds(confidence)),
+            with(f.dispersion, f.dispersion_bounds(confidence)),
+        ],
+        FragilityFit::Step { lower, upper } if upper.is_finite() => [
+            format!("between {} and {}", digits(lower), digits(upper)),
+            "-".to_owned(),
+        ],
+        FragilityFit::Step { lower, .. } => [format!("above {}", digits(lower)), "-".to_owned()],
+        FragilityFit::Never { up_to } => [format!("above {}", digits(up_to)), "-".to_owned()],
+        FragilityFit::Always { from } => [format!("below {}", digits(from)), "-".to_owned()],
+        FragilityFit::None => ["none".to_owned(), "-".to_owned()],
+    }
+}
+
+/// Four significant digits.
+fn digits(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        format!("{x}")
+    } else if (1e-3..1e5).contains(&size) {
+        let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}

@@ -1,0 +1,315 @@
+//! The evaluation of an incremental dynamic analysis.
+
+use super::demands::{Demand, of_gap, of_limit, usual};
+use super::fragility::{Counts, FragilityFit, fit};
+use super::hazard::mean_annual_frequency;
+use crate::error::StudyError;
+use crate::result_file::ResultReader;
+use crate::study_file::{IdaSettings, Study, Value};
+
+/// Runs at one intensity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IntensityLevel {
+    /// Intensity (SI).
+    pub intensity: f64,
+    /// Runs that did not fail.
+    pub runs: usize,
+    /// Runs that failed; they count nowhere else.
+    pub failed: usize,
+    /// For each demand of the report its 16, 50 and 84 % fractiles over the records.
+    pub fractiles: Vec<[f64; 3]>,
+}
+
+/// A state, how often it was reached, and its fragility.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LimitResult {
+    /// Name of the state.
+    pub name: String,
+    /// Counts at every intensity.
+    pub counts: Vec<Counts>,
+    /// Lognormal fragility by maximum likelihood.
+    pub fit: FragilityFit,
+    /// Mean annual frequency (1/year), if there is a hazard curve and the counts give one.
+    pub frequency: Option<f64>,
+}
+
+/// Pounding at one width of a gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapResult {
+    /// Width (m).
+    pub width: f64,
+    /// How often the isolated buildings come closer than that.
+    pub result: LimitResult,
+}
+
+/// The least gap for a mean annual frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MinimumGap {
+    /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell.
+    pub width: Option<f64>,
+    /// Frequency of pounding at this width (1/year); without a width the least that the
+    /// analysis can show.
+    pub frequency: f64,
+}
+
+/// Pounding of one pair of neighbours by width of the gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoundingDemand {
+    /// Name of the gap.
+    pub gap: String,
+    /// Widths asked for.
+    pub widths: Vec<GapResult>,
+    /// Least width for the target frequency, if there is a target.
+    pub minimum: Option<MinimumGap>,
+}
+
+/// What an incremental dynamic analysis says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IdaReport {
+    /// The intensity measure, for people.
+    pub measure: String,
+    /// Its unit.
+    pub unit: String,
+    /// Number of records.
+    pub records: usize,
+    /// Names and units of the demands.
+    pub demands: Vec<(String, String)>,
+    /// The intensities, rising.
+    pub levels: Vec<IntensityLevel>,
+    /// Pounding at the widths of the case, then the states of the study.
+    pub limits: Vec<LimitResult>,
+    /// Pounding by width, for every gap of the case.
+    pub gaps: Vec<PoundingDemand>,
+}
+
+/// What is kept of a run.
+struct Run {
+    level: usize,
+    failed: bool,
+    demands: Vec<f64>,
+}
+
+/// Evaluates the result of a study with an `[ida]` part.
+///
+/// # Errors
+/// A study without that part, or a result that cannot be read or is not that of the study.
+pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, StudyError> {
+    let wrong = |reason: &str| StudyError::Evaluation {
+        what: "incremental dynamic analysis",
+        reason: reason.to_owned(),
+    };
+    let settings = study
+        .ida
+        .as_ref()
+        .ok_or_else(|| wrong("the study has no [ida]"))?;
+    if result.rows != study.runs() || result.description.coordinates.len() != study.variables.len()
+    {
+        return Err(wrong("the result is not that of the whole study"));
+    }
+    let layout = &result.description.layout;
+    let shown = usual(layout);
+    let limits: Vec<(Demand, f64)> = settings
+        .limits
+        .iter()
+        .map(|l| {
+            let building = l
+                .building
+                .map(|b| study.base.buildings[b].name.value.as_str());
+            (of_limit(layout, l, building), l.exceeds)
+        })
+        .collect();
+    let gaps: Vec<&str> = study.base.gaps.iter().map(|g| g.name.as_str()).collect();
+    let needs: Vec<Demand> = shown
+        .iter()
+        .cloned()
+        .chain(limits.iter().map(|(d, _)| d.clone()))
+        .chain(gaps.iter().map(|g| of_gap(layout, "isolated_demand", g)))
+        .chain(gaps.iter().map(|g| of_gap(layout, "impacts", g)))
+        .collect();
+    let mut intensities = intensities(study, settings);
+    intensities.sort_by(f64::total_cmp);
+    let runs = runs(result, settings, &needs, &intensities)?;
+    let evaluation = Evaluation {
+        settings,
+        intensities: &intensities,
+        runs: &runs,
+    };
+    let first_limit = shown.len();
+    let first_gap = first_limit + limits.len();
+    let first_impacts = first_gap + gaps.len();
+    let pounds = |r: &Run| r.demands[first_impacts..].iter().any(|n| *n > 0.0);
+    let mut results = vec![evaluation.limit("pounding at the gaps of the case", &pounds)];
+    for (i, (demand, exceeds)) in limits.iter().enumerate() {
+        results.push(evaluation.limit(&demand.name, &|r| r.demands[first_limit + i] > *exceeds));
+    }
+    let variable = &study.variables[settings.intensity];
+    Ok(IdaReport {
+        measure: settings.measure.title(),
+        unit: variable.unit.clone(),
+        records: study.variables[settings.record].values.count().unwrap_or(0),
+        demands: shown
+            .iter()
+            .map(|d| (d.name.clone(), d.unit.to_owned()))
+            .collect(),
+        levels: evaluation.levels(shown.len()),
+        limits: results,
+        gaps: gaps
+            .iter()
+            .enumerate()
+            .map(|(i, g)| evaluation.gap(g, first_gap + i))
+            .collect(),
+    })
+}
+
+fn intensities(study: &Study, settings: &IdaSettings) -> Vec<f64> {
+    let values = &study.variables[settings.intensity].values;
+    let number = |i| match values.at(i) {
+        Value::Number(x) => x,
+        Value::Choice(_) => f64::NAN,
+    };
+    (0..values.count().unwrap_or(0)).map(number).collect()
+}
+
+/// Rows of the result that are held at once.
+const BLOCK: usize = 1024;
+
+fn runs(
+    result: &ResultReader,
+    settings: &IdaSettings,
+    needs: &[Demand],
+    intensities: &[f64],
+) -> Result<Vec<Run>, StudyError> {
+    let mut runs = Vec::new();
+    for start in (0..result.rows).step_by(BLOCK) {
+        for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
+            let Value::Number(x) = point[settings.intensity] else {
+                continue;
+            };
+            runs.push(Run {
+                level: intensities.iter().position(|i| *i == x).unwrap_or(0),
+                failed: row.failure.is_some(),
+                demands: needs.iter().map(|d| d.of(&row.values)).collect(),
+            });
+        }
+    }
+    Ok(runs)
+}
+
+struct Evaluation<'a> {
+    settings: &'a IdaSettings,
+    intensities: &'a [f64],
+    runs: &'a [Run],
+}
+
+impl Evaluation<'_> {
+    fn at(&self, level: usize) -> impl Iterator<Item = &Run> {
+        self.runs
+            .iter()
+            .filter(move |r| r.level == level && !r.failed)
+    }
+
+    fn counts(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Counts> {
+        let mut counts: Vec<Counts> = self
+            .intensities
+            .iter()
+            .map(|intensity| Counts {
+                intensity: *intensity,
+                runs: 0,
+                reached: 0,
+            })
+            .collect();
+        for run in self.runs.iter().filter(|r| !r.failed) {
+            counts[run.level].runs += 1;
+            counts[run.level].reached += usize::from(reached(run));
+        }
+        counts
+    }
+
+    fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> LimitResult {
+        let counts = self.counts(reached);
+        let fit = fit(&counts);
+        let hazard = self.settings.hazard.as_ref();
+        LimitResult {
+            name: name.to_owned(),
+            frequency: hazard.and_then(|h| mean_annual_frequency(&fit, h)),
+            counts,
+            fit,
+        }
+    }
+
+    fn levels(&self, demands: usize) -> Vec<IntensityLevel> {
+        let level = |(level, intensity): (usize, &f64)| IntensityLevel {
+            intensity: *intensity,
+            runs: self.at(level).count(),
+            failed: self
+                .runs
+                .iter()
+                .filter(|r| r.level == level && r.failed)
+                .count(),
+            fractiles: (0..demands)
+                .map(|d| fractiles(self.at(level).map(|r| r.demands[d]).collect()))
+                .collect(),
+        };
+        self.intensities.iter().enumerate().map(level).collect()
+    }
+
+    fn gap(&self, name: &str, column: usize) -> PoundingDemand {
+        let at = |width: f64| GapResult {
+            width,
+            result: self.limit(&format!("{name} {width} m"), &|r| r.demands[column] > width),
+        };
+        PoundingDemand {
+            gap: name.to_owned(),
+            widths: self.settings.gaps.iter().map(|w| at(*w)).collect(),
+            minimum: self
+                .settings
+                .target_frequency
+                .and_then(|t| self.minimum(column, t)),
+        }
+    }
+
+    /// The least width from which on the frequency stays at or below the target. Counts
+    /// change only at the demands of the runs, which are looked at one by one, from the
+    /// greatest down.
+    fn minimum(&self, column: usize, target: f64) -> Option<MinimumGap> {
+        let hazard = self.settings.hazard.as_ref()?;
+        let mut demands: Vec<f64> = self
+            .runs
+            .iter()
+            .filter(|r| !r.failed)
+            .map(|r| r.demands[column])
+            .collect();
+        demands.sort_by(|a, b| b.total_cmp(a));
+        demands.dedup();
+        let mut best = None;
+        for width in demands {
+            let fit = fit(&self.counts(&|r| r.demands[column] > width));
+            let frequency = mean_annual_frequency(&fit, hazard).unwrap_or(f64::INFINITY);
+            if frequency > target {
+                return Some(best.unwrap_or(MinimumGap {
+                    width: None,
+                    frequency,
+                }));
+            }
+            best = Some(MinimumGap {
+                width: Some(width),
+                frequency,
+            });
+        }
+        best
+    }
+}
+
+/// The 16, 50 and 84 % fractiles, linear between ordered values; NaN without any.
+fn fractiles(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_by(f64::total_cmp);
+    [0.16, 0.5, 0.84].map(|p| {
+        let Some(last) = values.len().checked_sub(1) else {
+            return f64::NAN;
+        };
+        let place = p * last as f64;
+        let below = place.floor() as usize;
+        let above = (below + 1).min(last);
+        values[below] + (place - below as f64) * (values[above] - values[below])
+    })
+}

@@ -2,6 +2,7 @@
 
 mod compare;
 mod gap;
+mod hysteresis;
 mod impact;
 mod motion;
 mod study;
@@ -14,6 +15,7 @@ use clap_complete::Shell;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use gap::GapArguments;
+pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
 pub use motion::*;
 pub use study::*;
@@ -55,6 +57,8 @@ pub enum Command {
     },
     /// Let two bodies collide: what a model really returns
     Impact(Box<ImpactArguments>),
+    /// List the laws of storeys and links, show one, or drive it along deformations
+    Hysteresis(Box<HysteresisArguments>),
     /// Compute published results and compare
     Verify(VerifyArguments),
     /// Is the gap wide enough? Demand by simulation, by code, and what pounding does

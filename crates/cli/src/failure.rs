@@ -7,6 +7,7 @@ use pounding_case::CaseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
+use pounding_hysteresis::HysteresisError;
 use pounding_time_history::TimeHistoryError;
 
 /// Why a command did not succeed.
@@ -147,6 +148,16 @@ impl From<GapElementError> for Failure {
                 Self::Computation(plain(error.to_string(), error.help()))
             }
             _ => Self::input(error.to_string(), error.help()),
+        }
+    }
+}
+
+impl From<HysteresisError> for Failure {
+    fn from(error: HysteresisError) -> Self {
+        let help = error.help();
+        match error {
+            HysteresisError::Fit { .. } => Self::Computation(plain(error.to_string(), help)),
+            error => Self::input(error.to_string(), help),
         }
     }
 }

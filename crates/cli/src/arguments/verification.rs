@@ -2,6 +2,8 @@
 
 use clap::{Subcommand, ValueEnum};
 
+use super::VerifyHysteresisArguments;
+
 /// What `impact` does beside a collision.
 #[derive(Debug, Subcommand)]
 pub enum ImpactCommand {
@@ -53,6 +55,8 @@ pub struct VerifyArguments {
 pub enum VerifySubject {
     /// Compute what the publications on impact models print
     Impact(VerifyImpactArguments),
+    /// Compute what the publication on the six-parameter Iwan model prints and draws
+    Hysteresis(VerifyHysteresisArguments),
 }
 
 /// Arguments of `verify impact`.

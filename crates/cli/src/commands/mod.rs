@@ -4,6 +4,7 @@ mod calibrate;
 mod check;
 mod compare;
 mod gap;
+mod hysteresis;
 mod ida;
 mod impact;
 mod models;
@@ -35,6 +36,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         },
         Command::Gap(arguments) => gap::gap(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Hysteresis(arguments) => hysteresis::hysteresis(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command),

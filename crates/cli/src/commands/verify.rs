@@ -1,6 +1,7 @@
 //! `pounding verify`: published results, computed.
 
 mod borovin;
+mod hysteresis;
 mod papi;
 mod report;
 mod restitution;
@@ -18,6 +19,7 @@ use super::{pretty, print};
 pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     match &arguments.subject {
         VerifySubject::Impact(arguments) => impact(arguments),
+        VerifySubject::Hysteresis(arguments) => shown(&[hysteresis::part()?], arguments.json),
     }
 }
 
@@ -37,12 +39,16 @@ fn impact(arguments: &VerifyImpactArguments) -> Result<(), Failure> {
         .filter(|source| wanted(**source))
         .map(|source| part(*source))
         .collect::<Result<Vec<_>, _>>()?;
-    if arguments.json {
-        print(&pretty(&report::as_json(&parts)))?;
+    shown(&parts, arguments.json)
+}
+
+fn shown(parts: &[Part], json: bool) -> Result<(), Failure> {
+    if json {
+        print(&pretty(&report::as_json(parts)))?;
     } else {
-        print(&report::as_text(&parts))?;
+        print(&report::as_text(parts))?;
     }
-    if report::holds(&parts) {
+    if report::holds(parts) {
         Ok(())
     } else {
         Err(Failure::No)

@@ -8,7 +8,7 @@ use pounding_case::{Dimension, parse_quantity};
 use crate::failure::Failure;
 
 /// Two columns: rows of what they say.
-type Columns = Vec<String>;
+pub(in crate::commands) type Columns = Vec<String>;
 
 /// The two units: sizes in SI.
 #[derive(Clone, Copy, PartialEq)]
@@ -154,7 +154,7 @@ impl Source<'_> {
 }
 
 /// The fields of a line: separated by tab, semicolon, comma or else blanks.
-fn fields(line: &str) -> Columns {
+pub(in crate::commands) fn fields(line: &str) -> Columns {
     let Some(separator) = ['\t', ';', ','].into_iter().find(|s| line.contains(*s)) else {
         return blank_separated(line);
     };
@@ -180,12 +180,12 @@ fn blank_separated(line: &str) -> Columns {
 }
 
 /// Damaged values are still numbers to this question: their row is no header.
-fn looks_numeric(field: &str) -> bool {
+pub(in crate::commands) fn looks_numeric(field: &str) -> bool {
     field.parse::<f64>().is_ok() || field.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// `ms` in `time (ms)`, `time [ms]` and `time_ms`.
-fn unit_in(field: &str) -> Option<&str> {
+pub(in crate::commands) fn unit_in(field: &str) -> Option<&str> {
     if let Some((_, rest)) = field.split_once(['(', '[']) {
         return rest.split([')', ']']).next().map(str::trim);
     }

@@ -3,11 +3,11 @@
 mod against;
 mod chosen;
 mod collisions;
-mod curves;
-mod measured;
-mod numbers;
+pub(super) mod curves;
+pub(super) mod measured;
+pub(super) mod numbers;
 mod remarks;
-mod setting;
+pub(super) mod setting;
 mod table;
 
 use serde_json::{Value, json};

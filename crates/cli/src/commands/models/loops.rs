@@ -44,17 +44,22 @@ fn curve(shown: &Shown, size: Point) -> Curve {
         .chain(history.iter().map(|s| (depth(s.penetration), s.force)))
         .chain([(end, 0.0)])
         .collect();
+    let points = thinned(&points, size)
+        .into_iter()
+        .map(|(x, y)| (1.0e3 * x, 1.0e-3 * y))
+        .collect();
+    Curve { name, points }
+}
+
+/// The points of a curve that show where it is drawn so that `size` fills the figure.
+pub fn thinned(points: &[Point], size: Point) -> Vec<Point> {
     let pixels: Vec<Point> = points
         .iter()
         .map(|p| (p.0 / size.0 * EXTENT.0, p.1 / size.1 * EXTENT.1))
         .collect();
     let mut kept = vec![0];
     simplify(&pixels, 0, pixels.len() - 1, &mut kept);
-    let points = kept
-        .iter()
-        .map(|&i| (1.0e3 * points[i].0, 1.0e-3 * points[i].1))
-        .collect();
-    Curve { name, points }
+    kept.into_iter().map(|i| points[i]).collect()
 }
 
 /// The points after `first` up to `last` without which the curve would lie further

@@ -92,7 +92,7 @@ pub fn harmonic(law: &LawDescriptor, amplitudes: &[f64], steps: usize) -> Path {
 }
 
 /// A full cycle at each amplitude, from its positive peak back there; half a cycle leads
-/// from one peak to the next.
+/// from one peak to a higher one, a whole one to a lower one.
 fn full_cycles(law: &LawDescriptor, amplitudes: &[f64], pace: Pace, steps: usize) -> Path {
     let mut path = Path {
         steps: Vec::new(),
@@ -101,6 +101,11 @@ fn full_cycles(law: &LawDescriptor, amplitudes: &[f64], pace: Pace, steps: usize
     };
     let mut at = 0.0;
     for &amplitude in amplitudes {
+        // From a larger cycle by way of the far side, so that this one is closed as well.
+        if at > amplitude {
+            path.leg(law, (at, -amplitude), pace, steps);
+            at = -amplitude;
+        }
         path.leg(law, (at, amplitude), pace, steps);
         let before = path.steps.len();
         path.leg(law, (amplitude, -amplitude), pace, steps);
@@ -237,7 +242,7 @@ fn history(law: &LawDescriptor, source: &Source, speed: Option<f64>) -> Result<P
         description: "Cycles between turning points of the history".to_owned(),
     };
     path.follow(law, source, &rows, speed)?;
-    if path.steps.is_empty() {
+    if path.steps.iter().all(|s| s.motion.deformation == 0.0) {
         return Err(Failure::input(
             "the history does not move the element",
             Some("give it rows of deformations".to_owned()),

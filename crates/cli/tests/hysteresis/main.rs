@@ -1,0 +1,9 @@
+//! `pounding hysteresis` and `pounding verify hysteresis`.
+#![allow(clippy::unwrap_used)]
+
+mod laboratory;
+mod pages;
+mod refusals;
+#[path = "../support/mod.rs"]
+mod support;
+mod verify;

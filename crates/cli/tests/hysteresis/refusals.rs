@@ -1,0 +1,233 @@
+//! `pounding hysteresis` with bad input: refused with the reason, a remedy and the exit code.
+
+use crate::support;
+use std::path::Path;
+
+/// Exit code 2, nothing on standard output, and these words.
+fn refused(arguments: &str, wanted: &[&str]) {
+    fails(arguments, 2, wanted);
+}
+
+fn fails(arguments: &str, code: i32, wanted: &[&str]) {
+    let output = support::run("hysteresis", arguments);
+    let message = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(output.status.code(), Some(code), "{arguments}: {message}");
+    assert!(output.stdout.is_empty());
+    for part in wanted {
+        assert!(message.contains(part), "\"{part}\" is not in: {message}");
+    }
+}
+
+#[test]
+fn parameters_outside_their_range_are_refused_with_the_reason() {
+    refused(
+        "iwan_six_parameter --set phi_1=1mm --set phi_2=0.5mm --cycles 1mm",
+        &["phi_1 = 0.001 m to phi_2 = 0.0005 m", "below phi_2"],
+    );
+    refused(
+        "iwan_six_parameter --set phi_1=0.1mm --cycles 1mm",
+        &[
+            "from phi_1 = 0.0001 m to phi_2 = 0.0001 m",
+            "from the example of the card are",
+        ],
+    );
+    for exponent in ["-1", "-1.5"] {
+        refused(
+            &format!("iwan_six_parameter --set exponent={exponent} --set density=1 --cycles 1mm"),
+            &[
+                &format!("exponent = {exponent} is outside (-1, inf)"),
+                "above -1",
+            ],
+        );
+    }
+    for law in [
+        "bilinear",
+        "elastic_perfectly_plastic",
+        "takeda",
+        "bouc_wen",
+    ] {
+        refused(
+            &format!("{law} --set yield_force=0"),
+            &["yield_force = 0 is outside (0, inf)", "Force at which"],
+        );
+    }
+    // A fall as steep as the elastic rise.
+    refused(
+        "bilinear --set hardening_ratio=-1 --cycles 1mm",
+        &[
+            "hardening_ratio = -1 is outside (-1, 1)",
+            "no stable answer",
+        ],
+    );
+    refused(
+        "takeda --set hardening_ratio=-0.1 --cycles 1mm",
+        &["hardening_ratio = -0.1 is outside [0, 1)", "zero force"],
+    );
+}
+
+#[test]
+fn texts_and_units_are_checked() {
+    refused(
+        "bilinear --set yield_force=3MN/m --cycles 1mm",
+        &["`yield_force` of law bilinear must be a force (N), but \"3MN/m\" is a stiffness"],
+    );
+    refused(
+        "iwan_six_parameter --set density=2e6N/m^1.5 --cycles 1mm",
+        &["must be a contact stiffness (N/m^1.7)", "(N/m^1.5)"],
+    );
+    refused(
+        "viscous_damper --set damping=3e5N*s^0.5/m^0.5 --cycles 1mm",
+        &["`damping` of law viscous_damper must be a dashpot coefficient (N s/m)"],
+    );
+    refused(
+        "iwan_six_parameter --set exponent=-0.5 --cycles 1mm",
+        &["needs density", "the example's belongs to another exponent"],
+    );
+    refused(
+        "bilinear --set yield_force --cycles 1mm",
+        &["not KEY=VALUE"],
+    );
+    refused(
+        "bilinear --set yield=3kN --cycles 1mm",
+        &[
+            "no parameter \"yield\"",
+            "stiffness, yield_force, hardening_ratio",
+        ],
+    );
+    refused(
+        "bilinear --set yield_force=1kN --set yield_force=2kN --cycles 1mm",
+        &["yield_force is given twice"],
+    );
+    refused(
+        "billinear",
+        &[
+            "unknown hysteresis law \"billinear\"",
+            "did you mean \"bilinear\"?",
+        ],
+    );
+}
+
+#[test]
+fn motions_that_make_no_sense_are_refused() {
+    refused(
+        "bilinear --set yield_force=1kN",
+        &["nothing moves", "--cycles"],
+    );
+    refused("bilinear --cycles 0mm", &["--cycles", "greater than zero"]);
+    refused(
+        "bilinear --cycles 5kN",
+        &["must be a length (m)", "a force (N)"],
+    );
+    refused("bilinear --dissipation 1mm", &["wants two amplitudes"]);
+    refused("bilinear --dissipation 2mm,1mm", &["wants two amplitudes"]);
+    refused(
+        "bilinear --cycles 1mm --period 0s",
+        &["--period", "greater than zero"],
+    );
+    refused("bilinear --cycles 1mm --steps 0", &["--steps"]);
+    refused("--cycles 1mm", &["LAW"]);
+    refused(
+        "bilinear --cycles 1mm --csv a --svg a",
+        &["name the same file"],
+    );
+    refused("bilinear --cycles 1mm --history a.csv", &["--history"]);
+}
+
+fn file(folder: &Path, text: &str) -> String {
+    let path = folder.join("input.csv");
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn damaged_histories_are_refused_at_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let history = |law: &str, text: &str, wanted: &[&str]| {
+        let path = file(folder.path(), text);
+        refused(&format!("{law} --history {path}"), wanted);
+    };
+    history("bilinear", "", &["empty", "deformation_mm"]);
+    history(
+        "bilinear",
+        "0\n1\n",
+        &["units of the columns are not known"],
+    );
+    history(
+        "bilinear",
+        "x\n1\n",
+        &["unit of the deformation column is not known"],
+    );
+    history("bilinear", "x_kN\n1\n", &["\"kN\", which is a force (N)"]);
+    history(
+        "bilinear",
+        "x_mm\n1\nbad\n",
+        &["\"bad\" is not a finite number", "input.csv:3"],
+    );
+    history("bilinear", "x_mm\n1,2\n", &["number of columns here is 2"]);
+    history(
+        "bilinear",
+        "a_s,b_mm,c_mm\n",
+        &["number of columns here is 3"],
+    );
+    history("bilinear", "x_mm\n0\n0\n", &["does not move"]);
+    history(
+        "viscous_damper",
+        "x_mm\n0\n1\n",
+        &["depends on the rate", "--rate"],
+    );
+    history(
+        "bilinear",
+        "t_s,x_mm\n0,0\n0,1\n",
+        &["time does not increase", "input.csv:3"],
+    );
+    history(
+        "maxwell",
+        "t_s,x_mm\n0,5\n1,1\n",
+        &["begins with a deformation"],
+    );
+    let path = file(folder.path(), "t_s,x_mm\n0,0\n1,1\n");
+    refused(
+        &format!("bilinear --history {path} --rate 1mm/s"),
+        &["contradicts the times"],
+    );
+    refused(
+        &format!("bilinear --history {path} --period 1s"),
+        &["--period does not go"],
+    );
+    refused(
+        "bilinear --history nowhere.csv",
+        &["cannot read nowhere.csv"],
+    );
+}
+
+#[test]
+fn curves_that_cannot_be_fitted_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(folder.path(), "a_mm,d_J\n1,1\n2,2\n3,3\n");
+    let command = format!("iwan_six_parameter --fit {path}");
+    refused(&command, &["3 rows of numbers for 4 unknowns"]);
+    refused(
+        &format!("bilinear --fit {path}"),
+        &["does not know law bilinear"],
+    );
+    let path = file(folder.path(), "a_mm,d_J\n1,1\n2,0\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &["greater than zero", "input.csv:3"],
+    );
+    let path = file(folder.path(), "a_mm,d_kN\n1,1\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &["dissipation column is in \"kN\""],
+    );
+}
+
+#[test]
+fn output_that_cannot_be_written_is_told_apart() {
+    fails(
+        "bilinear --cycles 1mm --csv /nowhere/at/all.csv",
+        4,
+        &["cannot write"],
+    );
+}

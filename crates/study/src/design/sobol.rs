@@ -125,7 +125,7 @@ mod tests {
         for seed in [None, Some(9)] {
             for wide in 0..=6 {
                 let (columns, rows) = (1_usize << wide, 1_usize << (6 - wide));
-                let mut seen = vec![false; 64];
+                let mut seen = [false; 64];
                 for run in 0..64 {
                     let x = (coordinate(run, 0, seed) * columns as f64) as usize;
                     let y = (coordinate(run, 1, seed) * rows as f64) as usize;

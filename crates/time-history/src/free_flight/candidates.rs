@@ -170,7 +170,9 @@ impl Candidates {
         let snapshot = &self.snapshots[first.snapshot];
         let before = &samples[snapshot.sample..=sample];
         block::advance(constants, &snapshot.state, before, &mut self.scratch);
-        self.look.begin(&self.scratch);
+        let alive = group.iter().filter(|c| is_above(c, tracks));
+        let functions = alive.map(|c| (c.quantity, c.floor));
+        self.look.begin(&self.scratch, functions);
         let (start, end) = (samples[sample], samples[sample + 1]);
         let fine = &constants.fine;
         for part in 0..fine.parts {

@@ -3,7 +3,7 @@
 
 use super::candidates::Quantity;
 use super::constants::{Fine, FreeFlight};
-use super::lanes::{Ground, Lane, Modal, WIDTH, restoring, transform};
+use super::lanes::{Ground, Lane, Modal, WIDTH, restoring, transform_four};
 use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
@@ -23,8 +23,10 @@ pub(super) struct CloserLook {
     start: Point,
     end: Point,
     step: f64,
-    modal: Vec<Lane>,
+    modal: [Vec<Lane>; 4],
     fresh: bool,
+    /// Lanes of floors whose displacements, or accelerations, are asked for.
+    wanted: [Vec<bool>; 2],
 }
 
 impl Point {
@@ -40,7 +42,7 @@ impl Point {
 
     /// Derivatives from displacements and velocities of the modes by the equation of
     /// motion and its derivatives.
-    fn derive(&mut self, constants: &FreeFlight, ground: f64, slope: f64) {
+    fn derive(&mut self, constants: &FreeFlight, (ground, slope): (f64, f64), wanted: &[bool]) {
         for (c, m) in constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let (damping, gamma) = (m.damping[l], m.participation[l]);
@@ -53,21 +55,28 @@ impl Point {
                 self.modes[4][c][l] = -damping * third - stiffness * second;
             }
         }
-        for (modes, floors) in self.modes.iter().zip(&mut self.floors) {
-            transform(&constants.shapes, modes, floors);
-        }
+        let [a, b, c, d, _] = &self.modes;
+        let floors = &mut self.floors;
+        transform_four(&constants.shapes, [a, b, c, d], floors, wanted);
         self.absolute_known = false;
     }
 
-    fn derive_absolute(&mut self, constants: &FreeFlight, modal: &mut [Lane]) {
+    fn derive_absolute(
+        &mut self,
+        constants: &FreeFlight,
+        modal: &mut [Vec<Lane>; 4],
+        wanted: &[bool],
+    ) {
         if self.absolute_known {
             return;
         }
         for k in 0..4 {
             let (q, p) = (&self.modes[k], &self.modes[k + 1]);
-            restoring(&constants.modes, q, p, modal);
-            transform(&constants.shapes, modal, &mut self.absolute[k]);
+            restoring(&constants.modes, q, p, &mut modal[k]);
         }
+        let [a, b, c, d] = &*modal;
+        let floors = &mut self.absolute;
+        transform_four(&constants.shapes, [a, b, c, d], floors, wanted);
         self.absolute_known = true;
     }
 }
@@ -78,13 +87,31 @@ impl CloserLook {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
-            modal: vec![Lane::ZERO; lanes],
+            modal: std::array::from_fn(|_| vec![Lane::ZERO; lanes]),
             fresh: false,
+            wanted: [vec![false; lanes], vec![false; lanes]],
         }
     }
 
-    /// Begins at a modal state.
-    pub(super) fn begin(&mut self, modal: &Modal) {
+    /// Begins at a modal state, to look at these functions of floors.
+    pub(super) fn begin(
+        &mut self,
+        modal: &Modal,
+        functions: impl Iterator<Item = (Quantity, usize)>,
+    ) {
+        let [floors, absolute] = &mut self.wanted;
+        floors.fill(false);
+        absolute.fill(false);
+        for (quantity, floor) in functions {
+            match quantity {
+                Quantity::Displacement => floors[floor / WIDTH] = true,
+                Quantity::Drift => {
+                    floors[floor / WIDTH] = true;
+                    floors[floor.saturating_sub(1) / WIDTH] = true;
+                }
+                Quantity::Acceleration => absolute[floor / WIDTH] = true,
+            }
+        }
         self.end.modes[0].copy_from_slice(&modal.displacement);
         self.end.modes[1].copy_from_slice(&modal.velocity);
         self.fresh = true;
@@ -93,7 +120,8 @@ impl CloserLook {
     /// Goes on by one fine step.
     pub(super) fn advance(&mut self, constants: &FreeFlight, fine: &Fine, ground: Ground) {
         if self.fresh {
-            self.end.derive(constants, ground.start, ground.slope);
+            let load = (ground.start, ground.slope);
+            self.end.derive(constants, load, &self.wanted[0]);
             self.fresh = false;
         }
         std::mem::swap(&mut self.start, &mut self.end);
@@ -105,7 +133,8 @@ impl CloserLook {
             );
             (self.end.modes[0][c], self.end.modes[1][c]) = (q, p);
         }
-        self.end.derive(constants, ground.end, ground.slope);
+        let load = (ground.end, ground.slope);
+        self.end.derive(constants, load, &self.wanted[0]);
         self.step = fine.step;
     }
 
@@ -142,8 +171,9 @@ impl CloserLook {
                 }
             }
             Quantity::Acceleration => {
-                self.start.derive_absolute(constants, &mut self.modal);
-                self.end.derive_absolute(constants, &mut self.modal);
+                let (modal, wanted) = (&mut self.modal, &self.wanted[1]);
+                self.start.derive_absolute(constants, modal, wanted);
+                self.end.derive_absolute(constants, modal, wanted);
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
                 septic(at(&self.start), at(&self.end))
             }

@@ -128,6 +128,38 @@ fn the_case_files_of_the_pages_are_accepted() {
     assert!(storeys >= 15, "{storeys}");
 }
 
+/// The case of the guide is accepted, and its commands that need no file run.
+#[test]
+fn the_guide_says_what_works() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let guide = read(&committed().join(".."), "hysteresis.md");
+    let motion = committed().join("../../ground_motions/el_centro_1940_ns.csv");
+    let motion = motion.canonicalize().unwrap();
+    let case = blocks(&guide, "toml")[0];
+    std::fs::write(&file, format!("{case}[ground_motion]\nfile = {motion:?}\n")).unwrap();
+    let shown = succeeds(pounding().arg("check").arg(&file), "guide");
+    for part in [
+        "storey 2: law bilinear",
+        "P-Delta",
+        "Link dampers",
+        "viscous_damper",
+    ] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    let commands = guide
+        .lines()
+        .filter(|l| l.starts_with("    pounding hysteresis"));
+    let mut run = 0;
+    for line in commands.filter(|l| !l.contains("measured.csv")) {
+        let mut command = pounding();
+        command.args(&words(line)[1..]).current_dir(folder.path());
+        succeeds(&mut command, line);
+        run += 1;
+    }
+    assert_eq!(run, 2);
+}
+
 /// Words of a line as a shell takes them apart, quotes being double.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];

@@ -228,6 +228,39 @@ fn a_history_is_followed_row_by_row() {
     assert!(std::fs::read_to_string(&figure).unwrap().contains("</svg>"));
 }
 
+/// A cycle of a history is closed: of a growing one it ends where it passes its start, of a
+/// dying one there is none, a measured one may miss by a little.
+#[test]
+fn cycles_of_a_history_are_closed() {
+    let folder = tempfile::tempdir().unwrap();
+    let cycles = |rows: &str| {
+        let rows = rows.replace(' ', "\n");
+        let file = write(
+            folder.path(),
+            "rows.csv",
+            &format!("deformation_mm\n{rows}\n"),
+        );
+        let law = "elastic_perfectly_plastic --set stiffness=20MN/m --set yield_force=200kN";
+        let result = json(&format!("{law} --history {file}"));
+        result["loop"]["cycles"].as_array().unwrap().clone()
+    };
+    let growing = cycles("0 20 -20 43.21 -43.21 50 48");
+    assert_eq!(growing.len(), 2);
+    for (cycle, amplitude) in growing.iter().zip([0.02, 0.04321]) {
+        close(&cycle["greatest_deformation"], amplitude, 1.0e-12);
+        close(
+            &cycle["dissipated"],
+            4.0 * 2.0e5 * (amplitude - 0.01),
+            1.0e-9,
+        );
+        close(&cycle["secant_stiffness"], 2.0e5 / amplitude, 1.0e-9);
+    }
+    assert!(cycles("0 30 -25 20 -15 10 -5").is_empty());
+    let measured = cycles("0 30 -30 29.9 -30");
+    assert_eq!(measured.len(), 1);
+    close(&measured[0]["dissipated"], 2.0e5 * (0.04 + 0.0399), 1.0e-9);
+}
+
 #[test]
 fn times_of_a_history_give_its_rate() {
     let folder = tempfile::tempdir().unwrap();

@@ -38,6 +38,8 @@ enum Pace {
     Steady(f64),
 }
 
+/// Part of its range by which a cycle of a measured history may fail to close.
+const NEARLY: f64 = 0.01;
 /// Pieces of the whole range of a history between its rows.
 const PIECES: f64 = 400.0;
 
@@ -175,36 +177,64 @@ impl Path {
         }
     }
 
-    /// Cycles between turning points of a history, not overlapping.
-    fn find_cycles(&mut self) {
-        let at = |i: usize| self.steps[i].motion.deformation;
-        let mut turning: Vec<usize> = Vec::new();
+    /// Deformation after this number of steps (m).
+    fn position(&self, taken: usize) -> f64 {
+        let last = taken.checked_sub(1).and_then(|i| self.steps.get(i));
+        last.map_or(0.0, |step| step.motion.deformation)
+    }
+
+    /// Turning points by the number of steps taken, and the end.
+    fn turning_points(&self) -> Vec<usize> {
+        let mut turning = Vec::new();
         let mut direction = 0.0_f64;
-        let mut from = 0.0;
-        for i in 0..self.steps.len() {
-            let way = at(i) - from;
+        for taken in 0..self.steps.len() {
+            let way = self.position(taken + 1) - self.position(taken);
             if way * direction < 0.0 {
-                turning.push(i);
+                turning.push(taken);
             }
             if way != 0.0 {
                 direction = way.signum();
             }
-            from = at(i);
         }
-        // Turning points by the number of steps taken; the end counts where it closes.
-        let position = |taken: usize| taken.checked_sub(1).map_or(0.0, at);
         turning.push(self.steps.len());
-        let mut cycles = Vec::new();
+        turning
+    }
+
+    /// Cycles of a history, not overlapping: from a turning point over the next one back to
+    /// the same deformation, or nearly there.
+    fn find_cycles(&mut self) {
+        let mut turning = self.turning_points();
         let mut first = 0;
-        while let Some([before, turn, after]) = turning.get(first..first + 3) {
-            let (start, far, end) = (position(*before), position(*turn), position(*after));
-            let range = start - far;
-            if (end - start) * range.signum() > -1.0e-9 * range.abs() || first + 3 < turning.len() {
-                cycles.push([*before, *turn, *after]);
+        while let Some(&[before, turn, next]) = turning.get(first..first + 3) {
+            let (start, far) = (self.position(before), self.position(turn));
+            let (side, range) = ((start - far).signum(), (start - far).abs());
+            let left = |path: &Self, taken| side * (start - path.position(taken));
+            if left(self, next) > NEARLY * range {
+                first += 1;
+                continue;
             }
+            let back = (turn..=next).find(|k| left(self, *k) <= 0.0);
+            let after = back.unwrap_or(next);
+            if left(self, after) < 0.0 {
+                self.divide(after - 1, start);
+                turning.iter_mut().skip(first + 2).for_each(|t| *t += 1);
+            }
+            self.cycles.push([before, turn, after]);
             first += 2;
         }
-        self.cycles = cycles;
+    }
+
+    /// Divides a step where it passes this deformation.
+    fn divide(&mut self, index: usize, deformation: f64) {
+        let (from, step) = (self.position(index), self.steps[index]);
+        let share = (deformation - from) / (step.motion.deformation - from);
+        self.steps[index].duration *= 1.0 - share;
+        let motion = Motion {
+            deformation,
+            ..step.motion
+        };
+        let duration = share * step.duration;
+        self.steps.insert(index, Step { motion, duration });
     }
 }
 
@@ -239,7 +269,8 @@ fn history(law: &LawDescriptor, source: &Source, speed: Option<f64>) -> Result<P
     let mut path = Path {
         steps: Vec::new(),
         cycles: Vec::new(),
-        description: "Cycles between turning points of the history".to_owned(),
+        description: "Cycles of the history, from a turning point back to its deformation"
+            .to_owned(),
     };
     path.follow(law, source, &rows, speed)?;
     if path.steps.iter().all(|s| s.motion.deformation == 0.0) {

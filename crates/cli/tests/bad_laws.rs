@@ -119,6 +119,11 @@ fn laws_of_storeys() {
         "",
         &["[[link]]"],
     );
+    refused(
+        "law = { model = \"maxwell\", damping = 1e5 }",
+        "",
+        &["carries no lasting load", "link"],
+    );
 }
 
 #[test]

@@ -146,6 +146,14 @@ impl ShearBuilding {
             let Some(StoreyLaw { law, .. }) = law else {
                 continue;
             };
+            if law.descriptor().rate_dependent {
+                return Err(ShearBuildingError::Law {
+                    building: self.name,
+                    storey: i + 1,
+                    law: law.descriptor().name,
+                    reason: "its force depends on the speed, so that it carries no lasting load: make it a link, beside a storey that stands".to_owned(),
+                });
+            }
             let (initial, elastic) = (law.initial_stiffness(), self.stiffness[i]);
             if !((initial - elastic).abs() <= SAME_STIFFNESS * elastic) {
                 return Err(ShearBuildingError::Law {

@@ -22,6 +22,8 @@ pub(crate) struct EventDriven {
     /// Circular frequency of the stiffest closed contact (rad/s).
     contact: f64,
     by_series: bool,
+    /// Whether no storey and no link has a memory.
+    linear: bool,
     /// Whether the next step can be a Taylor series.
     affine: bool,
 }
@@ -34,6 +36,7 @@ impl EventDriven {
             fastest: fastest_rate(system.buildings()),
             contact: 0.0,
             by_series: false,
+            linear: system.elements().is_empty(),
             affine: true,
         }
     }
@@ -61,7 +64,11 @@ impl Method for EventDriven {
     fn information(&self) -> Information {
         Information {
             name: "event_driven",
-            title: "event-driven, exact between impacts",
+            title: if self.linear {
+                "event-driven, exact between impacts"
+            } else {
+                "event-driven, adaptive Runge-Kutta 8(5,3) between events"
+            },
             order: pounding_runge_kutta::ORDER,
             implicit: false,
             adaptive: true,
@@ -135,6 +142,6 @@ impl Method for EventDriven {
     }
 
     fn flies(&self) -> bool {
-        true
+        self.linear
     }
 }

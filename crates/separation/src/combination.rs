@@ -91,22 +91,35 @@ impl CombinationRule {
 ///
 /// Source: Der Kiureghian, Earthquake Engineering and Structural Dynamics 8 (1980) 419,
 /// as used by Jeng, Kasai and Maison 1992. A variant with `xA + xB r` is in print; it
-/// gives the coefficient of the pair with exchanged damping.
+/// gives the coefficient of the pair with exchanged damping. Undamped oscillators have the
+/// limits of the formula: no correlation, and 1 for equal periods and dampings that vanish
+/// alike.
 ///
 /// # Errors
-/// A period or damping ratio that is not positive and finite.
+/// A period that is not positive and finite, a damping ratio that is negative or not
+/// finite.
 pub fn correlation_coefficient(a: Oscillator, b: Oscillator) -> Result<f64, SeparationError> {
-    for (quantity, value) in [
-        ("period", a.period),
-        ("period", b.period),
-        ("damping ratio", a.damping_ratio),
-        ("damping ratio", b.damping_ratio),
+    for (quantity, value, allowed, range) in [
+        ("period", a.period, a.period > 0.0, "(0, inf)"),
+        ("period", b.period, b.period > 0.0, "(0, inf)"),
+        (
+            "damping ratio",
+            a.damping_ratio,
+            a.damping_ratio >= 0.0,
+            "[0, inf)",
+        ),
+        (
+            "damping ratio",
+            b.damping_ratio,
+            b.damping_ratio >= 0.0,
+            "[0, inf)",
+        ),
     ] {
-        if !(value.is_finite() && value > 0.0) {
+        if !(value.is_finite() && allowed) {
             return Err(SeparationError::OutOfRange {
                 quantity,
                 value,
-                range: "(0, inf)",
+                range,
             });
         }
     }
@@ -115,6 +128,9 @@ pub fn correlation_coefficient(a: Oscillator, b: Oscillator) -> Result<f64, Sepa
     let above = 8.0 * (xa * xb).sqrt() * (xb + xa * r) * r * r.sqrt();
     let below =
         (1.0 - r2).powi(2) + 4.0 * xa * xb * (1.0 + r2) * r + 4.0 * (xa * xa + xb * xb) * r2;
+    if below == 0.0 {
+        return Ok(1.0);
+    }
     Ok(above / below)
 }
 
@@ -183,11 +199,20 @@ mod tests {
 
     #[test]
     fn oscillators_out_of_range() {
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let good = oscillator(1.0, 0.05);
+        let good = oscillator(1.0, 0.05);
+        assert!(correlation_coefficient(oscillator(0.0, 0.05), good).is_err());
+        for bad in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(correlation_coefficient(oscillator(bad, 0.05), good).is_err());
             assert!(correlation_coefficient(good, oscillator(1.0, bad)).is_err());
         }
+    }
+
+    #[test]
+    fn undamped_oscillators() {
+        assert_eq!(rho(1.0, 0.5, 0.0, 0.0), 0.0);
+        assert_eq!(rho(1.0, 0.5, 0.0, 0.05), 0.0);
+        assert_eq!(rho(1.0, 1.0, 0.0, 0.0), 1.0);
+        assert!((rho(1.0, 1.0, 1.0e-6, 1.0e-6) - 1.0).abs() < 1.0e-12);
     }
 
     proptest! {

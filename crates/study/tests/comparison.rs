@@ -178,13 +178,40 @@ fn failures_are_recorded() {
     let error = compare(&case, &records, &asked, &|_, _| {}).unwrap_err();
     assert!(error.help().unwrap().contains("jankowski_2005"));
     asked.restitution_rule = RestitutionRule::Exact;
+    // Without another parameter its relation leads no lower than this.
     asked.restitution = Some(1.0e-3);
     asked.models = vec![
-        "hunt_crossley_1975".to_owned(),
+        "muthukumar_2003".to_owned(),
         "exact_hunt_crossley".to_owned(),
     ];
     let c = compare(&case, &records, &asked, &|_, _| {}).unwrap();
     let diagnosis = c.models[0].diagnosis().unwrap();
     assert!(diagnosis.contains("returns"), "{diagnosis}");
     assert!(c.models[1].is_complete(), "{:?}", c.models[1].diagnosis());
+}
+
+/// Models of one class, exponent and damping in both phases differ in their relations
+/// alone: returned exactly, they are one law.
+#[test]
+fn exact_relations_make_one_law() {
+    let case = case("exact_hunt_crossley", "2.75e9 N/m^1.5");
+    let mut asked = options(&[
+        "exact_hunt_crossley",
+        "hunt_crossley_1975",
+        "lankarani_nikravesh_1990",
+        "gharib_hurmuzlu_2012",
+        "ye_li_zhu_2009",
+    ]);
+    asked.restitution_rule = RestitutionRule::Exact;
+    let c = compared(&case, &asked);
+    for (quantity, spread) in c.quantities.iter().zip(&c.spreads) {
+        let between = spread.between_models;
+        assert!(between < 1.0e-5, "{}: {between:e}", quantity.label());
+    }
+    asked.restitution_rule = RestitutionRule::AsPublished;
+    let published = compared(&case, &asked);
+    assert!(
+        published.spreads[0].between_models > 0.1,
+        "the relations differ"
+    );
 }

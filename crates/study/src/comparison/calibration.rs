@@ -3,34 +3,13 @@
 use std::sync::Arc;
 
 use pounding_case::Case;
-use pounding_gap_element::contact_stiffness::{Approach, duration, penetration};
 use pounding_gap_element::{
     Bodies, GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit, collide,
     registry,
 };
 
+use super::stiffness::{StiffnessRule, stiffness};
 use crate::gap_check::CheckError;
-
-/// How the stiffness of a law follows from that of the gap's own. Laws of one exponent
-/// have one stiffness; between exponents a reference collision decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StiffnessRule {
-    /// The elastic laws penetrate equally deep in the reference collision.
-    Penetration,
-    /// The elastic laws stay in contact equally long in the reference collision.
-    Duration,
-}
-
-impl StiffnessRule {
-    /// Name in arguments and tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Penetration => "penetration",
-            Self::Duration => "duration",
-        }
-    }
-}
 
 /// What a model is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -155,46 +134,6 @@ pub(super) fn own_restitution(
     })
 }
 
-/// A stiffness for the exponent that is like the gap's own.
-fn stiffness(
-    reference: &ReferenceCollision,
-    rule: StiffnessRule,
-    exponent: f64,
-) -> Result<f64, String> {
-    if exponent == reference.exponent {
-        return Ok(reference.stiffness);
-    }
-    let approach = Approach {
-        velocity: reference.approach_velocity,
-        effective_mass: reference.effective_mass,
-    };
-    let n = reference.exponent;
-    // (n + 1) m v^2 / (2 k) is the power n + 1 of the elastic penetration.
-    let energy = approach.effective_mass * approach.velocity * approach.velocity;
-    let depth = (0.5 * (n + 1.0) * energy / reference.stiffness).powf(1.0 / (n + 1.0));
-    let found = match rule {
-        StiffnessRule::Penetration => penetration(depth, exponent, approach, None, None),
-        StiffnessRule::Duration => {
-            // The contact time is proportional to the penetration: that of any stiffness
-            // of the law gives the factor.
-            let time = duration_of(n, depth, approach)?;
-            duration(time, exponent, approach, None)
-        }
-    };
-    found.map(|s| s.value).map_err(|e| e.to_string())
-}
-
-/// Contact time (s) of the elastic law of this exponent and penetration (m): the time for
-/// which [`duration`] gives back the stiffness of that penetration.
-fn duration_of(exponent: f64, depth: f64, approach: Approach) -> Result<f64, String> {
-    let text = |e: pounding_gap_element::contact_stiffness::ContactStiffnessError| e.to_string();
-    let wanted = penetration(depth, exponent, approach, None, None).map_err(text)?;
-    let trial = depth / approach.velocity;
-    let other = duration(trial, exponent, approach, None).map_err(text)?;
-    // k is proportional to T^-(n + 1) at one velocity.
-    Ok(trial * (other.value / wanted.value).powf(1.0 / (exponent + 1.0)))
-}
-
 /// Calibrates a model for one gap.
 pub(super) fn calibrated(
     descriptor: &'static ModelDescriptor,
@@ -233,7 +172,7 @@ pub(super) fn calibrated(
         .into_iter()
         .find(|name| calibrated.parameters.values.contains_key(*name));
     if asks && rules.1 == RestitutionRule::Exact && (free - wanted).abs() > 1.0e-9 {
-        solve(&mut calibrated, reference, "restitution", (1.0e-3, 1.0))?;
+        exactly(&mut calibrated, reference)?;
     } else if let (false, Some(name)) = (asks, damping) {
         let about = calibrated.parameters.values[name];
         solve(
@@ -248,6 +187,30 @@ pub(super) fn calibrated(
         calibrated.notes.push(note);
     }
     Ok(calibrated)
+}
+
+/// Makes the reference collision return what is wanted: by asking for another
+/// restitution, or, where the model's relation never leads there, by its damping.
+fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> Result<(), String> {
+    let Err(reason) = solve(calibrated, reference, "restitution", (1.0e-3, 1.0)) else {
+        return Ok(());
+    };
+    let parameters = calibrated.descriptor.parameters;
+    let raw = ["damping_factor", "damping_ratio", "friction"];
+    let Some(raw) = raw
+        .into_iter()
+        .find(|r| parameters.iter().any(|p| p.name == *r))
+    else {
+        return Err(reason);
+    };
+    calibrated.parameters.values.remove("restitution");
+    let greatest = if raw == "friction" {
+        1.0 - 1.0e-9
+    } else {
+        1.0e3
+    };
+    solve(calibrated, reference, raw, (1.0e-6, greatest))
+        .map_err(|other| format!("{reason}; {other}"))
 }
 
 /// Finds the parameter with which the reference collision returns what is wanted, by
@@ -317,41 +280,6 @@ mod tests {
             exponent,
             restitution: 0.65,
         }
-    }
-
-    /// Collisions of the elastic laws, integrated: equal depth and equal time.
-    #[test]
-    fn elastic_laws_alike() {
-        let from = reference(1.5, 2.75e9);
-        let bodies = Bodies {
-            mass_left: from.effective_mass,
-            mass_right: None,
-            velocity_left: from.approach_velocity,
-            velocity_right: 0.0,
-        };
-        let collision = |name: &str, stiffness: f64| {
-            let parameters = ModelParameters::from_pairs(&[("stiffness", stiffness)]);
-            collide(
-                registry::build(name, &parameters).unwrap().as_ref(),
-                &bodies,
-            )
-            .unwrap()
-        };
-        let hertz = collision("hertz_1882", from.stiffness);
-        let deep = stiffness(&from, StiffnessRule::Penetration, 1.0).unwrap();
-        let long = stiffness(&from, StiffnessRule::Duration, 1.0).unwrap();
-        let (deep, long) = (
-            collision("linear_elastic", deep),
-            collision("linear_elastic", long),
-        );
-        assert!((deep.peak_penetration / hertz.peak_penetration - 1.0).abs() < 1.0e-8);
-        assert!((long.duration / hertz.duration - 1.0).abs() < 1.0e-8);
-        assert!(
-            (deep.duration / hertz.duration - 1.0).abs() > 1.0e-2,
-            "not both at once"
-        );
-        let same = stiffness(&from, StiffnessRule::Duration, 1.5).unwrap();
-        assert_eq!(same, from.stiffness);
     }
 
     /// Exact: what the reference collision returns is what was asked for, checked by

@@ -5,11 +5,13 @@ mod calibration;
 mod conclusions;
 mod quantities;
 mod spread;
+mod stiffness;
 
-pub use calibration::{CalibratedModel, ReferenceCollision, RestitutionRule, StiffnessRule};
+pub use calibration::{CalibratedModel, ReferenceCollision, RestitutionRule};
 pub use conclusions::{Conclusion, Holds};
 pub use quantities::{Quantity, QuantityKind};
 pub use spread::{Ranking, Spread};
+pub use stiffness::StiffnessRule;
 
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ pub struct Spread {
     /// The same between records, root mean square over models (-); NaN with one record.
     pub between_records: f64,
     /// Greatest over smallest value between models, of the record where that is greatest
-    /// (-); NaN where a smallest value is zero.
+    /// (-); NaN where a smallest value is zero, or zero but for round-off.
     pub greatest_ratio: f64,
 }
 
@@ -24,6 +24,9 @@ pub struct Ranking {
     /// ranks; NaN with one record or one model.
     pub concordance: f64,
 }
+
+/// Part of the greatest value below which another is zero but for round-off.
+const ROUND_OFF: f64 = 1.0e-9;
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
@@ -63,7 +66,8 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     let ratio = |column: &Vec<f64>| {
         let low = column.iter().copied().fold(f64::INFINITY, f64::min);
         let high = column.iter().copied().fold(0.0, f64::max);
-        (column.len() > 1 && low > 0.0).then(|| high / low)
+        // What round-off leaves of a zero is no value to divide by.
+        (column.len() > 1 && low > ROUND_OFF * high).then(|| high / low)
     };
     Spread {
         between_models: root_mean_square(columns.iter().filter_map(|c| variation(c))),
@@ -147,6 +151,16 @@ mod tests {
         assert!((s.between_models - 0.5_f64.sqrt()).abs() < 1.0e-15);
         assert!((s.between_records - 0.5_f64.sqrt() / 1.5).abs() < 1.0e-15);
         assert!((s.greatest_ratio - 3.0).abs() < 1.0e-15);
+    }
+
+    /// The energy that an elastic law dissipates is round-off: no ratio to it.
+    #[test]
+    fn no_ratio_to_round_off() {
+        assert!(
+            spread(&[vec![1.0e-12], vec![4.0e3]])
+                .greatest_ratio
+                .is_nan()
+        );
     }
 
     #[test]

@@ -81,6 +81,29 @@ pub struct GapCheck {
     pub sweep: Option<GapSweep>,
 }
 
+/// Part by which a width may fall short of a demand and still be the same: peaks of two
+/// runs of the same motion differ by less.
+const SAME: f64 = 1.0e-6;
+
+impl GapReport {
+    /// Records whose demand exceeds a width (m) that may differ between them, by more than
+    /// two computations of one number differ.
+    #[must_use]
+    pub fn records_beyond(&self, width: impl Fn(usize) -> Option<f64>) -> usize {
+        let beyond = |r: &usize| width(*r).is_some_and(|w| w < self.demand[*r] * (1.0 - SAME));
+        (0..self.demand.len()).filter(beyond).count()
+    }
+
+    /// Least ratio of such a width to the demand (-), with its record.
+    #[must_use]
+    pub fn least_ratio(&self, width: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
+        let ratios = (0..self.demand.len()).filter_map(|r| Some((r, width(r)? / self.demand[r])));
+        ratios
+            .filter(|(_, ratio)| !ratio.is_nan())
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
 impl GapCheck {
     /// Whether every gap is adequate.
     #[must_use]

@@ -165,7 +165,8 @@ fn ranking(c: &Comparison) -> String {
         let place = |i: usize| {
             let model = r.order.get(i)?;
             let name = c.models[*model].descriptor.name;
-            Some(format!("{name} x{:.2}", r.relative[i]))
+            // Round-off around zero is shown without its sign.
+            Some(format!("{name} x{:.2}", r.relative[i].max(0.0)))
         };
         let places = |range: Vec<usize>| -> String {
             let all: Vec<_> = range.into_iter().filter_map(place).collect();

@@ -87,20 +87,6 @@ fn demand(check: &GapCheck, index: usize) -> String {
     )
 }
 
-/// The record under which a code gap is smallest beside its demand, with that ratio.
-fn least_ratio(gap: &GapReport, width: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
-    let ratios = (0..gap.demand.len()).filter_map(|r| Some((r, width(r)? / gap.demand[r])));
-    ratios
-        .filter(|(_, x)| !x.is_nan())
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-/// Records whose demand exceeds the width.
-fn unsafe_records(gap: &GapReport, width: impl Fn(usize) -> Option<f64>) -> usize {
-    let exceeds = |r: &usize| width(*r).is_some_and(|w| w < gap.demand[*r]);
-    (0..gap.demand.len()).filter(exceeds).count()
-}
-
 fn row(
     gap: &GapReport,
     name: &str,
@@ -115,8 +101,10 @@ fn row(
     } else {
         format!("{:.1}", high * 1e3)
     };
-    let ratio = least_ratio(gap, width).map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
-    let few = format!("{} of {}", unsafe_records(gap, width), gap.demand.len());
+    let ratio = gap
+        .least_ratio(width)
+        .map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
+    let few = format!("{} of {}", gap.records_beyond(width), gap.demand.len());
     [
         name.to_owned(),
         kind.to_owned(),
@@ -216,6 +204,19 @@ fn greatest(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> S
     format!("x{:.3} (storey {})", top.1, top.0 + 1)
 }
 
+const JUMPS: &str = "Rigid impacts are jumps of the velocity: accelerations leave them out, here and in the sweep.\n";
+
+/// Whether some impact was a jump, which has no force.
+fn rigid(check: &GapCheck) -> bool {
+    let runs = check
+        .records
+        .iter()
+        .filter_map(|r| r.pounding.as_ref().ok());
+    let levels = runs.flat_map(|(_, gaps)| gaps.iter().flat_map(|g| &g.levels));
+    let mut touched = levels.filter(|l| l.impacts > 0);
+    touched.any(|l| l.peak_force.value.is_nan())
+}
+
 /// What pounding does at the provided gap.
 fn provided(check: &GapCheck) -> String {
     let mut table = new_table(&[
@@ -244,8 +245,9 @@ fn provided(check: &GapCheck) -> String {
             table.add_row(row);
         }
     }
+    let jumps = if rigid(check) { JUMPS } else { "" };
     format!(
-        "\nAt the provided gaps: greatest ratio of a storey's peak with pounding to that alone\n{table}\n{failures}"
+        "\nAt the provided gaps: greatest ratio of a storey's peak with pounding to that alone\n{table}\n{failures}{jumps}"
     )
 }
 

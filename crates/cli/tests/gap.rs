@@ -107,6 +107,44 @@ fn walls_and_undamped_buildings() {
     assert_eq!(difference["correlation"], 0.0);
 }
 
+/// A folder of seven copies of one record: seven equal demands, which a lognormal
+/// distribution without dispersion fits, and tables that sum records up.
+#[test]
+fn a_folder_of_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    for i in 0..7 {
+        std::fs::copy(&record, folder.path().join(format!("copy_{i}.csv"))).unwrap();
+    }
+    std::fs::write(folder.path().join("README.md"), "no record").unwrap();
+    let path = folder.path().to_str().unwrap();
+    let arguments = ["--records", path, "--points", "0", "--probability", "0.1"];
+    let mut with_json = arguments.to_vec();
+    with_json.push("--json");
+    let result = json(&gap("gap_check", &with_json));
+    let required = &result["gaps"][0]["required"];
+    let fit = &required["lognormal"];
+    close(&fit["width"], 0.117_167, 2e-4);
+    assert!(fit["dispersion"].as_f64().unwrap() < 1e-12);
+    close(&fit["bounds"][1], fit["width"].as_f64().unwrap(), 1e-9);
+    let shown = text(&gap("gap_check", &arguments).stdout);
+    assert!(shown.contains("greatest of 7") && shown.contains("7 of 7 records close it"));
+    let compared = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg("compare")
+        .arg(root().join("examples/three_storey_pair/case.toml"))
+        .args(["--records", path, "--models", "jankowski_2005,ye_li_2009"])
+        .output()
+        .unwrap();
+    let compared = text(&compared.stdout);
+    assert!(
+        compared.contains("Values of every model under every record"),
+        "{compared}"
+    );
+    let empty = tempfile::tempdir().unwrap();
+    let nothing = gap("gap_check", &["--records", empty.path().to_str().unwrap()]);
+    assert_eq!(nothing.status.code(), Some(2));
+}
+
 /// At the width of the square-root rule El Centro closes the gap once.
 #[test]
 fn a_gap_by_the_rule_is_closed() {

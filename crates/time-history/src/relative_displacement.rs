@@ -88,6 +88,7 @@ mod tests {
 
     use super::*;
     use crate::assemble::assemble;
+    use crate::options::MethodChoice;
     use crate::system::GroundAcceleration;
 
     /// The three-storey pair of the examples under a record of the repository, with the
@@ -142,6 +143,33 @@ mod tests {
             let scale = b.value / a.value - 9.80665 / 9.81;
             assert!(scale.abs() < 5.0e-4, "{a:?} {b:?} {scale:e}");
             assert!((a.time - b.time - 0.02).abs() < 1.0e-3, "{a:?} {b:?}");
+        }
+    }
+
+    /// Three methods that share the equations of motion alone: exact steps, the adaptive
+    /// pair, and fixed steps of fourth order.
+    #[test]
+    fn methods_agree() {
+        let (system, mut options) = pair("three_storey_pair", 9.80665, 0);
+        let (_, exact) = isolated_demand(&system, &options).unwrap();
+        for (method, relative) in [
+            (
+                MethodChoice::Adaptive {
+                    relative_tolerance: 1.0e-10,
+                },
+                1.0e-7,
+            ),
+            (MethodChoice::RungeKutta4 { step: 1.0e-3 }, 1.0e-6),
+        ] {
+            options.method = method;
+            let (_, other) = isolated_demand(&system, &options).unwrap();
+            for (a, b) in exact.iter().zip(&other) {
+                assert!(
+                    (b.value / a.value - 1.0).abs() < relative,
+                    "{method:?} {a:?} {b:?}"
+                );
+                assert!((b.time - a.time).abs() < 1.0e-5, "{method:?} {a:?} {b:?}");
+            }
         }
     }
 

@@ -7,6 +7,8 @@ use pounding_study::comparison::{Comparison, Holds, Quantity, QuantityKind};
 use crate::tables::new_table;
 
 const G: f64 = 9.80665;
+/// More records than this have no tables of their own.
+const LISTED: usize = 6;
 
 /// Kinds that a table of a record shows.
 const SHOWN: [QuantityKind; 8] = [
@@ -42,8 +44,13 @@ pub fn report(case: &Case, c: &Comparison) -> String {
         text.push_str(&format!("{}\n", case.title));
     }
     text.push_str(&calibration(c));
-    for record in 0..c.records.len() {
-        text.push_str(&values(c, record));
+    if c.records.len() <= LISTED {
+        for record in 0..c.records.len() {
+            text.push_str(&values(c, record));
+        }
+    } else {
+        text.push_str(&failures(c));
+        text.push_str("\nValues of every model under every record: --csv or --json\n");
     }
     text.push_str(&spreads(c));
     text.push_str(&ranking(c));
@@ -73,6 +80,15 @@ fn calibration(c: &Comparison) -> String {
         ));
     }
     text
+}
+
+/// Models that did not run under every record, with the first reason.
+fn failures(c: &Comparison) -> String {
+    let failed = c.models.iter().filter_map(|m| {
+        let diagnosis = m.diagnosis()?;
+        Some(format!("{}: {diagnosis}\n", m.descriptor.name))
+    });
+    failed.collect()
 }
 
 /// Values of all models under one record.

@@ -227,6 +227,7 @@ fn provided(check: &GapCheck) -> String {
         "absolute acceleration",
         "impacts",
     ]);
+    let listed = check.records.len() <= LISTED;
     let mut failures = String::new();
     for record in &check.records {
         let RecordDemand { name, pounding, .. } = record;
@@ -238,10 +239,16 @@ fn provided(check: &GapCheck) -> String {
             }
         };
         let impacts: usize = gaps.iter().flat_map(|g| &g.levels).map(|l| l.impacts).sum();
-        for (building, storeys) in with.iter().zip(record.amplification().unwrap_or_default()) {
+        let amplification = record.amplification().unwrap_or_default();
+        for (building, storeys) in with.iter().zip(amplification).filter(|_| listed) {
             let mut row = vec![name.clone(), building.name.clone()];
             row.extend(QUANTITIES.map(|(_, q)| greatest(&storeys, q)));
             row.push(impacts.to_string());
+            table.add_row(row);
+        }
+    }
+    if !listed {
+        for row in over_all_records(check) {
             table.add_row(row);
         }
     }
@@ -249,6 +256,30 @@ fn provided(check: &GapCheck) -> String {
     format!(
         "\nAt the provided gaps: greatest ratio of a storey's peak with pounding to that alone\n{table}\n{failures}{jumps}"
     )
+}
+
+/// A row a building, with the record under which each ratio is greatest.
+fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
+    let all: Vec<_> = check
+        .records
+        .iter()
+        .filter_map(|r| Some((r.name.as_str(), r.amplification()?)))
+        .collect();
+    let buildings = check.records.first().map_or(&[][..], |r| &r.isolated);
+    let row = |(index, building): (usize, &pounding_time_history::BuildingOutcome)| {
+        let mut row = vec![format!("greatest of {}", all.len()), building.name.clone()];
+        row.extend(QUANTITIES.map(|(_, of)| {
+            let tops = all.iter().filter_map(|(name, a)| {
+                let top = a.get(index)?.iter().map(of).reduce(f64::max)?;
+                Some((*name, top))
+            });
+            let top = tops.max_by(|a, b| a.1.total_cmp(&b.1));
+            top.map_or("-".to_owned(), |(name, x)| format!("x{x:.3} ({name})"))
+        }));
+        row.push("-".to_owned());
+        row
+    };
+    buildings.iter().enumerate().map(row).collect()
 }
 
 /// Greatest over records of what `of_building` finds, at one width.

@@ -32,37 +32,35 @@ pub fn table(c: &Comparison) -> Result<String, Failure> {
     csv(&header, rows.into_iter())
 }
 
-/// Displacement, acceleration and force over the models, numbered as in the tables; a
-/// curve a record and building, or gap.
+/// Peaks over those without pounding, over the models in the order of the tables; a curve
+/// a building and record.
 pub fn figure(c: &Comparison) -> Result<String, Failure> {
-    let panel = |kind: QuantityKind, caption: &str, size: f64| {
-        let quantities = c
-            .quantities
-            .iter()
-            .enumerate()
-            .filter(|(_, q)| q.kind == kind);
-        let curves = quantities.flat_map(|(q, quantity)| {
-            c.records.iter().enumerate().map(move |(r, record)| {
-                let values = (0..c.models.len()).map(|m| ((m + 1) as f64, c.value(m, r, q) / size));
-                Curve {
-                    name: format!("{}, {record}", quantity.of),
-                    points: values.filter(|p| p.1.is_finite()).collect(),
-                }
-            })
-        });
+    let panel = |kind: QuantityKind, name: &str| {
+        let quantities = c.quantities.iter().enumerate();
+        let curves = quantities
+            .filter(|(_, q)| q.kind == kind)
+            .flat_map(|(q, quantity)| {
+                c.records.iter().enumerate().map(move |(r, record)| {
+                    let alone = c.isolated[r][q];
+                    let ratio = |m: usize| ((m + 1) as f64, c.value(m, r, q) / alone);
+                    Curve {
+                        name: format!("{}, {record}", quantity.of),
+                        points: (0..c.models.len())
+                            .map(ratio)
+                            .filter(|p| p.1.is_finite())
+                            .collect(),
+                    }
+                })
+            });
         Panel {
-            caption: caption.to_owned(),
-            horizontal: "number of the model in the table".to_owned(),
+            caption: format!("Peak {name} over that without pounding (-)"),
+            horizontal: "number of the model, in the order of the table".to_owned(),
             curves: curves.collect(),
         }
     };
     draw(&[
-        panel(QuantityKind::Displacement, "Peak displacement (mm)", 1e-3),
-        panel(
-            QuantityKind::AccelerationAbsolute,
-            "Peak absolute acceleration (m/s2)",
-            1.0,
-        ),
-        panel(QuantityKind::PeakForce, "Peak contact force (kN)", 1e3),
+        panel(QuantityKind::Displacement, "displacement"),
+        panel(QuantityKind::StoreyShear, "storey shear"),
+        panel(QuantityKind::AccelerationAbsolute, "absolute acceleration"),
     ])
 }

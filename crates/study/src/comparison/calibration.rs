@@ -197,18 +197,12 @@ fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> 
     };
     let parameters = calibrated.descriptor.parameters;
     let raw = ["damping_factor", "damping_ratio", "friction"];
-    let Some(raw) = raw
-        .into_iter()
-        .find(|r| parameters.iter().any(|p| p.name == *r))
-    else {
+    let known = |name: &&str| parameters.iter().any(|p| p.name == *name);
+    let Some(raw) = raw.into_iter().find(known) else {
         return Err(reason);
     };
     calibrated.parameters.values.remove("restitution");
-    let greatest = if raw == "friction" {
-        1.0 - 1.0e-9
-    } else {
-        1.0e3
-    };
+    let greatest = if raw == "friction" { 0.999 } else { 1.0e3 };
     solve(calibrated, reference, raw, (1.0e-6, greatest))
         .map_err(|other| format!("{reason}; {other}"))
 }
@@ -308,25 +302,26 @@ mod tests {
         }
     }
 
-    /// Every model of the registry is calibrated, or says why not.
+    /// Every model of the registry returns exactly what is asked for, but those without
+    /// damping, and the bilinear element: asked for e it returns sqrt((1 - c) / (1 + c)) with
+    /// c = (1 - e^2) / 2.5, at least sqrt(0.6 / 1.4) = 0.6547.
     #[test]
     fn every_model() {
         let from = reference(1.5, 2.75e9);
+        let mut others = Vec::new();
         for card in registry::descriptors() {
-            for rule in [RestitutionRule::AsPublished, RestitutionRule::Exact] {
-                let result = calibrated(card, &from, (StiffnessRule::Penetration, rule));
-                match result {
-                    Ok(c) => assert!(
-                        rule == RestitutionRule::AsPublished
-                            || (c.free_restitution - 0.65).abs() < 1.0e-6
-                            || !c.notes.is_empty(),
-                        "{}: {}",
-                        card.name,
-                        c.free_restitution
-                    ),
-                    Err(reason) => assert!(!reason.is_empty(), "{}", card.name),
-                }
+            let rules = (StiffnessRule::Penetration, RestitutionRule::Exact);
+            let calibrated = calibrated(card, &from, rules);
+            match calibrated {
+                Ok(c) if (c.free_restitution - 0.65).abs() < 1.0e-6 => {}
+                Ok(c) => others.push(format!("{} {:.3}", card.name, c.free_restitution)),
+                Err(reason) => others.push(format!("{}: {reason}", card.name)),
             }
         }
+        let bilinear = "muthukumar_2003: no restitution returns 0.65: the reference collision returns 0.6547 to 1.0000";
+        assert_eq!(
+            others,
+            ["linear_elastic 1.000", "hertz_1882 1.000", bilinear]
+        );
     }
 }

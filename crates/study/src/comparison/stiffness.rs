@@ -40,10 +40,8 @@ pub(super) fn stiffness(
         velocity: reference.approach_velocity,
         effective_mass: reference.effective_mass,
     };
+    let depth = elastic_penetration(reference);
     let n = reference.exponent;
-    // (n + 1) m v^2 / (2 k) is the power n + 1 of the elastic penetration.
-    let energy = approach.effective_mass * approach.velocity * approach.velocity;
-    let depth = (0.5 * (n + 1.0) * energy / reference.stiffness).powf(1.0 / (n + 1.0));
     let found = match rule {
         StiffnessRule::Penetration => penetration(depth, exponent, approach, None, None),
         StiffnessRule::Duration => {
@@ -54,6 +52,14 @@ pub(super) fn stiffness(
         }
     };
     found.map(|s| s.value).map_err(|e| e.to_string())
+}
+
+/// Greatest penetration (m) of the gap's own law without damping in the reference
+/// collision: `(n + 1) m v^2 / (2 k)` is its power `n + 1`.
+pub(super) fn elastic_penetration(reference: &ReferenceCollision) -> f64 {
+    let n = reference.exponent;
+    let energy = reference.effective_mass * reference.approach_velocity.powi(2);
+    (0.5 * (n + 1.0) * energy / reference.stiffness).powf(1.0 / (n + 1.0))
 }
 
 /// Contact time (s) of the elastic law of this exponent and penetration (m): the time for

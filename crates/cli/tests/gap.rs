@@ -107,6 +107,53 @@ fn walls_and_undamped_buildings() {
     assert_eq!(difference["correlation"], 0.0);
 }
 
+/// The case of the tutorial, taken from its text, with the numbers that the text gives.
+#[test]
+fn the_tutorial() {
+    let tutorial = std::fs::read_to_string(root().join("docs/tutorial.md")).unwrap();
+    let case = tutorial.split("```toml\n").nth(1).unwrap();
+    let case = case.split("```").next().unwrap();
+    let motions = root().join("ground_motions").canonicalize().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let case = case.replace("\"ground_motions", &format!("\"{}", motions.display()));
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let arguments = [
+        "--points",
+        "0",
+        "--json",
+        "--set",
+        "response_modification=5",
+        "--set",
+        "displacement_amplification=4.5",
+        "--set",
+        "importance=1",
+        "--set",
+        "soil_zone=\"II\"",
+        "--provisions",
+        "asce_7_10_between,mexico_city_2004_boundary",
+    ];
+    let output = gap(folder.path().to_str().unwrap(), &arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let result = json(&output);
+    let amplification = &result["records"][0]["amplification"][0];
+    close(&amplification[0]["displacement"], 1.667, 1e-3);
+    close(&amplification[1]["acceleration_absolute"], 28.92, 1e-3);
+    let provisions = &result["gaps"][0]["provisions"];
+    assert_eq!(
+        provisions.as_array().unwrap().len(),
+        2,
+        "only those asked for"
+    );
+    let asce = named(provisions, "name", "asce_7_10_between");
+    close(&asce["records"][0]["ratio_to_demand"], 0.892, 1e-3);
+    let mexico = named(provisions, "name", "mexico_city_2004_boundary");
+    close(&mexico["records"][0]["width"], 0.191_2, 1e-3);
+    let explanation = mexico["records"][0]["levels"][2]["explanation"]
+        .as_str()
+        .unwrap();
+    assert!(explanation.contains("u(light) = 0.114"), "{explanation}");
+}
+
 /// A folder of seven copies of one record: seven equal demands, which a lognormal
 /// distribution without dispersion fits, and tables that sum records up.
 #[test]

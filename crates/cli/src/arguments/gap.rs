@@ -17,7 +17,7 @@ pub struct GapArguments {
     /// Provisions to apply [default: those of the case, or all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
     pub provisions: Vec<String>,
-    /// An entry of the table [separation], such as importance=1.25 or 'soil_zone="II"'
+    /// An entry of the table `separation`, such as importance=1.25 or 'soil_zone="II"'
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Part of the records that may bring the buildings into contact

@@ -217,6 +217,16 @@ fn wide_enough_is_exit_code_zero() {
     std::fs::write(&path, case).unwrap();
     let output = gap(path.parent().unwrap().to_str().unwrap(), &["--points", "0"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let numbers = json(&gap(
+        path.parent().unwrap().to_str().unwrap(),
+        &["--points", "0", "--json"],
+    ));
+    let rules = &numbers["gaps"][0];
+    // 117.3 mm lie above the root, 116.1, and below the sum, 134.9.
+    let root = named(&rules["provisions"], "name", "nbcc_2015_between");
+    assert_eq!(root["satisfied"], true);
+    let sum = named(&rules["combinations"], "rule", "absolute_sum");
+    assert_eq!(sum["satisfied"], false);
     let shown = text(&output.stdout);
     assert!(shown.contains("WIDE ENOUGH - 0 of 1 records"), "{shown}");
     assert!(

@@ -9,7 +9,8 @@ use pounding_separation::{
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{BuildingOutcome, Gap, System};
 
-use super::demand::RecordDemand;
+use super::SAME;
+use super::demand::{GapLevel, RecordDemand};
 use super::error::CheckError;
 
 /// Floors this close in elevation (m) are level.
@@ -35,6 +36,16 @@ impl CodeGap {
         results.find_map(|r| r.as_ref().err())
     }
 
+    /// Whether these provided widths are no less than what is required at any level under
+    /// any record; `None` if nothing is.
+    #[must_use]
+    pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
+        let records = self.records.iter();
+        let pairs = records.flat_map(|r| r.iter().zip(levels));
+        let known = pairs.filter_map(|(r, l)| Some((r.as_ref().ok()?.width, l.width)));
+        satisfied(known)
+    }
+
     /// Width for one record (m): the greatest over the levels.
     #[must_use]
     pub fn width(&self, record: usize) -> Option<f64> {
@@ -58,6 +69,23 @@ pub struct CombinationGap {
     pub correlation: Option<f64>,
     /// Width for each record and level (m).
     pub records: Vec<Vec<LevelCombination>>,
+}
+
+impl CombinationGap {
+    /// Whether these provided widths are no less than the rule's at any level under any
+    /// record; `None` without records.
+    #[must_use]
+    pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
+        let records = self.records.iter();
+        let pairs = records.flat_map(|r| r.iter().zip(levels));
+        satisfied(pairs.map(|(c, l)| (c.width, l.width)))
+    }
+}
+
+/// Whether every provided width (second) reaches the required one.
+fn satisfied(pairs: impl Iterator<Item = (f64, f64)>) -> Option<bool> {
+    let reaches = |(required, provided): (f64, f64)| provided >= required * (1.0 - SAME);
+    pairs.map(reaches).reduce(|a, b| a && b)
 }
 
 /// A combination at one level.

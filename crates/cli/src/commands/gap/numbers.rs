@@ -92,12 +92,12 @@ fn gap(check: &GapCheck, index: usize) -> Value {
             })),
             "no_lognormal": fit.err(),
         },
-        "combinations": gap.combinations.iter().map(combination).collect::<Vec<_>>(),
+        "combinations": gap.combinations.iter().map(|c| combination(gap, c)).collect::<Vec<_>>(),
         "provisions": gap.codes.iter().map(|c| provision(gap, c)).collect::<Vec<_>>(),
     })
 }
 
-fn combination(c: &CombinationGap) -> Value {
+fn combination(gap: &GapReport, c: &CombinationGap) -> Value {
     let records: Vec<Vec<f64>> = c
         .records
         .iter()
@@ -106,6 +106,7 @@ fn combination(c: &CombinationGap) -> Value {
     json!({
         "rule": c.rule.name(), "effective_properties": c.effective.map(|e| e.name()),
         "status": c.status.name(), "correlation": c.correlation, "width": records,
+        "satisfied": c.satisfied_by(&gap.levels),
     })
 }
 
@@ -133,6 +134,7 @@ fn provision(gap: &GapReport, c: &CodeGap) -> Value {
         "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
         "status": p.status.name(), "status_remark": p.status.remark(),
         "refusal": c.refusal().map(ToString::to_string),
+        "satisfied": c.satisfied_by(&gap.levels),
         "records": records,
     })
 }

@@ -91,9 +91,9 @@ fn row(
     gap: &GapReport,
     name: &str,
     kind: &str,
-    status: &str,
+    (satisfied, status): (Option<bool>, &str),
     width: impl Fn(usize) -> Option<f64> + Copy,
-) -> [String; 6] {
+) -> [String; 7] {
     let widths = (0..gap.demand.len()).filter_map(width);
     let (low, high) = widths.fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(w), h.max(w)));
     let range = if high - low > 5.0e-5 {
@@ -105,10 +105,16 @@ fn row(
         .least_ratio(width)
         .map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
     let few = format!("{} of {}", gap.records_beyond(width), gap.demand.len());
+    let satisfied = match satisfied {
+        Some(true) => "yes",
+        Some(false) => "no",
+        None => "-",
+    };
     [
         name.to_owned(),
         kind.to_owned(),
         range,
+        satisfied.to_owned(),
         ratio,
         few,
         status.to_owned(),
@@ -121,6 +127,7 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         "rule",
         "kind",
         "width (mm)",
+        "provided reaches it",
         "least of width / demand",
         "records that exceed it",
         "status",
@@ -132,7 +139,8 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
             Some(effective) => format!("{} ({})", c.rule.name(), effective.name()),
             None => c.rule.name().to_owned(),
         };
-        table.add_row(row(gap, &name, "combination", c.status.name(), width));
+        let judged = (c.satisfied_by(&gap.levels), c.status.name());
+        table.add_row(row(gap, &name, "combination", judged, width));
     }
     let spoken = |basis| {
         let of = move |c: &&CodeGap| c.refusal().is_none() && c.provision.basis == basis;
@@ -144,8 +152,8 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
             c.provision.place().name(),
             c.provision.basis.name()
         );
-        let status = c.provision.status.name();
-        table.add_row(row(gap, c.provision.name, &kind, status, |r| c.width(r)));
+        let judged = (c.satisfied_by(&gap.levels), c.provision.status.name());
+        table.add_row(row(gap, c.provision.name, &kind, judged, |r| c.width(r)));
     }
     let mut text = format!(
         "\nGap {}: widths by rule under {} record{}; boundary rules summed over both sides\n{table}\n",

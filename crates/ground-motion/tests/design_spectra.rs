@@ -1,6 +1,8 @@
 //! Spectra of codes and of files.
 #![allow(clippy::unwrap_used)]
 
+use proptest::prelude::*;
+
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::spectra::design::{
@@ -127,4 +129,15 @@ fn tables_that_are_none() {
         falling,
         Err(GroundMotionError::NotPossible { .. })
     ));
+}
+
+proptest! {
+    /// Whatever a table holds: a spectrum, or an error with a remedy.
+    #[test]
+    fn damaged_tables(text in "(period_s,psa_(g|m_s2)\n)?([0-9.,e# \n-]|\\PC){0,200}") {
+        match TargetSpectrum::parse("t.csv", &text, 0.05) {
+            Ok(target) => prop_assert!(target.range().0 < target.range().1),
+            Err(error) => prop_assert!(error.help().is_some(), "{}", error),
+        }
+    }
 }

@@ -104,13 +104,13 @@ fn history_grows() {
         .iter()
         .map(|r| r.split_once(": ").unwrap().0)
         .collect();
-    assert_eq!(starts, ["Step", "Source", "Read", "Step"]);
+    assert_eq!(starts, ["Step", "Source", "Read", "Note", "Step"]);
     assert!(
         remarks[0].starts_with("Step: offset: offset 0.05 m/s2"),
         "{remarks:?}"
     );
     assert!(remarks[1].starts_with("Source: once.csv (pounding_csv), SHA-256 "));
-    assert!(remarks[3].starts_with("Step: sign: "));
+    assert!(remarks[4].starts_with("Step: sign: "));
 }
 
 /// Velocities have no place in our layout, uneven times in none.

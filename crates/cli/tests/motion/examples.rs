@@ -99,8 +99,8 @@ fn target(period: f64) -> f64 {
     }
 }
 
-/// Each of the seven motions is within 5 % of the target at 633 periods, their mean within
-/// 2.5 %; none drifts.
+/// Each of the seven motions is within 4.8 % of the target at 633 periods, their mean within
+/// 2.3 %; none drifts.
 #[test]
 fn synthetic_suite() {
     let mut mean = vec![0.0; 633];
@@ -120,7 +120,7 @@ fn synthetic_suite() {
             .collect();
         for (i, period) in periods.iter().enumerate() {
             let ratio = number(&s["pseudo_acceleration"][i]) / target(*period);
-            assert!((ratio - 1.0).abs() < 0.0501, "{seed} {period} {ratio}");
+            assert!((ratio - 1.0).abs() < 0.048, "{seed} {period} {ratio}");
             mean[i] += ratio / 7.0;
         }
         let told = json(&["info", &file]);
@@ -139,6 +139,6 @@ fn synthetic_suite() {
     }
     assert_eq!(periods.len(), 633);
     for (ratio, period) in mean.iter().zip(&periods) {
-        assert!((ratio - 1.0).abs() < 0.025, "{period} {ratio}");
+        assert!((ratio - 1.0).abs() < 0.023, "{period} {ratio}");
     }
 }

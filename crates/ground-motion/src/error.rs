@@ -216,7 +216,7 @@ impl GroundMotionError {
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::Io { .. } => {
-                "check the path; in a case file it is relative to that file's folder".to_owned()
+                "check the path; in a case file it is relative to the folder of the case file".to_owned()
             }
             Self::Parse { remedy, .. } => remedy.clone(),
             Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),

@@ -228,24 +228,47 @@ impl Oscillator {
     pub(crate) fn peaks(&self, ground: &[f64], evaluation: Evaluation) -> OscillatorPeaks {
         let mut peaks = OscillatorPeaks::default();
         let mut state = State::default();
-        let between = evaluation == Evaluation::PiecewiseLinear;
+        for (i, pair) in ground.windows(2).enumerate() {
+            let time = (i + 1) as f64 * self.time_step;
+            state = self.advance(state, -pair[0], -pair[1]);
+            keep(&mut peaks.displacement, state.displacement, time);
+            keep(&mut peaks.velocity, state.velocity, time);
+            let acceleration = self.absolute_acceleration(state);
+            keep(&mut peaks.acceleration, acceleration, time);
+        }
+        if evaluation == Evaluation::PiecewiseLinear {
+            self.raise_between(&mut peaks, ground);
+        }
+        peaks
+    }
+
+    /// Raises peaks at samples by those between them: known peaks at samples leave few
+    /// steps to look into.
+    fn raise_between(&self, peaks: &mut OscillatorPeaks, ground: &[f64]) {
+        let mut state = State::default();
+        let above_chord = self.time_step * self.time_step / 8.0;
+        let mut acceleration = self.absolute_acceleration(state).abs();
         for (i, pair) in ground.windows(2).enumerate() {
             let forces = [-pair[0], -pair[1]];
             let next = self.advance(state, forces[0], forces[1]);
-            let time = (i + 1) as f64 * self.time_step;
-            keep(&mut peaks.displacement, next.displacement, time);
-            keep(&mut peaks.velocity, next.velocity, time);
-            keep(
-                &mut peaks.acceleration,
-                self.absolute_acceleration(next),
-                time,
-            );
-            if between {
-                self.between(&mut peaks, i as f64 * self.time_step, [state, next], forces);
+            let next_acceleration = self.absolute_acceleration(next).abs();
+            // The second derivatives are w^0, w^1 and w^2 times this at most.
+            let amplitude = self
+                .curvature(state, forces[0], forces[1])
+                .norm_sqr()
+                .sqrt();
+            let displacement = state.displacement.abs().max(next.displacement.abs());
+            let velocity = state.velocity.abs().max(next.velocity.abs());
+            let rise = above_chord * amplitude;
+            let w = self.frequency;
+            if displacement + rise > peaks.displacement.value
+                || velocity + w * rise > peaks.velocity.value
+                || acceleration.max(next_acceleration) + w * w * rise > peaks.acceleration.value
+            {
+                self.between(peaks, i as f64 * self.time_step, [state, next], forces);
             }
-            state = next;
+            (state, acceleration) = (next, next_acceleration);
         }
-        peaks
     }
 
     fn between(

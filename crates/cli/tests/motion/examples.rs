@@ -126,13 +126,9 @@ fn synthetic_suite() {
         let told = json(&["info", &file]);
         let series = &told["files"][0]["series"][0];
         let m = &series["measures"];
-        // The envelope of the generator has not died at 40 s: what is left is its own.
-        assert!(number(&m["end_velocity"]).abs() < 0.01 * number(&m["peak_velocity"]["value"]));
-        let end = number(&m["end_displacement"]).abs();
-        assert!(
-            end < 0.1 * number(&m["peak_displacement"]["value"]),
-            "{seed} {end}"
-        );
+        // The generator's own, times the scale: its envelope has not died at 40 s.
+        assert!(number(&m["end_velocity"]).abs() < 7.0e-3, "{seed}");
+        assert!(number(&m["end_displacement"]).abs() < 9.0e-3, "{seed}");
         let history = series["history"].to_string();
         assert!(history.contains(&format!("seed {seed}")), "{history}");
         assert!(history.contains("matching by wavelets"), "{history}");

@@ -149,7 +149,11 @@ fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
                     1 => one.series.component.clone(),
                     _ => format!("{} {}", file.file, one.series.component),
                 };
-                named.push((name, record));
+                named.push(plots::Named {
+                    name,
+                    record,
+                    initial: one.series.initial.unwrap_or_default(),
+                });
             }
         }
     }

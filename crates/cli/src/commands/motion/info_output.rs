@@ -116,7 +116,7 @@ fn series_table(file: &ShownFile) -> String {
             at.map_or("-".to_owned(), |t| format!("{t:.3}")),
         ]);
     }
-    format!("\n{table}\n")
+    format!("\n{table}\n\n")
 }
 
 fn step_text(sampling: &Sampling) -> String {

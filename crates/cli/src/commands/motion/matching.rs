@@ -149,8 +149,8 @@ fn picture(
     };
     let mut panels = vec![spectra];
     let named = [
-        ("as read".to_owned(), before),
-        ("matched".to_owned(), after),
+        plots::Named::at_rest("as read", before),
+        plots::Named::at_rest("matched", after),
     ];
     panels.extend(plots::history_panels(&named)?);
     plot::write(path, &plot::figure_with_references(&panels, &[reference])?)

@@ -13,21 +13,47 @@ use crate::plot::{self, Curve, Panel};
 /// Points of a curve: as many as a picture can show; peaks of each stretch are kept.
 const POINTS: usize = 4000;
 
-/// Draws acceleration, velocity, displacement and Husid curve of motions with names.
-pub fn histories(path: &Path, motions: &[(String, &Accelerogram)]) -> Result<(), Failure> {
+/// A motion with its name in the picture.
+pub struct Named<'a> {
+    /// Name.
+    pub name: String,
+    /// Motion.
+    pub record: &'a Accelerogram,
+    /// Velocity (m/s) and displacement (m) at the first sample.
+    pub initial: (f64, f64),
+}
+
+impl<'a> Named<'a> {
+    /// A motion that starts at rest.
+    pub fn at_rest(name: &str, record: &'a Accelerogram) -> Self {
+        Self {
+            name: name.to_owned(),
+            record,
+            initial: (0.0, 0.0),
+        }
+    }
+}
+
+/// Draws acceleration, velocity, displacement and Husid curve of motions.
+pub fn histories(path: &Path, motions: &[Named<'_>]) -> Result<(), Failure> {
     plot::write(path, &plot::figure(&history_panels(motions)?)?)
 }
 
 /// The panels of that picture.
-pub fn history_panels(motions: &[(String, &Accelerogram)]) -> Result<[Panel; 4], Failure> {
+pub fn history_panels(motions: &[Named<'_>]) -> Result<[Panel; 4], Failure> {
     let mut panels = [
         panel("Ground acceleration (g)", "time (s)"),
         panel("Ground velocity (m/s)", "time (s)"),
         panel("Ground displacement (mm)", "time (s)"),
         panel("Husid curve: part of the Arias intensity (-)", "time (s)"),
     ];
-    for (name, record) in motions {
-        let motion = GroundMotion::of(record, 0.0, 0.0);
+    for Named {
+        name,
+        record,
+        initial,
+    } in motions
+    {
+        let motion = GroundMotion::of(record, initial.0, initial.1);
         let husid = Husid::of(record, Evaluation::PiecewiseLinear)?;
         let step = record.time_step();
         let whole = husid.arias_intensity();

@@ -30,7 +30,7 @@ pub fn finish(
 ) -> Result<(), Failure> {
     write(&output.output, motion, title)?;
     if let Some(path) = &output.svg {
-        plots::histories(path, &[(title.to_owned(), motion)])?;
+        plots::histories(path, &[plots::Named::at_rest(title, motion)])?;
     }
     if output.json {
         let mut told = json!({

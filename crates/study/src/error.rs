@@ -130,7 +130,11 @@ impl StudyError {
             Self::Records { .. } => {
                 "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are made"
             }
-            Self::File { .. } | Self::ResultFile { .. } => {
+            Self::ResultFile { what: "write", .. } => {
+                "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
+            }
+            Self::ResultFile { .. } => "check that it is the HDF5 file of a sweep",
+            Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
             Self::Store { .. } => {

@@ -170,56 +170,46 @@ fn collide(a: &Variable, b: &Variable) -> bool {
     }
 }
 
+/// Kinds of designs.
+const KINDS: [&str; 4] = ["grid", "list", "latin_hypercube", "sobol"];
+
 fn design(root: &Table<'_, '_>, variables: &[Variable]) -> Result<Design> {
     let reader = root.reader;
     let Some(value) = root.get("design") else {
         return grid(root, root.span.clone(), variables);
     };
     let table = reader.table(value, "[design]", &DESIGN)?;
-    let kind = match table.get("kind") {
-        Some(v) => reader.text(v, "kind")?,
-        None => "grid".to_owned(),
+    let (kind, place) = match table.get("kind") {
+        Some(v) => (reader.text(v, "kind")?, v.span()),
+        None => ("grid".to_owned(), value.span()),
     };
-    let random = matches!(kind.as_str(), "latin_hypercube" | "sobol");
+    if !KINDS.contains(&kind.as_str()) {
+        let help = format!("known are {}", KINDS.join(", "));
+        return Err(reader.error(place, format!("unknown design \"{kind}\""), help));
+    }
+    let counted = matches!(kind.as_str(), "grid" | "list");
     for key in ["runs", "seed"] {
-        if let (Some(v), false) = (table.get(key), random) {
-            return Err(reader.error(
-                v.span(),
-                format!("`{key}` has no meaning for {kind}"),
-                "remove it",
-            ));
+        if let (Some(v), true) = (table.get(key), counted) {
+            let message = format!("`{key}` has no meaning for {kind}");
+            return Err(reader.error(v.span(), message, "remove it"));
         }
     }
-    let seed = table
-        .get("seed")
-        .map(|v| reader.count(v, "seed", 0))
-        .transpose()?;
-    let seed = seed.map(|s| s as u64);
-    let place = || {
-        table
-            .get("kind")
-            .map_or_else(|| value.span(), toml::Spanned::span)
-    };
     match kind.as_str() {
-        "grid" => grid(root, place(), variables),
-        "list" => list(&reader, &place(), variables),
-        "latin_hypercube" | "sobol" => {
-            let runs = reader.count(table.required("runs")?, "runs", 1)?;
-            if kind == "latin_hypercube" {
-                return Ok(Design::LatinHypercube {
-                    runs,
-                    seed: seed.unwrap_or(1),
-                });
-            }
-            Design::sobol(runs, seed, variables.len())
-                .map_err(|reason| reader.error(place(), reason, "use latin_hypercube"))
-        }
-        _ => Err(reader.error(
-            place(),
-            format!("unknown design \"{kind}\""),
-            "known are grid, list, latin_hypercube, sobol",
-        )),
+        "grid" => return grid(root, place, variables),
+        "list" => return list(&reader, &place, variables),
+        _ => {}
     }
+    let runs = reader.count(table.required("runs")?, "runs", 1)?;
+    let seed = table.get("seed").map(|v| reader.count(v, "seed", 0));
+    let seed = seed.transpose()?.map(|s| s as u64);
+    if kind == "sobol" {
+        return Design::sobol(runs, seed, variables.len())
+            .map_err(|reason| reader.error(place, reason, "use latin_hypercube"));
+    }
+    Ok(Design::LatinHypercube {
+        runs,
+        seed: seed.unwrap_or(1),
+    })
 }
 
 fn grid(

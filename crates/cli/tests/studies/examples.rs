@@ -1,0 +1,122 @@
+//! The examples of studies, and their headline numbers.
+
+use serde_json::Value;
+
+use super::{Bench, root};
+
+fn example(name: &str) -> String {
+    let path = root().join("examples").join(name).join("study.toml");
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The corners and middles of the grid of 10,000 runs: 24 runs with its extremes.
+#[test]
+fn sweep_of_the_three_storey_pair() {
+    let study = example("sweep_three_storey_pair");
+    let counts = [
+        ("count = 40", "count = 4"),
+        ("count = 25", "count = 3"),
+        ("count = 10", "count = 2"),
+    ];
+    let mut reduced = study;
+    for (from, to) in counts {
+        assert!(reduced.contains(from));
+        reduced = reduced.replace(from, to);
+    }
+    let bench = Bench::new(&reduced);
+    let case = String::from_utf8(bench.bytes("case.toml")).unwrap();
+    std::fs::write(
+        bench.path("case.toml"),
+        case.replace("duration = \"6 s\"", "duration = \"31 s\""),
+    )
+    .unwrap();
+    bench.text("sweep study.toml -o out.h5 --csv out.csv");
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 24);
+    let value = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
+    let force = "peak_force: light-heavy 3-3 [N]";
+    let roof = "peak_displacement: light 3 [m]";
+    let all = |name: &'static str| (0..24).map(move |r| value(r, name));
+    // Headlines of the README; the hardest impact is in the run with the least gap, the
+    // greatest stiffness and restitution.
+    let hardest = all(force).fold(0.0, f64::max);
+    assert!((hardest / 6.984e6 - 1.0).abs() < 1e-3, "{hardest}");
+    assert_eq!(hardest, value(5, force));
+    let farthest = all(roof).fold(0.0, f64::max);
+    assert!((farthest / 0.20121 - 1.0).abs() < 1e-3, "{farthest}");
+    let alone = value(23, roof);
+    assert!((alone / 0.11421 - 1.0).abs() < 1e-3, "{alone}");
+    for row in 0..24 {
+        let touched = value(row, "impacts: light-heavy 3-3") > 0.0;
+        assert_eq!(touched, value(row, "gap [m]") < 0.1, "run {row}");
+    }
+    // The same run by itself, to the last bit; and by another method.
+    let case = bench.text("sweep study.toml --show 5");
+    std::fs::write(bench.path("fifth.toml"), &case).unwrap();
+    let run = |file: &str| -> Value {
+        serde_json::from_str(&bench.text(&format!("run {file} --no-output --json"))).unwrap()
+    };
+    let level = |v: &Value| {
+        v["gaps"][0]["levels"][2]["peak_force"]["peak"]
+            .as_f64()
+            .unwrap()
+    };
+    assert_eq!(level(&run("fifth.toml")), value(5, force));
+    let other = case.replace("[analysis]", "[analysis]\nmethod = \"adaptive\"");
+    std::fs::write(bench.path("adaptive.toml"), other).unwrap();
+    let independent = level(&run("adaptive.toml"));
+    assert!(
+        (independent / hardest - 1.0).abs() < 1e-5,
+        "{independent} {hardest}"
+    );
+}
+
+#[test]
+fn fragility_of_the_three_storey_pair() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = root().join("examples/fragility_three_storey_pair/study.toml");
+    let output = super::pounding()
+        .current_dir(folder.path())
+        .args(["ida", study.to_str().unwrap(), "--json", "-o", "out.h5"])
+        .args(["--table", "counts.csv", "--plot", "curves.svg"])
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let number = |v: &Value| v.as_f64().unwrap();
+    assert_eq!(report["records"], 40);
+    // Headlines of the README.
+    let fit = &report["limits"][0]["fit"];
+    assert!((number(&fit["median"]) - 0.8685).abs() < 2e-3, "{fit}");
+    assert!((number(&fit["dispersion"]) - 0.1455).abs() < 2e-3, "{fit}");
+    let minimum = number(&report["gaps"][0]["minimum"]["width"]);
+    assert!((minimum - 0.0828).abs() < 3e-4, "{minimum}");
+    // Pounding in the runs with gaps is what the isolated buildings say: the first
+    // contact of a run happens before pounding has changed anything.
+    let at_20_mm = &report["gaps"][0]["widths"][0];
+    assert_eq!(at_20_mm["counts"], report["limits"][0]["counts"]);
+    // The hazard of the example is a power law far beyond all curves, for which the
+    // frequency has a closed form: k0 median^-k exp(k^2 dispersion^2 / 2).
+    for width in report["gaps"][0]["widths"].as_array().unwrap() {
+        let (median, dispersion) = (
+            number(&width["fit"]["median"]),
+            number(&width["fit"]["dispersion"]),
+        );
+        let closed = 2.25e-4
+            * (median / 9.80665).powf(-2.2)
+            * (0.5 * 2.2_f64.powi(2) * dispersion.powi(2)).exp();
+        let found = number(&width["mean_annual_frequency"]);
+        assert!((found / closed - 1.0).abs() < 1e-5, "{found} {closed}");
+    }
+    let curves = std::fs::read_to_string(folder.path().join("curves.svg")).unwrap();
+    assert!(curves.starts_with("<svg") && curves.contains("Mean annual frequency"));
+    let table = std::fs::read_to_string(folder.path().join("counts.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 12 * 7);
+}

@@ -1,0 +1,170 @@
+//! Runs that fail, records that cannot be read, disks that are full.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{Bench, MIXED};
+
+/// Two steps of classical Runge-Kutta, the second far beyond what contact bears.
+const DIVERGING: &str = r#"
+case = "case.toml"
+
+[[variable]]
+name = "step"
+path = "analysis.step"
+values = ["0.2 ms", "20 ms"]
+
+[[variable]]
+name = "gap"
+path = "gap.0.width"
+from = "10 mm"
+to = "50 mm"
+count = 5
+
+[output]
+chunk = 3
+"#;
+
+fn with_method(bench: &Bench) {
+    let case = String::from_utf8(bench.bytes("case.toml")).unwrap();
+    // A hundred times as stiff: each contact lasts a few milliseconds.
+    let case = case.replace("2.75e9", "2.75e12").replace(
+        "duration =",
+        "method = \"runge_kutta_4\"\nstep = \"0.2 ms\"\nduration =",
+    );
+    std::fs::write(bench.path("case.toml"), case).unwrap();
+}
+
+#[test]
+fn a_failing_run_is_recorded_with_its_diagnosis() {
+    let bench = Bench::new(DIVERGING);
+    with_method(&bench);
+    let told = bench.text("sweep study.toml -o out.h5 --csv out.csv");
+    assert!(told.contains("10 runs in out.h5; 5 failed"), "{told}");
+    assert!(
+        told.contains("run 5: the energy ledger does not close"),
+        "{told}"
+    );
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+    for (i, row) in reader.records().map(Result::unwrap).enumerate() {
+        let failed = i >= 5;
+        assert_eq!(
+            &row[column("status")],
+            if failed { "failed" } else { "complete" }
+        );
+        assert_eq!(
+            row[column("energy_input [J]")].is_empty(),
+            failed,
+            "run {i}"
+        );
+        assert_eq!(
+            row[column("diagnosis")].contains("energy ledger"),
+            failed,
+            "run {i}"
+        );
+        assert!(!row[column("gap [m]")].is_empty() && row[column("run_id")].len() == 32);
+    }
+    let all: Value =
+        serde_json::from_str(&bench.text("sweep study.toml -o out.h5 --json")).unwrap();
+    assert_eq!(
+        (&all["runs"], &all["failed"]),
+        (&Value::from(10), &Value::from(5))
+    );
+    assert_eq!(all["first_failures"][0]["run"], 5);
+    // The printed case of a failed run fails in the same words.
+    std::fs::write(
+        bench.path("fifth.toml"),
+        bench.text("sweep study.toml --show 5"),
+    )
+    .unwrap();
+    let told = bench.complaint("run fifth.toml --no-output", 3);
+    assert!(told.contains("the energy ledger does not close"), "{told}");
+    // A study in which nothing works is a failure itself.
+    bench.study(&DIVERGING.replace("\"0.2 ms\", ", ""));
+    let told = bench.complaint("sweep study.toml -o none.h5", 3);
+    assert!(told.contains("all 5 runs failed"), "{told}");
+    assert!(bench.path("none.h5").exists());
+}
+
+#[test]
+fn an_unreadable_record_is_told_before_anything_is_run() {
+    let bench = Bench::new(MIXED);
+    std::fs::copy(
+        super::root().join("ground_motions/kobe_1995_jma_ns.csv"),
+        bench.path("copy.csv"),
+    )
+    .unwrap();
+    let study = MIXED.replace("MOTIONS/kobe_1995_jma_ns.csv", "copy.csv");
+    bench.study(&study);
+    bench.text("sweep study.toml -o whole.h5");
+    std::fs::create_dir(bench.path("a.h5.part")).unwrap();
+    bench.complaint("sweep study.toml -o a.h5", 4);
+    std::fs::remove_dir(bench.path("a.h5.part")).unwrap();
+    let good = bench.bytes("copy.csv");
+    std::fs::write(bench.path("copy.csv"), "time_s,acceleration_g\n0.00,zero\n").unwrap();
+    let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
+    assert!(told.contains("1 of the 2 records cannot be read"), "{told}");
+    assert!(told.contains("copy.csv:1"), "{told}");
+    // With the record back, nothing was lost.
+    std::fs::write(bench.path("copy.csv"), good).unwrap();
+    let told = bench.text("sweep study.toml -o a.h5 --resume");
+    assert!(
+        told.contains("60 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert!(bench.bytes("a.h5") == bench.bytes("whole.h5"));
+    // Asked to keep going, the others are made and these recorded.
+    std::fs::remove_file(bench.path("copy.csv")).unwrap();
+    let told = bench.text("sweep study.toml -o b.h5 --keep-going");
+    assert!(
+        told.contains("30 failed") && told.contains("cannot read the record"),
+        "{told}"
+    );
+}
+
+/// A limit of the size of files stands for a full disk; `trap` lets the write fail
+/// instead of the process.
+fn with_limit(bench: &Bench, kilobytes: usize, arguments: &str) -> (Option<i32>, String) {
+    let script = format!(
+        "trap '' XFSZ; ulimit -f {kilobytes}; exec {} {arguments}",
+        env!("CARGO_BIN_EXE_pounding")
+    );
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .env("NO_COLOR", "1")
+        .current_dir(bench.folder.path())
+        .output()
+        .unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    let words: Vec<&str> = errors.split_whitespace().filter(|w| *w != "│").collect();
+    (output.status.code(), words.join(" "))
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_loses_nothing_that_was_finished() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o whole.h5");
+    // No room for a chunk.
+    let (code, told) = with_limit(&bench, 1, "sweep study.toml -o full.h5");
+    assert_eq!(code, Some(4), "{told}");
+    assert!(
+        told.contains("cannot store runs in full.h5.parts: File too large"),
+        "{told}"
+    );
+    assert!(told.contains("0 of 60 runs are stored"), "{told}");
+    // Room for all chunks, not for the result.
+    let (code, told) = with_limit(&bench, 20, "sweep study.toml -o full.h5 --resume");
+    assert_eq!(code, Some(4), "{told}");
+    assert!(told.contains("cannot write the result full.h5"), "{told}");
+    assert!(!bench.path("full.h5").exists() && !bench.path("full.h5.part").exists());
+    let told = bench.text("sweep study.toml -o full.h5 --resume");
+    assert!(
+        told.contains("60 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert!(bench.bytes("full.h5") == bench.bytes("whole.h5"));
+}

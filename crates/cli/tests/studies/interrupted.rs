@@ -1,0 +1,129 @@
+//! Studies that are killed.
+
+use std::time::{Duration, Instant};
+
+use super::{Bench, MIXED};
+
+/// Kills at random instants until there were fifty; whenever a study comes to its end, its
+/// file has the bytes of an undisturbed run.
+#[test]
+fn a_killed_study_goes_on_where_it_was() {
+    let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 120"));
+    let begun = Instant::now();
+    bench.text("sweep study.toml --threads 2 -o whole.h5");
+    let longest = begun.elapsed();
+    let whole = bench.bytes("whole.h5");
+    let mut random = 12_345_u64;
+    let mut uniform = || {
+        // Knuth's generator; the instants are random anyway.
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (random >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let (mut kills, mut finished, mut resumed) = (0, 0, 0);
+    while kills < 50 {
+        let mut child = bench
+            .command("sweep study.toml --threads 2 -o killed.h5 --resume")
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_secs_f64(
+            0.6 * uniform() * longest.as_secs_f64(),
+        ));
+        // SIGKILL on Unix: nothing is cleaned up.
+        child.kill().unwrap();
+        let status = child.wait().unwrap();
+        if !status.success() {
+            kills += 1;
+            let stored = std::fs::read_dir(bench.path("killed.h5.parts"));
+            let whole_chunks = stored.map_or(0, |files| {
+                files
+                    .filter(|f| {
+                        f.as_ref()
+                            .unwrap()
+                            .path()
+                            .extension()
+                            .is_some_and(|e| e == "runs")
+                    })
+                    .count()
+            });
+            resumed += usize::from(whole_chunks > 0);
+        }
+        if bench.path("killed.h5").exists() {
+            assert!(bench.bytes("killed.h5") == whole, "after {kills} kills");
+            // What a kill between renaming and tidying up leaves is tidied up.
+            bench.text("sweep study.toml -o killed.h5 --resume");
+            finished += 1;
+            std::fs::remove_file(bench.path("killed.h5")).unwrap();
+        }
+    }
+    bench.text("sweep study.toml -o killed.h5 --resume");
+    assert!(bench.bytes("killed.h5") == whole);
+    assert!(!bench.path("killed.h5.parts").exists());
+    assert!(
+        finished > 0 && resumed > 5,
+        "{finished} finished, {resumed} kills with finished runs"
+    );
+}
+
+/// A whole chunk is kept and a damaged one made again.
+#[test]
+fn damaged_chunks_are_made_again() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o whole.h5");
+    // The result cannot be written, so that the chunks stay.
+    std::fs::create_dir(bench.path("again.h5.part")).unwrap();
+    bench.complaint("sweep study.toml -o again.h5", 4);
+    let parts = bench.path("again.h5.parts");
+    std::fs::remove_dir(bench.path("again.h5.part")).unwrap();
+    let told = bench.complaint("sweep study.toml -o again.h5", 2);
+    assert!(
+        told.contains("60 finished runs of this study from an interrupted call"),
+        "{told}"
+    );
+    assert!(told.contains("--resume"), "{told}");
+    let chunk = parts.join("000000000008.runs");
+    let mut bytes = std::fs::read(&chunk).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 4;
+    std::fs::write(&chunk, bytes).unwrap();
+    let told = bench.text("sweep study.toml -o again.h5 --resume");
+    assert!(
+        told.contains("56 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert!(bench.bytes("again.h5") == bench.bytes("whole.h5"));
+    // And once it is complete there is nothing to do.
+    let told = bench.text("sweep study.toml -o again.h5 --resume --csv late.csv");
+    assert!(
+        told.contains("60 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert_eq!(
+        String::from_utf8(bench.bytes("late.csv"))
+            .unwrap()
+            .lines()
+            .count(),
+        61
+    );
+}
+
+/// Finished runs are never mixed with those of a study that was changed since.
+#[test]
+fn a_changed_study_does_not_go_on() {
+    let bench = Bench::new(MIXED);
+    std::fs::create_dir(bench.path("a.h5.part")).unwrap();
+    bench.complaint("sweep study.toml -o a.h5", 4);
+    bench.study(&MIXED.replace("\"20 t\"", "\"21 t\""));
+    let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
+    assert!(told.contains("runs of another study"), "{told}");
+    // A comment, or other words for the same numbers, change nothing.
+    bench.study(
+        &MIXED
+            .replace("\"20 t\"", "20000")
+            .replace("seed = 3", "seed = 3 # as before"),
+    );
+    let told = bench.complaint("sweep study.toml -o a.h5 --resume", 4);
+    assert!(told.contains("cannot write the result"), "{told}");
+}

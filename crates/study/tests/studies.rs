@@ -1,0 +1,320 @@
+//! Studies as a library: sharing changes nothing, designs sample what they say, runs keep
+//! their identity.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+use pounding_case::Case;
+use pounding_study::{
+    Axis, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions, Value,
+    case_of_run, sweep,
+};
+use pounding_time_history::{assemble, run};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .canonicalize()
+        .unwrap()
+}
+
+/// A study of the three-storey pair for six seconds, in a folder of its own.
+fn study(folder: &Path, text: &str) -> Result<Study, StudyError> {
+    let motions = root().join("ground_motions");
+    let motions = motions.to_str().unwrap();
+    let case =
+        std::fs::read_to_string(root().join("examples/sweep_three_storey_pair/case.toml")).unwrap();
+    let case = case
+        .replace("../../ground_motions", motions)
+        .replace("31 s", "6 s");
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    let text = format!("case = \"case.toml\"\n{}", text.replace("MOTIONS", motions));
+    Study::parse(&text, &folder.join("study.toml"))
+}
+
+fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
+    let output = folder.join("out.h5");
+    let options = SweepOptions {
+        output: output.clone(),
+        csv: None,
+        threads: 2,
+        shard: Shard::WHOLE,
+        resume: false,
+        keep_going: false,
+    };
+    sweep(study, &options, &mut |_| {}).unwrap();
+    let reader = ResultReader::open(&output).unwrap();
+    reader.block(0..reader.rows).unwrap()
+}
+
+/// Runs that share buildings, records and exact steps give, to the last bit, what their
+/// cases give alone, whatever varies: gaps, buildings, records, scales, methods.
+#[test]
+fn sharing_changes_no_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study(
+        folder.path(),
+        r#"
+[[variable]]
+name = "gap"
+path = "gap.light-heavy.width"
+values = ["15 mm", 0.04]
+[[variable]]
+name = "stiffness"
+path = "building.light.stiffness"
+values = ["3 MN/m", "4 MN/m"]
+[[variable]]
+records = ["MOTIONS/el_centro_1940_ns.csv", { name = "kobe", file = "MOTIONS/kobe_1995_jma_ns.csv" }]
+[[variable]]
+name = "scale"
+path = "ground_motion.scale"
+values = [0.5, 1.25]
+[[variable]]
+name = "method"
+path = "analysis.method"
+values = ["event_driven", "adaptive"]
+"#,
+    )
+    .unwrap();
+    assert_eq!(study.runs(), 32);
+    let rows = rows(&study, folder.path());
+    assert_eq!(rows.len(), 32);
+    let mut touched = 0;
+    for (row, point) in &rows {
+        assert_eq!((&row.failure, point), (&None, &study.point(row.run)));
+        let text = case_of_run(&study, row.run).unwrap();
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        let displacement = alone
+            .buildings
+            .iter()
+            .flat_map(|b| &b.storeys)
+            .map(|s| s.displacement.value);
+        let force = alone
+            .gaps
+            .iter()
+            .flat_map(|g| &g.levels)
+            .map(|l| l.peak_force.value);
+        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let layout = &reader.description.layout;
+        assert_eq!(layout.width(Axis::Storey), 6);
+        assert_eq!(
+            row.values[layout.range("peak_displacement")],
+            displacement.collect::<Vec<_>>()
+        );
+        assert_eq!(
+            row.values[layout.range("peak_force")],
+            force.collect::<Vec<_>>()
+        );
+        assert_eq!(
+            row.values[layout.range("energy_input")],
+            [alone.energy.end.input]
+        );
+        touched += usize::from(!alone.impacts.is_empty());
+    }
+    assert!((20..=32).contains(&touched), "{touched}");
+    let mut ids: Vec<_> = rows.iter().map(|(r, _)| r.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), 32, "every run has its own identity");
+}
+
+/// A run is the same run in any study: its identity hangs on values and bytes alone.
+#[test]
+fn identity_is_that_of_the_content() {
+    let folder = tempfile::tempdir().unwrap();
+    let ids = |text: &str| -> Vec<[u8; 16]> {
+        let study = study(folder.path(), text).unwrap();
+        let rows = rows(&study, folder.path());
+        std::fs::remove_file(folder.path().join("out.h5")).unwrap();
+        rows.iter().map(|(r, _)| r.id).collect()
+    };
+    let listed = ids("[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"40 mm\"]\n");
+    let ranged = ids(
+        "[[variable]]\nname = \"x\" # the gap\npath = \"gap[0].width\"\nfrom = 0.02\nto = 0.04\ncount = 2\n",
+    );
+    assert_eq!(listed, ranged);
+    let copy = folder.path().join("another name.csv");
+    std::fs::copy(root().join("ground_motions/el_centro_1940_ns.csv"), &copy).unwrap();
+    let with = |record: &str| {
+        ids(&format!(
+            "[[variable]]\npath = \"gap.0.width\"\nvalues = [0.02, 0.04]\n[[variable]]\nrecords = [\"{record}\"]\n"
+        ))
+    };
+    assert_eq!(with("another name.csv"), listed);
+    // One sample more is another record.
+    let longer = std::fs::read_to_string(&copy).unwrap() + "31.18,0.00001\n";
+    std::fs::write(&copy, longer).unwrap();
+    assert!(
+        with("another name.csv")
+            .iter()
+            .zip(&listed)
+            .all(|(a, b)| a != b)
+    );
+}
+
+/// Scaled to a measure, a record has it; and the isolated demand grows in proportion, for
+/// the buildings are elastic.
+#[test]
+fn intensities_are_reached() {
+    let folder = tempfile::tempdir().unwrap();
+    for (measure, unit) in [
+        (
+            "intensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\", \"0.4 g\"]",
+            "m s-2",
+        ),
+        (
+            "intensity = \"peak_ground_velocity\"\nvalues = [0.2, 0.4]",
+            "m s-1",
+        ),
+        (
+            "intensity = \"spectral_acceleration\"\nbuilding = \"light\"\nvalues = [2, 4]",
+            "m s-2",
+        ),
+        (
+            "intensity = \"spectral_acceleration\"\nvalues = [2, 4]",
+            "m s-2",
+        ),
+        (
+            "intensity = \"average_spectral_acceleration\"\nvalues = [2, 4]",
+            "m s-2",
+        ),
+    ] {
+        let text = format!(
+            "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", \"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\n{measure}\n[output]\nisolated_demand = true\n"
+        );
+        let study = study(folder.path(), &text).unwrap();
+        assert_eq!(study.variables[1].unit, unit);
+        let rows = rows(&study, folder.path());
+        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let demand = reader.description.layout.range("isolated_demand");
+        for pair in rows.chunks(2) {
+            for column in demand.clone() {
+                let ratio = pair[1].0.values[column] / pair[0].0.values[column];
+                assert!((ratio - 2.0).abs() < 1e-7, "{measure}: {ratio}");
+            }
+        }
+    }
+}
+
+/// Measures of a motion that has them in closed form: a sine of amplitude A and frequency
+/// w has PGA A, and from rest its velocity reaches 2 A / w.
+#[test]
+fn measures_have_their_closed_forms() {
+    use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+    let (step, w, a) = (1.0e-3, 5.0_f64, 2.5);
+    let samples: Vec<f64> = (0..20_000)
+        .map(|i| a * (w * step * f64::from(i)).sin())
+        .collect();
+    let unit = AccelerationUnit::MetrePerSecondSquared;
+    let motion = Accelerogram::new(samples, unit, step).unwrap();
+    let pga = IntensityMeasure::PeakGroundAcceleration
+        .of(&motion)
+        .unwrap();
+    assert!((pga / a - 1.0).abs() < 1e-5, "{pga}");
+    let pgv = IntensityMeasure::PeakGroundVelocity.of(&motion).unwrap();
+    assert!((pgv / (2.0 * a / w) - 1.0).abs() < 1e-5, "{pgv}");
+    // A stiff oscillator follows the ground; two periods make a geometric mean.
+    let spectral = |periods: &[f64]| {
+        let periods = periods.to_vec();
+        let measure = IntensityMeasure::SpectralAcceleration {
+            periods,
+            damping: 0.05,
+        };
+        measure.of(&motion).unwrap()
+    };
+    assert!((spectral(&[0.01]) / a - 1.0).abs() < 1e-2);
+    let mean = (spectral(&[0.5]) * spectral(&[2.0])).sqrt();
+    assert!((spectral(&[0.5, 2.0]) / mean - 1.0).abs() < 1e-12);
+}
+
+/// The isolated demand is the gap that just keeps the buildings apart: a thousandth of a
+/// millimetre more and they do not touch, less and they do.
+#[test]
+fn the_isolated_demand_just_keeps_the_buildings_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |text: &str| {
+        let study = study(folder.path(), text).unwrap();
+        let rows = rows(&study, folder.path());
+        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let layout = reader.description.layout.clone();
+        drop(reader);
+        std::fs::remove_file(folder.path().join("out.h5")).unwrap();
+        (rows, layout)
+    };
+    let (rows, layout) = of(
+        "[[variable]]\npath = \"gap.0.width\"\nvalues = [0.03]\n[output]\nisolated_demand = true\n",
+    );
+    let demand = rows[0].0.values[layout.range("isolated_demand")]
+        .iter()
+        .copied()
+        .fold(0.0, f64::max);
+    assert!(demand > 0.05, "{demand}");
+    let (below, above) = (demand - 1e-9, demand + 1e-9);
+    let (rows, layout) = of(&format!(
+        "[[variable]]\npath = \"gap.0.width\"\nvalues = [{below:e}, {above:e}]\n"
+    ));
+    let impacts = |row: usize| {
+        rows[row].0.values[layout.range("impacts")]
+            .iter()
+            .sum::<f64>()
+    };
+    assert!(impacts(0) > 0.0, "{demand}");
+    assert_eq!(impacts(1), 0.0, "{demand}");
+}
+
+/// Grid, list, Latin hypercube and Sobol designs over a list, a range and a choice.
+#[test]
+fn designs_sample_what_they_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let variables = "[[variable]]\nname = \"a\"\npath = \"gap.0.width\"\nvalues = [0.01, 0.02]\n[[variable]]\nname = \"b\"\npath = \"gap.0.restitution\"\nfrom = 0.4\nto = 0.8\nCOUNT\n";
+    let of = |count: &str, design: &str| {
+        study(
+            folder.path(),
+            &format!("{}{design}", variables.replace("COUNT", count)),
+        )
+    };
+    let numbers = |study: &Study| -> Vec<(f64, f64)> {
+        let number = |v: Value| match v {
+            Value::Number(x) => x,
+            Value::Choice(_) => f64::NAN,
+        };
+        (0..study.runs())
+            .map(|r| study.point(r))
+            .map(|p| (number(p[0]), number(p[1])))
+            .collect()
+    };
+    let grid = numbers(&of("count = 3", "").unwrap());
+    let expected = [
+        (0.01, 0.4),
+        (0.01, 0.6),
+        (0.01, 0.8),
+        (0.02, 0.4),
+        (0.02, 0.6),
+        (0.02, 0.8),
+    ];
+    for (found, wanted) in grid.iter().zip(expected) {
+        assert!(
+            found.0 == wanted.0 && (found.1 - wanted.1).abs() < 1e-15,
+            "{grid:?}"
+        );
+    }
+    let list = numbers(&of("count = 2", "[design]\nkind = \"list\"\n").unwrap());
+    assert_eq!(list, [(0.01, 0.4), (0.02, 0.8)]);
+    assert!(of("count = 3", "[design]\nkind = \"list\"\n").is_err());
+    for kind in ["latin_hypercube", "sobol"] {
+        let design = format!("[design]\nkind = \"{kind}\"\nruns = 64\nseed = 5\n");
+        let points = numbers(&of("", &design).unwrap());
+        assert_eq!(points.iter().filter(|p| p.0 == 0.01).count(), 32, "{kind}");
+        let mut shares: Vec<usize> = points
+            .iter()
+            .map(|p| ((p.1 - 0.4) / 0.4 * 64.0) as usize)
+            .collect();
+        shares.sort_unstable();
+        assert_eq!(shares, (0..64).collect::<Vec<_>>(), "{kind}");
+        let other = design.replace("seed = 5", "seed = 6");
+        assert_ne!(numbers(&of("", &other).unwrap()), points, "{kind}");
+        assert_eq!(numbers(&of("", &design).unwrap()), points, "{kind}");
+    }
+}

@@ -1,0 +1,46 @@
+"""Opens the result of a study as a user would: one dataset with its coordinates."""
+
+import csv
+import sys
+
+import h5py
+import numpy as np
+import xarray as xr
+
+path, table = sys.argv[1:]
+
+with xr.open_dataset(path, engine="h5netcdf") as ds:
+    assert dict(ds.sizes) == {"run": 60, "storey": 6, "level": 3}, ds.sizes
+    for name in ("gap", "model", "record", "mass"):
+        assert name in ds.coords and ds[name].dims == ("run",), name
+    assert ds.gap.attrs["units"] == "m" and ds.mass.attrs["units"] == "kg"
+    assert set(ds.model.values) == {"jankowski_2005", "anagnostopoulos_2004"}
+    assert set(ds.record.values) == {"el_centro_1940_ns", "kobe_1995_jma_ns"}
+    assert sorted(set(ds.mass.values)) == [20e3, 25e3, 30e3]
+    # A Latin hypercube: one gap in each sixtieth of the range.
+    shares = np.floor((ds.gap.values - 0.005) / 0.055 * 60)
+    assert sorted(shares) == list(range(60))
+    roof = ds.peak_displacement.sel(storey="light 3")
+    assert roof.dims == ("run",) and np.all(roof > 0) and roof.attrs["units"] == "m"
+    assert list(ds.storey_building.values) == ["light"] * 3 + ["heavy"] * 3
+    assert list(ds.level_left_storey.values) == [1, 2, 3]
+    assert np.all(ds.status == 0)
+    # The gap that just keeps the buildings apart decides whether they touch at all.
+    touched = ds.impacts.sum("level") > 0
+    assert np.array_equal(touched, (ds.isolated_demand.max("level") > ds.gap))
+    assert len(set(ds.run_id.values)) == 60
+    # Selection by coordinates, as in every xarray dataset.
+    one = ds.where(ds.model == "jankowski_2005", drop=True)
+    assert 25 <= one.sizes["run"] <= 35
+    with open(table) as f:
+        for row, run in zip(csv.DictReader(f), ds.run.values):
+            assert int(row["run"]) == run
+            assert float(row["peak_displacement: light 3 [m]"]) == float(roof[run])
+            assert row["model"] == ds.model.values[run]
+
+with h5py.File(path) as f:
+    assert f.attrs["program"] == "pounding" and len(f.attrs["study_sha256"]) == 64
+    assert "[[variable]]" in f.attrs["study"] and "[[building]]" in f.attrs["case"]
+    assert f["failures/run"].shape == (0,)
+
+print("opened in h5py", h5py.__version__, "and xarray", xr.__version__)

@@ -53,7 +53,7 @@ fn sweep_of_the_three_storey_pair() {
         let touched = value(row, "impacts: light-heavy 3-3") > 0.0;
         assert_eq!(touched, value(row, "gap [m]") < 0.1, "run {row}");
     }
-    // The same run by itself, to the last bit; and by another method.
+    // The same run by itself, and by another method.
     let case = bench.text("sweep study.toml --show 5");
     std::fs::write(bench.path("fifth.toml"), &case).unwrap();
     let run = |file: &str| -> Value {
@@ -64,7 +64,9 @@ fn sweep_of_the_three_storey_pair() {
             .as_f64()
             .unwrap()
     };
-    assert_eq!(level(&run("fifth.toml")), value(5, force));
+    let alone = level(&run("fifth.toml"));
+    // `run` records responses and therefore steps where a study flies.
+    assert!((alone / hardest - 1.0).abs() < 1e-7, "{alone} {hardest}");
     let other = case.replace("[analysis]", "[analysis]\nmethod = \"adaptive\"");
     std::fs::write(bench.path("adaptive.toml"), other).unwrap();
     let independent = level(&run("adaptive.toml"));

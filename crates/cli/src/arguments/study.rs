@@ -67,7 +67,7 @@ pub struct MergeArguments {
 /// Arguments of `ida`.
 #[derive(Debug, clap::Args)]
 pub struct IdaArguments {
-    /// Study file (TOML) with a part [ida]
+    /// Study file (TOML) with a part `ida`
     pub study: PathBuf,
     /// How it is run
     #[command(flatten)]

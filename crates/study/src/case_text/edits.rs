@@ -18,6 +18,13 @@ pub(crate) struct Entry {
     pub before: String,
 }
 
+impl Entry {
+    /// The replacement that gives the entry this value.
+    pub(crate) fn with(&self, value: &str) -> (Range<usize>, String) {
+        (self.span.clone(), format!("{}{value}", self.before))
+    }
+}
+
 /// Replacements in a text, in order of their places.
 pub(crate) type Edits = Vec<(Range<usize>, String)>;
 

@@ -58,6 +58,12 @@ impl Path {
         }
     }
 
+    /// Whether it leads to something of a gap that changes neither buildings nor motion, nor
+    /// which floors may touch.
+    pub(crate) fn of_gap(&self) -> bool {
+        self.table() == "gap" && !self.0.contains(&Step::Key("levels".to_owned()))
+    }
+
     /// The first step, if it is a key.
     pub(crate) fn table(&self) -> &str {
         match self.0.first() {

@@ -1,6 +1,7 @@
 //! The HDF5 file of a study, netCDF-4 style: dimensions `run`, `storey` and `level`, a
 //! coordinate for every variable. The layout is in `docs/studies.md`.
 
+mod datasets;
 mod merge;
 mod reading;
 mod table;

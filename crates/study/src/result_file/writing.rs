@@ -1,18 +1,20 @@
 //! Writing: rows in, blocks out.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use hdf5::types::{FixedAscii, VarLenUnicode};
-use hdf5::{Dataset, File, Group, H5Type, Location};
+use hdf5::types::FixedAscii;
+use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
-use pounding_time_history::dimension_scales::{attach, make_scale};
-use serde_json::json;
+use pounding_time_history::dimension_scales::make_scale;
 
 use super::Description;
+use super::datasets::{
+    Axes, attributes, coordinates, dataset, describe, failures, labels, places, quantities, states,
+    unicode,
+};
 use crate::case_text::hexadecimal;
 use crate::error::StudyError;
-use crate::runs::{Axis, Row};
+use crate::runs::Row;
 use crate::study_file::Value;
 
 /// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
@@ -141,63 +143,20 @@ impl Open {
             }
         }
         places(&file, description, storey.as_ref(), level.as_ref())?;
+        let coordinates = coordinates(&file, description, &run, rows)?;
         let names: Vec<&str> = description
             .coordinates
             .iter()
             .map(|c| c.name.as_str())
             .collect();
-        let beside = names.join(" ");
-        let mut coordinates = Vec::new();
-        for c in &description.coordinates {
-            let data = match c.choices {
-                Some(_) => dataset::<VarLenUnicode>(&file, &c.name, rows, None)?,
-                None => dataset::<f64>(&file, &c.name, rows, None)?,
-            };
-            describe(&data, &c.unit, &c.long_name)?;
-            attach(&data, &run, 0)?;
-            coordinates.push((data, c.choices.clone()));
-        }
-        let status = dataset::<i8>(&file, "status", rows, None)?;
-        describe(
-            &status,
-            "",
-            "0 the run is complete, 1 it failed: see the group failures",
-        )?;
-        text(&status, "flag_meanings", "complete failed")?;
-        status
-            .new_attr::<i8>()
-            .shape(2)
-            .create("flag_values")?
-            .write_raw(&[0_i8, 1])?;
-        let id = dataset::<Id>(&file, "run_id", rows, None)?;
-        describe(
-            &id,
-            "",
-            "identity of the run: hash of case, record and program version",
-        )?;
-        for data in [&status, &id] {
-            attach(data, &run, 0)?;
-            text(data, "coordinates", &beside)?;
-        }
-        let mut quantities = Vec::new();
-        for q in &layout.quantities {
-            let (width, scale) = match q.axis {
-                Axis::Run => (None, None),
-                Axis::Storey => (Some(layout.width(q.axis)), storey.as_ref()),
-                Axis::Level => (Some(layout.width(q.axis)), level.as_ref()),
-            };
-            if width == Some(0) {
-                continue;
-            }
-            let data = dataset::<f64>(&file, q.name, rows, width)?;
-            describe(&data, q.unit, q.long_name)?;
-            text(&data, "coordinates", &beside)?;
-            attach(&data, &run, 0)?;
-            if let Some(scale) = scale {
-                attach(&data, scale, 1)?;
-            }
-            quantities.push((data, layout.range(q.name)));
-        }
+        let axes = Axes {
+            run: &run,
+            storey: storey.as_ref(),
+            level: level.as_ref(),
+            coordinates: &names.join(" "),
+        };
+        let (status, id) = states(&file, &axes, rows)?;
+        let quantities = quantities(&file, description, &axes, rows)?;
         let failures = failures(&file)?;
         Ok(Self {
             file,
@@ -299,155 +258,4 @@ impl Open {
 
 fn put<T: H5Type>(data: &Dataset, values: &[T], place: std::ops::Range<usize>) -> Result<()> {
     data.write_slice(ArrayView1::from(values), place)
-}
-
-fn attributes(file: &File, d: &Description) -> Result<()> {
-    let variables: Vec<_> = d
-        .coordinates
-        .iter()
-        .map(|c| json!({"name": c.name, "long_name": c.long_name, "unit": c.unit, "choices": c.choices}))
-        .collect();
-    for (name, value) in [
-        ("Conventions", "CF-1.10"),
-        ("title", &d.title),
-        ("program", "pounding"),
-        ("version", &d.version),
-        ("study", &d.study),
-        ("study_sha256", &d.study_sha256),
-        ("case", &d.case),
-        ("record_sha256", &d.records),
-        ("variables", &json!(variables).to_string()),
-    ] {
-        text(file, name, value)?;
-    }
-    for (name, value) in [
-        ("runs", d.runs),
-        ("chunk", d.chunk),
-        ("shard", d.shard.0),
-        ("shards", d.shard.1),
-    ] {
-        file.new_attr::<u64>()
-            .create(name)?
-            .write_scalar(&(value as u64))?;
-    }
-    Ok(())
-}
-
-/// What the labels of storeys and levels are made of.
-fn places(
-    file: &File,
-    d: &Description,
-    storey: Option<&Dataset>,
-    level: Option<&Dataset>,
-) -> Result<()> {
-    let numbers = |name: &str, long: &str, values: &[i32], scale: &Dataset| {
-        let data = dataset::<i32>(file, name, values.len(), None)?;
-        data.write_raw(values)?;
-        describe(&data, "", long)?;
-        attach(&data, scale, 0)
-    };
-    let (storeys, levels) = (&d.layout.storeys, &d.layout.levels);
-    if let Some(scale) = storey {
-        if let Some(data) = labels(
-            file,
-            "storey_building",
-            storeys.iter().map(|p| p.of.as_str()),
-        )? {
-            attach(&data, scale, 0)?;
-        }
-        let values: Vec<i32> = storeys.iter().map(|p| p.storeys[0] as i32).collect();
-        numbers(
-            "storey_number",
-            "storey of its building, from 1 at the bottom",
-            &values,
-            scale,
-        )?;
-    }
-    if let Some(scale) = level {
-        if let Some(data) = labels(file, "level_gap", levels.iter().map(|p| p.of.as_str()))? {
-            attach(&data, scale, 0)?;
-        }
-        for (i, name) in ["level_left_storey", "level_right_storey"]
-            .into_iter()
-            .enumerate()
-        {
-            let values: Vec<i32> = levels.iter().map(|p| p.storeys[i] as i32).collect();
-            numbers(name, "storey from 1, 0 for a wall", &values, scale)?;
-        }
-    }
-    Ok(())
-}
-
-/// A dataset of texts; none if there are no texts.
-fn labels<'t>(
-    file: &File,
-    name: &str,
-    texts: impl Iterator<Item = &'t str>,
-) -> Result<Option<Dataset>> {
-    let values = texts.map(unicode).collect::<Result<Vec<_>>>()?;
-    if values.is_empty() {
-        return Ok(None);
-    }
-    let builder = file.new_dataset::<VarLenUnicode>().obj_track_times(false);
-    let data = builder.shape(values.len()).create(name)?;
-    data.write_raw(&values)?;
-    Ok(Some(data))
-}
-
-/// Numbers of failed runs and why they failed.
-fn failures(file: &File) -> Result<(Dataset, Dataset)> {
-    let group = file.create_group("failures")?;
-    let run = group
-        .new_dataset::<i64>()
-        .obj_track_times(false)
-        .chunk(256)
-        .shape(0..)
-        .create("run")?;
-    describe(&run, "", "number of the run")?;
-    let builder = group.new_dataset::<VarLenUnicode>().obj_track_times(false);
-    let diagnosis = builder.chunk(256).shape(0..).create("diagnosis")?;
-    describe(&diagnosis, "", "why the run failed")?;
-    Ok((run, diagnosis))
-}
-
-/// A compressed dataset of rows, or of rows and columns.
-fn dataset<T: H5Type>(
-    group: &Group,
-    name: &str,
-    rows: usize,
-    columns: Option<usize>,
-) -> Result<Dataset> {
-    let chunk = BLOCK.min(rows).max(1);
-    let builder = group
-        .new_dataset::<T>()
-        .obj_track_times(false)
-        .shuffle()
-        .deflate(1);
-    match columns {
-        Some(columns) => builder
-            .chunk((chunk, columns))
-            .shape((rows, columns))
-            .create(name),
-        None => builder.chunk(chunk).shape(rows).create(name),
-    }
-}
-
-fn describe(data: &Dataset, unit: &str, long_name: &str) -> Result<()> {
-    if !unit.is_empty() {
-        text(data, "units", unit)?;
-    }
-    text(data, "long_name", long_name)
-}
-
-fn text(location: &Location, name: &str, value: &str) -> Result<()> {
-    let value = unicode(value)?;
-    location
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
-}
-
-fn unicode(value: &str) -> Result<VarLenUnicode> {
-    // A text of HDF5 ends at its first zero.
-    VarLenUnicode::from_str(&value.replace('\0', " ")).map_err(|e| hdf5::Error::from(e.to_string()))
 }

@@ -223,14 +223,9 @@ fn edits(study: &Study, point: &[Value]) -> Edits {
     let mut all = Edits::new();
     for (variable, value) in study.variables.iter().zip(point) {
         match (&variable.target, value) {
-            (Target::Entry { entry, .. }, Value::Number(x)) => {
-                all.push((
-                    entry.span.clone(),
-                    format!("{}{}", entry.before, written(*x)),
-                ));
-            }
+            (Target::Entry { entry, .. }, Value::Number(x)) => all.push(entry.with(&written(*x))),
             (Target::Entry { entry, texts, .. }, Value::Choice(i)) => {
-                all.push((entry.span.clone(), format!("{}{}", entry.before, texts[*i])));
+                all.push(entry.with(&texts[*i]));
             }
             (Target::Model { edits }, Value::Choice(i)) => all.extend(edits[*i].iter().cloned()),
             (Target::Record, Value::Choice(i)) => {

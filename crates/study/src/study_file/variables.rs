@@ -10,7 +10,7 @@ use super::intensity::{FirstPeriods, intensity};
 use super::reader::{Reader, Result, Table, Value};
 use super::values::{Values, numbers, unit_of};
 use super::{RecordSource, Target, Variable, records};
-use crate::case_text::{Edits, Lost, Path, apply, entry, options_of_gap};
+use crate::case_text::{Edits, Entry, Lost, Path, apply, entry, options_of_gap};
 use crate::runs::written;
 
 const VARIABLE: [&str; 14] = [
@@ -153,45 +153,8 @@ fn of_path(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
     };
     let (values, target) = match first_value(table) {
         Some(first) if first.get_ref().as_table().is_some() => models(table, &tried)?,
-        Some(first) if reader.maybe_quantity(first).is_none() => {
-            let items = reader.list(table.required("values")?, "values")?;
-            let (labels, texts) = choices(&reader, items)?;
-            let edit = |text: &str| vec![(entry.span.clone(), format!("{}{text}", entry.before))];
-            for (item, text) in items.iter().zip(&texts) {
-                tried.edits(edit(text), item)?;
-            }
-            let of_gap = path.table() == "gap";
-            (
-                Values::Choices(labels),
-                Target::Entry {
-                    entry,
-                    of_gap,
-                    texts,
-                },
-            )
-        }
-        _ => {
-            let (values, places) =
-                numbers(table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
-            for value in places {
-                // As it is written, so that its unit is checked, and as runs will have it.
-                let number = reader.any_quantity(value, "values")?.value;
-                for text in [reader.source[value.span()].to_owned(), written(number)] {
-                    let new = format!("{}{text}", entry.before);
-                    tried.edits(vec![(entry.span.clone(), new)], value)?;
-                }
-            }
-            let of_gap = path.table() == "gap";
-            let texts = Vec::new();
-            (
-                values,
-                Target::Entry {
-                    entry,
-                    of_gap,
-                    texts,
-                },
-            )
-        }
+        Some(first) if reader.maybe_quantity(first).is_none() => named(table, &tried, entry)?,
+        _ => counted(table, &tried, entry)?,
     };
     let numeric = !matches!(values, Values::Choices(_));
     Ok(Variable {
@@ -205,6 +168,44 @@ fn of_path(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
         values,
         target,
     })
+}
+
+/// Values that are texts of the case, such as methods.
+fn named(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(Values, Target)> {
+    let reader = table.reader;
+    let items = reader.list(table.required("values")?, "values")?;
+    let (labels, texts) = choices(&reader, items)?;
+    for (item, text) in items.iter().zip(&texts) {
+        tried.edits(vec![entry.with(text)], item)?;
+    }
+    let of_gap = tried.path.of_gap();
+    let target = Target::Entry {
+        entry,
+        of_gap,
+        texts,
+    };
+    Ok((Values::Choices(labels), target))
+}
+
+/// Values that are numbers.
+fn counted(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(Values, Target)> {
+    let reader = table.reader;
+    let (values, places) = numbers(table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
+    for value in places {
+        // As it is written, so that its unit is checked, and as runs will have it.
+        let number = reader.any_quantity(value, "values")?.value;
+        for text in [reader.source[value.span()].to_owned(), written(number)] {
+            tried.edits(vec![entry.with(&text)], value)?;
+        }
+    }
+    let of_gap = tried.path.of_gap();
+    let texts = Vec::new();
+    let target = Target::Entry {
+        entry,
+        of_gap,
+        texts,
+    };
+    Ok((values, target))
 }
 
 fn first_value<'v, 'a>(table: &Table<'v, 'a>) -> Option<&'v Value<'a>> {

@@ -1,0 +1,249 @@
+//! Datasets and attributes of a result, with their units and names.
+
+use std::ops::Range;
+use std::str::FromStr;
+
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, File, Group, H5Type, Location};
+use pounding_time_history::dimension_scales::attach;
+use serde_json::json;
+
+use super::Description;
+use super::writing::{BLOCK, Id};
+use crate::runs::Axis;
+
+type Result<T> = hdf5::Result<T>;
+
+/// What datasets are attached to.
+pub(super) struct Axes<'d> {
+    pub run: &'d Dataset,
+    pub storey: Option<&'d Dataset>,
+    pub level: Option<&'d Dataset>,
+    /// Names of the coordinates of the runs.
+    pub coordinates: &'d str,
+}
+
+/// A dataset for each variable, with the names of its choices.
+pub(super) fn coordinates(
+    file: &File,
+    description: &Description,
+    run: &Dataset,
+    rows: usize,
+) -> Result<Vec<(Dataset, Option<Vec<String>>)>> {
+    let mut coordinates = Vec::new();
+    for c in &description.coordinates {
+        let data = match c.choices {
+            Some(_) => dataset::<VarLenUnicode>(file, &c.name, rows, None)?,
+            None => dataset::<f64>(file, &c.name, rows, None)?,
+        };
+        describe(&data, &c.unit, &c.long_name)?;
+        attach(&data, run, 0)?;
+        coordinates.push((data, c.choices.clone()));
+    }
+    Ok(coordinates)
+}
+
+/// Whether runs failed, and their identities.
+pub(super) fn states(file: &File, axes: &Axes<'_>, rows: usize) -> Result<(Dataset, Dataset)> {
+    let status = dataset::<i8>(file, "status", rows, None)?;
+    describe(
+        &status,
+        "",
+        "0 the run is complete, 1 it failed: see the group failures",
+    )?;
+    text(&status, "flag_meanings", "complete failed")?;
+    let values = status.new_attr::<i8>().shape(2).create("flag_values")?;
+    values.write_raw(&[0_i8, 1])?;
+    let id = dataset::<Id>(file, "run_id", rows, None)?;
+    describe(
+        &id,
+        "",
+        "identity of the run: hash of case, record and program version",
+    )?;
+    for data in [&status, &id] {
+        attach(data, axes.run, 0)?;
+        text(data, "coordinates", axes.coordinates)?;
+    }
+    Ok((status, id))
+}
+
+/// A dataset for each quantity, with its columns.
+pub(super) fn quantities(
+    file: &File,
+    description: &Description,
+    axes: &Axes<'_>,
+    rows: usize,
+) -> Result<Vec<(Dataset, Range<usize>)>> {
+    let layout = &description.layout;
+    let mut quantities = Vec::new();
+    for q in &layout.quantities {
+        let (width, scale) = match q.axis {
+            Axis::Run => (None, None),
+            Axis::Storey => (Some(layout.width(q.axis)), axes.storey),
+            Axis::Level => (Some(layout.width(q.axis)), axes.level),
+        };
+        if width == Some(0) {
+            continue;
+        }
+        let data = dataset::<f64>(file, q.name, rows, width)?;
+        describe(&data, q.unit, q.long_name)?;
+        text(&data, "coordinates", axes.coordinates)?;
+        attach(&data, axes.run, 0)?;
+        if let Some(scale) = scale {
+            attach(&data, scale, 1)?;
+        }
+        quantities.push((data, layout.range(q.name)));
+    }
+    Ok(quantities)
+}
+
+pub(super) fn attributes(file: &File, d: &Description) -> Result<()> {
+    let variables: Vec<_> = d
+        .coordinates
+        .iter()
+        .map(|c| json!({"name": c.name, "long_name": c.long_name, "unit": c.unit, "choices": c.choices}))
+        .collect();
+    for (name, value) in [
+        ("Conventions", "CF-1.10"),
+        ("title", &d.title),
+        ("program", "pounding"),
+        ("version", &d.version),
+        ("study", &d.study),
+        ("study_sha256", &d.study_sha256),
+        ("case", &d.case),
+        ("record_sha256", &d.records),
+        ("variables", &json!(variables).to_string()),
+    ] {
+        text(file, name, value)?;
+    }
+    for (name, value) in [
+        ("runs", d.runs),
+        ("chunk", d.chunk),
+        ("shard", d.shard.0),
+        ("shards", d.shard.1),
+    ] {
+        file.new_attr::<u64>()
+            .create(name)?
+            .write_scalar(&(value as u64))?;
+    }
+    Ok(())
+}
+
+/// What the labels of storeys and levels are made of.
+pub(super) fn places(
+    file: &File,
+    d: &Description,
+    storey: Option<&Dataset>,
+    level: Option<&Dataset>,
+) -> Result<()> {
+    let numbers = |name: &str, long: &str, values: &[i32], scale: &Dataset| {
+        let data = dataset::<i32>(file, name, values.len(), None)?;
+        data.write_raw(values)?;
+        describe(&data, "", long)?;
+        attach(&data, scale, 0)
+    };
+    let (storeys, levels) = (&d.layout.storeys, &d.layout.levels);
+    if let Some(scale) = storey {
+        if let Some(data) = labels(
+            file,
+            "storey_building",
+            storeys.iter().map(|p| p.of.as_str()),
+        )? {
+            attach(&data, scale, 0)?;
+        }
+        let values: Vec<i32> = storeys.iter().map(|p| p.storeys[0] as i32).collect();
+        numbers(
+            "storey_number",
+            "storey of its building, from 1 at the bottom",
+            &values,
+            scale,
+        )?;
+    }
+    if let Some(scale) = level {
+        if let Some(data) = labels(file, "level_gap", levels.iter().map(|p| p.of.as_str()))? {
+            attach(&data, scale, 0)?;
+        }
+        for (i, name) in ["level_left_storey", "level_right_storey"]
+            .into_iter()
+            .enumerate()
+        {
+            let values: Vec<i32> = levels.iter().map(|p| p.storeys[i] as i32).collect();
+            numbers(name, "storey from 1, 0 for a wall", &values, scale)?;
+        }
+    }
+    Ok(())
+}
+
+/// A dataset of texts; none if there are no texts.
+pub(super) fn labels<'t>(
+    file: &File,
+    name: &str,
+    texts: impl Iterator<Item = &'t str>,
+) -> Result<Option<Dataset>> {
+    let values = texts.map(unicode).collect::<Result<Vec<_>>>()?;
+    if values.is_empty() {
+        return Ok(None);
+    }
+    let builder = file.new_dataset::<VarLenUnicode>().obj_track_times(false);
+    let data = builder.shape(values.len()).create(name)?;
+    data.write_raw(&values)?;
+    Ok(Some(data))
+}
+
+/// Numbers of failed runs and why they failed.
+pub(super) fn failures(file: &File) -> Result<(Dataset, Dataset)> {
+    let group = file.create_group("failures")?;
+    let run = group
+        .new_dataset::<i64>()
+        .obj_track_times(false)
+        .chunk(256)
+        .shape(0..)
+        .create("run")?;
+    describe(&run, "", "number of the run")?;
+    let builder = group.new_dataset::<VarLenUnicode>().obj_track_times(false);
+    let diagnosis = builder.chunk(256).shape(0..).create("diagnosis")?;
+    describe(&diagnosis, "", "why the run failed")?;
+    Ok((run, diagnosis))
+}
+
+/// A compressed dataset of rows, or of rows and columns.
+pub(super) fn dataset<T: H5Type>(
+    group: &Group,
+    name: &str,
+    rows: usize,
+    columns: Option<usize>,
+) -> Result<Dataset> {
+    let chunk = BLOCK.min(rows).max(1);
+    let builder = group
+        .new_dataset::<T>()
+        .obj_track_times(false)
+        .shuffle()
+        .deflate(1);
+    match columns {
+        Some(columns) => builder
+            .chunk((chunk, columns))
+            .shape((rows, columns))
+            .create(name),
+        None => builder.chunk(chunk).shape(rows).create(name),
+    }
+}
+
+pub(super) fn describe(data: &Dataset, unit: &str, long_name: &str) -> Result<()> {
+    if !unit.is_empty() {
+        text(data, "units", unit)?;
+    }
+    text(data, "long_name", long_name)
+}
+
+fn text(location: &Location, name: &str, value: &str) -> Result<()> {
+    let value = unicode(value)?;
+    location
+        .new_attr::<VarLenUnicode>()
+        .create(name)?
+        .write_scalar(&value)
+}
+
+pub(super) fn unicode(value: &str) -> Result<VarLenUnicode> {
+    // A text of HDF5 ends at its first zero.
+    VarLenUnicode::from_str(&value.replace('\0', " ")).map_err(|e| hdf5::Error::from(e.to_string()))
+}

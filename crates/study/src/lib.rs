@@ -2,7 +2,7 @@
 //! impact model, and how likely is pounding?
 //!
 //! A [`Study`] is read from a file: a case, variables that replace its entries, and a
-//! [`Design`] that samples them. [`sweep`] makes its runs on all cores, stores finished
+//! [`Design`] that samples them. [`sweep()`] makes its runs on all cores, stores finished
 //! ones so that an interruption loses at most the chunk in flight, and writes one HDF5
 //! file whose contents depend on the study alone.
 

@@ -117,18 +117,12 @@ pub fn sweep(
         chunks,
         options.resume,
     )?;
-    let stored = parts.stored();
+    let left = parts.left();
     let mut now = Progress {
         total,
-        stored_before: stored.iter().map(Range::len).sum(),
+        stored_before: total - left.iter().map(Range::len).sum::<usize>(),
         ..Progress::default()
     };
-    let left: Vec<_> = parts
-        .chunks
-        .iter()
-        .filter(|c| !stored.contains(c))
-        .cloned()
-        .collect();
     let mut kept = now.stored_before;
     progress(&now);
     let mut tick = |row: &Row| {

@@ -73,7 +73,8 @@ impl Parts {
         match std::fs::read_to_string(&path) {
             Ok(text) if text != self.study => Err(StudyError::OtherStudy { folder: folder() }),
             Ok(_) => {
-                let stored = self.stored().iter().map(Range::len).sum();
+                let all: usize = self.chunks.iter().map(Range::len).sum();
+                let stored = all - self.left().iter().map(Range::len).sum::<usize>();
                 if stored > 0 && !resume {
                     return Err(StudyError::Unfinished {
                         folder: folder(),
@@ -96,10 +97,10 @@ impl Parts {
         self.folder.join(format!("{:012}.runs", chunk.start))
     }
 
-    /// Chunks whose files are whole.
-    pub(crate) fn stored(&self) -> Vec<Range<usize>> {
-        let whole = |chunk: &&Range<usize>| self.read(chunk).is_ok();
-        self.chunks.iter().filter(whole).cloned().collect()
+    /// Chunks that have no whole file yet.
+    pub(crate) fn left(&self) -> Vec<Range<usize>> {
+        let missing = |chunk: &&Range<usize>| self.read(chunk).is_err();
+        self.chunks.iter().filter(missing).cloned().collect()
     }
 
     /// Rows of a chunk.

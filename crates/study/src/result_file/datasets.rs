@@ -214,8 +214,10 @@ pub(super) fn dataset<T: H5Type>(
     columns: Option<usize>,
 ) -> Result<Dataset> {
     let chunk = BLOCK.min(rows).max(1);
+    // Blocks are whole chunks, written once: a cache would only keep what is finished.
     let builder = group
         .new_dataset::<T>()
+        .chunk_cache(1, 0, 1.0)
         .obj_track_times(false)
         .shuffle()
         .deflate(1);

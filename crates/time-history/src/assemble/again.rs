@@ -15,7 +15,7 @@ use crate::system::System;
 /// record nor the scale of the case is looked at.
 ///
 /// # Errors
-/// As [`crate::assemble`], but for the record.
+/// As [`crate::assemble()`], but for the record.
 pub fn assemble_with_record(
     case: &Case,
     accelerogram: &Accelerogram,
@@ -41,7 +41,7 @@ pub fn assemble_with_record(
 /// The gaps, the start and the options of a case on the buildings and the motion of
 /// `base`, a system made from a case with the same buildings. What depends on the
 /// buildings alone is computed once for all systems made this way, and results are, to
-/// the last bit, those of [`crate::assemble`].
+/// the last bit, those of [`crate::assemble()`].
 ///
 /// # Errors
 /// What the case says of models, gaps or options cannot be.

@@ -1,11 +1,15 @@
 //! A case in SI units, with the place of what the layers above may refuse.
 
+mod laws;
+
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::error::CaseError;
 use crate::process::ProcessStep;
 use crate::units::Quantity;
+
+pub use laws::{LawParameter, Link, StoreyLaw};
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq)]
@@ -60,42 +64,6 @@ pub struct Building {
     pub p_delta: bool,
     /// Damping.
     pub damping: Located<Damping>,
-}
-
-/// A force-deformation law with memory in some storeys.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoreyLaw {
-    /// Law.
-    pub model: Located<String>,
-    /// Storeys, from zero.
-    pub storeys: Vec<usize>,
-    /// All other keys, for the law to judge; one value a storey of this law.
-    pub parameters: Vec<LawParameter>,
-}
-
-/// A parameter of a law with memory.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LawParameter {
-    /// Key.
-    pub key: Located<String>,
-    /// Values, one a storey or level of the law.
-    pub values: Vec<Located<Quantity>>,
-}
-
-/// A link: a law with memory that joins floors of neighbours, or a floor and a wall.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Link {
-    /// Name, by default `left-right`.
-    pub name: String,
-    /// Left and right.
-    pub between: [Side; 2],
-    /// Storeys of the left and the right building that are joined, from zero; `None`
-    /// for a wall.
-    pub levels: Vec<(Option<usize>, Option<usize>)>,
-    /// Law.
-    pub model: Located<String>,
-    /// All other keys, for the law to judge; one value a level.
-    pub parameters: Vec<LawParameter>,
 }
 
 /// Damping as written.

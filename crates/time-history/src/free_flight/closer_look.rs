@@ -3,7 +3,8 @@
 
 use super::candidates::Quantity;
 use super::constants::{Fine, FreeFlight};
-use super::lanes::{Ground, Lane, Modal, WIDTH, restoring, transform_four};
+use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
+use super::transform::transform_four;
 use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,

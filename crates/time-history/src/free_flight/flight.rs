@@ -4,8 +4,9 @@ use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
 use super::constants::FreeFlight;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, balance, drifts, gather, is_low, restoring, spread, transform,
+    Lane, Modal, Track, WIDTH, at, balance, drifts, gather, is_low, restoring, spread,
 };
+use super::transform::transform;
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
 use crate::engagement::Tracks;

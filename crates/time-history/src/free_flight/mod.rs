@@ -16,9 +16,9 @@ mod constants;
 mod flight;
 mod lanes;
 mod mode_step;
+mod transform;
 
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
-pub(crate) use lanes::{
-    Lane, ModeLanes, Track, WIDTH, add, drifts, mul, raise, raise_now, scale, transform,
-};
+pub(crate) use lanes::{Lane, ModeLanes, Track, WIDTH, add, drifts, mul, raise, raise_now, scale};
+pub(crate) use transform::transform;

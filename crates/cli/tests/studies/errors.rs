@@ -90,3 +90,88 @@ fn errors_point_at_their_place() {
     let told = bench.complaint("sweep study.toml --show 60", 2);
     assert!(told.contains("runs 0 to 59"), "{told}");
 }
+
+/// Two variables of one entry, and what an analysis of intensities asks for.
+#[test]
+fn contradictions_are_told() {
+    let records = "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n";
+    let intensity =
+        "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\"]\n";
+    let scale = "[[variable]]\nname = \"scale\"\npath = \"ground_motion.scale\"\nvalues = [2]\n";
+    let restitution = "[[variable]]\nname = \"e\"\npath = \"gap.0.restitution\"\nvalues = [0.5]\n";
+    let model = "[[variable]]\nname = \"m\"\npath = \"gap.0.model\"\nvalues = [{ model = \"hertz_1882\", stiffness = 1e9 }]\n";
+    let step = "[[variable]]\nname = \"dt\"\npath = \"ground_motion.time_step\"\nvalues = [0.02]\n";
+    let with_ida = |lines: &str| format!("{records}{intensity}[ida]\n{lines}\n");
+    let same = "vary the same entry";
+    let bench = Bench::new("");
+    for (study, reason) in [
+        (format!("{scale}{intensity}"), same),
+        (
+            format!("{restitution}{}", restitution.replace("\"e\"", "\"f\"")),
+            same,
+        ),
+        (format!("{restitution}{model}"), same),
+        (format!("{records}{step}"), same),
+        (
+            format!(
+                "{records}{}",
+                records.replace("records", "name = \"r\"\nrecords")
+            ),
+            "records are given twice",
+        ),
+        (
+            format!("{records}[ida]\n"),
+            "two variables: `records` and `intensity`",
+        ),
+        (
+            intensity.replace("0.2 g", "0.2 m"),
+            "must be an acceleration",
+        ),
+        (
+            intensity.replace("peak_ground_acceleration", "pga"),
+            "unknown intensity measure",
+        ),
+        (
+            intensity.replace("values", "period = 1\nvalues"),
+            "`period` has no meaning",
+        ),
+        (
+            intensity.replace(
+                "peak_ground_acceleration\"",
+                "spectral_acceleration\"\nbuilding = \"ligt\"",
+            ),
+            "no building \"ligt\"",
+        ),
+        (with_ida("target_frequency = 1e-3"), "needs a hazard curve"),
+        (
+            with_ida("hazard = [[1, 1e-3], [2, 1e-2]]"),
+            "frequencies fall",
+        ),
+        (with_ida("hazard = \"nowhere.csv\""), "nowhere.csv"),
+        (with_ida("confidence = 1.5"), "between 0 and 1"),
+        (with_ida("gaps = [\"20 kg\"]"), "must be a length"),
+        (
+            with_ida("[[ida.limit]]\nname = \"x\"\ndemand = \"drift\"\nexceeds = 1"),
+            "unknown demand",
+        ),
+        (
+            with_ida(
+                "[[ida.limit]]\nname = \"x\"\ndemand = \"drift_ratio\"\nstorey = 1\nexceeds = 1",
+            ),
+            "a storey of which building?",
+        ),
+        (
+            with_ida(
+                "[[ida.limit]]\nname = \"x\"\ndemand = \"drift_ratio\"\nbuilding = \"light\"\nstorey = 4\nexceeds = 1",
+            ),
+            "no storey 4",
+        ),
+    ] {
+        bench.study(&format!("case = \"case.toml\"\n{study}"));
+        let told = bench.complaint("sweep study.toml", 2);
+        assert!(told.contains(reason), "{study}: {told}");
+    }
+    // A scale beside records is none.
+    bench.study(&format!("case = \"case.toml\"\n{records}{scale}"));
+    bench.text("sweep study.toml -o out.h5");
+}

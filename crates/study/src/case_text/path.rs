@@ -64,6 +64,11 @@ impl Path {
         self.table() == "gap" && !self.0.contains(&Step::Key("levels".to_owned()))
     }
 
+    /// Whether it leads to the scale of the motion.
+    pub(crate) fn of_scale(&self) -> bool {
+        self.table() == "ground_motion" && self.0.get(1) == Some(&Step::Key("scale".to_owned()))
+    }
+
     /// The first step, if it is a key.
     pub(crate) fn table(&self) -> &str {
         match self.0.first() {

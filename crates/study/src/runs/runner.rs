@@ -292,7 +292,8 @@ fn key(study: &Study, point: &[Value]) -> Key {
             Value::Choice(i) => *i as u64,
         };
         match &variable.target {
-            Target::Entry { of_gap: true, .. } | Target::Model { .. } => {}
+            Target::Model { .. } => {}
+            Target::Entry { path, .. } if path.of_gap() => {}
             Target::Entry { .. } => key.buildings.push(bits),
             Target::Record | Target::Intensity(_) => key.motion.push(bits),
         }

@@ -17,7 +17,7 @@ pub use values::{Spacing, Values};
 use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 
-use crate::case_text::{Edits, Entry};
+use crate::case_text::{Edits, Entry, Path};
 use crate::design::Design;
 use crate::error::StudyError;
 
@@ -63,10 +63,10 @@ pub struct Variable {
 /// What a variable changes.
 #[derive(Debug, Clone)]
 pub(crate) enum Target {
-    /// An entry of the case; `of_gap` if it cannot change buildings or motion.
+    /// An entry of the case.
     Entry {
         entry: Entry,
-        of_gap: bool,
+        path: Path,
         /// For choices: the texts as they stand in the study.
         texts: Vec<String>,
     },

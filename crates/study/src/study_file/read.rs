@@ -162,6 +162,13 @@ fn collide(a: &Variable, b: &Variable) -> bool {
     };
     match (&a.target, &b.target) {
         (Target::Intensity(_), Target::Intensity(_)) => true,
+        // An intensity sets the scale, and a record all other keys of the motion.
+        (Target::Entry { path, .. }, Target::Intensity(_))
+        | (Target::Intensity(_), Target::Entry { path, .. }) => path.of_scale(),
+        (Target::Entry { path, .. }, Target::Record)
+        | (Target::Record, Target::Entry { path, .. }) => {
+            path.table() == "ground_motion" && !path.of_scale()
+        }
         _ => spans(a).iter().any(|(s, before)| {
             spans(b)
                 .iter()

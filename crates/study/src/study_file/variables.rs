@@ -178,12 +178,8 @@ fn named(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(
     for (item, text) in items.iter().zip(&texts) {
         tried.edits(vec![entry.with(text)], item)?;
     }
-    let of_gap = tried.path.of_gap();
-    let target = Target::Entry {
-        entry,
-        of_gap,
-        texts,
-    };
+    let path = tried.path.clone();
+    let target = Target::Entry { entry, path, texts };
     Ok((Values::Choices(labels), target))
 }
 
@@ -198,13 +194,9 @@ fn counted(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result
             tried.edits(vec![entry.with(&text)], value)?;
         }
     }
-    let of_gap = tried.path.of_gap();
+    let path = tried.path.clone();
     let texts = Vec::new();
-    let target = Target::Entry {
-        entry,
-        of_gap,
-        texts,
-    };
+    let target = Target::Entry { entry, path, texts };
     Ok((values, target))
 }
 

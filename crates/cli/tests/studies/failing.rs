@@ -1,5 +1,6 @@
 //! Runs that fail, records that cannot be read, disks that are full.
 
+#[cfg(unix)]
 use std::process::Command;
 
 use serde_json::Value;
@@ -124,6 +125,7 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
 
 /// A limit of the size of files stands for a full disk; `trap` lets the write fail
 /// instead of the process.
+#[cfg(unix)]
 fn with_limit(bench: &Bench, kilobytes: usize, arguments: &str) -> (Option<i32>, String) {
     let script = format!(
         "trap '' XFSZ; ulimit -f {kilobytes}; exec {} {arguments}",

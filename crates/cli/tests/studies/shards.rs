@@ -15,7 +15,8 @@ fn threads_and_shards_give_the_same_bytes() {
         assert!(bench.bytes("again.h5") == whole, "{threads} threads");
         assert!(bench.bytes("again.csv") == table, "{threads} threads");
     }
-    for count in [1, 3, 7] {
+    // Of 17 shards two have none of the 15 chunks.
+    for count in [1, 3, 7, 17] {
         let mut files = Vec::new();
         // Last first: the order of the files does not matter either.
         for index in (1..=count).rev() {

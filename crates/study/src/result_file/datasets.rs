@@ -213,7 +213,15 @@ pub(super) fn dataset<T: H5Type>(
     rows: usize,
     columns: Option<usize>,
 ) -> Result<Dataset> {
-    let chunk = BLOCK.min(rows).max(1);
+    if rows == 0 {
+        // A shard without runs: nothing to divide into chunks.
+        let builder = group.new_dataset::<T>().obj_track_times(false);
+        return match columns {
+            Some(columns) => builder.shape((0, columns)).create(name),
+            None => builder.shape(0).create(name),
+        };
+    }
+    let chunk = BLOCK.min(rows);
     // Blocks are whole chunks, written once: a cache would only keep what is finished.
     let builder = group
         .new_dataset::<T>()

@@ -127,3 +127,20 @@ fn a_changed_study_does_not_go_on() {
     let told = bench.complaint("sweep study.toml -o a.h5 --resume", 4);
     assert!(told.contains("cannot write the result"), "{told}");
 }
+
+/// Two processes never work on the same runs.
+#[test]
+fn one_process_at_a_time() {
+    let bench = Bench::new(MIXED);
+    let parts = bench.path("a.h5.parts");
+    std::fs::create_dir(&parts).unwrap();
+    let held = std::fs::File::create(parts.join("lock")).unwrap();
+    held.lock().unwrap();
+    let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
+    assert!(
+        told.contains("another process is working in a.h5.parts"),
+        "{told}"
+    );
+    drop(held);
+    bench.text("sweep study.toml -o a.h5 --resume");
+}

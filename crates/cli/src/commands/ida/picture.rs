@@ -1,6 +1,6 @@
 //! Fragility curves, demands against intensity, and frequency against gap, as SVG.
 
-use pounding_study::{FragilityFit, IdaReport, LimitResult};
+use pounding_study::{Counts, FragilityFit, IdaReport, LimitResult};
 
 use crate::failure::Failure;
 use crate::plot::{Curve, Panel, figure};
@@ -12,7 +12,7 @@ const MOST: usize = 7;
 
 /// The picture.
 pub fn curves(report: &IdaReport) -> Result<String, Failure> {
-    let highest = report.levels.last().map_or(1.0, |l| l.intensity);
+    let highest = last_that_differs(report);
     let horizontal = format!("{} ({})", report.measure, report.unit);
     let panel = |caption: &str, curves: Vec<Curve>| Panel {
         caption: caption.to_owned(),
@@ -52,6 +52,25 @@ pub fn curves(report: &IdaReport) -> Result<String, Failure> {
     figure(&panels)
 }
 
+/// The intensity from which on every run reaches every state: there is nothing more to see.
+fn last_that_differs(report: &IdaReport) -> f64 {
+    let widths = report
+        .gaps
+        .iter()
+        .flat_map(|g| g.widths.iter().map(|w| &w.result));
+    let states: Vec<&LimitResult> = report.limits.iter().chain(widths).collect();
+    let certain = |level: &usize| {
+        states.iter().all(|s| {
+            let mut above = s.counts.iter().skip(*level);
+            above.all(|c| c.reached == c.runs)
+        })
+    };
+    let levels = &report.levels;
+    let first = (0..levels.len()).find(certain);
+    let shown = first.map_or(levels.last(), |i| levels.get(i));
+    shown.map_or(1.0, |l| l.intensity)
+}
+
 /// Fitted curves with the fractions they were fitted to.
 fn fragilities(states: &[&LimitResult], highest: f64) -> Vec<Curve> {
     let mut curves = Vec::new();
@@ -65,7 +84,8 @@ fn fragilities(states: &[&LimitResult], highest: f64) -> Vec<Curve> {
                     .collect(),
             });
         }
-        let fractions = state.counts.iter().filter(|c| c.runs > 0);
+        let shown = |c: &&Counts| c.runs > 0 && c.intensity <= highest;
+        let fractions = state.counts.iter().filter(shown);
         curves.push(Curve {
             name: format!("{}, counts", state.name),
             points: fractions

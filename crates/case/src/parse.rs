@@ -15,6 +15,7 @@ mod building;
 mod gap;
 mod ground_motion;
 mod law;
+mod scale;
 mod separation;
 
 pub use ground_motion::process_steps;

@@ -166,6 +166,9 @@ pub struct GroundMotion {
     pub layout: Option<String>,
     /// Component to use: name, azimuth or channel number.
     pub component: Option<String>,
+    /// The other component and the angle (degrees) by which both are turned, first
+    /// towards second.
+    pub rotation: Option<Rotation>,
     /// Quantity to use: only an acceleration excites buildings.
     pub quantity: Option<Located<String>>,
     /// Lines to skip.
@@ -186,6 +189,15 @@ pub struct GroundMotion {
     pub process: Vec<Located<ProcessStep>>,
     /// Scale, after that.
     pub scale: Scale,
+}
+
+/// A turn of two components at right angles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rotation {
+    /// The other component, in the same file.
+    pub second_component: Located<String>,
+    /// Angle (degrees).
+    pub angle: f64,
 }
 
 /// What becomes of the mean of a record.

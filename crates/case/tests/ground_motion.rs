@@ -180,6 +180,8 @@ fn scales() {
 
 /// What is wrong, its column in line 9, and a part of message or remedy.
 const WRONG: &[(&str, usize, &str)] = &[
+    ("rotate = 30", 10, "belong together"),
+    ("second_component = \"90\"", 20, "belong together"),
     ("gravity = \"9.81 m\"", 11, "must be an acceleration"),
     ("sensitivity = 0", 15, "greater than zero"),
     ("sensitivity = \"2 m/s^2\"", 15, "`sensitivity` must be"),
@@ -283,6 +285,20 @@ fn errors_point_at_the_place() {
         assert!(all.contains(part), "{text}: {all}");
         assert!(error.help.is_some(), "{text}");
     }
+}
+
+/// Radians are pure numbers too: an angle with a unit is refused, not taken for degrees.
+#[test]
+fn a_turn_is_in_degrees() {
+    let turned = |angle: &str| parse(&format!("rotate = {angle}\nsecond_component = \"90\""));
+    let rotation = turned("30").unwrap().ground_motion.rotation.unwrap();
+    assert_eq!(
+        (rotation.angle, rotation.second_component.value.as_str()),
+        (30.0, "90")
+    );
+    let error = turned("\"0.5 rad\"").unwrap_err();
+    assert_eq!((error.line, error.column), (9, 10));
+    assert!(error.message.contains("plain number of degrees"));
 }
 
 #[test]

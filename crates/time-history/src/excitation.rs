@@ -5,7 +5,7 @@ use std::path::Path;
 use pounding_case::{BaselineKind, Case, CaseError, Located, ProcessStep, RemovedOffset, Scale};
 use pounding_ground_motion::processing::{
     Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, SegmentWindow,
-    Trim, process,
+    Trim, process, rotate,
 };
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
@@ -28,7 +28,19 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError
 pub fn read_record(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
     let motion = &case.ground_motion;
     let options = read_options(case)?;
-    let mut record = pounding_ground_motion::read(&case.resolve(&motion.file.value), &options)?;
+    let file = case.resolve(&motion.file.value);
+    let mut record = pounding_ground_motion::read(&file, &options)?;
+    if let Some(rotation) = &motion.rotation {
+        let second = ReadOptions {
+            component: Some(rotation.second_component.value.clone()),
+            ..options
+        };
+        let other = pounding_ground_motion::read(&file, &second)?;
+        let span = rotation.second_component.span.clone();
+        record = rotate(&record, &other, rotation.angle)
+            .map_err(|e| case.error(span, e.to_string(), e.help()))?
+            .first;
+    }
     for step in &motion.process {
         let refused = |e: GroundMotionError| case.error(step.span.clone(), e.to_string(), e.help());
         let made = processing_step(&step.value, &|path| case.resolve(path)).map_err(refused)?;

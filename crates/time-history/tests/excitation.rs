@@ -65,6 +65,21 @@ fn components_offset_and_gravity() {
     }
 }
 
+/// `a1 cos + a2 sin`, here with a2 = -2 a1.
+#[test]
+fn two_components_are_turned() {
+    let north = record(NORTH);
+    let turned = record(&format!("{NORTH}second_component = \"ew\"\nrotate = 30"));
+    let factor = 30.0_f64.to_radians().cos() - 2.0 * 30.0_f64.to_radians().sin();
+    for (t, n) in turned.samples().iter().zip(north.samples()) {
+        assert!((t - factor * n).abs() < 1e-14);
+    }
+    assert_eq!(turned.steps()[0].step, "rotation");
+    assert_eq!(turned.steps()[0].get("angle"), Some(30.0));
+    let error = refused("second_component = \"ew\"\nrotate = 400");
+    assert_eq!((error.line, error.column), (12, 20), "{error}");
+}
+
 /// Steps in the order of the list, then the scale; each is told.
 #[test]
 fn process_then_scale() {

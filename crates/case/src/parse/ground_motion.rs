@@ -3,14 +3,16 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::CaseError;
 use crate::parse::not_negative;
+use crate::parse::scale::scale;
 use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
 use crate::reader::{Reader, Table, Value};
 use crate::schema;
-use crate::types::{GroundMotion, Located, Offset, Scale};
+use crate::types::{GroundMotion, Located, Offset, Rotation, Scale};
 use crate::units::Dimension;
 
 /// Counts per m/s2.
@@ -35,6 +37,7 @@ pub(crate) fn ground_motion(
         unit: table.optional_text("unit")?,
         layout: plain("layout")?,
         component: plain("component")?,
+        rotation: rotation(reader, &table)?,
         quantity: table.optional_text("quantity")?,
         skip_lines: count("skip_lines")?,
         skip_columns: count("skip_columns")?,
@@ -71,7 +74,11 @@ pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep
     process(&reader, root.required("process")?)
 }
 
-fn path(reader: &Reader<'_>, value: &Value<'_>, key: &str) -> Result<Located<PathBuf>, CaseError> {
+pub(super) fn path(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+    key: &str,
+) -> Result<Located<PathBuf>, CaseError> {
     let file = reader.text(value, key)?;
     if file.value.is_empty() {
         return Err(reader.error(
@@ -114,6 +121,30 @@ fn offset(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Offset, CaseErro
     table
         .get("offset")
         .map_or(Ok(Offset::Automatic), |v| word(reader, v, "offset", &words))
+}
+
+fn rotation(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Option<Rotation>, CaseError> {
+    const EXAMPLE: &str =
+        "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
+    match (table.get("second_component"), table.get("rotate")) {
+        (None, None) => Ok(None),
+        (Some(second), Some(angle)) => {
+            let turn = reader.any_quantity(angle, "rotate")?;
+            if turn.dimension.is_some() {
+                let message = "`rotate` is a plain number of degrees";
+                return Err(reader.error(angle.span(), message, EXAMPLE));
+            }
+            Ok(Some(Rotation {
+                second_component: reader.text(second, "second_component")?,
+                angle: turn.value,
+            }))
+        }
+        (one, other) => Err(reader.error(
+            one.or(other).map_or(0..0, Spanned::span),
+            "`rotate` and `second_component` belong together",
+            EXAMPLE,
+        )),
+    }
 }
 
 fn process(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<Located<ProcessStep>>, CaseError> {
@@ -316,64 +347,5 @@ fn resample(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseE
         band_limited: table
             .get("interpolation")
             .map_or(Ok(false), |v| word(reader, v, "interpolation", &words))?,
-    })
-}
-
-/// Damping ratio where none is given.
-const DAMPING: f64 = 0.05;
-
-fn scale(reader: &Reader<'_>, value: &Value<'_>) -> Result<Scale, CaseError> {
-    if !matches!(value.get_ref(), DeValue::Table(_)) {
-        return Ok(Scale::Factor(reader.positive(
-            value,
-            "scale",
-            Dimension::NUMBER,
-        )?));
-    }
-    let table = reader.table(value, "scale", schema::SCALE)?;
-    let kinds = schema::SCALE_KINDS;
-    let given: Vec<_> = kinds.iter().filter(|k| table.get(k[0]).is_some()).collect();
-    let [kind] = given.as_slice() else {
-        return Err(reader.error(
-            value.span(),
-            "`scale` needs one of `factor`, `pga`, `pgv`, `psa` and `target`",
-            "for example { pga = \"0.35 g\" }",
-        ));
-    };
-    for (key, _) in table.entries() {
-        let key_name = key.value.as_str();
-        let damped = matches!(kind[0], "psa" | "target") && key_name == "damping";
-        if !kind.contains(&key_name) && !damped {
-            return Err(reader.error(
-                key.span,
-                format!("`{key_name}` has no meaning beside `{}`", kind[0]),
-                format!("remove `{key_name}`"),
-            ));
-        }
-    }
-    let positive = |key: &str, dimension| {
-        let v = table.required(key)?;
-        reader.positive(v, key, dimension)
-    };
-    let damping = || {
-        table.get("damping").map_or(Ok(DAMPING), |v| {
-            not_negative(reader, v, "damping", Dimension::NUMBER)
-        })
-    };
-    Ok(match kind[0] {
-        "factor" => Scale::Factor(positive("factor", Dimension::NUMBER)?),
-        "pga" => Scale::PeakGroundAcceleration(positive("pga", Dimension::ACCELERATION)?),
-        "pgv" => Scale::PeakGroundVelocity(positive("pgv", Dimension::VELOCITY)?),
-        "psa" => Scale::SpectralAcceleration {
-            acceleration: positive("psa", Dimension::ACCELERATION)?,
-            period: positive("period", Dimension::TIME)?,
-            damping: damping()?,
-        },
-        _ => Scale::Band {
-            target: path(reader, table.required("target")?, "target")?,
-            from: positive("from", Dimension::TIME)?,
-            to: positive("to", Dimension::TIME)?,
-            damping: damping()?,
-        },
     })
 }

@@ -34,6 +34,16 @@ pub(crate) const GROUND_MOTION: &[Key] = &[
         "Component to use: its name in the file, its azimuth, or its channel number",
     ),
     key(
+        "second_component",
+        Kind::Text,
+        "The other component of the file, for `rotate`",
+    ),
+    key(
+        "rotate",
+        Kind::Quantity,
+        "Angle (degrees, a plain number) by which two components at right angles are turned, first towards second; the first is used",
+    ),
+    key(
         "quantity",
         Kind::Text,
         "acceleration, the only quantity that excites buildings",

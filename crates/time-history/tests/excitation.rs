@@ -7,7 +7,7 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
-use pounding_time_history::{Assembly, TimeHistoryError, assemble};
+use pounding_time_history::{Assembly, RunRecord, TimeHistoryError, assemble, run, write_result};
 
 const START: &str = r#"[[building]]
 name = "a"
@@ -95,6 +95,32 @@ fn process_then_scale() {
     assert_eq!(steps, ["scale", "offset", "pad"]);
     let echo = done.echo().join("\n");
     assert!(echo.contains("offset: offset 0.1 m/s2"), "{echo}");
+}
+
+/// The result says what was read and what was done to it.
+#[test]
+fn the_result_tells_the_steps() {
+    let keys = format!("{TWO}{NORTH}process = [{{ remove_offset = \"mean\" }}]");
+    let assembly = assembled(&keys).unwrap();
+    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+    let record = RunRecord {
+        title: "",
+        case: "",
+        version: "0",
+        assembly: &assembly,
+        outcome: &outcome,
+        isolated: &outcome,
+        samples: &[],
+        wall_time: 0.0,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r.h5");
+    write_result(&path, &record).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    let told = file.group("ground").unwrap().attr("record").unwrap();
+    let told: hdf5::types::VarLenUnicode = told.read_scalar().unwrap();
+    assert_eq!(told.as_str(), assembly.accelerogram.echo().join("\n"));
+    assert!(told.contains("offset: offset 0.0"), "{told}");
 }
 
 /// The scaled record has what was asked for.

@@ -98,22 +98,33 @@ impl Row {
     /// `w^2 u` at the times of the peaks under a change, as a part of the target.
     pub(crate) fn responses_to(&self, change: &Change) -> Vec<f64> {
         let mut found = vec![0.0; self.peaks.len()];
-        let last = self.peaks.iter().map(|p| p.index).max().unwrap_or(0);
+        let mut in_time: Vec<usize> = (0..self.peaks.len()).collect();
+        in_time.sort_by_key(|k| self.peaks[*k].index);
         let scale = self.frequency * self.frequency / self.target;
-        let at = |i: usize| match i.checked_sub(change.first) {
-            Some(k) => change.samples.get(k).copied().unwrap_or(0.0),
+        let force = |i: usize| match i.checked_sub(change.first) {
+            Some(k) => -change.samples.get(k).copied().unwrap_or(0.0),
             None => 0.0,
         };
+        let start = change.first.saturating_sub(1);
+        let mut ahead = in_time
+            .into_iter()
+            .skip_while(|k| self.peaks[*k].index < start)
+            .peekable();
         let mut state = State::default();
-        for i in change.first.saturating_sub(1)..=last {
-            let (p0, p1) = (-at(i), -at(i + 1));
-            for (value, peak) in found.iter_mut().zip(&self.peaks) {
-                if peak.index == i {
-                    let there = self.oscillator.within_step(state, p0, p1, peak.after);
-                    *value = scale * there.displacement;
-                }
+        let (mut at, mut before) = (start, force(start));
+        while let Some(&next) = ahead.peek() {
+            let after = force(at + 1);
+            let peak = &self.peaks[next];
+            if peak.index == at {
+                let there = self
+                    .oscillator
+                    .within_step(state, before, after, peak.after);
+                found[next] = scale * there.displacement;
+                ahead.next();
+            } else {
+                state = self.oscillator.advance(state, before, after);
+                (before, at) = (after, at + 1);
             }
-            state = self.oscillator.advance(state, p0, p1);
         }
         found
     }

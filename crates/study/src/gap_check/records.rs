@@ -116,6 +116,7 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
         layout: None,
         component: None,
         quantity: None,
+        rotation: None,
         skip_lines: 0,
         skip_columns: 0,
         prepend_zero: false,

@@ -2,7 +2,6 @@
 
 mod cache;
 mod columns;
-mod demand;
 mod engine;
 mod motions;
 mod runner;

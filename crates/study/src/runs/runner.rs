@@ -6,13 +6,13 @@ use std::sync::Arc;
 use pounding_case::{Case, Scale};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, System, TimeHistoryError, assemble_with_record, regap, run, scale_record,
+    GroundAcceleration, System, TimeHistoryError, assemble_with_record, isolated_demand, regap,
+    run, scale_record,
 };
 use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
 use super::columns::Layout;
-use super::demand::isolated_demand;
 use super::motions::{Motion, Motions};
 use crate::case_text::{Edits, apply, canonical, hexadecimal};
 use crate::error::StudyError;
@@ -167,7 +167,7 @@ impl<'s> Runner<'s> {
             let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();
             self.demands.get(&all, || {
                 isolated_demand(&system, &options)
-                    .map(Arc::new)
+                    .map(|(_, peaks)| Arc::new(peaks.iter().map(|p| p.value).collect()))
                     .map_err(said)
             })?
         } else {

@@ -160,3 +160,27 @@ fn fourier_amplitudes_of_a_ricker_wavelet() {
         "{value} {greatest}"
     );
 }
+
+/// Uneven times are measured at their median step, and the user is told.
+#[test]
+fn uneven_times() {
+    let folder = Folder::new();
+    let times = [0.0_f64, 0.005, 0.012, 0.015, 0.023, 0.025, 0.030, 0.035];
+    let rows: String = times
+        .iter()
+        .map(|t| format!("{t:.3} {}\n", (100.0 * t).sin()))
+        .collect();
+    std::fs::write(folder.path("u.txt"), rows).unwrap();
+    let file = folder.name("u.txt");
+    let told = json(&[
+        "info", &file, "--unit", "m/s2", "--layout", "t,a", "--offset", "keep",
+    ]);
+    let series = &told["files"][0]["series"][0];
+    assert_eq!(series["uneven"], true);
+    assert_eq!(number(&series["measured_time_step"]), 0.005);
+    let warnings = series["warnings"].to_string();
+    assert!(
+        warnings.contains("resampled to 0.005 s by linear"),
+        "{warnings}"
+    );
+}

@@ -1,17 +1,27 @@
 //! Studies that are killed.
 
-use std::time::{Duration, Instant};
+use std::path::Path;
+use std::time::Duration;
 
 use super::{Bench, MIXED};
 
+/// Finished chunks that a study has stored.
+fn stored(parts: &Path) -> usize {
+    std::fs::read_dir(parts).map_or(0, |files| {
+        let names = files.filter_map(Result::ok).map(|f| f.path());
+        names
+            .filter(|f| f.extension().is_some_and(|e| e == "runs"))
+            .count()
+    })
+}
+
 /// Kills at random instants until there were fifty; whenever a study comes to its end, its
-/// file has the bytes of an undisturbed run.
+/// file has the bytes of an undisturbed run. The instants follow the progress of the study,
+/// not the clock, so that a slow machine sees the same stages.
 #[test]
 fn a_killed_study_goes_on_where_it_was() {
     let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 120"));
-    let begun = Instant::now();
     bench.text("sweep study.toml --threads 2 -o whole.h5");
-    let longest = begun.elapsed();
     let whole = bench.bytes("whole.h5");
     let mut random = 12_345_u64;
     let mut uniform = || {
@@ -28,27 +38,18 @@ fn a_killed_study_goes_on_where_it_was() {
             .stdout(std::process::Stdio::null())
             .spawn()
             .unwrap();
-        std::thread::sleep(Duration::from_secs_f64(
-            0.6 * uniform() * longest.as_secs_f64(),
-        ));
+        let parts = bench.path("killed.h5.parts");
+        let awaited = stored(&parts) + (5.0 * uniform()) as usize;
+        while stored(&parts) < awaited && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        std::thread::sleep(Duration::from_secs_f64(5.0e-3 * uniform()));
         // SIGKILL on Unix: nothing is cleaned up.
         child.kill().unwrap();
         let status = child.wait().unwrap();
         if !status.success() {
             kills += 1;
-            let stored = std::fs::read_dir(bench.path("killed.h5.parts"));
-            let whole_chunks = stored.map_or(0, |files| {
-                files
-                    .filter(|f| {
-                        f.as_ref()
-                            .unwrap()
-                            .path()
-                            .extension()
-                            .is_some_and(|e| e == "runs")
-                    })
-                    .count()
-            });
-            resumed += usize::from(whole_chunks > 0);
+            resumed += usize::from(stored(&parts) > 0);
         }
         if bench.path("killed.h5").exists() {
             assert!(bench.bytes("killed.h5") == whole, "after {kills} kills");

@@ -115,7 +115,10 @@ impl HysteresisLaw for ViscousDamper {
     /// The energy at a speed of a tenth of a metre per second over a millimetre.
     fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
         let (speed, way) = (0.1_f64, 1.0e-3);
-        [self.damping * speed.powf(self.exponent) * way, f64::INFINITY]
+        [
+            self.damping * speed.powf(self.exponent) * way,
+            f64::INFINITY,
+        ]
     }
     fn virgin(&self) -> History {
         let mut history = History::new(self.branch_at(0.0));

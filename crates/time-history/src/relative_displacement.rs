@@ -21,7 +21,7 @@ pub struct RelativeDisplacement {
 
 impl RelativeDisplacement {
     /// A recorder for the contact levels of a system. The system that is run may be
-    /// another one with the same buildings, such as [`System::isolated`].
+    /// another one with the same buildings, such as [`System::without_gaps`].
     #[must_use]
     pub fn of_levels(system: &System) -> Self {
         let pairs: Vec<_> = system.levels().iter().map(|l| (l.left, l.right)).collect();
@@ -61,9 +61,10 @@ impl Recorder for RelativeDisplacement {
     }
 }
 
-/// Runs the buildings of a system alone, as if no gap could close, and returns that run
-/// with the gap (m) that it demands at every contact level, in the order of
-/// [`System::levels`]: a gap of this width would just be touched.
+/// Runs a system as if no gap could close, with its links, and returns that run with the
+/// gap (m) that it demands at every contact level, in the order of [`System::levels`]: a
+/// gap of this width would just be touched. In a row this holds for the first contact
+/// anywhere: a building that was hit may close another gap that it would not have closed.
 ///
 /// # Errors
 /// Those of [`run`].
@@ -72,7 +73,7 @@ pub fn isolated_demand(
     options: &RunOptions,
 ) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
     let mut recorder = RelativeDisplacement::of_levels(system);
-    let alone = system.isolated();
+    let alone = system.without_gaps();
     let outcome = run(&alone, options, &mut [&mut recorder], &mut |_| {})?;
     Ok((outcome, recorder.peaks))
 }

@@ -262,6 +262,17 @@ impl System {
         }
     }
 
+    /// The same buildings, links and ground motion without gaps: what would happen if the
+    /// floors never touched. Shares as [`System::isolated`] does.
+    #[must_use]
+    pub fn without_gaps(&self) -> Self {
+        Self {
+            gaps: Vec::new(),
+            levels: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Constants of open flight; `None` if the damping of a building couples its modes,
     /// or where elements have a memory.
     pub(crate) fn free_flight(&self) -> Option<&FreeFlight> {

@@ -215,7 +215,7 @@ fn own_runs(
         let record = &records[number / 2];
         let (system, options) = (&record.assembly.system, &record.assembly.options);
         let outcome = if number % 2 == 0 {
-            run(&system.isolated(), options, &mut [], &mut |_| {})
+            run(&system.without_gaps(), options, &mut [], &mut |_| {})
         } else {
             run(system, options, &mut [], &mut |_| {})
         };

@@ -40,13 +40,21 @@ pub struct RecordDemand {
     pub peak_ground_acceleration: f64,
     /// Width that the record would just not close, for each gap and level (m).
     pub demand: Vec<Vec<Peak>>,
-    /// Peaks of the buildings alone.
+    /// Peaks of the buildings, with their links, if no gap could close.
     pub isolated: Vec<BuildingOutcome>,
     /// Peaks of buildings and gaps at the provided widths, or why there are none.
     pub pounding: Result<(Vec<BuildingOutcome>, Vec<GapOutcome>), String>,
 }
 
 impl RecordDemand {
+    /// Whether a gap closed in the run at the provided widths; false if that run failed.
+    #[must_use]
+    pub fn closed(&self, gap: usize) -> bool {
+        self.pounding
+            .as_ref()
+            .is_ok_and(|(_, gaps)| gaps[gap].levels.iter().any(|l| l.impacts > 0))
+    }
+
     /// Amplification of each building and storey at the provided widths; `None` if that
     /// run failed.
     #[must_use]
@@ -115,7 +123,7 @@ fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
     let (_, peaks) = isolated_demand(system, options).map_err(failed)?;
     // Without a recorder, as the runs with gaps: where nothing touches, their peaks are
     // then the same to the last bit, and amplifications are exactly one.
-    let isolated = run(&system.isolated(), options, &mut [], &mut |_| {}).map_err(failed)?;
+    let isolated = run(&system.without_gaps(), options, &mut [], &mut |_| {}).map_err(failed)?;
     let of_gap = |gap: &Gap| peaks[gap.first_level..gap.first_level + gap.levels].to_vec();
     let pounding = run(system, options, &mut [], &mut |_| {});
     Ok(RecordDemand {

@@ -55,6 +55,9 @@ pub struct GapReport {
     pub demand: Vec<f64>,
     /// Records that close the provided gap at some level.
     pub records_in_contact: usize,
+    /// Of these, records that close it only because another gap of the row closes: the
+    /// demand does not see them.
+    pub records_driven: usize,
     /// Bounds of the probability of contact under records like these, by Clopper and
     /// Pearson (Biometrika 26 (1934) 404), at the confidence asked for.
     pub contact_bounds: (f64, f64),
@@ -200,7 +203,10 @@ fn report(
         .max_by(|a, b| greatest(*a).total_cmp(&greatest(*b)))
         .unwrap_or(0);
     let touches = |r: &&RecordDemand| (0..levels.len()).any(|l| at(r, l) > levels[l].width);
-    let records_in_contact = records.iter().filter(touches).count();
+    // A building that was hit on its other side can close a gap that it would have left open.
+    let driven = |r: &&RecordDemand| !touches(r) && r.closed(place.gap);
+    let records_driven = records.iter().filter(driven).count();
+    let records_in_contact = records.iter().filter(touches).count() + records_driven;
     let allowed = required::allowed_contacts(options.target_probability, records.len());
     Ok(GapReport {
         name: gap.name.clone(),
@@ -210,6 +216,7 @@ fn report(
         required: required::required_gap(&demand, options),
         adequate: records_in_contact <= allowed,
         records_in_contact,
+        records_driven,
         demand,
         levels,
         codes,

@@ -15,14 +15,14 @@ fn floor(system: &System, dof: Option<usize>) -> Floor {
     Floor::Storey(building, dof - offsets[building])
 }
 
-/// The same buildings under the same motion, with another width (m) and model at every
+/// The same buildings and links under the same motion, with another width (m) and model at every
 /// contact level: `change` is told the gap and the level. What the buildings alone
 /// determine is shared with `system`.
 pub(crate) fn rebuilt(
     system: &System,
     change: impl Fn(usize, &ContactLevel) -> (f64, Arc<dyn ImpactModel>),
 ) -> Result<System, TimeHistoryError> {
-    let mut other = system.isolated();
+    let mut other = system.without_gaps();
     for (index, gap) in system.gaps().iter().enumerate() {
         let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
         let pairs = levels.iter().map(|level| {

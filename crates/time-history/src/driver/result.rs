@@ -134,7 +134,7 @@ impl Driver<'_> {
         let elements = self.system.elements();
         if self.method.information().name == "event_driven" && !elements.is_empty() {
             warnings.push(format!(
-                "{} has a law with memory: in place of exact steps, the whole run was made by the adaptive pair 8(5,3), which locates every event as well",
+                "{} follows a law: in place of exact steps, which are for linear storeys without links, the whole run was made by the adaptive pair 8(5,3), which locates every event as well",
                 self.system.place_of_element(0)
             ));
         }

@@ -79,6 +79,7 @@ fn gap(check: &GapCheck, index: usize) -> Value {
         "between": gap.between,
         "adequate": gap.adequate,
         "records_in_contact": gap.records_in_contact,
+        "records_driven_by_neighbours": gap.records_driven,
         "contact_probability_bounds": [gap.contact_bounds.0, gap.contact_bounds.1],
         "governing_level": gap.governing_level + 1,
         "demand": gap.demand,

@@ -28,6 +28,11 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     if !case.title.is_empty() {
         text.push_str(&format!("{}\n", case.title));
     }
+    if !case.links.is_empty() {
+        text.push_str(
+            "  links stay in place in all that follows: \"alone\" means without contact\n",
+        );
+    }
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
         text.push_str(&codes(check, &check.gaps[gap], all));
@@ -371,8 +376,16 @@ fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
 
 fn verdict(check: &GapCheck, gap: &GapReport) -> String {
     let (low, high) = gap.contact_bounds;
+    let driven = if gap.records_driven > 0 {
+        format!(
+            "  under {} of them only because another gap of the row closes: the widths above do not see that, make the other gap wide enough first\n",
+            gap.records_driven
+        )
+    } else {
+        String::new()
+    };
     format!(
-        "\nGap {}: {} - {} of {} records close it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n",
+        "\nGap {}: {} - {} of {} records close it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n{driven}",
         gap.name,
         if gap.adequate {
             "WIDE ENOUGH"

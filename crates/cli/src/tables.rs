@@ -294,8 +294,9 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         .options
         .duration
         .unwrap_or(assembly.accelerogram.duration());
+    let steps = elements::in_place_of_exact_steps(case, &assembly.system);
     text.push_str(&format!(
-        "\nMethod {}, duration {duration} s, output every {} s\n",
+        "\nMethod {}{steps}, duration {duration} s, output every {} s\n",
         case.analysis.method.value, assembly.output_step
     ));
     text

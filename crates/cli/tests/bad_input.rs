@@ -381,6 +381,12 @@ fn an_interrupted_run_leaves_no_half_written_file() {
 }
 
 #[test]
+fn a_recording_that_would_fill_the_memory_is_refused() {
+    let endless = CASE.replace("duration = \"2 s\"", "duration = \"1e6 s\"");
+    refused(&endless, &record(), &["GB of memory", "output_step"]);
+}
+
+#[test]
 fn a_coarse_step_fails_with_a_diagnosis() {
     let coarse = CASE.replace(
         "duration = \"2 s\"",

@@ -135,3 +135,20 @@ fn a_gap_that_a_neighbour_closes_is_too_small() {
     assert_eq!(first["adequate"], false);
     assert_eq!(first["records_driven_by_neighbours"], 1);
 }
+
+/// A record that is named twice counts once at most.
+#[test]
+fn a_record_given_twice_is_refused() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let record = root.join("ground_motions/el_centro_1940_ns.csv");
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg("gap")
+        .arg(root.join("examples/three_storey_pair/case.toml"))
+        .args(["--points", "0", "--records"])
+        .args([&record, &record])
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{complaint}");
+    assert!(complaint.contains("given twice"), "{complaint}");
+}

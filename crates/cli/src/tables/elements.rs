@@ -1,5 +1,6 @@
 //! Storeys with laws, and links.
 
+use pounding_case::Case;
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, Peak, RunRecord, System};
@@ -150,6 +151,15 @@ pub(super) fn laws(building: &ShearBuilding) -> String {
     }
     text.push_str(&sources(cards(building)));
     text
+}
+
+/// What the event-driven method does where a storey or a link follows a law.
+pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static str {
+    if case.analysis.method.value == "event_driven" && !system.elements().is_empty() {
+        " (by the adaptive pair 8(5,3), since storeys or links follow laws)"
+    } else {
+        ""
+    }
 }
 
 /// What `check` says of links.

@@ -68,15 +68,41 @@ fn files(records: &[PathBuf]) -> Result<Vec<PathBuf>, CheckError> {
         let entries = std::fs::read_dir(path).map_err(|e| refused(e.to_string()))?;
         let mut inside: Vec<PathBuf> = entries
             .filter_map(|entry| entry.ok().map(|e| e.path()))
-            .filter(|p| p.is_file() && p.extension().is_none_or(|e| e != "md"))
+            .filter(|p| p.is_file() && !is_beside_records(p))
             .collect();
         if inside.is_empty() {
-            return Err(refused("the folder is empty".to_owned()));
+            let reason = "it holds no files but hidden ones and descriptions (.md); folders inside it are not looked into";
+            return Err(refused(reason.to_owned()));
         }
         inside.sort();
         files.extend(inside);
     }
+    given_once(&files)?;
     Ok(files)
+}
+
+/// Hidden files, and descriptions of records.
+fn is_beside_records(file: &Path) -> bool {
+    let hidden = file
+        .file_name()
+        .is_some_and(|n| n.to_string_lossy().starts_with('.'));
+    hidden || file.extension().is_some_and(|e| e == "md")
+}
+
+/// A record that counts twice would make the answer look surer than it is.
+fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
+    let mut seen = Vec::new();
+    for file in files {
+        let place = file.canonicalize().unwrap_or_else(|_| file.clone());
+        if seen.contains(&place) {
+            return Err(CheckError::Word {
+                message: format!("record {} is given twice", file.display()),
+                help: Some("name each record once: it would count twice".to_owned()),
+            });
+        }
+        seen.push(place);
+    }
+    Ok(())
 }
 
 /// Names of files, made distinct by numbers where two are alike.

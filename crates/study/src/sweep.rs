@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::error::StudyError;
 use crate::parts::Parts;
-use crate::result_file::{CsvTable, Description, ResultReader, ResultWriter, coordinates};
+use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
 use crate::runs::{RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value};
 
@@ -245,18 +245,18 @@ fn complete(
             }
         }
     }
-    table.map_or(Ok(()), CsvTable::finish)?;
+    table.map_or(Ok(()), RunTable::finish)?;
     Ok(Some(report))
 }
 
 /// Rows of a result that are held at once.
 const READ_AT_ONCE: usize = 1024;
 
-fn table(options: &SweepOptions, d: &Description) -> Result<Option<CsvTable>, StudyError> {
+fn table(options: &SweepOptions, d: &Description) -> Result<Option<RunTable>, StudyError> {
     options
         .csv
         .as_ref()
-        .map(|path| CsvTable::create(path, d))
+        .map(|path| RunTable::create(path, d))
         .transpose()
 }
 
@@ -286,7 +286,7 @@ fn assemble(
             writer.push(row, point)?;
         }
     }
-    table.map_or(Ok(()), CsvTable::finish)?;
+    table.map_or(Ok(()), RunTable::finish)?;
     writer.finish()?;
     Ok(report)
 }

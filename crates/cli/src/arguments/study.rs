@@ -33,8 +33,8 @@ pub struct RunningArguments {
     /// Result (HDF5); by default the study's name with .h5 in the current folder
     #[arg(short, long)]
     pub output: Option<PathBuf>,
-    /// Also write the runs as a CSV table
-    #[arg(long, value_name = "FILE")]
+    /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
+    #[arg(long, visible_alias = "export", value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Threads; all cores by default. Results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -56,8 +56,8 @@ pub struct MergeArguments {
     /// Result of the whole study (HDF5)
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Also write the runs as a CSV table
-    #[arg(long, value_name = "FILE")]
+    /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
+    #[arg(long, visible_alias = "export", value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]

@@ -5,6 +5,7 @@ mod errors;
 mod examples;
 mod failing;
 mod interrupted;
+mod parquet;
 mod python;
 mod shards;
 

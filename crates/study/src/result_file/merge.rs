@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::table::CsvTable;
+use super::table::RunTable;
 use super::{Description, ResultReader, ResultWriter};
 use crate::error::StudyError;
 
@@ -29,7 +29,7 @@ pub fn merge(
     };
     let (runs, chunk) = (whole.runs, whole.chunk);
     let mut writer = ResultWriter::create(output, &whole, runs)?;
-    let mut table = csv.map(|path| CsvTable::create(path, &whole)).transpose()?;
+    let mut table = csv.map(|path| RunTable::create(path, &whole)).transpose()?;
     let mut failed = 0;
     for (number, start) in (0..runs).step_by(chunk).enumerate() {
         let reader = ordered[number % ordered.len()];

@@ -3,13 +3,14 @@
 
 mod datasets;
 mod merge;
+mod parquet_table;
 mod reading;
 mod table;
 mod writing;
 
 pub use merge::merge;
 pub use reading::ResultReader;
-pub use table::CsvTable;
+pub use table::RunTable;
 pub(crate) use writing::ResultWriter;
 
 use crate::runs::Layout;

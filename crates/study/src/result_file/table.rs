@@ -1,24 +1,32 @@
-//! The rows as a CSV table: a line a run, a column for every variable and value.
+//! The rows as a table, CSV or Parquet: a line a run, a column for every variable and value.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::Description;
+use super::parquet_table::{Cell, ParquetTable};
 use crate::case_text::hexadecimal;
 use crate::error::StudyError;
 use crate::runs::{Axis, Row};
 use crate::study_file::Value;
 
-/// Writes a table beside its place; `finish` puts it there.
+/// Writes a table beside its place; `finish` puts it there. It is Parquet if its name ends
+/// in `.parquet`, else CSV.
 #[derive(Debug)]
-pub struct CsvTable {
+pub struct RunTable {
     path: PathBuf,
     part: PathBuf,
-    writer: csv::Writer<File>,
+    writer: Writer,
     choices: Vec<Option<Vec<String>>>,
 }
 
-impl CsvTable {
+#[derive(Debug)]
+enum Writer {
+    Csv(Box<csv::Writer<File>>),
+    Parquet(ParquetTable),
+}
+
+impl RunTable {
     /// Begins a table with its header; units are SI and stand in brackets.
     ///
     /// # Errors
@@ -27,8 +35,17 @@ impl CsvTable {
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(".part");
         let part = path.with_file_name(name);
-        let writer = csv::Writer::from_path(&part).map_err(|e| failed(path, e.into()))?;
-        let mut table = Self {
+        let names = header(description);
+        let refused = |e| failed(path, e);
+        let writer = if path.extension().is_some_and(|e| e == "parquet") {
+            let kinds = kinds(description);
+            Writer::Parquet(ParquetTable::create(&part, &names, &kinds).map_err(refused)?)
+        } else {
+            let mut csv = csv::Writer::from_path(&part).map_err(|e| refused(e.into()))?;
+            csv.write_record(&names).map_err(|e| refused(e.into()))?;
+            Writer::Csv(Box::new(csv))
+        };
+        Ok(Self {
             path: path.to_owned(),
             part,
             writer,
@@ -37,15 +54,7 @@ impl CsvTable {
                 .iter()
                 .map(|c| c.choices.clone())
                 .collect(),
-        };
-        table.line(&header(description))?;
-        Ok(table)
-    }
-
-    fn line(&mut self, cells: &[String]) -> Result<(), StudyError> {
-        self.writer
-            .write_record(cells)
-            .map_err(|e| failed(&self.path, e.into()))
+        })
     }
 
     /// Adds a run.
@@ -53,39 +62,67 @@ impl CsvTable {
     /// # Errors
     /// [`StudyError::File`].
     pub fn push(&mut self, row: &Row, point: &[Value]) -> Result<(), StudyError> {
-        let mut cells = vec![row.run.to_string()];
+        let mut cells = vec![Cell::Whole(i64::try_from(row.run).unwrap_or(i64::MAX))];
         cells.extend(
             point
                 .iter()
                 .zip(&self.choices)
                 .map(|(value, names)| match (value, names) {
-                    (Value::Choice(i), Some(names)) => names[*i].clone(),
-                    (Value::Choice(i), None) => i.to_string(),
-                    (Value::Number(x), _) => number(*x),
+                    (Value::Choice(i), Some(names)) => Cell::Text(names[*i].clone()),
+                    (Value::Choice(i), None) => Cell::Number(*i as f64),
+                    (Value::Number(x), _) => Cell::Number(*x),
                 }),
         );
-        cells.push(
-            row.failure
-                .as_ref()
-                .map_or("complete", |_| "failed")
-                .to_owned(),
-        );
-        cells.push(hexadecimal(&row.id));
-        cells.extend(row.values.iter().map(|x| number(*x)));
-        cells.push(row.failure.clone().unwrap_or_default());
-        self.line(&cells)
+        let status = row.failure.as_ref().map_or("complete", |_| "failed");
+        cells.push(Cell::Text(status.to_owned()));
+        cells.push(Cell::Text(hexadecimal(&row.id)));
+        cells.extend(row.values.iter().map(|x| Cell::Number(*x)));
+        cells.push(Cell::Text(row.failure.clone().unwrap_or_default()));
+        let written = match &mut self.writer {
+            Writer::Parquet(table) => table.push(cells),
+            Writer::Csv(csv) => csv
+                .write_record(cells.into_iter().map(in_characters))
+                .map_err(std::io::Error::from),
+        };
+        written.map_err(|e| failed(&self.path, e))
     }
 
     /// Brings the table to its place.
     ///
     /// # Errors
     /// [`StudyError::File`].
-    pub fn finish(mut self) -> Result<(), StudyError> {
-        let flushed = self.writer.flush();
-        flushed
+    pub fn finish(self) -> Result<(), StudyError> {
+        let written = match self.writer {
+            Writer::Csv(mut csv) => csv.flush(),
+            Writer::Parquet(table) => table.finish(),
+        };
+        written
             .and_then(|()| std::fs::rename(&self.part, &self.path))
             .map_err(|e| failed(&self.path, e))
     }
+}
+
+fn in_characters(cell: Cell) -> String {
+    match cell {
+        Cell::Whole(i) => i.to_string(),
+        Cell::Number(x) => number(x),
+        Cell::Text(text) => text,
+    }
+}
+
+/// A cell of the kind of each column.
+fn kinds(d: &Description) -> Vec<Cell> {
+    let word = || Cell::Text(String::new());
+    let mut kinds = vec![Cell::Whole(0)];
+    kinds.extend(d.coordinates.iter().map(|c| match c.choices {
+        Some(_) => word(),
+        None => Cell::Number(0.0),
+    }));
+    kinds.extend([word(), word()]);
+    let values = header(d).len() - kinds.len() - 1;
+    kinds.extend(std::iter::repeat_n(Cell::Number(0.0), values));
+    kinds.push(word());
+    kinds
 }
 
 fn failed(path: &Path, source: std::io::Error) -> StudyError {

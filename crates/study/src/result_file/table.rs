@@ -23,7 +23,7 @@ pub struct RunTable {
 #[derive(Debug)]
 enum Writer {
     Csv(Box<csv::Writer<File>>),
-    Parquet(ParquetTable),
+    Parquet(Box<ParquetTable>),
 }
 
 impl RunTable {
@@ -39,7 +39,8 @@ impl RunTable {
         let refused = |e| failed(path, e);
         let writer = if path.extension().is_some_and(|e| e == "parquet") {
             let kinds = kinds(description);
-            Writer::Parquet(ParquetTable::create(&part, &names, &kinds).map_err(refused)?)
+            let table = ParquetTable::create(&part, &names, &kinds).map_err(refused)?;
+            Writer::Parquet(Box::new(table))
         } else {
             let mut csv = csv::Writer::from_path(&part).map_err(|e| refused(e.into()))?;
             csv.write_record(&names).map_err(|e| refused(e.into()))?;

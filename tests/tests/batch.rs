@@ -65,3 +65,13 @@ fn a_failed_run_does_not_end_the_batch() {
     let done = run_many(3, 2, &options, make, |_, outcome| outcome.is_ok());
     assert_eq!(done, [true, false, true]);
 }
+
+/// A system without buildings is refused, not integrated.
+#[test]
+fn a_system_needs_a_building() {
+    let ground = synthetic_motion().unwrap();
+    let empty = pounding_time_history::System::new(Vec::new(), ground);
+    let options = RunOptions::default();
+    let error = pounding_time_history::run(&empty, &options, &mut [], &mut |_| {}).unwrap_err();
+    assert!(error.to_string().contains("at least one"), "{error}");
+}

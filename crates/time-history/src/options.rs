@@ -97,6 +97,12 @@ impl RunOptions {
     /// # Errors
     /// An option out of range.
     pub fn check(&self, system: &System) -> Result<f64, TimeHistoryError> {
+        require(
+            system.degrees_of_freedom() > 0,
+            "buildings",
+            0.0,
+            "a system needs at least one",
+        )?;
         let positive = |option, value: f64| {
             require(
                 value.is_finite() && value > 0.0,

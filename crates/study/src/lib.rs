@@ -22,8 +22,8 @@ mod sweep;
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
 pub use ida::*;
-pub use result_file::{Coordinate, Description, ResultReader, RunTable, merge};
-pub use runs::{Axis, Layout, Place, Quantity, RecordReport, Row};
+pub use result_file::{Coordinate, Description, MergeReport, ResultReader, RunTable, merge};
+pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use study_file::{
     DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
     Variable,

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use crate::error::StudyError;
 use crate::parts::Parts;
 use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
-use crate::runs::{RecordReport, Row, Runner, run_all};
+use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value};
 
 /// Part `index` of `count` of a study.
@@ -69,6 +69,8 @@ pub struct Progress {
     pub made: usize,
     /// Failures among them.
     pub failed: usize,
+    /// Collapses among them.
+    pub collapsed: usize,
 }
 
 /// A finished study.
@@ -82,6 +84,10 @@ pub struct SweepReport {
     pub failed: usize,
     /// The first few of them: number and diagnosis.
     pub failures: Vec<(usize, String)>,
+    /// Runs in the result in which a building collapsed; these are no failures.
+    pub collapsed: usize,
+    /// The first few of them: number, and what collapsed when.
+    pub collapses: Vec<(usize, String)>,
     /// Identity of the study.
     pub study_sha256: String,
     /// Its motions; those that could be read.
@@ -127,7 +133,8 @@ pub fn sweep(
     progress(&now);
     let mut tick = |row: &Row| {
         now.made += 1;
-        now.failed += usize::from(row.failure.is_some());
+        now.failed += usize::from(row.ending.failed());
+        now.collapsed += usize::from(row.ending.collapsed());
         progress(&now);
     };
     let mut store = |chunk: Range<usize>, rows: Vec<Row>| {
@@ -204,6 +211,8 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
         made: 0,
         failed: 0,
         failures: Vec::new(),
+        collapsed: 0,
+        collapses: Vec::new(),
         study_sha256: description.study_sha256.clone(),
         records: records.collect(),
     }
@@ -212,11 +221,14 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
 impl SweepReport {
     fn count(&mut self, row: &Row) {
         self.runs += 1;
-        if let Some(reason) = &row.failure {
-            self.failed += 1;
-            if self.failures.len() < SHOWN {
-                self.failures.push((row.run, reason.clone()));
-            }
+        let (count, first, reason) = match &row.ending {
+            Ending::Complete => return,
+            Ending::Failed(reason) => (&mut self.failed, &mut self.failures, reason),
+            Ending::Collapsed(reason) => (&mut self.collapsed, &mut self.collapses, reason),
+        };
+        *count += 1;
+        if first.len() < SHOWN {
+            first.push((row.run, reason.clone()));
         }
     }
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
 use pounding_study::{
-    Axis, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions, Value,
-    case_of_run, sweep,
+    Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
+    Value, case_of_run, sweep,
 };
 use pounding_time_history::{assemble, run};
 
@@ -81,7 +81,10 @@ values = ["event_driven", "adaptive"]
     assert_eq!(rows.len(), 32);
     let mut touched = 0;
     for (row, point) in &rows {
-        assert_eq!((&row.failure, point), (&None, &study.point(row.run)));
+        assert_eq!(
+            (&row.ending, point),
+            (&Ending::Complete, &study.point(row.run))
+        );
         let text = case_of_run(&study, row.run).unwrap();
         let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
         let assembly = assemble(&case).unwrap();

@@ -79,7 +79,7 @@ fn ida_json(report: &IdaReport, confidence: f64) -> Value {
         let demands: Vec<_> = demands
             .map(|((name, unit), f)| json!({"name": name, "unit": unit, "p16": f[0], "p50": f[1], "p84": f[2]}))
             .collect();
-        json!({"intensity": l.intensity, "runs": l.runs, "failed": l.failed, "demands": demands})
+        json!({"intensity": l.intensity, "runs": l.runs, "failed": l.failed, "collapsed": l.collapsed, "demands": demands})
     });
     let limits = report.limits.iter().map(|l| limit_json(l, confidence));
     let gaps = report.gaps.iter().map(|g| {

@@ -40,19 +40,23 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 /// Merges the results of all shards.
 pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     writable(&arguments.output)?;
-    let (runs, failed) = pounding_study::merge(
+    let merged = pounding_study::merge(
         &arguments.shards,
         &arguments.output,
         arguments.csv.as_deref(),
     )?;
     if arguments.json {
         let output = arguments.output.display().to_string();
-        return print(&pretty(
-            &json!({"runs": runs, "failed": failed, "output": output}),
-        ));
+        return print(&pretty(&json!({
+            "runs": merged.runs, "failed": merged.failed, "collapsed": merged.collapsed,
+            "output": output,
+        })));
     }
     print(&format!(
-        "{runs} runs, {failed} of them failed, merged from {} shards into {}",
+        "{} runs, {} of them failed and {} collapsed, merged from {} shards into {}",
+        merged.runs,
+        merged.failed,
+        merged.collapsed,
         arguments.shards.len(),
         arguments.output.display()
     ))
@@ -126,10 +130,11 @@ pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
 
 /// The object that `--json` prints.
 pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
-    let failures = report
-        .failures
-        .iter()
-        .map(|(run, reason)| json!({"run": run, "diagnosis": reason}));
+    let told = |first: &[(usize, String)]| -> Vec<Value> {
+        let told = first.iter();
+        told.map(|(run, reason)| json!({"run": run, "diagnosis": reason}))
+            .collect()
+    };
     let records = report
         .records
         .iter()
@@ -137,7 +142,9 @@ pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
     json!({
         "status": "complete",
         "runs": report.runs, "made": report.made, "failed": report.failed,
-        "first_failures": failures.collect::<Vec<_>>(),
+        "first_failures": told(&report.failures),
+        "collapsed": report.collapsed,
+        "first_collapses": told(&report.collapses),
         "study_sha256": report.study_sha256,
         "records": records.collect::<Vec<_>>(),
         "output": options.output.display().to_string(),
@@ -164,14 +171,25 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
         0 => "; none failed\n".to_owned(),
         n => format!("; {n} failed:\n"),
     });
-    for (run, reason) in &report.failures {
-        text.push_str(&format!("  run {run}: {reason}\n"));
-    }
-    if report.failed > report.failures.len() {
-        text.push_str("  ... all of them in the group failures of the result\n");
+    text.push_str(&listed(&report.failures, report.failed));
+    if report.collapsed > 0 {
+        text.push_str(&format!("Collapse in {} runs:\n", report.collapsed));
+        text.push_str(&listed(&report.collapses, report.collapsed));
     }
     if let Some(csv) = &options.csv {
         text.push_str(&format!("Table written to {}\n", csv.display()));
+    }
+    text
+}
+
+/// The first few runs of a kind, a line each.
+fn listed(first: &[(usize, String)], all: usize) -> String {
+    let mut text = String::new();
+    for (run, reason) in first {
+        text.push_str(&format!("  run {run}: {reason}\n"));
+    }
+    if all > first.len() {
+        text.push_str("  ... all of them in the group failures of the result\n");
     }
     text
 }

@@ -1,6 +1,7 @@
 //! Studies from the command line: examples, interruption, failure, shards.
 #![allow(clippy::unwrap_used)]
 
+mod collapsing;
 mod errors;
 mod examples;
 mod failing;

@@ -5,6 +5,9 @@ use std::ops::Range;
 use crate::runs::Layout;
 use crate::study_file::{DemandKind, Limit};
 
+/// The demand that asks the buildings without gaps.
+const ISOLATED: &str = "isolated_demand";
+
 /// Columns over which the greatest value is taken.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Demand {
@@ -13,13 +16,24 @@ pub(super) struct Demand {
     /// Unit, SI.
     pub unit: &'static str,
     columns: Vec<usize>,
+    /// Whether it is one of the buildings without gaps, which a collapse in contact leaves
+    /// as it is.
+    isolated: bool,
 }
 
 impl Demand {
     /// Greatest value in a row; missing values, such as the time of a contact that did not
     /// happen, count as none.
-    pub(super) fn of(&self, values: &[f64]) -> f64 {
+    fn of(&self, values: &[f64]) -> f64 {
         self.columns.iter().map(|c| values[*c]).fold(0.0, f64::max)
+    }
+
+    /// The same for a run that may have collapsed: then it is above everything.
+    pub(super) fn of_run(&self, values: &[f64], collapsed: bool) -> f64 {
+        if collapsed && !self.isolated {
+            return f64::INFINITY;
+        }
+        self.of(values)
     }
 }
 
@@ -45,6 +59,7 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
                 name: format!("{name}: {building}"),
                 unit,
                 columns: chosen(layout.range(name), mine),
+                isolated: false,
             });
         }
     }
@@ -60,6 +75,7 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
                 name: format!("{name}: {gap}"),
                 unit,
                 columns: chosen(layout.range(name), mine),
+                isolated: name == ISOLATED,
             });
         }
     }
@@ -95,6 +111,7 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         name: limit.name.clone(),
         unit,
         columns: chosen(layout.range(name), mine),
+        isolated: name == ISOLATED,
     }
 }
 
@@ -104,5 +121,6 @@ pub(super) fn of_gap(layout: &Layout, name: &'static str, gap: &str) -> Demand {
         name: format!("{name}: {gap}"),
         unit: "m",
         columns: chosen(layout.range(name), |column| layout.levels[column].of == gap),
+        isolated: name == ISOLATED,
     }
 }

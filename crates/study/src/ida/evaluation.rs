@@ -12,11 +12,14 @@ use crate::study_file::{IdaSettings, Study, Value};
 pub struct IntensityLevel {
     /// Intensity (SI).
     pub intensity: f64,
-    /// Runs that did not fail.
+    /// Runs that did not fail, collapses among them.
     pub runs: usize,
+    /// Runs in which a building collapsed.
+    pub collapsed: usize,
     /// Runs that failed; they count nowhere else.
     pub failed: usize,
-    /// For each demand of the report its 16, 50 and 84 % fractiles over the records.
+    /// For each demand of the report its 16, 50 and 84 % fractiles over the records; a
+    /// collapse is above everything, so that a fractile may be infinite.
     pub fractiles: Vec<[f64; 3]>,
 }
 
@@ -45,7 +48,8 @@ pub struct GapResult {
 /// The least gap for a mean annual frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MinimumGap {
-    /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell.
+    /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell,
+    /// or no width does because the isolated buildings collapse.
     pub width: Option<f64>,
     /// Frequency of pounding at this width (1/year); without a width the least that the
     /// analysis can show.
@@ -86,6 +90,7 @@ pub struct IdaReport {
 struct Run {
     level: usize,
     failed: bool,
+    collapsed: bool,
     demands: Vec<f64>,
 }
 
@@ -137,10 +142,12 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let first_limit = shown.len();
     let first_gap = first_limit + limits.len();
     let first_impacts = first_gap + gaps.len();
-    let pounds = |r: &Run| r.demands[first_impacts..].iter().any(|n| *n > 0.0);
+    // Who has collapsed has been through every state before.
+    let pounds = |r: &Run| r.collapsed || r.demands[first_impacts..].iter().any(|n| *n > 0.0);
     let mut results = vec![evaluation.limit("pounding at the gaps of the case", &pounds)];
     for (i, (demand, exceeds)) in limits.iter().enumerate() {
-        results.push(evaluation.limit(&demand.name, &|r| r.demands[first_limit + i] > *exceeds));
+        let reached = |r: &Run| r.collapsed || r.demands[first_limit + i] > *exceeds;
+        results.push(evaluation.limit(&demand.name, &reached));
     }
     let variable = &study.variables[settings.intensity];
     Ok(IdaReport {
@@ -187,8 +194,12 @@ fn runs(
             };
             runs.push(Run {
                 level: intensities.iter().position(|i| *i == x).unwrap_or(0),
-                failed: row.failure.is_some(),
-                demands: needs.iter().map(|d| d.of(&row.values)).collect(),
+                failed: row.ending.failed(),
+                collapsed: row.ending.collapsed(),
+                demands: needs
+                    .iter()
+                    .map(|d| d.of_run(&row.values, row.ending.collapsed()))
+                    .collect(),
             });
         }
     }
@@ -241,6 +252,7 @@ impl Evaluation<'_> {
         let level = |(level, intensity): (usize, &f64)| IntensityLevel {
             intensity: *intensity,
             runs: self.at(level).count(),
+            collapsed: self.at(level).filter(|r| r.collapsed).count(),
             failed: self
                 .runs
                 .iter()
@@ -279,6 +291,12 @@ impl Evaluation<'_> {
             .filter(|r| !r.failed)
             .map(|r| r.demands[column])
             .collect();
+        if demands.is_empty() {
+            return None;
+        }
+        // Buildings that collapse by themselves are kept apart by no gap.
+        demands.retain(|d| d.is_finite());
+        demands.push(0.0);
         demands.sort_by(|a, b| b.total_cmp(a));
         demands.dedup();
         let mut best = None;
@@ -310,6 +328,27 @@ fn fractiles(mut values: Vec<f64>) -> [f64; 3] {
         let place = p * last as f64;
         let below = place.floor() as usize;
         let above = (below + 1).min(last);
-        values[below] + (place - below as f64) * (values[above] - values[below])
+        let part = place - below as f64;
+        // Half the way to an infinite value is infinite, no way at all is none.
+        if part == 0.0 || values[below] == values[above] {
+            return values[below];
+        }
+        values[below] + part * (values[above] - values[below])
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fractiles;
+
+    /// By hand: places 0.16, 0.5 and 0.84 of the way from the first to the last value.
+    #[test]
+    fn fractiles_reach_into_collapses_only_where_they_lie_there() {
+        let f = f64::INFINITY;
+        assert_eq!(fractiles(vec![3.0, 1.0, 2.0]), [1.32, 2.0, 2.68]);
+        assert_eq!(fractiles(vec![f, 1.0, 2.0]), [1.32, 2.0, f]);
+        assert_eq!(fractiles(vec![f, f, 2.0]), [f, f, f]);
+        assert_eq!(fractiles(vec![f, f]), [f, f, f]);
+        assert!(fractiles(Vec::new()).iter().all(|x| x.is_nan()));
+    }
 }

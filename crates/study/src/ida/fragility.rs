@@ -7,7 +7,7 @@ use super::normal::{normal_density, normal_distribution, normal_quantile};
 pub struct Counts {
     /// Intensity (SI).
     pub intensity: f64,
-    /// Runs that were made and did not fail.
+    /// Runs that were made and did not fail; collapses count and have reached every state.
     pub runs: usize,
     /// Runs among them that reached the state.
     pub reached: usize,

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use crate::runs::Row;
+use crate::runs::{Ending, Row};
 
 /// Bytes of a run's identity, and of the hash at the end.
 const ID: usize = 16;
@@ -16,17 +16,18 @@ const HASH: usize = 32;
 
 /// Writes the rows of a chunk of a study beside its place and renames the file.
 pub(crate) fn write_chunk(path: &Path, study: &str, rows: &[Row]) -> Result<()> {
-    let mut failures = serde_json::Map::new();
+    let mut endings = serde_json::Map::new();
     for row in rows {
-        if let Some(reason) = &row.failure {
-            failures.insert(row.run.to_string(), json!(reason));
+        if let Some(reason) = row.ending.diagnosis() {
+            let (status, _) = row.ending.status();
+            endings.insert(row.run.to_string(), json!([status, reason]));
         }
     }
     let columns = rows.first().map_or(0, |r| r.values.len());
     let first = rows.first().map_or(0, |r| r.run);
     let head = json!({
         "study": study, "first": first, "runs": rows.len(), "columns": columns,
-        "failures": failures,
+        "endings": endings,
     });
     let mut bytes = format!("{head}\n").into_bytes();
     bytes.reserve(rows.len() * (ID + 8 * columns) + HASH);
@@ -93,13 +94,24 @@ pub(crate) fn read_chunk(path: &Path, study: &str, runs: &Range<usize>) -> Resul
             run,
             id: *id,
             values: values.iter().map(|b| f64::from_le_bytes(*b)).collect(),
-            failure: head["failures"][run.to_string()]
-                .as_str()
-                .map(str::to_owned),
+            ending: ending(&head["endings"][run.to_string()])?,
         })
     };
     let rows = rows.chunks_exact(width).enumerate().map(row);
     rows.collect::<Option<Vec<_>>>().ok_or_else(damaged)
+}
+
+/// How a run ended, from the head of its chunk; `None` if this cannot be.
+fn ending(value: &Value) -> Option<Ending> {
+    if value.is_null() {
+        return Some(Ending::Complete);
+    }
+    let reason = value[1].as_str()?.to_owned();
+    match value[0].as_i64()? {
+        1 => Some(Ending::Failed(reason)),
+        2 => Some(Ending::Collapsed(reason)),
+        _ => None,
+    }
 }
 
 #[cfg(test)]
@@ -117,7 +129,11 @@ mod tests {
                 } else {
                     vec![run as f64 / 3.0, -0.0]
                 },
-                failure: (run == 8).then(|| "it did not\nconverge".to_owned()),
+                ending: match run {
+                    8 => Ending::Failed("it did not\nconverge".to_owned()),
+                    9 => Ending::Collapsed("storey 1".to_owned()),
+                    _ => Ending::Complete,
+                },
             })
             .collect()
     }
@@ -131,8 +147,8 @@ mod tests {
         for (a, b) in back.iter().zip(rows()) {
             let bits = |r: &Row| r.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(
-                (a.run, a.id, &a.failure, bits(a)),
-                (b.run, b.id, &b.failure, bits(&b))
+                (a.run, a.id, &a.ending, bits(a)),
+                (b.run, b.id, &b.ending, bits(&b))
             );
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);

@@ -43,17 +43,17 @@ pub(super) fn coordinates(
     Ok(coordinates)
 }
 
-/// Whether runs failed, and their identities.
+/// How runs ended, and their identities.
 pub(super) fn states(file: &File, axes: &Axes<'_>, rows: usize) -> Result<(Dataset, Dataset)> {
     let status = dataset::<i8>(file, "status", rows, None)?;
     describe(
         &status,
         "",
-        "0 the run is complete, 1 it failed: see the group failures",
+        "0 the run is complete, 1 it failed, 2 a building collapsed: see the group failures",
     )?;
-    text(&status, "flag_meanings", "complete failed")?;
-    let values = status.new_attr::<i8>().shape(2).create("flag_values")?;
-    values.write_raw(&[0_i8, 1])?;
+    text(&status, "flag_meanings", "complete failed collapsed")?;
+    let values = status.new_attr::<i8>().shape(3).create("flag_values")?;
+    values.write_raw(&[0_i8, 1, 2])?;
     let id = dataset::<Id>(file, "run_id", rows, None)?;
     describe(
         &id,
@@ -190,7 +190,7 @@ pub(super) fn labels<'t>(
     Ok(Some(data))
 }
 
-/// Numbers of failed runs and why they failed.
+/// Numbers of runs that failed or collapsed, and their diagnoses.
 pub(super) fn failures(file: &File) -> Result<(Dataset, Dataset)> {
     let group = file.create_group("failures")?;
     let run = group
@@ -202,7 +202,11 @@ pub(super) fn failures(file: &File) -> Result<(Dataset, Dataset)> {
     describe(&run, "", "number of the run")?;
     let builder = group.new_dataset::<VarLenUnicode>().obj_track_times(false);
     let diagnosis = builder.chunk(256).shape(0..).create("diagnosis")?;
-    describe(&diagnosis, "", "why the run failed")?;
+    describe(
+        &diagnosis,
+        "",
+        "why the run failed, or when and where a building collapsed",
+    )?;
     Ok((run, diagnosis))
 }
 

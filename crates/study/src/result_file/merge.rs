@@ -6,9 +6,19 @@ use super::table::RunTable;
 use super::{Description, ResultReader, ResultWriter};
 use crate::error::StudyError;
 
+/// What a merged result holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MergeReport {
+    /// Its runs.
+    pub runs: usize,
+    /// Failed ones among them.
+    pub failed: usize,
+    /// Those in which a building collapsed.
+    pub collapsed: usize,
+}
+
 /// Merges the results of all shards of a study into one, and into a table if `csv` names
-/// a file. The result is that of one call for the whole study. Returns the number of runs
-/// and of failed ones.
+/// a file. The result is that of one call for the whole study.
 ///
 /// # Errors
 /// [`StudyError::Merge`] if the files are not all shards of one study, or
@@ -17,7 +27,7 @@ pub fn merge(
     files: &[PathBuf],
     output: &Path,
     csv: Option<&Path>,
-) -> Result<(usize, usize), StudyError> {
+) -> Result<MergeReport, StudyError> {
     let readers = files
         .iter()
         .map(|f| ResultReader::open(f))
@@ -30,7 +40,7 @@ pub fn merge(
     let (runs, chunk) = (whole.runs, whole.chunk);
     let mut writer = ResultWriter::create(output, &whole, runs)?;
     let mut table = csv.map(|path| RunTable::create(path, &whole)).transpose()?;
-    let mut failed = 0;
+    let mut report = MergeReport::default();
     for (number, start) in (0..runs).step_by(chunk).enumerate() {
         let reader = ordered[number % ordered.len()];
         let from = number / ordered.len() * chunk;
@@ -50,7 +60,9 @@ pub fn merge(
             });
         }
         for (row, point) in rows {
-            failed += usize::from(row.failure.is_some());
+            report.runs += 1;
+            report.failed += usize::from(row.ending.failed());
+            report.collapsed += usize::from(row.ending.collapsed());
             if let Some(table) = &mut table {
                 table.push(&row, &point)?;
             }
@@ -61,7 +73,7 @@ pub fn merge(
         table.finish()?;
     }
     writer.finish()?;
-    Ok((runs, failed))
+    Ok(report)
 }
 
 /// The shards in order, if they are all there.

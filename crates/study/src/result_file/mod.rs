@@ -8,7 +8,7 @@ mod reading;
 mod table;
 mod writing;
 
-pub use merge::merge;
+pub use merge::{MergeReport, merge};
 pub use reading::ResultReader;
 pub use table::RunTable;
 pub(crate) use writing::ResultWriter;

@@ -10,7 +10,7 @@ use hdf5::{File, H5Type};
 use super::writing::Id;
 use super::{Coordinate, Description};
 use crate::error::StudyError;
-use crate::runs::{Layout, Place, Row};
+use crate::runs::{Ending, Layout, Place, Row};
 use crate::study_file::Value;
 
 /// A result that is read.
@@ -76,15 +76,22 @@ impl ResultReader {
         let layout = &self.description.layout;
         let runs = self.column::<i64>("run", &places)?;
         let ids = self.column::<Id>("run_id", &places)?;
+        let status = self.column::<i8>("status", &places)?;
         let mut rows: Vec<(Row, Vec<Value>)> = runs
             .iter()
             .zip(&ids)
-            .map(|(run, id)| {
+            .zip(&status)
+            .map(|((run, id), status)| {
+                let diagnosis = || self.failures.get(run).cloned().unwrap_or_default();
                 let row = Row {
                     run: *run as usize,
                     id: bytes(id.as_str()),
                     values: Vec::with_capacity(layout.columns()),
-                    failure: self.failures.get(run).cloned(),
+                    ending: match status {
+                        0 => Ending::Complete,
+                        2 => Ending::Collapsed(diagnosis()),
+                        _ => Ending::Failed(diagnosis()),
+                    },
                 };
                 (row, Vec::new())
             })

@@ -74,11 +74,11 @@ impl RunTable {
                     (Value::Number(x), _) => Cell::Number(*x),
                 }),
         );
-        let status = row.failure.as_ref().map_or("complete", |_| "failed");
-        cells.push(Cell::Text(status.to_owned()));
+        cells.push(Cell::Text(row.ending.status().1.to_owned()));
         cells.push(Cell::Text(hexadecimal(&row.id)));
         cells.extend(row.values.iter().map(|x| Cell::Number(*x)));
-        cells.push(Cell::Text(row.failure.clone().unwrap_or_default()));
+        let diagnosis = row.ending.diagnosis().unwrap_or_default();
+        cells.push(Cell::Text(diagnosis.to_owned()));
         let written = match &mut self.writer {
             Writer::Parquet(table) => table.push(cells),
             Writer::Csv(csv) => csv

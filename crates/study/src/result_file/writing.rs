@@ -180,10 +180,7 @@ impl Open {
         }
         let runs: Vec<i64> = rows.iter().map(|(r, _)| r.run as i64).collect();
         put(&self.run, &runs, place.clone())?;
-        let status: Vec<i8> = rows
-            .iter()
-            .map(|(r, _)| i8::from(r.failure.is_some()))
-            .collect();
+        let status: Vec<i8> = rows.iter().map(|(r, _)| r.ending.status().0).collect();
         put(&self.status, &status, place.clone())?;
         let id = |row: &Row| {
             Id::from_ascii(&hexadecimal(&row.id)).map_err(|e| hdf5::Error::from(e.to_string()))
@@ -236,7 +233,7 @@ impl Open {
     fn add_failures(&mut self, rows: &[(Row, Vec<Value>)]) -> Result<()> {
         let failed: Vec<_> = rows
             .iter()
-            .filter_map(|(r, _)| Some((r.run as i64, r.failure.as_deref()?)))
+            .filter_map(|(r, _)| Some((r.run as i64, r.ending.diagnosis()?)))
             .collect();
         if failed.is_empty() {
             return Ok(());

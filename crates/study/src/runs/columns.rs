@@ -279,6 +279,13 @@ impl Layout {
         out.extend(demand);
     }
 
+    /// Puts a collapse into columns: nothing is known but the isolated demand of each level.
+    pub(crate) fn fill_collapsed(&self, demand: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.columns() - demand.len(), f64::NAN);
+        out.extend(demand);
+    }
+
     /// A text that two layouts share if and only if they are equal.
     pub(crate) fn signature(&self) -> String {
         let labels = self

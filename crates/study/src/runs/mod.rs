@@ -10,5 +10,5 @@ pub(crate) use columns::is_result;
 pub use columns::{Axis, Layout, Place, Quantity};
 pub(crate) use engine::run_all;
 pub use motions::RecordReport;
-pub use runner::Row;
+pub use runner::{Ending, Row};
 pub(crate) use runner::{Runner, written};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use pounding_case::{Case, Scale};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, System, TimeHistoryError, assemble_with_record, isolated_demand, regap,
-    run, scale_record,
+    GroundAcceleration, RunOptions, System, TimeHistoryError, assemble_with_record,
+    isolated_demand, regap, run, scale_record,
 };
 use sha2::{Digest, Sha256};
 
@@ -31,10 +31,56 @@ pub struct Row {
     /// Identity: the first bytes of the SHA-256 of what the case says, of the bytes of the
     /// record and of the version of the program.
     pub id: [u8; ID],
-    /// Values in the columns of the [`Layout`]; all missing (NaN) if the run failed.
+    /// Values in the columns of the [`Layout`]; all missing (NaN) if the run failed, all
+    /// but the isolated demand if it collapsed.
     pub values: Vec<f64>,
-    /// Why it failed.
-    pub failure: Option<String>,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ending {
+    /// It went on to its end.
+    Complete,
+    /// It could not be made, or came to no result: the diagnosis.
+    Failed(String),
+    /// Gravity overturned a building, which is an answer: when, which building, which
+    /// storey.
+    Collapsed(String),
+}
+
+impl Ending {
+    /// Its number and its name in results.
+    #[must_use]
+    pub fn status(&self) -> (i8, &'static str) {
+        match self {
+            Self::Complete => (0, "complete"),
+            Self::Failed(_) => (1, "failed"),
+            Self::Collapsed(_) => (2, "collapsed"),
+        }
+    }
+
+    /// Why it failed, or what collapsed.
+    #[must_use]
+    pub fn diagnosis(&self) -> Option<&str> {
+        match self {
+            Self::Complete => None,
+            Self::Failed(reason) | Self::Collapsed(reason) => Some(reason),
+        }
+    }
+
+    /// Whether it failed.
+    #[must_use]
+    pub fn failed(&self) -> bool {
+        matches!(self, Self::Failed(_))
+    }
+
+    /// Whether a building collapsed.
+    #[must_use]
+    pub fn collapsed(&self) -> bool {
+        matches!(self, Self::Collapsed(_))
+    }
 }
 
 /// A number as it stands in the case of a run.
@@ -92,7 +138,7 @@ impl<'s> Runner<'s> {
             run: number,
             id: self.identity(&text, motion, factor.as_ref().ok().copied().flatten()),
             values: Vec::new(),
-            failure: None,
+            ending: Ending::Complete,
         };
         let made = catch_unwind(AssertUnwindSafe(|| {
             let motion = motion.map_err(Clone::clone)?;
@@ -101,9 +147,9 @@ impl<'s> Runner<'s> {
         let values =
             made.unwrap_or_else(|panic| Err(format!("the program broke off: {}", said(&*panic))));
         match values {
-            Ok(values) => row.values = values,
+            Ok((values, ending)) => (row.values, row.ending) = (values, ending),
             Err(reason) => {
-                row.failure = Some(reason);
+                row.ending = Ending::Failed(reason);
                 row.values = vec![f64::NAN; self.layout.columns()];
             }
         }
@@ -129,7 +175,7 @@ impl<'s> Runner<'s> {
         text: &str,
         motion: &Motion,
         factor: Option<f64>,
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<(Vec<f64>, Ending), String> {
         let said = |e: TimeHistoryError| e.to_string();
         let case = Case::parse(text, &self.study.base.file).map_err(|e| e.to_string())?;
         let record = scaled(&case, motion, factor)?;
@@ -162,20 +208,29 @@ impl<'s> Runner<'s> {
                 self.layout.levels.len()
             ));
         }
-        let outcome = run(&system, &options, &mut [], &mut |_| {}).map_err(said)?;
+        let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
+            Ok(outcome) => Ok(outcome),
+            Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
+            Err(e) => return Err(said(e)),
+        };
         let demand = if self.study.isolated_demand {
             let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();
-            self.demands.get(&all, || {
-                isolated_demand(&system, &options)
-                    .map(|(_, peaks)| Arc::new(peaks.iter().map(|p| p.value).collect()))
-                    .map_err(said)
-            })?
+            self.demands
+                .get(&all, || apart(&system, &options).map(Arc::new))?
         } else {
             Arc::default()
         };
         let mut values = Vec::with_capacity(self.layout.columns());
-        self.layout.fill(&outcome, &demand, &mut values);
-        Ok(values)
+        match outcome {
+            Ok(outcome) => {
+                self.layout.fill(&outcome, &demand, &mut values);
+                Ok((values, Ending::Complete))
+            }
+            Err(collapse) => {
+                self.layout.fill_collapsed(&demand, &mut values);
+                Ok((values, Ending::Collapsed(collapse)))
+            }
+        }
     }
 
     fn identity(
@@ -215,6 +270,16 @@ impl<'s> Runner<'s> {
         hash.update(self.layout.signature());
         hash.update(self.version);
         hexadecimal(&hash.finalize())
+    }
+}
+
+/// The isolated demand of each level; infinite where the buildings collapse by themselves,
+/// which no gap keeps apart.
+fn apart(system: &System, options: &RunOptions) -> Result<Vec<f64>, String> {
+    match isolated_demand(system, options) {
+        Ok((_, peaks)) => Ok(peaks.iter().map(|p| p.value).collect()),
+        Err(TimeHistoryError::Collapse { .. }) => Ok(vec![f64::INFINITY; system.levels().len()]),
+        Err(e) => Err(e.to_string()),
     }
 }
 

@@ -34,10 +34,14 @@ fn table(header: Vec<String>) -> Table {
 
 fn levels(report: &IdaReport) -> Table {
     let mut header = vec!["intensity".to_owned(), "runs".to_owned()];
-    if report.levels.iter().any(|l| l.failed > 0) {
+    let with_failures = report.levels.iter().any(|l| l.failed > 0);
+    let with_collapses = report.levels.iter().any(|l| l.collapsed > 0);
+    if with_failures {
         header.push("failed".to_owned());
     }
-    let with_failures = header.len() == 3;
+    if with_collapses {
+        header.push("collapsed".to_owned());
+    }
     header.extend(
         report
             .demands
@@ -52,6 +56,9 @@ fn levels(report: &IdaReport) -> Table {
         let mut cells = vec![digits(level.intensity), level.runs.to_string()];
         if with_failures {
             cells.push(level.failed.to_string());
+        }
+        if with_collapses {
+            cells.push(level.collapsed.to_string());
         }
         cells.extend(level.fractiles.iter().map(|f| f.map(digits).join(" ")));
         table.add_row(cells);

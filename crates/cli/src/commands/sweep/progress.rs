@@ -37,9 +37,13 @@ impl Bar {
             self.begun = true;
         }
         self.bar.set_position(now.made as u64);
-        if now.failed > 0 {
-            self.bar.set_message(format!("  {} failed", now.failed));
+        let mut message = String::new();
+        for (count, what) in [(now.failed, "failed"), (now.collapsed, "collapsed")] {
+            if count > 0 {
+                message.push_str(&format!("  {count} {what}"));
+            }
         }
+        self.bar.set_message(message);
     }
 
     /// Takes the bar away.

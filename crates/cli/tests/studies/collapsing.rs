@@ -1,0 +1,162 @@
+//! Runs in which gravity overturns a building: answers, not failures.
+
+use serde_json::Value;
+
+use super::Bench;
+
+/// A frame that yields early under gravity, beside a stiff block.
+const CASE: &str = r#"
+[[building]]
+name = "frame"
+storeys = 1
+mass = "50 t"
+stiffness = "2 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.02 }
+law = { model = "elastic_perfectly_plastic", yield_force = "60 kN" }
+p_delta = true
+
+[[building]]
+name = "block"
+storeys = 1
+mass = "1000 t"
+stiffness = "2215 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+
+[[gap]]
+between = ["frame", "block"]
+width = "20 mm"
+model = "anagnostopoulos_1988"
+stiffness = "93.5 MN/m"
+restitution = 0.6
+
+[ground_motion]
+file = "MOTIONS/el_centro_1940_ns.csv"
+
+[analysis]
+method = "adaptive"
+"#;
+
+const STUDY: &str = r#"
+case = "case.toml"
+[[variable]]
+records = ["MOTIONS/el_centro_1940_ns.csv", "MOTIONS/kobe_1995_jma_ns.csv"]
+[[variable]]
+intensity = "peak_ground_acceleration"
+values = ["0.02 g", "0.2 g", "2 g", "4 g"]
+[ida]
+gaps = ["20 mm", "400 mm"]
+hazard = [["0.01 g", 1], ["4 g", 1e-6]]
+target_frequency = 1e-4
+[[ida.limit]]
+name = "drift"
+demand = "drift_ratio"
+building = "frame"
+exceeds = 0.9
+[[ida.limit]]
+name = "force"
+demand = "contact_force"
+exceeds = "1e9 N"
+"#;
+
+fn bench() -> Bench {
+    let bench = Bench::new(STUDY);
+    let motions = super::root().join("ground_motions");
+    let case = CASE.replace("MOTIONS", motions.to_str().unwrap());
+    std::fs::write(bench.path("case.toml"), case).unwrap();
+    bench
+}
+
+/// Every record overturns the frame at the highest intensity: all states are reached there,
+/// whatever the demand, and fractiles are infinite.
+#[test]
+fn a_collapse_has_reached_every_state() {
+    let bench = bench();
+    let told: Value =
+        serde_json::from_str(&bench.text("ida study.toml -o out.h5 --csv out.csv --json")).unwrap();
+    assert_eq!(told["sweep"]["failed"], 0);
+    let levels = told["levels"].as_array().unwrap();
+    assert_eq!(
+        (&levels[0]["collapsed"], &levels[0]["runs"]),
+        (&0.into(), &2.into())
+    );
+    assert_eq!(
+        (&levels[3]["collapsed"], &levels[3]["runs"]),
+        (&2.into(), &2.into())
+    );
+    for limit in told["limits"].as_array().unwrap() {
+        let top = &limit["counts"][3];
+        assert_eq!(
+            (&top["runs"], &top["reached"]),
+            (&2.into(), &2.into()),
+            "{limit}"
+        );
+    }
+    let force = &told["limits"][2];
+    assert_eq!(force["name"], "force");
+    assert_eq!(force["counts"][0]["reached"], 0);
+    // Pounding by width asks the frame without its neighbour: it falls by itself.
+    for width in told["gaps"][0]["widths"].as_array().unwrap() {
+        assert_eq!(width["counts"][3]["reached"], 2, "{width}");
+    }
+    let drift = &levels[3]["demands"][0];
+    assert_eq!(drift["name"], "peak_drift_ratio: frame");
+    assert!(drift["p50"].is_null() && levels[0]["demands"][0]["p50"].is_number());
+    let collapsed = told["sweep"]["collapsed"].as_u64().unwrap();
+    assert!(collapsed >= 2);
+    let first = told["sweep"]["first_collapses"][0]["diagnosis"]
+        .as_str()
+        .unwrap();
+    assert!(
+        first.contains("frame collapsed at t =") && first.contains("storey 1"),
+        "{first}"
+    );
+    // The table of runs tells them from failures.
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    let fallen: Vec<_> = rows
+        .iter()
+        .filter(|r| &r[column("status")] == "collapsed")
+        .collect();
+    assert_eq!(fallen.len() as u64, collapsed);
+    for row in fallen {
+        assert!(row[column("diagnosis")].contains("frame collapsed at t ="));
+        assert!(row[column("energy_input [J]")].is_empty());
+        assert!(!row[column("isolated_demand: frame-block 1-1 [m]")].is_empty());
+    }
+    // For people; and the shards of a study carry collapses into the whole.
+    let told = bench.text("ida study.toml -o out.h5 --resume");
+    assert!(
+        told.contains("none failed") && told.contains(&format!("Collapse in {collapsed} runs")),
+        "{told}"
+    );
+    assert!(told.contains("inf"), "{told}");
+    for shard in ["1/2", "2/2"] {
+        bench.text(&format!(
+            "sweep study.toml --shard {shard} -o {}.h5",
+            &shard[..1]
+        ));
+    }
+    let told: Value =
+        serde_json::from_str(&bench.text("merge 1.h5 2.h5 -o merged.h5 --json")).unwrap();
+    assert_eq!(
+        (&told["failed"], &told["collapsed"]),
+        (&0.into(), &collapsed.into())
+    );
+    assert!(bench.bytes("merged.h5") == bench.bytes("out.h5"));
+}
+
+/// A study in which every run collapses has an answer; one run alone still ends with 3.
+#[test]
+fn collapse_of_all_runs_is_no_failure() {
+    let bench = bench();
+    bench.study(&STUDY.replace("\"0.02 g\", \"0.2 g\", \"2 g\", ", ""));
+    let told = bench.text("sweep study.toml -o out.h5");
+    assert!(
+        told.contains("none failed") && told.contains("Collapse in 2 runs"),
+        "{told}"
+    );
+}

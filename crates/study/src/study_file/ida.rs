@@ -4,9 +4,9 @@ use std::path::Path;
 
 use pounding_case::{Case, Dimension};
 
-use super::IntensityMeasure;
 use super::reader::{Reader, Result, Table, Value};
 use super::values::numbers;
+use super::{IntensityMeasure, hazard_file};
 
 /// A demand whose exceedance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -246,7 +246,7 @@ fn limit(reader: &Reader<'_>, value: &Value<'_>, base: &Case) -> Result<Limit> {
     })
 }
 
-/// Points, or the name of a CSV file of two columns with a header.
+/// Points, or the name of a CSV file of two columns.
 fn hazard(
     reader: &Reader<'_>,
     value: &Value<'_>,
@@ -258,7 +258,8 @@ fn hazard(
         reader.error(value.span(), format!("the hazard curve: {reason}"), help)
     };
     let points = match value.get_ref().as_str() {
-        Some(name) => from_csv(&folder.join(name)).map_err(wrong)?,
+        Some(name) => hazard_file::read(&folder.join(name), measure)
+            .map_err(|(message, help)| reader.error(value.span(), message, help))?,
         None => {
             let mut points = Vec::new();
             for item in reader.list(value, "hazard")? {
@@ -274,25 +275,6 @@ fn hazard(
         }
     };
     HazardCurve::new(points).map_err(|e| wrong(e.to_string()))
-}
-
-fn from_csv(path: &Path) -> std::result::Result<Vec<(f64, f64)>, String> {
-    let shown = path.display();
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|e| format!("{shown}: {e}"))?;
-    let mut points = Vec::new();
-    for row in reader.records() {
-        let row = row.map_err(|e| format!("{shown}: {e}"))?;
-        let number = |i: usize| row.get(i).and_then(|t| t.parse::<f64>().ok());
-        match (number(0), number(1)) {
-            (Some(a), Some(b)) => points.push((a, b)),
-            _ => return Err(format!("{shown}: {row:?} is not two numbers")),
-        }
-    }
-    Ok(points)
 }
 
 impl HazardCurve {

@@ -216,23 +216,21 @@ fn spread(
     }
 }
 
-/// The same for anything that was read one by one: a single value stands for all.
-fn spread_any<T: Clone>(
+/// A list of anything that was read one by one: as many as there are places, as a list
+/// that holds one value is more likely short than meant for all.
+fn one_each<T>(
     reader: &Reader<'_>,
-    mut values: Vec<T>,
+    values: Vec<T>,
     span: Range<usize>,
     count: usize,
 ) -> Result<Vec<T>, CaseError> {
-    if let (1, Some(only)) = (values.len(), values.first()) {
-        values = vec![only.clone(); count];
-    }
     if values.len() == count {
         return Ok(values);
     }
     Err(reader.error(
         span,
         format!("{} values where there are {count} places", values.len()),
-        "give one value a storey or level of this law, or a single value for all",
+        "give one value a storey or level of this law, or a single value without brackets for all",
     ))
 }
 

@@ -102,6 +102,12 @@ fn laws_of_storeys() {
         "",
         &["3 values", "2 places"],
     );
+    // As with `mass`: a list of one is not spread.
+    refused(
+        &with("\"120 kN\"", "[\"120 kN\"]"),
+        "",
+        &["1 values", "2 places", "without brackets"],
+    );
     refused(&with("{ ", "{ storeys = [3], "), "", &["storey 3"]);
     refused(
         &with("{ ", "{ stiffness = 1e6, "),

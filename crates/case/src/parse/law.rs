@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::DeValue;
 
 use super::gap::{between, levels};
-use super::{check_name, spread_any};
+use super::{check_name, one_each};
 use crate::error::CaseError;
 use crate::reader::{Reader, Table, Value, distance};
 use crate::schema::{self, Key};
@@ -157,10 +157,12 @@ fn parameters(
             })
         };
         let values = match value.get_ref() {
-            DeValue::Array(items) => items.iter().map(one).collect::<Result<Vec<_>, _>>()?,
-            _ => vec![one(value)?],
+            DeValue::Array(items) => {
+                let values = items.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+                one_each(reader, values, value.span(), count)?
+            }
+            _ => vec![one(value)?; count],
         };
-        let values = spread_any(reader, values, value.span(), count)?;
         parameters.push(LawParameter { key, values });
     }
     Ok(parameters)

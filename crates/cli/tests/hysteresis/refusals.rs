@@ -231,3 +231,45 @@ fn output_that_cannot_be_written_is_told_apart() {
         &["cannot write"],
     );
 }
+
+/// Laws that are integrated along their path take deformations of a size that ends; all
+/// refuse what overflows, instead of a dash for a number.
+#[test]
+fn deformations_that_cannot_be_followed_are_refused() {
+    // The cards' examples yield at 10 mm.
+    for law in ["bouc_wen", "baber_noori_1985", "menegotto_pinto_1973"] {
+        refused(
+            &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --cycles 1001m"),
+            &[
+                "1001 m is 100100 times the yield deformation",
+                "check the unit",
+            ],
+        );
+        refused(
+            &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --dissipation 1m,1e6m"),
+            &["times the yield deformation", "check the unit"],
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("far.csv");
+    std::fs::write(&file, "deformation_m\n0\n1e300\n-1e300\n").unwrap();
+    refused(
+        &format!("bilinear --history {}", file.display()),
+        &["overflow at a deformation of", "check the unit"],
+    );
+    refused("bilinear --cycles 1e200m", &["overflow", "check the unit"]);
+    refused("bilinear --dissipation 1e160m,1e170m", &["overflow"]);
+    let far = support::run("hysteresis", "bilinear --cycles 1e6m");
+    assert_eq!(far.status.code(), Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_read() {
+    for option in ["history", "fit"] {
+        refused(
+            &format!("iwan_six_parameter --{option} /dev/zero"),
+            &["cannot read /dev/zero", "no regular file"],
+        );
+    }
+}

@@ -31,14 +31,21 @@ impl Source {
     /// Opens a text file; `example` is a header as it should be.
     pub fn open(path: &Path, option: &str, example: &'static str) -> Result<Self, Failure> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|e| {
-            Failure::input(
-                format!("cannot read {name}: {e}"),
-                Some(format!(
-                    "{option} takes a text file with a header such as {example}"
-                )),
-            )
-        })?;
+        // A device or a pipe may never end.
+        let regular = match std::fs::metadata(path) {
+            Ok(found) if !found.is_file() => Err(std::io::Error::other("this is no regular file")),
+            found => found.map(|_| ()),
+        };
+        let text = regular
+            .and_then(|()| std::fs::read_to_string(path))
+            .map_err(|e| {
+                Failure::input(
+                    format!("cannot read {name}: {e}"),
+                    Some(format!(
+                        "{option} takes a text file with a header such as {example}"
+                    )),
+                )
+            })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
         Ok(Self {
             name,
@@ -94,8 +101,9 @@ impl Source {
             })?;
             // Energies, which case files do not need, in the terms of those.
             let known = match unit {
-                "J" => "N m",
-                "kJ" => "kN m",
+                // Our own files spell their headers in small letters.
+                "J" | "j" => "N m",
+                "kJ" | "kj" => "kN m",
                 "mJ" => "N mm",
                 unit => unit,
             };

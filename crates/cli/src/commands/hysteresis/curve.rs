@@ -5,6 +5,7 @@ use pounding_case::Dimension;
 use pounding_hysteresis::laboratory::{Cycling, dissipation_curve};
 use serde_json::{Value, json};
 
+use super::bounds;
 use super::chosen::Chosen;
 use super::motion::period;
 use crate::arguments::HysteresisArguments;
@@ -48,8 +49,11 @@ pub fn curve(
         cycles_before: 1,
         period: period(arguments)?,
     };
+    bounds::reachable(chosen, to)?;
+    let pairs = dissipation_curve(chosen.law.as_ref(), &amplitudes, cycling);
+    bounds::finite_pairs(&pairs)?;
     Ok(Some(DissipationCurve {
-        pairs: dissipation_curve(chosen.law.as_ref(), &amplitudes, cycling),
+        pairs,
         period: chosen.card.rate_dependent.then_some(cycling.period),
     }))
 }

@@ -1,5 +1,6 @@
 //! `pounding hysteresis`: the laws of storeys and links, and their laboratory.
 
+mod bounds;
 mod card;
 mod chosen;
 mod columns;
@@ -20,6 +21,7 @@ use chosen::Chosen;
 use curve::DissipationCurve;
 use cycles::Loop;
 use fit::Fitted;
+use motion::Path;
 
 /// Everything that one call computes.
 struct Results {
@@ -87,7 +89,7 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
         None => (chosen::choose(law, &arguments.set)?, None),
     };
     let path = motion::path(law, arguments)?;
-    let driven = path.map(|path| Loop::drive(chosen.law.as_ref(), path));
+    let driven = path.map(|path| driven(&chosen, path)).transpose()?;
     let results = Results {
         curve: curve::curve(&chosen, arguments)?,
         chosen,
@@ -104,6 +106,13 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
         return print(&pretty(&results.json()));
     }
     print(&format!("{}{}", results.text(), written(arguments)))
+}
+
+fn driven(chosen: &Chosen, path: Path) -> Result<Loop, Failure> {
+    bounds::reachable(chosen, bounds::greatest(&path))?;
+    let driven = Loop::drive(chosen.law.as_ref(), path);
+    bounds::finite(&driven.states)?;
+    Ok(driven)
 }
 
 impl Results {

@@ -1,0 +1,37 @@
+//! The page `docs/hysteresis.md`: the commands of its laboratory run as printed, in their
+//! order.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the indented lines of the page in a shell, with the program at hand first.
+#[cfg(unix)]
+#[test]
+fn commands_of_the_page_run_as_printed() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/hysteresis.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let (_, laboratory) = page.split_once("## The laboratory").unwrap();
+    let (laboratory, _) = laboratory.split_once("\n## ").unwrap();
+    let commands: Vec<_> = laboratory
+        .lines()
+        .filter_map(|line| line.strip_prefix("    "))
+        .collect();
+    assert_eq!(commands.len(), 5);
+    let folder = tempfile::tempdir().unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_pounding"));
+    let mut search = vec![program.parent().unwrap().to_owned()];
+    search.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap()));
+    for command in commands {
+        let output = Command::new("sh")
+            .args(["-c", command])
+            .env("PATH", std::env::join_paths(&search).unwrap())
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{command}: {errors}");
+    }
+    for name in ["loop.svg", "history.csv", "curve.csv"] {
+        assert!(folder.path().join(name).exists(), "{name}");
+    }
+}

@@ -5,6 +5,7 @@ mod gap;
 mod hysteresis;
 mod impact;
 mod motion;
+mod quantities;
 mod study;
 mod verification;
 

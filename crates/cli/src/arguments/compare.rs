@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::quantities::{number, velocity};
+
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
 pub struct CompareArguments {
@@ -22,10 +24,10 @@ pub struct CompareArguments {
     #[arg(long, value_enum, default_value_t = RestitutionChoice::Published)]
     pub restitution_rule: RestitutionChoice,
     /// Restitution of all models [default: that of the case's law]
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = number, allow_hyphen_values = true)]
     pub restitution: Option<f64>,
-    /// Approach velocity of the reference collision (m/s) [default: the greatest of the case's law]
-    #[arg(long, value_name = "V")]
+    /// Approach velocity of the reference collision, such as "0.5 m/s" [default: the greatest of the case's law]
+    #[arg(long, value_name = "V", value_parser = velocity, allow_hyphen_values = true)]
     pub approach_velocity: Option<f64>,
     /// Write every value into this CSV file
     #[arg(long, value_name = "FILE")]

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::quantities::number;
+
 /// Arguments of `gap`.
 #[derive(Debug, clap::Args)]
 pub struct GapArguments {
@@ -20,11 +22,11 @@ pub struct GapArguments {
     /// An entry of the table `separation`, such as importance=1.25 or 'soil_zone="II"'
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Part of the records that may bring the buildings into contact
-    #[arg(long, default_value_t = 0.0, value_name = "P")]
+    /// Part of the records that may bring the buildings into contact, such as 0.1 or "10 %"
+    #[arg(long, default_value_t = 0.0, value_name = "P", value_parser = number, allow_hyphen_values = true)]
     pub probability: f64,
-    /// Confidence of two-sided bounds
-    #[arg(long, default_value_t = 0.9, value_name = "C")]
+    /// Confidence of two-sided bounds, such as 0.9 or "90 %"
+    #[arg(long, default_value_t = 0.9, value_name = "C", value_parser = number, allow_hyphen_values = true)]
     pub confidence: f64,
     /// Widths in the sweep; 0 for none
     #[arg(long, default_value_t = 400, value_name = "N")]

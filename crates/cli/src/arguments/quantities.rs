@@ -1,0 +1,49 @@
+//! Values of arguments that are texts with units.
+
+use pounding_case::{Dimension, parse_quantity};
+
+/// A number without dimension, such as `0.1` or `10 %`.
+pub fn number(text: &str) -> Result<f64, String> {
+    of_dimension(text, Dimension::NUMBER)
+}
+
+/// A velocity (m/s), such as `0.5 m/s` or `50 cm/s`.
+pub fn velocity(text: &str) -> Result<f64, String> {
+    of_dimension(text, Dimension::VELOCITY)
+}
+
+fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
+    let quantity = parse_quantity(text).map_err(|e| format!("{e}; {}", e.help()))?;
+    match quantity.dimension {
+        Some(found) if found != wanted => Err(format!(
+            "it must be {wanted}, but this is {found}; plain numbers are SI"
+        )),
+        _ => Ok(quantity.value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn units_are_taken_and_checked() {
+        for text in ["0.1", "10 %", "10%"] {
+            assert!((number(text).unwrap() - 0.1).abs() < 1e-15, "{text}");
+        }
+        for text in ["0.5", "0.5 m/s", "50 cm/s", "500 mm/s"] {
+            assert!((velocity(text).unwrap() - 0.5).abs() < 1e-15, "{text}");
+        }
+        for (found, part) in [
+            (number("0.1 m"), "a length"),
+            (velocity("1 s"), "a velocity"),
+            (velocity("fast"), "does not start with a number"),
+            (number("nan"), "nan"),
+        ] {
+            let message = found.unwrap_err();
+            assert!(message.contains(part), "{message}");
+        }
+    }
+}

@@ -101,6 +101,7 @@ impl Draft {
             component: self.component.clone(),
             channel: self.channel,
             unit: symbol,
+            unit_in_si: factor,
             samples: std::mem::take(&mut self.samples),
             sampling,
             header_peak: None,
@@ -120,10 +121,10 @@ impl Draft {
             },
         };
         if let Some(peak) = self.peak.take() {
-            let in_si = peak
-                .unit
-                .map_or(factor, |u| u.in_si(gravity(source.options.gravity)));
-            check_peak(&mut series, &peak, in_si, &mut self.warnings);
+            let unit = peak.unit.map_or((symbol, factor), |u| {
+                (u.symbol, u.in_si(gravity(source.options.gravity)))
+            });
+            check_peak(&mut series, &peak, unit, &mut self.warnings);
         }
         series.origin.warnings = self.warnings;
         Ok(series)
@@ -315,15 +316,25 @@ pub(crate) fn gravity(given: Option<f64>) -> f64 {
 
 /// Holds the header's peak against the samples: magnitudes, for agencies print
 /// either sign, within the last printed digit; times within one step. Headers of
-/// raw records refer to samples with or without their mean.
-fn check_peak(series: &mut Series, peak: &DraftPeak, in_si: f64, warnings: &mut Vec<String>) {
+/// raw records refer to samples with or without their mean. A sign that differs is kept
+/// with the header's peak.
+fn check_peak(
+    series: &mut Series,
+    peak: &DraftPeak,
+    (unit, in_si): (&'static str, f64),
+    warnings: &mut Vec<String>,
+) {
     let value = peak.value.0 * in_si;
     // Either the header or the samples have fewer digits than the other.
     let tolerance = (peak.value.1 * in_si).abs() + 1.0e-4 * value.abs();
-    series.header_peak = Some(HeaderPeak {
+    let mut stated = HeaderPeak {
         value,
         time: peak.time.map(|t| t.0),
-    });
+        unit,
+        unit_in_si: in_si,
+        opposite_sign: false,
+    };
+    series.header_peak = Some(stated);
     let mean = if series.origin.processing == Processing::Raw {
         series.mean()
     } else {
@@ -337,6 +348,9 @@ fn check_peak(series: &mut Series, peak: &DraftPeak, in_si: f64, warnings: &mut 
         if (found - value.abs()).abs() > tolerance {
             continue;
         }
+        let signed = |a: &f64| (a - offset) * value.signum() >= value.abs() - tolerance;
+        stated.opposite_sign = !series.samples.iter().any(signed);
+        series.header_peak = Some(stated);
         if let Some((time, digit)) = peak.time {
             let step = match &series.sampling {
                 Sampling::Even { time_step } => *time_step,
@@ -358,12 +372,12 @@ fn check_peak(series: &mut Series, peak: &DraftPeak, in_si: f64, warnings: &mut 
         }
         return;
     }
-    let found = series.peak();
+    let found = series.signed_peak();
     warnings.push(format!(
         "the header's peak is {value:.6} {}, that of the samples {:.6} {} at {:.3} s",
         series.quantity.si_symbol(),
-        found.value,
+        found.0,
         series.quantity.si_symbol(),
-        found.time
+        found.1
     ));
 }

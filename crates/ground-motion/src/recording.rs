@@ -25,6 +25,13 @@ pub struct HeaderPeak {
     pub value: f64,
     /// Time (s), if printed.
     pub time: Option<f64>,
+    /// Unit in which it is printed.
+    pub unit: &'static str,
+    /// One such unit in SI.
+    pub unit_in_si: f64,
+    /// Whether the samples reach this magnitude with the other sign alone: the header
+    /// prints signs that are opposite to those of the samples, or no signs at all.
+    pub opposite_sign: bool,
 }
 
 /// One series of a file, values as in the file but in SI.
@@ -39,6 +46,8 @@ pub struct Series {
     pub channel: usize,
     /// Unit in the file.
     pub unit: &'static str,
+    /// One unit of the file in SI (m/s2, m/s or m).
+    pub unit_in_si: f64,
     /// Values (m/s2, m/s or m); an offset of the instrument is kept.
     pub samples: Vec<f64>,
     /// When they were taken.
@@ -56,16 +65,20 @@ impl Series {
     /// Greatest absolute value (SI) and its time (s).
     #[must_use]
     pub fn peak(&self) -> Peak {
-        let mut peak = Peak {
-            value: 0.0,
-            time: 0.0,
-        };
+        let (value, time) = self.signed_peak();
+        Peak {
+            value: value.abs(),
+            time,
+        }
+    }
+
+    /// The value of greatest magnitude with its sign (SI), and its time (s).
+    #[must_use]
+    pub fn signed_peak(&self) -> (f64, f64) {
+        let mut peak = (0.0_f64, 0.0);
         for (i, a) in self.samples.iter().enumerate() {
-            if a.abs() > peak.value {
-                peak = Peak {
-                    value: a.abs(),
-                    time: self.time(i),
-                };
+            if a.abs() > peak.0.abs() {
+                peak = (*a, self.time(i));
             }
         }
         peak

@@ -216,6 +216,25 @@ fn other_peaks_and_units_are_reported() {
     ));
 }
 
+/// Caltech's headers print signs that are opposite to those of the samples, CSMIP's the same.
+#[test]
+fn signs_of_header_peaks() {
+    for (format, opposite) in [(Format::CsmipV2, false), (Format::CaltechVolume2, true)] {
+        let fixture = &common::fixtures(format, 0)[0];
+        let recording = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
+        for series in &recording.series {
+            let header = series.header_peak.unwrap();
+            let (value, time) = series.signed_peak();
+            assert_eq!(header.opposite_sign, opposite, "{}", series.label());
+            assert_eq!(header.value * value < 0.0, opposite, "{}", series.label());
+            assert!((header.value.abs() - value.abs()).abs() <= 1e-4 * value.abs());
+            assert_eq!(series.peak().time, time);
+            assert_eq!(header.unit, series.unit);
+            assert_eq!(header.unit_in_si, series.unit_in_si);
+        }
+    }
+}
+
 /// First values of velocity and displacement, whatever sign the header prints.
 #[test]
 fn initial_values() {

@@ -3,6 +3,7 @@
 
 mod examples;
 mod files;
+mod headers;
 mod made;
 mod refused;
 mod shown;

@@ -176,8 +176,8 @@ fn fill(words: &Words<'_>, draft: &mut Draft) {
     let (low, high) = (words.float(1), words.float(2));
     draft.peak = low.zip(high).map(|(low, high)| DraftPeak {
         value: {
-            let peak = low.abs().max(high.abs());
-            (peak, 1.0e-6 * peak)
+            let peak = if high.abs() >= low.abs() { high } else { low };
+            (peak, 1.0e-6 * peak.abs())
         },
         time: None,
         unit: None,

@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use pounding_ground_motion::{HeaderPeak, Processing, Quantity, Sampling, Series};
+use pounding_ground_motion::{HeaderPeak, Origin, Processing, Sampling, Series};
 use serde_json::{Value, json};
 
 use super::info::{Shown, ShownFile};
-use super::measures::{G, rows};
+use super::measures::rows;
+use super::writing::shown;
 use crate::tables::new_long_table;
 
 /// Tables of each file.
@@ -15,7 +16,11 @@ pub fn as_text(files: &[ShownFile]) -> String {
     for file in files {
         text.push_str(&header(file));
         text.push_str(&series_table(file));
-        text.push_str(&differences(file));
+        let remarks = differences(file);
+        text.push_str(&remarks);
+        if !remarks.is_empty() {
+            text.push('\n');
+        }
         text.push_str(&measures_table(file));
         text.push('\n');
     }
@@ -52,7 +57,7 @@ fn header(file: &ShownFile) -> String {
         let line = format!(
             "{}\n  {}{filtered}{start}",
             origin.title,
-            processing(origin.processing)
+            processing(origin)
         );
         if !told.contains(&line) {
             let _ = writeln!(text, "{}", line.trim());
@@ -62,21 +67,69 @@ fn header(file: &ShownFile) -> String {
     text
 }
 
-fn processing(p: Processing) -> &'static str {
-    match p {
+/// Whether a file of our own says by what steps it came about.
+fn has_steps(origin: &Origin) -> bool {
+    origin.history.iter().any(|line| line.starts_with("Step:"))
+}
+
+fn processing(origin: &Origin) -> &'static str {
+    match origin.processing {
+        Processing::Unstated if has_steps(origin) => {
+            "made or processed by the steps that the lines \"before: Step\" name"
+        }
         Processing::Unstated => "the file does not say how it was processed",
         Processing::Raw => "not corrected",
         Processing::Corrected => "corrected by the agency",
     }
 }
 
-/// Value of a series for people, with unit.
-fn peak_text(quantity: Quantity, value: f64) -> String {
-    match quantity {
-        Quantity::Acceleration => format!("{:.5} g", value / G),
-        Quantity::Velocity => format!("{:.3} cm/s", value * 100.0),
-        Quantity::Displacement => format!("{:.4} cm", value * 100.0),
+/// A value (SI) in a unit of the file, for people.
+fn in_unit(value: f64, unit: &str, unit_in_si: f64) -> String {
+    format!("{} {unit}", shown(value / unit_in_si))
+}
+
+/// The value of greatest magnitude as the file has it, with sign and unit.
+fn peak_of_samples(series: &Series) -> String {
+    in_unit(series.signed_peak().0, series.unit, series.unit_in_si)
+}
+
+fn peak_of_header(peak: &HeaderPeak) -> String {
+    in_unit(peak.value, peak.unit, peak.unit_in_si)
+}
+
+/// Where the header's signs are not those of the samples: a line a series, and what
+/// it means.
+fn opposite_signs(file: &ShownFile) -> String {
+    let mut text = String::new();
+    let stated = || {
+        let all = file.series.iter().map(|s| &s.series);
+        all.filter_map(|s| Some((s, s.header_peak.as_ref()?)))
+    };
+    let opposite: Vec<_> = stated().filter(|(_, h)| h.opposite_sign).collect();
+    for (series, peak) in &opposite {
+        let _ = writeln!(
+            text,
+            "remark: {}: peak {} in the samples, {} in the header: the signs differ",
+            series.label(),
+            peak_of_samples(series),
+            peak_of_header(peak)
+        );
     }
+    if opposite.is_empty() {
+        return text;
+    }
+    let cause = if stated().all(|(_, peak)| peak.value >= 0.0) {
+        "the header may print magnitudes, or the record may be turned round"
+    } else if opposite.len() == stated().count() {
+        "all signs of the header are opposite to those of the samples"
+    } else {
+        "header and samples do not have one sign convention"
+    };
+    let _ = writeln!(
+        text,
+        "remark: {cause}; the samples are used as they stand (`motion process --sign reversed` turns them)"
+    );
+    text
 }
 
 fn series_table(file: &ShownFile) -> String {
@@ -95,10 +148,9 @@ fn series_table(file: &ShownFile) -> String {
     ]);
     for one in &file.series {
         let s = &one.series;
-        let peak = s.peak();
         let (stated, at) = match s.header_peak {
             None => ("-".to_owned(), None),
-            Some(HeaderPeak { value, time }) => (peak_text(s.quantity, value), time),
+            Some(peak) => (peak_of_header(&peak), peak.time),
         };
         table.add_row([
             s.channel.to_string(),
@@ -110,8 +162,8 @@ fn series_table(file: &ShownFile) -> String {
                 .header_count
                 .map_or("-".to_owned(), |n| n.to_string()),
             step_text(&s.sampling),
-            peak_text(s.quantity, peak.value),
-            format!("{:.3}", peak.time),
+            peak_of_samples(s),
+            format!("{:.3}", s.signed_peak().1),
             stated,
             at.map_or("-".to_owned(), |t| format!("{t:.3}")),
         ]);
@@ -141,7 +193,7 @@ fn differences(file: &ShownFile) -> String {
             let _ = writeln!(text, "warning: {}: {warning}", one.series.label());
         }
     }
-    text
+    text + &opposite_signs(file)
 }
 
 fn warnings(one: &Shown) -> &[String] {
@@ -200,18 +252,21 @@ fn one_json(one: &Shown) -> Value {
         "channel": s.channel, "component": s.component, "quantity": s.quantity.name(),
         "unit_in_file": s.unit, "samples": s.samples.len(), "time_step": even, "uneven": uneven,
         "measured_time_step": one.record.as_ref().map(pounding_ground_motion::Accelerogram::time_step),
-        "mean": s.mean(), "peak": s.peak(),
-        "header_peak": s.header_peak.map(|p| json!({"value": p.value, "time": p.time})),
+        "mean": s.mean(), "peak": s.peak(), "signed_peak": s.signed_peak().0,
+        "header_peak": s.header_peak.map(|p| json!({
+            "value": p.value, "time": p.time, "opposite_sign": p.opposite_sign,
+        })),
         "header_samples": origin.header_count,
         "initial_velocity": s.initial.map(|i| i.0), "initial_displacement": s.initial.map(|i| i.1),
-        "title": origin.title, "processing": processing_word(origin.processing),
+        "title": origin.title, "processing": processing_word(origin),
         "start_time": origin.start_time, "low_corner": origin.low_corner,
         "high_corner": origin.high_corner, "history": origin.history, "warnings": warnings(one), "measures": one.measures,
     })
 }
 
-fn processing_word(p: Processing) -> &'static str {
-    match p {
+fn processing_word(origin: &Origin) -> &'static str {
+    match origin.processing {
+        Processing::Unstated if has_steps(origin) => "steps",
         Processing::Unstated => "unstated",
         Processing::Raw => "raw",
         Processing::Corrected => "corrected",

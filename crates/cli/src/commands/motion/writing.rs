@@ -84,7 +84,7 @@ pub fn step_text(step: &StepRecord) -> String {
 }
 
 /// Six digits, without an exponent where there is no need.
-fn shown(value: f64) -> String {
+pub fn shown(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1.0e-3..1.0e7).contains(&size) {
         let digits = (5 - size.max(1.0e-3).log10().floor() as i32).clamp(0, 8) as usize;

@@ -160,7 +160,7 @@ pub enum GroundMotionError {
         hint: &'static str,
     },
     /// A number of a processing step, a measure or a generator out of its range.
-    #[error("{step}: {name} = {value} is outside {range}")]
+    #[error("{step}: {name} = {} is outside {range}", brief(*value))]
     OutOfRange {
         /// Step, measure or generator.
         step: &'static str,
@@ -228,10 +228,10 @@ impl GroundMotionError {
                 )
             }
             Self::MissingUnit { .. } => {
-                "give `unit`, such as `unit = \"g\"` in [ground_motion] or `--unit g` (or m/s2, cm/s2, ...); units are never guessed".to_owned()
+                "give the unit: `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion` (or m/s2, cm/s2, ...); for --records, which takes files that state theirs, write them anew with `pounding motion convert FILE --unit g -o FILE.csv`; units are never guessed".to_owned()
             }
             Self::MissingTimeStep { .. } => {
-                "give the record's step, such as `time_step = \"0.02 s\"` in [ground_motion] or `--time-step \"0.02 s\"`".to_owned()
+                "give the step: `time_step = \"0.02 s\"` in [ground_motion] of a case, `--time-step \"0.02 s\"` with `pounding motion`; for --records, which takes files that state theirs, write them anew with `pounding motion convert FILE --time-step \"0.02 s\" -o FILE.csv`".to_owned()
             }
             Self::Contradiction { quantity, .. } => {
                 format!("do not give the {quantity}, or use the right record")
@@ -275,14 +275,41 @@ pub(crate) fn positive(
     name: &'static str,
     value: f64,
 ) -> Result<f64, GroundMotionError> {
-    within(step, name, value, f64::MIN_POSITIVE, f64::MAX).map_err(|_| {
-        GroundMotionError::OutOfRange {
-            step,
-            name,
-            value,
-            range: "(0, inf)".to_owned(),
-        }
+    within(step, name, value, f64::MIN_POSITIVE, f64::MAX)
+}
+
+/// Refuses a pair of which the first is not below the second.
+pub(crate) fn ascending(
+    step: &'static str,
+    (first_name, first): (&'static str, f64),
+    (last_name, last): (&'static str, f64),
+) -> Result<(), GroundMotionError> {
+    if first < last {
+        return Ok(());
+    }
+    Err(GroundMotionError::NotPossible {
+        step,
+        reason: format!(
+            "{first_name} = {} is not below {last_name} = {}",
+            brief(first),
+            brief(last)
+        ),
+        remedy: "give the smaller one first",
     })
+}
+
+/// A number without hundreds of zeros.
+fn brief(value: f64) -> String {
+    if value == 0.0 || (1.0e-4..1.0e7).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A bound with six digits: those of products carry noise.
+pub(crate) fn bound(value: f64) -> String {
+    brief(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
 /// Refuses what does not lie in a closed range.
@@ -300,6 +327,11 @@ pub(crate) fn within(
         step,
         name,
         value,
-        range: format!("[{low}, {high}]"),
+        range: match (low == f64::MIN_POSITIVE, high == f64::MAX) {
+            (true, true) => "(0, inf)".to_owned(),
+            (true, false) => format!("(0, {}]", bound(high)),
+            (false, true) => format!("[{}, inf)", bound(low)),
+            (false, false) => format!("[{}, {}]", bound(low), bound(high)),
+        },
     })
 }

@@ -5,6 +5,8 @@ mod examples;
 mod files;
 mod headers;
 mod made;
+mod options;
+mod pages;
 mod refused;
 mod shown;
 

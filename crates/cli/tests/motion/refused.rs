@@ -3,7 +3,7 @@
 use super::*;
 
 /// Refused with this exit code and these words.
-fn refused(code: i32, arguments: &[&str], wanted: &[&str]) {
+pub fn refused(code: i32, arguments: &[&str], wanted: &[&str]) {
     let output = run(arguments);
     let message = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
     let message = message.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -173,8 +173,27 @@ pub fn read_bytes(
 
 fn load(path: &Path) -> Result<(String, Vec<u8>), GroundMotionError> {
     let file = path.display().to_string();
+    regular(path, &file)?;
     match std::fs::read(path) {
         Ok(bytes) => Ok((file, bytes)),
         Err(source) => Err(GroundMotionError::Io { file, source }),
     }
+}
+
+/// Refuses what is no regular file: a device or a pipe may never end.
+pub(crate) fn regular(path: &Path, file: &str) -> Result<(), GroundMotionError> {
+    let what = match std::fs::metadata(path) {
+        Ok(found) if found.is_file() => return Ok(()),
+        Ok(found) if found.is_dir() => "this is a folder, not a file",
+        Ok(_) => "this is no regular file",
+        Err(source) => {
+            let file = file.to_owned();
+            return Err(GroundMotionError::Io { file, source });
+        }
+    };
+    Err(GroundMotionError::Unsupported {
+        file: file.to_owned(),
+        what: what.to_owned(),
+        remedy: "give the path of a file; save what comes from a pipe or device first",
+    })
 }

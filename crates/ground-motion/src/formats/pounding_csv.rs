@@ -1,7 +1,7 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
 use crate::draft::{Draft, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
@@ -138,7 +138,10 @@ fn rows(
             return Err(source.error(
                 line.number,
                 0,
-                format!("time {found} s where {expected} s follows from dt = {step} s"),
+                format!(
+                    "time {found} s where {} s follows from dt = {step} s",
+                    bound(expected)
+                ),
                 "a row is missing or dt is wrong",
             ));
         }

@@ -9,7 +9,7 @@ mod wavelets;
 use serde::Serialize;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, ascending, positive, within};
 use crate::generators::achieved;
 use crate::processing::band_factor;
 use crate::spectra::{
@@ -140,14 +140,14 @@ fn iterate<A: Adjustment>(
     positive(STEP, "tolerance", options.tolerance)?;
     // Shorter periods swing more than once between two samples.
     let shortest = 2.0 * record.time_step();
-    within(STEP, "first period", options.from, shortest, options.to)?;
-    within(
+    let longest = record.duration();
+    ascending(
         STEP,
-        "last period",
-        options.to,
-        options.from,
-        record.duration(),
+        ("first period", options.from),
+        ("last period", options.to),
     )?;
+    within(STEP, "first period", options.from, shortest, longest)?;
+    within(STEP, "last period", options.to, shortest, longest)?;
     within(
         STEP,
         "number of periods",

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, within};
+use crate::error::{GroundMotionError, ascending, within};
 use crate::measures::{GRAVITY, Span};
 use crate::spectra::Evaluation;
 
@@ -92,7 +92,7 @@ impl Husid {
     /// # Errors
     /// Parts that are not `0 < from < to <= 1`.
     pub fn between(&self, from: f64, to: f64) -> Result<Span, GroundMotionError> {
-        within(STEP, "first part", from, f64::MIN_POSITIVE, to)?;
+        ascending(STEP, ("first part", from), ("last part", to))?;
         Ok(Span {
             start: self.time_of(from)?,
             end: self.time_of(to)?,

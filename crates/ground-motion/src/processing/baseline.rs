@@ -1,7 +1,7 @@
 //! Baseline corrections.
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, ascending, positive, within};
 use crate::measures::GroundMotion;
 use crate::step_record::StepRecord;
 
@@ -178,7 +178,8 @@ fn segment(record: &Accelerogram, window: SegmentWindow) -> Result<(f64, f64), G
     match window {
         SegmentWindow::Times { start, end } => {
             within(STEP, "t1", start, 0.0, record.duration())?;
-            within(STEP, "t2", end, start, record.duration())?;
+            within(STEP, "t2", end, 0.0, record.duration())?;
+            ascending(STEP, ("t1", start), ("t2", end))?;
             Ok((start, end))
         }
         SegmentWindow::Threshold(threshold) => {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, within};
+use crate::error::{GroundMotionError, ascending, within};
 use crate::measures::Husid;
 use crate::processing::whole_steps;
 use crate::spectra::Evaluation;
@@ -39,6 +39,7 @@ impl Trim {
         let step = StepRecord::new(STEP);
         let (start, end, step) = match self {
             Self::Times { start, end } => {
+                ascending(STEP, ("start", start), ("end", end))?;
                 within(STEP, "end", end, h, record.duration() * (1.0 + 1.0e-9))?;
                 within(STEP, "start", start, 0.0, end - h)?;
                 (start, end, step)

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
-use crate::error::{GroundMotionError, within};
+use crate::error::{GroundMotionError, ascending, positive, within};
 use crate::spectra::oscillator::Oscillator;
 use crate::spectra::{Evaluation, State};
 
@@ -60,8 +60,9 @@ pub fn logarithmic_periods(
     to: f64,
     count: usize,
 ) -> Result<Vec<f64>, GroundMotionError> {
-    within(STEP, "first period", from, f64::MIN_POSITIVE, to)?;
-    within(STEP, "last period", to, from * (1.0 + 1.0e-9), f64::MAX)?;
+    positive(STEP, "first period", from)?;
+    positive(STEP, "last period", to)?;
+    ascending(STEP, ("first period", from), ("last period", to))?;
     within(STEP, "number of periods", count as f64, 2.0, 1.0e6)?;
     let ratio = (to / from).ln() / (count - 1) as f64;
     let mut periods: Vec<f64> = (0..count)

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::GroundMotionError;
+use crate::formats::regular;
 use crate::spectra::TargetSpectrum;
 use crate::unit::AccelerationUnit;
 
@@ -19,6 +20,7 @@ impl TargetSpectrum {
     /// numbers: with line and column. Else as [`TargetSpectrum::new`].
     pub fn read(path: &Path, damping: f64) -> Result<Self, GroundMotionError> {
         let file = path.display().to_string();
+        regular(path, &file)?;
         let text = std::fs::read_to_string(path).map_err(|source| GroundMotionError::Io {
             file: file.clone(),
             source,

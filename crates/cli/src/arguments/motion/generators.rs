@@ -228,7 +228,7 @@ pub enum MechanismWord {
 #[derive(Debug, clap::Args)]
 pub struct RezaeianDerKiureghianArguments {
     /// Magnitude of the earthquake, 6 to 8
-    #[arg(long, requires_all = ["distance", "shear_velocity"], required_unless_present = "arias_intensity")]
+    #[arg(long, requires_all = ["distance", "shear_velocity"])]
     pub magnitude: Option<String>,
     /// Distance from the rupture, 10 to 100 km
     #[arg(long, requires = "magnitude")]
@@ -254,7 +254,7 @@ pub struct RezaeianDerKiureghianArguments {
     /// Frequency of the filter at that time
     #[arg(long, requires = "arias_intensity")]
     pub middle_frequency: Option<String>,
-    /// Change of that frequency (Hz/s)
+    /// Change of that frequency, such as "-0.06 1/s^2"; a plain number is in Hz/s
     #[arg(long, default_value = "-0.1", allow_hyphen_values = true)]
     pub frequency_rate: String,
     /// Damping ratio of the filter

@@ -39,6 +39,21 @@ fn frequency(text: &str, name: &str) -> Result<f64, Failure> {
     })
 }
 
+/// In Hz/s, as plain numbers are: an angle, such as "-0.4 rad/s^2", is a circular one.
+fn frequency_rate(text: &str) -> Result<f64, Failure> {
+    const HERTZ_PER_SECOND: Dimension = Dimension {
+        mass: 0.0,
+        length: 0.0,
+        time: -2.0,
+    };
+    let found = value(text, "frequency-rate", HERTZ_PER_SECOND)?;
+    Ok(if text.contains("rad") {
+        found / TAU
+    } else {
+        found
+    })
+}
+
 /// A sine.
 pub fn sine(a: &SineArguments) -> Result<Generated, Failure> {
     let grid = grid(&a.grid)?;
@@ -146,6 +161,12 @@ pub fn clough_penzien(a: &CloughPenzienArguments) -> Result<Generated, Failure> 
 
 /// The motion of an earthquake, or of six parameters.
 pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure> {
+    if a.magnitude.is_none() && a.arias_intensity.is_none() {
+        return Err(Failure::input(
+            "rezaeian_der_kiureghian_2010 needs one of --magnitude and --arias-intensity",
+            Some("give an earthquake by --magnitude, --distance and --shear-velocity, or the motion by --arias-intensity, --significant-duration, --middle-time and --middle-frequency".to_owned()),
+        ));
+    }
     let high_pass = frequency(&a.high_pass, "high-pass")?;
     let seed = a.seeded.seed;
     let given = |text: &Option<String>, name: &str, dimension| {
@@ -183,8 +204,7 @@ pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure
                 "middle-frequency",
                 Dimension::FREQUENCY,
             )?,
-            // Hz/s: a plain number.
-            frequency_rate: number(&a.frequency_rate, "frequency-rate")?,
+            frequency_rate: frequency_rate(&a.frequency_rate)?,
             damping: number(&a.filter_damping, "filter-damping")?,
             high_pass,
         }

@@ -16,7 +16,7 @@ use serde_json::json;
 use super::measures::G;
 use super::plots::{over, panel};
 use super::words::Words;
-use super::{plots, reading, writing};
+use super::{plots, reading, words, writing};
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
 use crate::commands::stiffness::value;
 use crate::failure::Failure;
@@ -32,6 +32,7 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
         tolerance: value(&arguments.tolerance, "tolerance", Dimension::NUMBER)?,
         iterations: arguments.iterations,
     };
+    words::ascending(("from", options.from), ("to", options.to), "s")?;
     let record = reading::acceleration(&arguments.file, &arguments.read)?;
     let matched = match arguments.method {
         MatchMethod::Wavelets => match_by_wavelets(&record, &target, options)?,

@@ -1,6 +1,7 @@
 //! `pounding motion spectrum`: responses, all directions, Fourier amplitudes.
 
 use pounding_case::Dimension;
+use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::spectra::{
     Evaluation, RotatedSpectrum, fourier_spectrum, logarithmic_periods, response_spectra,
     rotated_spectrum,
@@ -43,11 +44,35 @@ fn places(
         Some(text) => value(text, name, dimension),
         None => Ok(default),
     };
-    Ok(logarithmic_periods(
-        end(&arguments.from, "from", default.0)?,
-        end(&arguments.to, "to", default.1)?,
-        arguments.count.unwrap_or(default.2),
-    )?)
+    let from = end(&arguments.from, "from", default.0)?;
+    let to = end(&arguments.to, "to", default.1)?;
+    let unit = if dimension == Dimension::TIME {
+        "s"
+    } else {
+        "Hz"
+    };
+    words::ascending(("from", from), ("to", to), unit)?;
+    let count = arguments.count.unwrap_or(default.2);
+    logarithmic_periods(from, to, count).map_err(|e| named(e, arguments))
+}
+
+/// An error of the library under the option that it comes from.
+fn named(error: GroundMotionError, arguments: &SpectrumArguments) -> Failure {
+    let option = match &error {
+        GroundMotionError::OutOfRange { name, .. } => match *name {
+            "damping ratio" => Some("damping"),
+            "bandwidth coefficient" => Some("smoothing"),
+            "number of periods" => Some("count"),
+            "last period" => Some("to"),
+            _ if arguments.at.is_some() => Some("at"),
+            _ => Some("from"),
+        },
+        _ => None,
+    };
+    match option {
+        Some(option) => Failure::input(format!("--{option}: {error}"), error.help()),
+        None => error.into(),
+    }
 }
 
 fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
@@ -62,7 +87,8 @@ fn responses(arguments: &SpectrumArguments) -> Result<(), Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let record = reading::acceleration(&arguments.file, &arguments.read)?;
-    let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))?;
+    let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))
+        .map_err(|e| named(e, arguments))?;
     if let Some(path) = &arguments.csv {
         plot::write(path, &tables::response_csv(&spectra))?;
     }
@@ -101,7 +127,8 @@ fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
     let spectra = dampings
         .iter()
         .map(|d| rotated_spectrum(&first, &second, &periods, *d, evaluation(arguments)))
-        .collect::<Result<Vec<RotatedSpectrum>, _>>()?;
+        .collect::<Result<Vec<RotatedSpectrum>, _>>()
+        .map_err(|e| named(e, arguments))?;
     if let Some(path) = &arguments.csv {
         plot::write(path, &tables::rotated_csv(&spectra))?;
     }
@@ -131,7 +158,9 @@ fn fourier(arguments: &SpectrumArguments) -> Result<(), Failure> {
         let highest = FREQUENCIES.1.min(0.5 / record.time_step());
         let default = (FREQUENCIES.0, highest, FREQUENCIES.2);
         let centres = places(arguments, default, Dimension::FREQUENCY)?;
-        let amplitudes = whole.konno_ohmachi(&centres, bandwidth)?;
+        let amplitudes = whole
+            .konno_ohmachi(&centres, bandwidth)
+            .map_err(|e| named(e, arguments))?;
         (
             centres,
             amplitudes,

@@ -2,6 +2,7 @@
 
 use pounding_case::Dimension;
 
+use super::writing::shown;
 use crate::commands::stiffness::value;
 use crate::failure::Failure;
 
@@ -105,6 +106,25 @@ fn literal(text: &str) -> String {
         };
     }
     serde_json::Value::String(text.to_owned()).to_string()
+}
+
+/// Refuses two options of which the first is not below the second.
+pub fn ascending(
+    (first_option, first): (&str, f64),
+    (last_option, last): (&str, f64),
+    unit: &str,
+) -> Result<(), Failure> {
+    if first < last {
+        return Ok(());
+    }
+    Err(Failure::input(
+        format!(
+            "--{first_option} = {} {unit} is not below --{last_option} = {} {unit}",
+            shown(first),
+            shown(last)
+        ),
+        Some("give the smaller one first".to_owned()),
+    ))
 }
 
 /// SI values divided by commas.

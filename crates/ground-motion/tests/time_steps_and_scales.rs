@@ -91,6 +91,7 @@ fn uneven(times: Vec<f64>, function: impl Fn(f64) -> f64) -> Series {
         component: String::new(),
         channel: 1,
         unit: "m/s2",
+        unit_in_si: 1.0,
         samples: times.iter().map(|t| function(*t)).collect(),
         sampling: Sampling::Uneven { times },
         header_peak: None,

@@ -95,6 +95,14 @@ pub enum StudyError {
         /// Why.
         reason: String,
     },
+    /// A merged result that would take the place of what it is made of.
+    #[error(
+        "cannot merge into {path}: it is one of the files that are merged, or the result itself"
+    )]
+    MergedOnto {
+        /// The output or the table.
+        path: PathBuf,
+    },
     /// A shard that does not exist.
     #[error("\"{text}\" is no shard")]
     Shard {
@@ -108,6 +116,14 @@ pub enum StudyError {
         run: usize,
         /// Last number.
         last: usize,
+    },
+    /// A run whose case cannot be written out alone.
+    #[error("the case of run {run} cannot be shown: {reason}")]
+    NotShown {
+        /// Number of the run.
+        run: usize,
+        /// Why.
+        reason: String,
     },
     /// Counts or a hazard curve that allow no answer.
     #[error("{what}: {reason}")]
@@ -134,6 +150,12 @@ impl StudyError {
                 "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
             }
             Self::ResultFile { .. } => "check that it is the HDF5 file of a sweep",
+            Self::File {
+                what: "read the study file",
+                ..
+            } => {
+                "give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/studies.md says what stands in it"
+            }
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
@@ -145,11 +167,15 @@ impl StudyError {
                 "name another result with -o, or remove the folder if its runs are of no use"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
+            Self::MergedOnto { .. } => "name another output with -o, or another table with --csv",
             Self::Merge { .. } => {
                 "merge all shards i/n of one study for one n, made by one version of the program"
             }
             Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",
             Self::NoSuchRun { .. } => return None,
+            Self::NotShown { .. } => {
+                "write the record of the case under a header [ground_motion], with `scale` as one entry of it"
+            }
             Self::Evaluation { .. } => {
                 "choose levels of intensity from where no record pounds to where all do, and more records"
             }

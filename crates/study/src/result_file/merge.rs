@@ -21,13 +21,14 @@ pub struct MergeReport {
 /// a file. The result is that of one call for the whole study.
 ///
 /// # Errors
-/// [`StudyError::Merge`] if the files are not all shards of one study, or
+/// [`StudyError::MergedOnto`] if the output is one of the files, [`StudyError::Merge`] if the files are not all shards of one study, or
 /// [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
     output: &Path,
     csv: Option<&Path>,
 ) -> Result<MergeReport, StudyError> {
+    apart(files, output, csv)?;
     let readers = files
         .iter()
         .map(|f| ResultReader::open(f))
@@ -74,6 +75,23 @@ pub fn merge(
     }
     writer.finish()?;
     Ok(report)
+}
+
+/// Whether nothing is written over what is read, or over what is written.
+fn apart(files: &[PathBuf], output: &Path, csv: Option<&Path>) -> Result<(), StudyError> {
+    let mut taken: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    for path in [Some(output), csv].into_iter().flatten() {
+        // What is not there yet can clash by its name alone.
+        let real = |path: &Path| path.canonicalize().ok();
+        let mine = real(path);
+        let same = |other: &&Path| *other == path || (mine.is_some() && real(other) == mine);
+        if taken.iter().any(same) {
+            let path = path.to_owned();
+            return Err(StudyError::MergedOnto { path });
+        }
+        taken.push(path);
+    }
+    Ok(())
 }
 
 /// The shards in order, if they are all there.

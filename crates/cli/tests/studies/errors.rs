@@ -47,6 +47,19 @@ fn errors_point_at_their_place() {
             vec!["anagnostopoulos_2004"],
         ),
         ("runs = 60", "runs = 0", vec!["whole number from 1 on"]),
+        (
+            "runs = 60",
+            "runs = 3_000_000_000",
+            vec![
+                "`runs` = 3_000_000_000 is too large",
+                "from 1 to 1000000000",
+            ],
+        ),
+        (
+            "runs = 60",
+            "runs = 99999999999999999999999",
+            vec!["is too large", "from 1 to 1000000000"],
+        ),
         ("latin_hypercube", "latin", vec!["unknown design \"latin\""]),
         (
             "kind = \"latin_hypercube\"\nruns = 60\nseed = 3",
@@ -83,7 +96,10 @@ fn errors_point_at_their_place() {
         }
     }
     let told = bench.complaint("sweep nowhere.toml", 2);
-    assert!(told.contains("nowhere.toml"), "{told}");
+    assert!(
+        told.contains("nowhere.toml") && told.contains("give the path of a study file"),
+        "{told}"
+    );
     bench.study(MIXED);
     bench.complaint("sweep study.toml -o nowhere/out.h5", 4);
     bench.complaint("ida study.toml", 2);
@@ -130,6 +146,13 @@ fn contradictions_are_told() {
         (
             intensity.replace("peak_ground_acceleration", "pga"),
             "unknown intensity measure",
+        ),
+        (
+            intensity.replace(
+                "peak_ground_acceleration\"",
+                "spectral_acceleration\"\ndamping = 5",
+            ),
+            "5 % is 0.05",
         ),
         (
             intensity.replace("values", "period = 1\nvalues"),

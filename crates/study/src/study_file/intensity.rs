@@ -125,13 +125,24 @@ pub(super) fn intensity(
             ));
         }
     };
-    let damping = table
-        .get("damping")
-        .map(|v| reader.positive(v, "damping", Dimension::NUMBER));
+    let damping = match table.get("damping") {
+        Some(v) => {
+            let ratio = reader.positive(v, "damping", Dimension::NUMBER)?;
+            if ratio >= 1.0 {
+                return Err(reader.error(
+                    v.span(),
+                    format!("`damping` = {ratio} must be a ratio below 1"),
+                    "5 % is 0.05, or \"5 %\"",
+                ));
+            }
+            ratio
+        }
+        None => 0.05,
+    };
     let periods = periods(table, base, first)?;
     Ok(IntensityMeasure::SpectralAcceleration {
         periods: if averaged { band(&periods) } else { periods },
-        damping: damping.transpose()?.unwrap_or(0.05),
+        damping,
     })
 }
 

@@ -1,5 +1,6 @@
 //! Walking the TOML tree of a study with places.
 
+use std::num::IntErrorKind;
 use std::ops::Range;
 
 use pounding_case::{CaseError, Dimension, Quantity, parse_quantity};
@@ -64,12 +65,24 @@ impl<'a> Reader<'a> {
 
     pub(super) fn count(&self, value: &Value<'_>, key: &str, least: usize) -> Result<usize> {
         let number = match value.get_ref() {
-            DeValue::Integer(i) => usize::from_str_radix(i.as_str(), i.radix()).ok(),
+            DeValue::Integer(i) => {
+                let digits = i.as_str().replace('_', "");
+                match usize::from_str_radix(&digits, i.radix()) {
+                    Err(e) if *e.kind() == IntErrorKind::PosOverflow => Some(usize::MAX),
+                    number => number.ok(),
+                }
+            }
             _ => None,
         };
-        number
-            .filter(|n| (least..=LARGEST_COUNT).contains(n))
-            .ok_or_else(|| self.wrong(value, key, &format!("a whole number from {least} on")))
+        match number {
+            Some(n) if n > LARGEST_COUNT => Err(self.error(
+                value.span(),
+                format!("`{key}` = {} is too large", &self.source[value.span()]),
+                format!("write a whole number from {least} to {LARGEST_COUNT}"),
+            )),
+            Some(n) if n >= least => Ok(n),
+            _ => Err(self.wrong(value, key, &format!("a whole number from {least} on"))),
+        }
     }
 
     /// A number, or a text that begins with one; `None` for anything else.

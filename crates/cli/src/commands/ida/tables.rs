@@ -83,7 +83,7 @@ fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
         let mut cells = vec![limit.name.clone(), counts(limit)];
         cells.extend(fitted(limit, settings.confidence));
         if settings.hazard.is_some() {
-            cells.push(limit.frequency.map_or_else(|| "-".to_owned(), digits));
+            cells.push(frequency(limit));
         }
         table.add_row(cells);
     }
@@ -109,12 +109,7 @@ fn widths(gap: &PoundingDemand, settings: &IdaSettings) -> String {
             let mut cells = vec![format!("{:.1}", width.width * 1e3), counts(&width.result)];
             cells.extend(fitted(&width.result, settings.confidence));
             if settings.hazard.is_some() {
-                cells.push(
-                    width
-                        .result
-                        .frequency
-                        .map_or_else(|| "-".to_owned(), digits),
-                );
+                cells.push(frequency(&width.result));
             }
             table.add_row(cells);
         }
@@ -149,6 +144,17 @@ fn counts(limit: &LimitResult) -> String {
         .iter()
         .map(|c| format!("{}/{}", c.reached, c.runs));
     shown.collect::<Vec<_>>().join(" ")
+}
+
+/// The mean annual frequency, or why there is none.
+fn frequency(limit: &LimitResult) -> String {
+    match (limit.frequency, limit.fit) {
+        (Some(frequency), _) => digits(frequency),
+        (None, FragilityFit::Always { from }) => {
+            format!("- (all reach it already at {})", digits(from))
+        }
+        (None, _) => "- (no fragility)".to_owned(),
+    }
 }
 
 /// Median and dispersion with their bounds, or why there are none.

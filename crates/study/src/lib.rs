@@ -16,6 +16,7 @@ mod ida;
 mod parts;
 mod result_file;
 mod runs;
+mod shown;
 mod study_file;
 mod sweep;
 
@@ -24,8 +25,9 @@ pub use error::StudyError;
 pub use ida::*;
 pub use result_file::{Coordinate, Description, MergeReport, ResultReader, RunTable, merge};
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
+pub use shown::case_of_run;
 pub use study_file::{
     DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
     Variable,
 };
-pub use sweep::{Progress, Shard, SweepOptions, SweepReport, case_of_run, sweep, writable};
+pub use sweep::{Progress, Shard, SweepOptions, SweepReport, sweep, writable};

@@ -303,21 +303,6 @@ fn assemble(
     Ok(report)
 }
 
-/// The case of one run as a text that `pounding run` takes, if it lies in the folder of
-/// the study's case.
-///
-/// # Errors
-/// [`StudyError::NoSuchRun`].
-pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
-    if run >= study.runs() {
-        return Err(StudyError::NoSuchRun {
-            run,
-            last: study.runs().saturating_sub(1),
-        });
-    }
-    Ok(Runner::text(study, &study.point(run)))
-}
-
 /// Whether a path can be the place of a result.
 ///
 /// # Errors

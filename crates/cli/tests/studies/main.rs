@@ -9,6 +9,7 @@ mod interrupted;
 mod parquet;
 mod python;
 mod shards;
+mod shown;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -58,6 +58,9 @@ pub struct Generated {
 }
 
 impl TimeGrid {
+    /// Time step (s) unless another is asked for.
+    pub const USUAL_TIME_STEP: f64 = 0.01;
+
     /// Number of samples.
     ///
     /// # Errors

@@ -73,6 +73,26 @@ fn ratio(shape: f64) -> f64 {
 }
 
 impl RezaeianDerKiureghian2010 {
+    /// Corner of the high-pass (Hz) unless another is asked for.
+    pub const USUAL_HIGH_PASS: f64 = 0.15;
+
+    /// A motion of these times (s) and middle frequency (Hz), with usual values of all
+    /// else, which every program that leaves them out shares: an Arias intensity of 1 m/s,
+    /// a frequency that falls by 0.1 Hz/s, a damping ratio of 0.3 and a high-pass at
+    /// [`Self::USUAL_HIGH_PASS`].
+    #[must_use]
+    pub fn usual(significant_duration: f64, middle_time: f64, middle_frequency: f64) -> Self {
+        Self {
+            arias_intensity: 1.0,
+            significant_duration,
+            middle_time,
+            middle_frequency,
+            frequency_rate: -0.1,
+            damping: 0.3,
+            high_pass: Self::USUAL_HIGH_PASS,
+        }
+    }
+
     fn check(&self, grid: TimeGrid) -> Result<(), GroundMotionError> {
         positive(STEP, "Arias intensity", self.arias_intensity)?;
         positive(STEP, "significant duration", self.significant_duration)?;

@@ -126,10 +126,14 @@ pub(crate) fn options_of_gap(
     entries(source, path, mine)
 }
 
-/// All that says which record to read and how, and the end of the header `[ground_motion]`.
-pub(crate) fn options_of_motion(source: &str) -> Result<(Vec<Range<usize>>, usize), Lost> {
+/// All that says which record to read and how, but for some keys, and the end of the header
+/// `[ground_motion]`.
+pub(crate) fn options_of_motion(
+    source: &str,
+    kept: &[&str],
+) -> Result<(Vec<Range<usize>>, usize), Lost> {
     let path = Path(vec![Step::Key("ground_motion".to_owned())]);
-    entries(source, &path, |key| key != "scale")
+    entries(source, &path, |key| !kept.contains(&key))
 }
 
 /// Entries of a table with a header of its own that `pick` wants.
@@ -303,7 +307,7 @@ mod tests {
         let texts: Vec<&str> = places.iter().map(|p| &CASE[p.clone()]).collect();
         assert_eq!(texts, ["model = \"hertz_1882\"", "stiffness = 1e9"]);
         assert!(CASE[..header].ends_with("[[gap]]"));
-        let (places, _) = options_of_motion(CASE).unwrap();
+        let (places, _) = options_of_motion(CASE, &["scale"]).unwrap();
         assert_eq!(&CASE[places[0].clone()], "file = \"a.csv\"");
         assert_eq!(places.len(), 1);
     }

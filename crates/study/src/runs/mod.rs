@@ -10,5 +10,6 @@ pub(crate) use columns::is_result;
 pub use columns::{Axis, Layout, Place, Quantity};
 pub(crate) use engine::run_all;
 pub use motions::RecordReport;
+pub(crate) use motions::motion;
 pub use runner::{Ending, Row};
-pub(crate) use runner::{Runner, written};
+pub(crate) use runner::{Runner, chosen, factor, wanted, written};

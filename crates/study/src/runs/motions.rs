@@ -69,10 +69,17 @@ impl Motions {
     }
 }
 
-fn motion(kind: &RecordKind, measure: Option<&IntensityMeasure>) -> Result<Motion, StudyError> {
+/// Reads a motion, and measures it if the study scales.
+///
+/// # Errors
+/// One that cannot be read or measured.
+pub(crate) fn motion(
+    kind: &RecordKind,
+    measure: Option<&IntensityMeasure>,
+) -> Result<Motion, StudyError> {
     let record = match kind {
         RecordKind::File { case, .. } => read_record(case)?,
-        RecordKind::Made(record) => (**record).clone(),
+        RecordKind::Made { record, .. } => (**record).clone(),
     };
     let sha256 = match record.origin() {
         Some(origin) => origin.sha256.clone(),

@@ -16,7 +16,7 @@ use super::columns::Layout;
 use super::motions::{Motion, Motions};
 use crate::case_text::{Edits, apply, canonical, hexadecimal};
 use crate::error::StudyError;
-use crate::study_file::{RecordKind, Study, Target, Value};
+use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
 
 /// Bytes of a run's identity.
 pub(crate) const ID: usize = 16;
@@ -133,10 +133,16 @@ impl<'s> Runner<'s> {
         let point = self.study.point(number);
         let text = Self::text(self.study, &point);
         let motion = self.motion(&point);
-        let factor = intensity_factor(self.study, &point, motion);
+        let intensity = wanted(self.study, &point).map(|(_, x)| x);
+        let factor = factor(intensity, motion);
         let mut row = Row {
             run: number,
-            id: self.identity(&text, motion, factor.as_ref().ok().copied().flatten()),
+            id: self.identity(
+                &text,
+                self.source(&point),
+                motion,
+                factor.as_ref().ok().copied().flatten().or(intensity),
+            ),
             values: Vec::new(),
             ending: Ending::Complete,
         };
@@ -157,16 +163,11 @@ impl<'s> Runner<'s> {
     }
 
     fn motion(&self, point: &[Value]) -> Result<&Motion, &String> {
-        let chosen =
-            self.study
-                .variables
-                .iter()
-                .zip(point)
-                .find_map(|(v, x)| match (&v.target, x) {
-                    (Target::Record, Value::Choice(i)) => Some(*i),
-                    _ => None,
-                });
-        self.motions.all[chosen.unwrap_or(0)].as_ref()
+        self.motions.all[chosen(self.study, point)].as_ref()
+    }
+
+    fn source(&self, point: &[Value]) -> &str {
+        &self.study.records[chosen(self.study, point)].name
     }
 
     fn values(
@@ -233,16 +234,22 @@ impl<'s> Runner<'s> {
         }
     }
 
+    /// Identity of a run; that of a motion which cannot be read hangs on its name, and the
+    /// factor on the intensity wanted.
     fn identity(
         &self,
         text: &str,
+        name: &str,
         motion: Result<&Motion, &String>,
         factor: Option<f64>,
     ) -> [u8; ID] {
         let mut hash = Sha256::new();
         hash.update(canonical(text));
         hash.update([0]);
-        hash.update(motion.map_or("unreadable", |m| m.sha256.as_str()));
+        match motion {
+            Ok(motion) => hash.update(&motion.sha256),
+            Err(_) => hash.update(format!("unreadable {name}")),
+        }
         hash.update(factor.map_or([0; 8], f64::to_le_bytes));
         hash.update(self.version);
         let mut id = [0; ID];
@@ -304,21 +311,31 @@ fn edits(study: &Study, point: &[Value]) -> Edits {
     all
 }
 
-/// The factor that brings a motion to the intensity of a run; `None` if the study leaves
-/// scaling to the case.
-fn intensity_factor(
-    study: &Study,
-    point: &[Value],
+/// Which motion a run has.
+pub(crate) fn chosen(study: &Study, point: &[Value]) -> usize {
+    let mut values = study.variables.iter().zip(point);
+    let chosen = values.find_map(|(v, x)| match (&v.target, x) {
+        (Target::Record, Value::Choice(i)) => Some(*i),
+        _ => None,
+    });
+    chosen.unwrap_or(0)
+}
+
+/// The measure and the intensity that a run wants; `None` if the study leaves scaling to
+/// the case.
+pub(crate) fn wanted<'s>(study: &'s Study, point: &[Value]) -> Option<(&'s IntensityMeasure, f64)> {
+    let mut values = study.variables.iter().zip(point);
+    values.find_map(|(v, x)| match (&v.target, x) {
+        (Target::Intensity(measure), Value::Number(x)) => Some((measure, *x)),
+        _ => None,
+    })
+}
+
+/// The factor that brings a motion to a wanted intensity.
+pub(crate) fn factor(
+    wanted: Option<f64>,
     motion: Result<&Motion, &String>,
 ) -> Result<Option<f64>, String> {
-    let wanted = study
-        .variables
-        .iter()
-        .zip(point)
-        .find_map(|(v, x)| match (&v.target, x) {
-            (Target::Intensity(_), Value::Number(x)) => Some(*x),
-            _ => None,
-        });
     let (Some(wanted), Ok(motion)) = (wanted, motion) else {
         return Ok(None);
     };

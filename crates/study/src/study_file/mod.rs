@@ -92,7 +92,11 @@ pub(crate) enum RecordKind {
     /// A file, read as this case says; and what makes this case of the base.
     File { case: Box<Case>, edits: Edits },
     /// A motion made from a seed.
-    Made(Box<Accelerogram>),
+    Made {
+        record: Box<Accelerogram>,
+        /// The command that makes it, but for the file that it goes into.
+        command: String,
+    },
 }
 
 /// The value of a variable in a run.

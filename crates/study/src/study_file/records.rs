@@ -1,5 +1,6 @@
 //! The motions of a study: files, and motions made from seeds.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use pounding_case::{Case, Dimension};
@@ -8,9 +9,10 @@ use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 use super::reader::{Reader, Result, Table, Value};
 use super::{RecordKind, RecordSource};
 use crate::case_text::{Edits, apply, options_of_motion};
+use crate::error::StudyError;
 
-/// Keys of a record beside `name`, which are those of `[ground_motion]`.
-const RECORD: [&str; 10] = [
+/// Keys of a record beside `name`: those of `[ground_motion]` but `scale`.
+const RECORD: [&str; 18] = [
     "name",
     "file",
     "format",
@@ -18,9 +20,17 @@ const RECORD: [&str; 10] = [
     "unit",
     "layout",
     "component",
+    "second_component",
+    "rotate",
+    "quantity",
     "skip_lines",
+    "skip_columns",
     "prepend_zero",
     "lenient",
+    "sensitivity",
+    "gravity",
+    "offset",
+    "process",
 ];
 
 /// Reads `records` and `synthetic` of a variable.
@@ -81,7 +91,7 @@ fn record(
 ) -> Result<RecordSource> {
     // What the case file would hold, a line each, as it is written here.
     let mut lines = String::new();
-    let (mut name, mut file) = (None, None);
+    let (mut name, mut file, mut processed) = (None, None, false);
     if item.get_ref().as_str().is_some() {
         file = Some(reader.text(item, "records")?);
     } else {
@@ -91,7 +101,10 @@ fn record(
             match key.as_str() {
                 "name" => name = Some(reader.text(value, "name")?),
                 "file" => file = Some(reader.text(value, "file")?),
-                _ => lines.push_str(&format!("\n{key} = {}", &reader.source[value.span()])),
+                _ => {
+                    processed |= key == "process";
+                    lines.push_str(&format!("\n{key} = {}", &reader.source[value.span()]));
+                }
             }
         }
     }
@@ -101,7 +114,13 @@ fn record(
     let shown = toml::Value::String(path.display().to_string()).to_string();
     let new = format!("\nfile = {shown}{lines}");
     let lost = |(message, help): (String, String)| reader.error(item.span(), message, help);
-    let (old, header) = options_of_motion(&base.source).map_err(lost)?;
+    // What the case does to its own record it does to all, unless one says otherwise.
+    let kept: &[&str] = if processed {
+        &["scale"]
+    } else {
+        &["scale", "process"]
+    };
+    let (old, header) = options_of_motion(&base.source, kept).map_err(lost)?;
     let mut edits: Edits = old
         .into_iter()
         .map(|place| (place, String::new()))
@@ -156,17 +175,33 @@ fn synthetic(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<RecordSource>
         Some(v) => reader.quantity(v, key, dimension),
         None => Ok(default),
     };
+    // An angle a second, such as "15.6 rad/s", is a circular frequency.
+    let frequency = |value: &Value<'_>, key: &str| {
+        let text = value.get_ref().as_str().unwrap_or_default();
+        let turns = if text.contains("rad") { TAU } else { 1.0 };
+        Ok::<_, StudyError>(reader.quantity(value, key, Dimension::FREQUENCY)? / turns)
+    };
+    let usual = RezaeianDerKiureghian2010::usual(
+        read("significant_duration", Dimension::TIME)?,
+        read("middle_time", Dimension::TIME)?,
+        frequency(table.required("middle_frequency")?, "middle_frequency")?,
+    );
     let motion = RezaeianDerKiureghian2010 {
-        arias_intensity: or("arias_intensity", Dimension::VELOCITY, 1.0)?,
-        significant_duration: read("significant_duration", Dimension::TIME)?,
-        middle_time: read("middle_time", Dimension::TIME)?,
-        middle_frequency: read("middle_frequency", Dimension::FREQUENCY)?,
-        frequency_rate: read("frequency_rate", per_second_squared())?,
-        damping: read("damping", Dimension::NUMBER)?,
-        high_pass: or("high_pass", Dimension::FREQUENCY, 0.1)?,
+        arias_intensity: or(
+            "arias_intensity",
+            Dimension::VELOCITY,
+            usual.arias_intensity,
+        )?,
+        frequency_rate: or("frequency_rate", per_second_squared(), usual.frequency_rate)?,
+        damping: or("damping", Dimension::NUMBER, usual.damping)?,
+        high_pass: match table.get("high_pass") {
+            Some(v) => frequency(v, "high_pass")?,
+            None => usual.high_pass,
+        },
+        ..usual
     };
     let grid = TimeGrid {
-        time_step: or("time_step", Dimension::TIME, 0.01)?,
+        time_step: or("time_step", Dimension::TIME, TimeGrid::USUAL_TIME_STEP)?,
         duration: read("duration", Dimension::TIME)?,
     };
     let count = reader.count(table.required("count")?, "count", 1)?;
@@ -180,10 +215,33 @@ fn synthetic(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<RecordSource>
             })?;
             Ok(RecordSource {
                 name: format!("seed_{seed}"),
-                kind: RecordKind::Made(Box::new(made.accelerogram)),
+                kind: RecordKind::Made {
+                    record: Box::new(made.accelerogram),
+                    command: command(&motion, grid, seed),
+                },
             })
         })
         .collect()
+}
+
+/// The command that writes such a motion into a file; numbers to the last bit.
+fn command(motion: &RezaeianDerKiureghian2010, grid: TimeGrid, seed: usize) -> String {
+    let options = [
+        ("arias-intensity", motion.arias_intensity),
+        ("significant-duration", motion.significant_duration),
+        ("middle-time", motion.middle_time),
+        ("middle-frequency", motion.middle_frequency),
+        ("frequency-rate", motion.frequency_rate),
+        ("filter-damping", motion.damping),
+        ("high-pass", motion.high_pass),
+        ("time-step", grid.time_step),
+        ("duration", grid.duration),
+    ];
+    let options = options.map(|(name, value)| format!("--{name} {value:?}"));
+    format!(
+        "pounding motion synth rezaeian_der_kiureghian_2010 {} --seed {seed}",
+        options.join(" ")
+    )
 }
 
 /// Hz/s.

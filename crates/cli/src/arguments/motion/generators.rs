@@ -15,9 +15,9 @@ pub struct SynthArguments {
 /// Time step, length and output of a motion to make.
 #[derive(Debug, Clone, clap::Args)]
 pub struct GridArguments {
-    /// Time step
-    #[arg(long, default_value = "0.01 s", allow_hyphen_values = true)]
-    pub time_step: String,
+    /// Time step [default: 0.01 s]
+    #[arg(long, allow_hyphen_values = true)]
+    pub time_step: Option<String>,
     /// Time of the last sample
     #[arg(long, allow_hyphen_values = true)]
     pub duration: String,
@@ -242,27 +242,27 @@ pub struct RezaeianDerKiureghianArguments {
     /// Take the median parameters of the earthquake, not random ones of the seed
     #[arg(long, requires = "magnitude")]
     pub median: bool,
-    /// Arias intensity, such as "0.5 m/s", instead of an earthquake
-    #[arg(long, conflicts_with = "magnitude", requires_all = ["significant_duration", "middle_time", "middle_frequency"])]
+    /// Arias intensity, such as "0.5 m/s" [default: 1 m/s]
+    #[arg(long, requires = "significant_duration")]
     pub arias_intensity: Option<String>,
-    /// Duration from 5 to 95 % of it
-    #[arg(long, requires = "arias_intensity")]
+    /// Duration from 5 to 95 % of the Arias intensity, instead of an earthquake
+    #[arg(long, conflicts_with = "magnitude", requires_all = ["middle_time", "middle_frequency"])]
     pub significant_duration: Option<String>,
     /// Time at which 45 % of it is reached
-    #[arg(long, requires = "arias_intensity")]
+    #[arg(long, requires = "significant_duration")]
     pub middle_time: Option<String>,
     /// Frequency of the filter at that time
-    #[arg(long, requires = "arias_intensity")]
+    #[arg(long, requires = "significant_duration")]
     pub middle_frequency: Option<String>,
-    /// Change of that frequency, such as "-0.06 1/s^2"; a plain number is in Hz/s
-    #[arg(long, default_value = "-0.1", allow_hyphen_values = true)]
-    pub frequency_rate: String,
-    /// Damping ratio of the filter
-    #[arg(long, default_value = "0.3")]
-    pub filter_damping: String,
-    /// Corner of the high-pass at the end
-    #[arg(long, default_value = "0.15 Hz")]
-    pub high_pass: String,
+    /// Change of that frequency, such as "-0.06 1/s^2"; a plain number is in Hz/s [default: -0.1]
+    #[arg(long, requires = "significant_duration", allow_hyphen_values = true)]
+    pub frequency_rate: Option<String>,
+    /// Damping ratio of the filter [default: 0.3]
+    #[arg(long, requires = "significant_duration")]
+    pub filter_damping: Option<String>,
+    /// Corner of the high-pass at the end [default: 0.15 Hz]
+    #[arg(long)]
+    pub high_pass: Option<String>,
     /// Seed
     #[command(flatten)]
     pub seeded: SeededArguments,

@@ -161,13 +161,16 @@ pub fn clough_penzien(a: &CloughPenzienArguments) -> Result<Generated, Failure> 
 
 /// The motion of an earthquake, or of six parameters.
 pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure> {
-    if a.magnitude.is_none() && a.arias_intensity.is_none() {
+    if a.magnitude.is_none() && a.significant_duration.is_none() {
         return Err(Failure::input(
-            "rezaeian_der_kiureghian_2010 needs one of --magnitude and --arias-intensity",
-            Some("give an earthquake by --magnitude, --distance and --shear-velocity, or the motion by --arias-intensity, --significant-duration, --middle-time and --middle-frequency".to_owned()),
+            "rezaeian_der_kiureghian_2010 needs one of --magnitude and --significant-duration",
+            Some("give an earthquake by --magnitude, --distance and --shear-velocity, or the motion by --significant-duration, --middle-time and --middle-frequency".to_owned()),
         ));
     }
-    let high_pass = frequency(&a.high_pass, "high-pass")?;
+    let high_pass = match &a.high_pass {
+        Some(text) => frequency(text, "high-pass")?,
+        None => RezaeianDerKiureghian2010::USUAL_HIGH_PASS,
+    };
     let seed = a.seeded.seed;
     let given = |text: &Option<String>, name: &str, dimension| {
         let text = text
@@ -191,22 +194,42 @@ pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure
             scenario.draw(high_pass, seed)?
         }
     } else {
-        RezaeianDerKiureghian2010 {
-            arias_intensity: given(&a.arias_intensity, "arias-intensity", Dimension::VELOCITY)?,
-            significant_duration: given(
+        let middle_frequency = match &a.middle_frequency {
+            Some(text) => frequency(text, "middle-frequency")?,
+            None => return Err(Failure::input("--middle-frequency is missing", None)),
+        };
+        let usual = RezaeianDerKiureghian2010::usual(
+            given(
                 &a.significant_duration,
                 "significant-duration",
                 Dimension::TIME,
             )?,
-            middle_time: given(&a.middle_time, "middle-time", Dimension::TIME)?,
-            middle_frequency: given(
-                &a.middle_frequency,
-                "middle-frequency",
-                Dimension::FREQUENCY,
+            given(&a.middle_time, "middle-time", Dimension::TIME)?,
+            middle_frequency,
+        );
+        let or = |text: &Option<String>, name: &str, dimension, usual| match text {
+            Some(text) => value(text, name, dimension),
+            None => Ok(usual),
+        };
+        RezaeianDerKiureghian2010 {
+            arias_intensity: or(
+                &a.arias_intensity,
+                "arias-intensity",
+                Dimension::VELOCITY,
+                usual.arias_intensity,
             )?,
-            frequency_rate: frequency_rate(&a.frequency_rate)?,
-            damping: number(&a.filter_damping, "filter-damping")?,
+            frequency_rate: match &a.frequency_rate {
+                Some(text) => frequency_rate(text)?,
+                None => usual.frequency_rate,
+            },
+            damping: or(
+                &a.filter_damping,
+                "filter-damping",
+                Dimension::NUMBER,
+                usual.damping,
+            )?,
             high_pass,
+            ..usual
         }
     };
     Ok(motion.generate(grid(&a.seeded.grid)?, seed)?)

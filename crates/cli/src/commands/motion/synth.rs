@@ -34,7 +34,10 @@ fn finish(made: &Generated, grid: &GridArguments) -> Result<(), Failure> {
 /// Time step and duration.
 pub fn grid(arguments: &GridArguments) -> Result<TimeGrid, Failure> {
     Ok(TimeGrid {
-        time_step: value(&arguments.time_step, "time-step", Dimension::TIME)?,
+        time_step: match &arguments.time_step {
+            Some(text) => value(text, "time-step", Dimension::TIME)?,
+            None => TimeGrid::USUAL_TIME_STEP,
+        },
         duration: value(&arguments.duration, "duration", Dimension::TIME)?,
     })
 }

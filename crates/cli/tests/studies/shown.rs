@@ -1,0 +1,159 @@
+//! Runs shown as cases of their own, and motions that studies make.
+
+use serde_json::Value;
+
+use super::Bench;
+
+/// A made motion without its usual values, and an intensity.
+const MADE: &str = r#"
+case = "case.toml"
+[[variable]]
+synthetic = { model = "rezaeian_der_kiureghian_2010", count = 2, seed = 7, duration = "6 s", significant_duration = "3 s", middle_time = "2 s", middle_frequency = "4 Hz" }
+[[variable]]
+intensity = "spectral_acceleration"
+building = "light"
+values = ["0.3 g", "0.8 g"]
+"#;
+
+/// The greatest displacement of each storey, in the table of runs.
+fn displacements(bench: &Bench, run: usize) -> Vec<f64> {
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let row = reader.records().nth(run).unwrap().unwrap();
+    let columns = header.iter().zip(row.iter());
+    let of = columns.filter(|(name, _)| name.starts_with("peak_displacement: "));
+    of.map(|(_, value)| value.parse().unwrap()).collect()
+}
+
+fn displacements_alone(bench: &Bench, case: &str) -> Vec<f64> {
+    let told: Value =
+        serde_json::from_str(&bench.text(&format!("run {case} --no-output --json"))).unwrap();
+    let buildings = told["buildings"].as_array().unwrap();
+    let storeys = buildings
+        .iter()
+        .flat_map(|b| b["storeys"].as_array().unwrap());
+    storeys
+        .map(|s| s["displacement"]["peak"].as_f64().unwrap())
+        .collect()
+}
+
+fn assert_same(found: &[f64], alone: &[f64], told: &str) {
+    assert_eq!((found.len(), alone.len()), (6, 6));
+    for (a, b) in found.iter().zip(alone) {
+        // A run that records takes other steps: 2e-9 apart.
+        assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}: {told}");
+    }
+}
+
+/// The shown case says how to make its record; with it, `run` gives the numbers of the run.
+#[test]
+fn a_shown_case_is_repeated_by_run() {
+    let bench = Bench::new(MADE);
+    bench.text("sweep study.toml -o out.h5 --csv out.csv");
+    for run in 0..4 {
+        let text = bench.text(&format!("sweep study.toml --show {run}"));
+        std::fs::write(bench.path("shown.toml"), &text).unwrap();
+        let command = text
+            .lines()
+            .find_map(|l| l.strip_prefix("# pounding "))
+            .unwrap();
+        let file = format!("seed_{}.csv", 7 + run / 2);
+        assert!(command.ends_with(&format!("-o {file}")), "{command}");
+        bench.text(command);
+        assert_same(
+            &displacements(&bench, run),
+            &displacements_alone(&bench, "shown.toml"),
+            &text,
+        );
+    }
+    // Without an intensity the case's own scale acts, and records are read where they lie.
+    bench.study(
+        "case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", \"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\nname = \"scale\"\npath = \"ground_motion.scale\"\nvalues = [0.7]\n",
+    );
+    bench.text("sweep study.toml -o records.h5 --csv out.csv");
+    for run in 0..2 {
+        let text = bench.text(&format!("sweep study.toml --show {run}"));
+        std::fs::write(bench.path("shown.toml"), &text).unwrap();
+        assert_same(
+            &displacements(&bench, run),
+            &displacements_alone(&bench, "shown.toml"),
+            &text,
+        );
+    }
+}
+
+/// What a study and `motion synth` leave out is the same: so are their motions.
+#[test]
+fn a_study_and_synth_make_one_motion() {
+    let bench = Bench::new(
+        "case = \"case.toml\"\n[[variable]]\nsynthetic = { model = \"rezaeian_der_kiureghian_2010\", count = 1, seed = 7, duration = \"6 s\", significant_duration = \"3 s\", middle_time = \"2 s\", middle_frequency = \"4 Hz\" }\n",
+    );
+    bench.text("sweep study.toml -o out.h5 --csv out.csv");
+    bench.text("motion synth rezaeian_der_kiureghian_2010 --seed 7 --significant-duration 3 --middle-time 2 --middle-frequency 4 --duration 6 -o made.csv");
+    let shown = bench.text("sweep study.toml --show 0");
+    let command = shown
+        .lines()
+        .find_map(|l| l.strip_prefix("# pounding "))
+        .unwrap();
+    bench.text(command);
+    assert_eq!(bench.bytes("seed_7.csv"), bench.bytes("made.csv"));
+    for (option, other) in [
+        ("--arias-intensity", "2"),
+        ("--frequency-rate", "-0.2"),
+        ("--filter-damping", "0.4"),
+        ("--high-pass", "0.1"),
+        ("--time-step", "0.02"),
+    ] {
+        let words: Vec<&str> = command.split_whitespace().collect();
+        let at = words.iter().position(|w| *w == option).unwrap();
+        let mut words = words.clone();
+        words[at + 1] = other;
+        bench.text(&words.join(" "));
+        assert_ne!(
+            bench.bytes("seed_7.csv"),
+            bench.bytes("made.csv"),
+            "{option}"
+        );
+    }
+    // Circular frequencies are those of the command line, too.
+    bench.text("motion synth rezaeian_der_kiureghian_2010 --seed 7 --significant-duration 3 --middle-time 2 --middle-frequency 25.132741228718345rad/s --duration 6 -o turns.csv");
+    let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    bench.study(&study.replace("4 Hz", "25.132741228718345 rad/s"));
+    let shown = bench.text("sweep study.toml --show 0");
+    let command = shown
+        .lines()
+        .find_map(|l| l.strip_prefix("# pounding "))
+        .unwrap();
+    bench.text(command);
+    assert_eq!(bench.bytes("seed_7.csv"), bench.bytes("turns.csv"));
+}
+
+/// A merged result never takes the place of a shard.
+#[test]
+fn shards_are_not_merged_onto_themselves() {
+    let bench = Bench::new(
+        "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [0.02, 0.04]\n[output]\nchunk = 1\n",
+    );
+    for shard in ["1/2", "2/2"] {
+        bench.text(&format!(
+            "sweep study.toml --shard {shard} -o {}.h5",
+            &shard[..1]
+        ));
+    }
+    let before = bench.bytes("1.h5");
+    for output in [
+        "1.h5",
+        "./1.h5",
+        "new.h5 --csv 2.h5",
+        "new.csv --csv new.csv",
+    ] {
+        let told = bench.complaint(&format!("merge 1.h5 2.h5 -o {output}"), 2);
+        assert!(
+            told.contains("it is one of the files that are merged"),
+            "{told}"
+        );
+    }
+    assert!(bench.bytes("1.h5") == before && !bench.path("new.h5").exists());
+    bench.text("merge 1.h5 2.h5 -o whole.h5");
+    bench.text("merge 1.h5 2.h5 -o whole.h5");
+}

@@ -1,0 +1,203 @@
+//! The motions of studies: what is done to records, and runs shown as cases of their own.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+use pounding_case::Case;
+use pounding_study::{
+    ResultReader, Row, Shard, Study, StudyError, SweepOptions, case_of_run, sweep,
+};
+use pounding_time_history::{assemble, run};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .canonicalize()
+        .unwrap()
+}
+
+fn motions() -> String {
+    root().join("ground_motions").display().to_string()
+}
+
+/// A study of the three-storey pair for six seconds; `motion` is put under the header
+/// `[ground_motion]` of its case.
+fn study(folder: &Path, motion: &str, text: &str) -> Result<Study, StudyError> {
+    let case =
+        std::fs::read_to_string(root().join("examples/sweep_three_storey_pair/case.toml")).unwrap();
+    let case = case
+        .replace("../../ground_motions", &motions())
+        .replace("31 s", "6 s")
+        .replace("[ground_motion]", &format!("[ground_motion]\n{motion}"));
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    let text = format!(
+        "case = \"case.toml\"\n{}",
+        text.replace("MOTIONS", &motions())
+    );
+    Study::parse(&text, &folder.join("study.toml"))
+}
+
+fn rows(study: &Study, folder: &Path, keep_going: bool) -> (Vec<Row>, ResultReader) {
+    let output = folder.join("out.h5");
+    let options = SweepOptions {
+        output: output.clone(),
+        csv: None,
+        threads: 2,
+        shard: Shard::WHOLE,
+        resume: false,
+        keep_going,
+    };
+    sweep(study, &options, &mut |_| {}).unwrap();
+    let reader = ResultReader::open(&output).unwrap();
+    let rows = reader.block(0..reader.rows).unwrap();
+    (rows.into_iter().map(|(row, _)| row).collect(), reader)
+}
+
+fn column(rows: &[Row], reader: &ResultReader, name: &str) -> Vec<Vec<f64>> {
+    let range = reader.description.layout.range(name);
+    rows.iter()
+        .map(|r| r.values[range.clone()].to_vec())
+        .collect()
+}
+
+/// What a case gives alone.
+fn alone(text: &str, folder: &Path) -> Vec<f64> {
+    let case = Case::parse(text, &folder.join("case.toml")).unwrap();
+    let assembly = assemble(&case).unwrap();
+    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+    let storeys = outcome.buildings.iter().flat_map(|b| &b.storeys);
+    storeys.map(|s| s.displacement.value).collect()
+}
+
+/// The process of the case acts on every record of a study; a record's own takes its place.
+#[test]
+fn records_keep_the_process_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let doubled = "process = [{ scale = 2 }, { filter = { high_pass = \"0.5 Hz\" } }]";
+    let records = "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", { name = \"own\", file = \"MOTIONS/el_centro_1940_ns.csv\", process = [] }]\n";
+    let with = study(folder.path(), doubled, records).unwrap();
+    let (found, reader) = rows(&with, folder.path(), false);
+    let found = column(&found, &reader, "peak_displacement");
+    drop(reader);
+    let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    assert_eq!(found[0], alone(&case, folder.path()));
+    assert_eq!(found[1], alone(&case.replace(doubled, ""), folder.path()));
+    assert_ne!(found[0], found[1]);
+}
+
+/// Records take every key of `[ground_motion]` but `scale`: each here changes what is read,
+/// as it does in a case.
+#[test]
+fn records_take_the_keys_of_a_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain: String = (0..400)
+        .map(|i| {
+            let t = 0.01 * f64::from(i);
+            let (a, b) = ((9.0 * t).sin(), 0.5 * (5.0 * t).cos());
+            format!("{i:04} {a:9.6} {b:9.6}\n")
+        })
+        .collect();
+    std::fs::write(folder.path().join("plain.txt"), plain).unwrap();
+    let base = "file = \"plain.txt\", time_step = 0.01";
+    for keys in [
+        "layout = \"a,b\", component = \"a\", unit = \"g\", skip_columns = 5",
+        "layout = \"a,b\", component = \"b\", unit = \"g\", skip_columns = 5, gravity = 9.7",
+        "layout = \"a,b\", component = \"a\", second_component = \"b\", rotate = 30, unit = \"m/s2\", skip_columns = 5",
+        "layout = \"a,b\", component = \"a\", unit = \"m/s2\", skip_columns = 5, offset = \"remove\"",
+        "layout = \"a,b\", component = \"a\", unit = \"m/s2\", skip_columns = 5, skip_lines = 7, prepend_zero = true",
+        "layout = \"a,b\", component = \"a\", unit = \"m/s2\", skip_columns = 5, process = [{ sign = \"reversed\" }]",
+    ] {
+        let text = format!("[[variable]]\nrecords = [{{ {base}, {keys} }}]\n");
+        let study = study(folder.path(), "", &text).unwrap();
+        let (found, reader) = rows(&study, folder.path(), false);
+        let found = column(&found, &reader, "peak_displacement");
+        drop(reader);
+        let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+        let own = format!("\"{}/el_centro_1940_ns.csv\"", motions());
+        let line = format!("file = {own}");
+        assert!(case.contains(&line), "{case}");
+        let named = format!("{base}, {keys}").replace(", process", "\nprocess");
+        let entries = in_lines(&named);
+        let case = case.replace(&line, &entries);
+        assert_eq!(found[0], alone(&case, folder.path()), "{keys}");
+    }
+    let refused = study(
+        folder.path(),
+        "",
+        "[[variable]]\nrecords = [{ file = \"plain.txt\", scale = 2 }]\n",
+    );
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("unknown key `scale`")
+    );
+}
+
+/// Entries of an inline table, a line each; commas inside quotes stay.
+fn in_lines(entries: &str) -> String {
+    let mut quoted = false;
+    entries
+        .chars()
+        .map(|c| {
+            quoted ^= c == '"';
+            if c == ',' && !quoted { '\n' } else { c }
+        })
+        .collect()
+}
+
+/// The case that is shown of a run with an intensity has the factor as its scale, and gives
+/// the numbers of the run to the last bit without a recorder.
+#[test]
+fn a_shown_case_has_its_factor() {
+    let folder = tempfile::tempdir().unwrap();
+    for motion in ["", "scale = { pga = \"0.3 g\" }", "scale = 2"] {
+        let study = study(
+            folder.path(),
+            motion,
+            "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", \"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"spectral_acceleration\"\nvalues = [\"0.3 g\", \"0.7 g\"]\n",
+        )
+        .unwrap();
+        let (found, reader) = rows(&study, folder.path(), false);
+        let found = column(&found, &reader, "peak_displacement");
+        for (run, found) in found.iter().enumerate() {
+            let text = case_of_run(&study, run).unwrap();
+            assert_eq!(*found, alone(&text, folder.path()), "{text}");
+        }
+    }
+    // A table with a header of its own cannot be replaced in place: it is refused.
+    let study = study(
+        folder.path(),
+        "",
+        "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [1]\n",
+    )
+    .unwrap();
+    let case = folder.path().join("case.toml");
+    let text = std::fs::read_to_string(&case).unwrap() + "\n[ground_motion.scale]\npga = 3\n";
+    std::fs::write(&case, text).unwrap();
+    let source = study.source.clone();
+    let study = Study::parse(&source, &folder.path().join("study.toml")).unwrap();
+    let refused = case_of_run(&study, 0);
+    assert!(
+        matches!(refused, Err(StudyError::NotShown { run: 0, .. })),
+        "{refused:?}"
+    );
+}
+
+/// Runs of a record that cannot be read are still different runs.
+#[test]
+fn failed_runs_have_their_own_identities() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study(
+        folder.path(),
+        "",
+        "[[variable]]\nrecords = [\"nowhere.csv\", \"neither.csv\", \"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [1, 2, 3]\n",
+    )
+    .unwrap();
+    let (found, _reader) = rows(&study, folder.path(), true);
+    assert_eq!(found.iter().filter(|r| r.ending.failed()).count(), 6);
+    let mut ids: Vec<_> = found.iter().map(|r| r.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), 9);
+}

@@ -160,3 +160,79 @@ fn collapse_of_all_runs_is_no_failure() {
         "{told}"
     );
 }
+
+/// Runs that failed count nowhere; collapses count beside them.
+#[test]
+fn failures_stay_out_where_collapses_count() {
+    let bench = bench();
+    bench.study(&STUDY.replace("records = [", "records = [\"nowhere.csv\", "));
+    let told: Value =
+        serde_json::from_str(&bench.text("ida study.toml -o out.h5 --keep-going --json")).unwrap();
+    assert_eq!(told["sweep"]["failed"], 4);
+    let top = &told["levels"][3];
+    assert_eq!(
+        (&top["runs"], &top["failed"], &top["collapsed"]),
+        (&2.into(), &1.into(), &2.into())
+    );
+    assert_eq!(told["limits"][1]["counts"][3]["runs"], 2);
+    // Who falls by itself is kept apart by no gap.
+    let study = STUDY.replace("1e-4", "1e-6");
+    bench.study(&study.replace("\"0.02 g\", \"0.2 g\", ", "\"0.02 g\", "));
+    let told = bench.text("ida study.toml -o other.h5");
+    assert!(
+        told.contains("the buildings collapse too often by themselves"),
+        "{told}"
+    );
+}
+
+/// A state that every run reaches already at the least intensity has no frequency, and the
+/// table says why.
+#[test]
+fn a_missing_frequency_has_a_reason() {
+    let bench = bench();
+    bench.study(&STUDY.replace("\"0.02 g\", \"0.2 g\", ", ""));
+    let told = bench.text("ida study.toml -o out.h5");
+    assert!(told.contains("- (all reach it already at 19.61)"), "{told}");
+}
+
+/// A hazard file in g is the hazard in SI; one that says no unit is refused with its line.
+#[test]
+fn a_hazard_file_says_its_units() {
+    let bench = bench();
+    let listed = "hazard = [[\"0.01 g\", 1], [\"4 g\", 1e-6]]";
+    assert!(STUDY.contains(listed));
+    let frequencies = |output: &str| {
+        let told: Value =
+            serde_json::from_str(&bench.text(&format!("ida study.toml -o {output} --json")))
+                .unwrap();
+        let limits = told["limits"].as_array().unwrap().clone();
+        let all: Vec<f64> = limits
+            .iter()
+            .map(|l| l["mean_annual_frequency"].as_f64().unwrap())
+            .collect();
+        all
+    };
+    let expected = frequencies("a.h5");
+    let file = STUDY.replace(listed, "hazard = \"hazard.csv\"");
+    bench.study(&file);
+    for (i, text) in [
+        "pga (g),mean_annual_frequency\n0.01,1\n4,1e-6\n",
+        "pga_g,frequency (1/year)\n0.01,1\n4,1e-6\n",
+        "0.0980665,1\n39.2266,1e-6\n",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        std::fs::write(bench.path("hazard.csv"), text).unwrap();
+        for (found, wanted) in frequencies(&format!("{i}.h5")).iter().zip(&expected) {
+            assert!((found / wanted - 1.0).abs() < 1e-12, "{text}");
+        }
+    }
+    std::fs::write(bench.path("hazard.csv"), "# x\npga,mafe\n0.01,1\n4,1e-6\n").unwrap();
+    let told = bench.complaint("ida study.toml -o b.h5", 2);
+    assert!(
+        told.contains("hazard.csv:2: \"pga\" does not say its unit"),
+        "{told}"
+    );
+    assert!(told.contains("intensity (g),frequency (1/year)"), "{told}");
+}

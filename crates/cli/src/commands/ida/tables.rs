@@ -18,7 +18,8 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
         limits(report, settings)
     ));
     for gap in &report.gaps {
-        text.push_str(&widths(gap, settings));
+        let collapsed = report.levels.iter().any(|l| l.collapsed > 0);
+        text.push_str(&widths(gap, settings, collapsed));
     }
     text
 }
@@ -90,7 +91,7 @@ fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
     table
 }
 
-fn widths(gap: &PoundingDemand, settings: &IdaSettings) -> String {
+fn widths(gap: &PoundingDemand, settings: &IdaSettings, collapsed: bool) -> String {
     let mut text = String::new();
     if !gap.widths.is_empty() {
         let mut header = [
@@ -128,7 +129,12 @@ fn widths(gap: &PoundingDemand, settings: &IdaSettings) -> String {
                 digits(minimum.frequency)
             ),
             None => format!(
-                "The intensities do not reach far enough to find the gap of {} for a mean annual frequency of {}: the least that they can show is {}\n",
+                "The intensities do not reach far enough{} to find the gap of {} for a mean annual frequency of {}: the least that they can show is {}\n",
+                if collapsed {
+                    ", or the buildings collapse too often by themselves,"
+                } else {
+                    ""
+                },
                 gap.gap,
                 digits(target),
                 digits(minimum.frequency)

@@ -10,6 +10,7 @@ use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::generators::{
     Boore2003, CloughPenzien1975, Envelope, FaultMechanism, Generated, KanaiTajimi1960,
     PowerSpectrum, RezaeianDerKiureghian2010, RezaeianDerKiureghianScenario, StationaryMotion,
+    TimeGrid,
 };
 use pounding_ground_motion::measures::Husid;
 use pounding_ground_motion::spectra::{Evaluation, oscillator_response};
@@ -242,4 +243,22 @@ fn seeds() {
                 .contains("achieved Arias intensity")
         );
     }
+}
+
+/// What `motion synth` and the studies leave out, as docs/ground-motions.md and
+/// docs/studies.md have it.
+#[test]
+fn usual_parameters_are_those_of_the_documentation() {
+    let usual = RezaeianDerKiureghian2010::usual(12.0, 8.0, 3.5);
+    let expected = RezaeianDerKiureghian2010 {
+        arias_intensity: 1.0,
+        significant_duration: 12.0,
+        middle_time: 8.0,
+        middle_frequency: 3.5,
+        frequency_rate: -0.1,
+        damping: 0.3,
+        high_pass: 0.15,
+    };
+    assert_eq!(usual, expected);
+    assert_eq!(TimeGrid::USUAL_TIME_STEP, 0.01);
 }

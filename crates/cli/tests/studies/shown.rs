@@ -153,7 +153,7 @@ fn shards_are_not_merged_onto_themselves() {
         "1.h5",
         "./1.h5",
         "new.h5 --csv 2.h5",
-        "new.csv --csv new.csv",
+        "new.csv --csv ./new.csv",
     ] {
         let told = bench.complaint(&format!("merge 1.h5 2.h5 -o {output}"), 2);
         assert!(

@@ -82,9 +82,13 @@ fn apart(files: &[PathBuf], output: &Path, csv: Option<&Path>) -> Result<(), Stu
     let mut taken: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
     for path in [Some(output), csv].into_iter().flatten() {
         // What is not there yet can clash by its name alone.
-        let real = |path: &Path| path.canonicalize().ok();
+        let real = |path: &Path| {
+            path.canonicalize()
+                .or_else(|_| std::path::absolute(path))
+                .ok()
+        };
         let mine = real(path);
-        let same = |other: &&Path| *other == path || (mine.is_some() && real(other) == mine);
+        let same = |other: &&Path| mine.is_some() && real(other) == mine;
         if taken.iter().any(same) {
             let path = path.to_owned();
             return Err(StudyError::MergedOnto { path });

@@ -136,7 +136,7 @@ const ISOLATED_DEMAND: Quantity = quantity(
     Axis::Level,
     "isolated_demand",
     "m",
-    "greatest approach of the isolated buildings: the gap that just keeps them apart",
+    "greatest approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
 
 /// Whether a name is taken by the results.

@@ -70,8 +70,8 @@ fn a_failed_run_does_not_end_the_batch() {
 #[test]
 fn a_system_needs_a_building() {
     let ground = synthetic_motion().unwrap();
-    let empty = pounding_time_history::System::new(Vec::new(), ground);
+    let empty = System::new(Vec::new(), ground);
     let options = RunOptions::default();
-    let error = pounding_time_history::run(&empty, &options, &mut [], &mut |_| {}).unwrap_err();
+    let error = run(&empty, &options, &mut [], &mut |_| {}).unwrap_err();
     assert!(error.to_string().contains("at least one"), "{error}");
 }

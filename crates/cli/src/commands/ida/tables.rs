@@ -21,6 +21,9 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
         let collapsed = report.levels.iter().any(|l| l.collapsed > 0);
         text.push_str(&widths(gap, settings, collapsed));
     }
+    if report.gaps.iter().filter(|g| !g.widths.is_empty()).count() > 1 {
+        text.push_str("Widths of each gap of the row as if the others were wide enough: a building that is hit on one side can close the gap on its other side.\n");
+    }
     text
 }
 

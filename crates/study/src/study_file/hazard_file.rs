@@ -158,7 +158,10 @@ impl Table<'_> {
                 .filter(|w| !w.is_empty())
                 .map(str::to_owned)
                 .collect();
-            words.join("_")
+            let name = words.join("_");
+            name.strip_suffix("_of_exceedance")
+                .unwrap_or(&name)
+                .to_owned()
         };
         let known = |name: &str| is_frequency(name) || self.names().any(|n| n == name);
         if let Some((name, rest)) = cell.split_once(['(', '[']) {
@@ -281,7 +284,7 @@ mod tests {
         let text = |header: &str| format!("# made up\n{header}\n0.5,1e-2\n\n2.0,1e-4\n");
         for header in [
             "intensity (g),mean_annual_frequency",
-            "intensity_g,mean annual frequency",
+            "intensity_g,mean annual frequency of exceedance",
             "Intensity [g], Frequency (1/year)",
             "sa (g),lambda (1/yr)",
             "Sa_g,frequency_per_year",

@@ -239,9 +239,9 @@ fn deformations_that_cannot_be_followed_are_refused() {
     // The cards' examples yield at 10 mm.
     for law in ["bouc_wen", "baber_noori_1985", "menegotto_pinto_1973"] {
         refused(
-            &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --cycles 1001m"),
+            &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --cycles 5000m"),
             &[
-                "1001 m is 100100 times the yield deformation",
+                "a path of 25000 m in all is 2.5000e6 times the yield deformation",
                 "check the unit",
             ],
         );
@@ -249,6 +249,16 @@ fn deformations_that_cannot_be_followed_are_refused() {
             &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --dissipation 1m,1e6m"),
             &["times the yield deformation", "check the unit"],
         );
+    }
+    // A sharp knee costs more: fifty times the exponent, a fiftieth of the way.
+    let sharp = "bouc_wen --set exponent=100 --set yield_force=2e5 --set stiffness=2e7";
+    refused(&format!("{sharp} --cycles 100m"), &["up to 40000 times"]);
+    for allowed in [
+        format!("{sharp} --cycles 50m"),
+        "bouc_wen --cycles 100m".to_owned(),
+    ] {
+        let output = support::run("hysteresis", &allowed);
+        assert_eq!(output.status.code(), Some(0), "{allowed}");
     }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("far.csv");

@@ -1,4 +1,4 @@
-//! Deformations that cannot be followed, or not in numbers of double precision.
+//! Paths that cannot be followed in a short time, or not in numbers of double precision.
 
 use super::chosen::Chosen;
 use super::cycles::State;
@@ -6,30 +6,32 @@ use super::motion::Path;
 use crate::commands::impact::numbers::significant;
 use crate::failure::Failure;
 
-/// Greatest deformation over the yield deformation for laws that are integrated along
-/// their path: the work grows with it.
-const FARTHEST: f64 = 1.0e5;
+/// Longest path over the yield deformation for laws that are integrated along it: the
+/// work grows with it, for exponents above this one in proportion to them as well.
+const LONGEST: f64 = 2.0e6;
+const USUAL_EXPONENT: f64 = 2.0;
 /// Law whose energy is an integral along its path, without internal variables.
 const INTEGRATED_ENERGY: &str = "menegotto_pinto_1973";
 
-/// Refuses deformations (m) far beyond yield to a law that has to be integrated along
-/// them.
-pub fn reachable(chosen: &Chosen, greatest: f64) -> Result<(), Failure> {
+/// Refuses a path (m) far beyond yield to a law that has to be integrated along it.
+pub fn reachable(chosen: &Chosen, length: f64) -> Result<(), Failure> {
     let value = |name: &str| chosen.parameters.values.get(name).copied();
     let (Some(stiffness), Some(yield_force)) = (value("stiffness"), value("yield_force")) else {
         return Ok(());
     };
     let integrated = chosen.law.internal_variables() > 0 || chosen.card.name == INTEGRATED_ENERGY;
-    let ratio = greatest * stiffness / yield_force;
-    if !integrated || ratio <= FARTHEST {
+    let sharper = value("exponent").map_or(1.0, |n| (n / USUAL_EXPONENT).max(1.0));
+    let (ratio, most) = (length * stiffness / yield_force, LONGEST / sharper);
+    if !integrated || ratio <= most {
         return Ok(());
     }
     Err(Failure::input(
         format!(
-            "a deformation of {} m is {} times the yield deformation of {}, which is integrated along its path up to {FARTHEST} times",
-            significant(greatest),
+            "a path of {} m in all is {} times the yield deformation of {}, which is integrated along its path up to {} times",
+            significant(length),
             significant(ratio),
-            chosen.card.name
+            chosen.card.name,
+            significant(most)
         ),
         Some(
             "check the unit of the deformation, of stiffness and of yield_force; law bilinear takes any"
@@ -38,10 +40,16 @@ pub fn reachable(chosen: &Chosen, greatest: f64) -> Result<(), Failure> {
     ))
 }
 
-/// Greatest absolute deformation of a path (m).
-pub fn greatest(path: &Path) -> f64 {
-    let deformations = path.steps.iter().map(|s| s.motion.deformation.abs());
-    deformations.fold(0.0, f64::max)
+/// Length of a path from a new element at rest (m).
+pub fn length(path: &Path) -> f64 {
+    let mut from = 0.0;
+    path.steps
+        .iter()
+        .map(|step| {
+            let to = step.motion.deformation;
+            (to - std::mem::replace(&mut from, to)).abs()
+        })
+        .sum()
 }
 
 /// Refuses a loop whose force or energy overflows.

@@ -49,7 +49,9 @@ pub fn curve(
         cycles_before: 1,
         period: period(arguments)?,
     };
-    bounds::reachable(chosen, to)?;
+    // To the first peak, then full cycles.
+    let lengths = 1.0 + 4.0 * (cycling.cycles_before + 1) as f64;
+    bounds::reachable(chosen, lengths * amplitudes.iter().sum::<f64>())?;
     let pairs = dissipation_curve(chosen.law.as_ref(), &amplitudes, cycling);
     bounds::finite_pairs(&pairs)?;
     Ok(Some(DissipationCurve {

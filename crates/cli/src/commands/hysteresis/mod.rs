@@ -109,7 +109,7 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
 }
 
 fn driven(chosen: &Chosen, path: Path) -> Result<Loop, Failure> {
-    bounds::reachable(chosen, bounds::greatest(&path))?;
+    bounds::reachable(chosen, bounds::length(&path))?;
     let driven = Loop::drive(chosen.law.as_ref(), path);
     bounds::finite(&driven.states)?;
     Ok(driven)

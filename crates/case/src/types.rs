@@ -2,6 +2,7 @@
 
 mod laws;
 
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -338,13 +339,33 @@ impl Separation {
     }
 }
 
+/// Largest case file (bytes): far more than anyone writes, and little enough to read what
+/// has no end.
+const LARGEST_FILE: u64 = 16_000_000;
+
+/// Text of a case file, which may be a pipe.
+///
+/// # Errors
+/// A file that cannot be read, is not UTF-8, or is larger than 16 MB.
+pub fn read_text(path: &Path) -> std::io::Result<String> {
+    let mut text = String::new();
+    let file = std::fs::File::open(path)?;
+    let read = file.take(LARGEST_FILE + 1).read_to_string(&mut text)?;
+    if read as u64 > LARGEST_FILE {
+        return Err(std::io::Error::other(
+            "it is larger than 16 MB, which no case is",
+        ));
+    }
+    Ok(text)
+}
+
 impl Case {
     /// Reads a case from a file.
     ///
     /// # Errors
     /// A file that cannot be read, or the first thing wrong in it.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let source = std::fs::read_to_string(path).map_err(|e| CaseError {
+        let source = read_text(path).map_err(|e| CaseError {
             file: path.display().to_string(),
             line: 1,
             column: 1,

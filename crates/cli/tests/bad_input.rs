@@ -381,6 +381,17 @@ fn an_interrupted_run_leaves_no_half_written_file() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_case_file_without_end_is_refused() {
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(["check", "/dev/zero"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message(&output).contains("larger than 16 MB"));
+}
+
+#[test]
 fn a_recording_that_would_fill_the_memory_is_refused() {
     let endless = CASE.replace("duration = \"2 s\"", "duration = \"1e6 s\"");
     refused(&endless, &record(), &["GB of memory", "output_step"]);

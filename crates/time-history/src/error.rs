@@ -62,7 +62,8 @@ pub enum TimeHistoryError {
     },
     /// The step had to be cut below what time can resolve.
     #[error(
-        "the step at t = {time} s fell below {step:e} s ({method}); buildings in touch there: {place}"
+        "the step at t = {} s fell below {step:e} s ({method}); buildings in touch there: {place}",
+        seconds(*time)
     )]
     StepTooSmall {
         /// Time (s).
@@ -76,7 +77,8 @@ pub enum TimeHistoryError {
     },
     /// The motion is no longer a number.
     #[error(
-        "the motion is not finite at t = {time} s ({method}); buildings in touch there: {place}"
+        "the motion is not finite at t = {} s ({method}); buildings in touch there: {place}",
+        seconds(*time)
     )]
     NotFinite {
         /// Time (s).
@@ -88,7 +90,8 @@ pub enum TimeHistoryError {
     },
     /// Gravity overturned a building (P-Delta).
     #[error(
-        "{building} collapsed at t = {time} s: storey {storey} drifted by more than its height of {height} m under gravity"
+        "{building} collapsed at t = {} s: storey {storey} drifted by more than its height of {height} m under gravity",
+        seconds(*time)
     )]
     Collapse {
         /// Time (s).
@@ -101,7 +104,10 @@ pub enum TimeHistoryError {
         height: f64,
     },
     /// Rigid floors that cannot give way.
-    #[error("the rigid impact at t = {time} s has no solution; buildings in touch there: {place}")]
+    #[error(
+        "the rigid impact at t = {} s has no solution; buildings in touch there: {place}",
+        seconds(*time)
+    )]
     Wedged {
         /// Time (s).
         time: f64,
@@ -109,7 +115,10 @@ pub enum TimeHistoryError {
         place: String,
     },
     /// The same events came back over and over at one time.
-    #[error("{count} events at t = {time} s without progress, the last at {place}")]
+    #[error(
+        "{count} events at t = {} s without progress, the last at {place}",
+        seconds(*time)
+    )]
     Chatter {
         /// Time (s).
         time: f64,
@@ -120,7 +129,8 @@ pub enum TimeHistoryError {
     },
     /// The energy ledger did not close.
     #[error(
-        "the energy ledger does not close: residual {residual:e} of the largest input energy at t = {time} s, allowed {allowed:e} ({method})"
+        "the energy ledger does not close: residual {residual:e} of the largest input energy at t = {} s, allowed {allowed:e} ({method})",
+        seconds(*time)
     )]
     EnergyResidual {
         /// Residual over the largest input energy so far (-).
@@ -186,4 +196,9 @@ impl TimeHistoryError {
         };
         Some(text.to_owned())
     }
+}
+
+/// A time for people: to the nanosecond, without the noise of sums.
+fn seconds(time: f64) -> f64 {
+    (time * 1.0e9).round() / 1.0e9
 }

@@ -65,7 +65,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 /// Reads and validates a case file.
 pub fn read_case(path: &Path) -> Result<Case, Failure> {
     Case::read(path).map_err(|e| {
-        let source = std::fs::read_to_string(path).unwrap_or_default();
+        let source = pounding_case::read_text(path).unwrap_or_default();
         Failure::case(e, &source)
     })
 }

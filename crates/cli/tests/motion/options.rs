@@ -199,7 +199,7 @@ fn the_rate_of_a_frequency_takes_its_unit() {
         2,
         &generator,
         &[
-            "needs one of --magnitude and --arias-",
+            "needs one of --magnitude and --significant-",
             "--middle-frequency",
         ],
     );

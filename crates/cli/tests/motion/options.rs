@@ -200,7 +200,7 @@ fn the_rate_of_a_frequency_takes_its_unit() {
         &generator,
         &[
             "needs one of --magnitude and --significant-",
-            "--middle-frequency",
+            "--middle-time",
         ],
     );
     let parameters = [

@@ -2,25 +2,30 @@
 //! how places are named in messages.
 
 use super::Driver;
+use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::ledger;
 
 impl Driver<'_> {
-    /// Ends the run where gravity has overturned a building.
+    /// Ends the run where gravity has overturned a building: in a storey that yields, since
+    /// an elastic one stands or is refused from the start.
     pub(super) fn stands(&self, time: f64) -> Result<(), TimeHistoryError> {
-        let buildings = self.system.buildings().iter();
-        for (building, offset) in buildings.zip(self.system.offsets()) {
-            for (storey, geometric) in building.geometric_stiffness().iter().enumerate() {
-                let drift = self.peaks.storeys[offset + storey].drift_ratio.value;
-                if *geometric > 0.0 && drift > 1.0 {
-                    return Err(TimeHistoryError::Collapse {
-                        time,
-                        building: building.name().to_owned(),
-                        storey: storey + 1,
-                        height: building.height()[storey],
-                    });
-                }
+        for element in self.system.elements() {
+            let (ElementPlace::Storey { building, storey }, Some(dof)) =
+                (element.place, element.far)
+            else {
+                continue;
+            };
+            let building = &self.system.buildings()[building];
+            let drift = self.peaks.storeys[dof].drift_ratio.value;
+            if building.geometric_stiffness()[storey] > 0.0 && drift > 1.0 {
+                return Err(TimeHistoryError::Collapse {
+                    time,
+                    building: building.name().to_owned(),
+                    storey: storey + 1,
+                    height: building.height()[storey],
+                });
             }
         }
         Ok(())

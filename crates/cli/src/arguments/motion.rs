@@ -287,7 +287,7 @@ pub struct MatchArguments {
     #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
     pub tolerance: String,
     /// Iterations at most
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 150)]
     pub iterations: usize,
     /// Method
     #[arg(long, value_enum, default_value = "wavelets")]

@@ -120,21 +120,21 @@ fn synthetic_suite() {
             .collect();
         for (i, period) in periods.iter().enumerate() {
             let ratio = number(&s["pseudo_acceleration"][i]) / target(*period);
-            assert!((ratio - 1.0).abs() < 0.048, "{seed} {period} {ratio}");
+            assert!((ratio - 1.0).abs() < 0.05, "{seed} {period} {ratio}");
             mean[i] += ratio / 7.0;
         }
         let told = json(&["info", &file]);
         let series = &told["files"][0]["series"][0];
         let m = &series["measures"];
-        // The generator's own, times the scale: its envelope has not died at 40 s.
-        assert!(number(&m["end_velocity"]).abs() < 7.0e-3, "{seed}");
-        assert!(number(&m["end_displacement"]).abs() < 9.0e-3, "{seed}");
+        // What the generator's envelope leaves at 40 s is gone.
+        assert!(number(&m["end_velocity"]).abs() < 1.0e-12, "{seed}");
+        assert!(number(&m["end_displacement"]).abs() < 1.0e-11, "{seed}");
         let history = series["history"].to_string();
         assert!(history.contains(&format!("seed {seed}")), "{history}");
         assert!(history.contains("matching by wavelets"), "{history}");
     }
     assert_eq!(periods.len(), 633);
     for (ratio, period) in mean.iter().zip(&periods) {
-        assert!((ratio - 1.0).abs() < 0.023, "{period} {ratio}");
+        assert!((ratio - 1.0).abs() < 0.021, "{period} {ratio}");
     }
 }

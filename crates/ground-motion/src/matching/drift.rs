@@ -1,5 +1,10 @@
-//! Changes of a motion that leave no velocity and no displacement behind.
+//! Changes of a motion that leave no velocity and no displacement behind, and motions
+//! without them.
 
+use std::f64::consts::PI;
+
+use crate::accelerogram::Accelerogram;
+use crate::error::GroundMotionError;
 use crate::measures::integrate;
 
 /// What a change leaves at the end: velocity and displacement.
@@ -31,4 +36,26 @@ pub(crate) fn bring_to(change: &mut [f64], shapes: [&[f64]; 2], end: [f64; 2], s
         }
     }
     true
+}
+
+/// Half a sine and a whole one over the record: zero at both ends.
+pub(crate) fn end_shapes(count: usize) -> [Vec<f64>; 2] {
+    [1.0, 2.0].map(|waves| {
+        (0..count)
+            .map(|i| (PI * waves * i as f64 / (count - 1) as f64).sin())
+            .collect()
+    })
+}
+
+/// The record with other samples, velocity and displacement at the end brought to zero.
+///
+/// # Errors
+/// Samples that are not finite.
+pub(crate) fn ending_at_rest(
+    record: &Accelerogram,
+    mut samples: Vec<f64>,
+) -> Result<Accelerogram, GroundMotionError> {
+    let (h, shapes) = (record.time_step(), end_shapes(samples.len()));
+    bring_to(&mut samples, [&shapes[0], &shapes[1]], [0.0; 2], h);
+    record.with_samples(samples, h)
 }

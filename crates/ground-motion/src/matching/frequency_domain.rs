@@ -31,7 +31,7 @@ struct FourierAmplitudes {
 }
 
 /// Brings a record to a target by its Fourier amplitudes. Velocity and displacement at
-/// the end are zero after it.
+/// the end are zero after it: what the record has of them is taken off first.
 ///
 /// # Errors
 /// A band that the target or the record does not cover, or
@@ -69,21 +69,10 @@ impl Adjustment for FourierAmplitudes {
             }
             self.by_ratios = false;
         }
-        let record = without_drift(record, record.samples().to_vec())?;
-        let rows = Rows::of(&record, target, periods)?;
-        let changes = bands(&record, periods);
-        self.least_squares.improve(&record, target, &rows, &changes)
+        let rows = Rows::of(record, target, periods)?;
+        let changes = bands(record, periods);
+        self.least_squares.improve(record, target, &rows, &changes)
     }
-}
-
-/// The record with velocity and displacement zero at its end.
-fn without_drift(
-    record: &Accelerogram,
-    mut samples: Vec<f64>,
-) -> Result<Accelerogram, GroundMotionError> {
-    let (h, shapes) = (record.time_step(), end_shapes(samples.len()));
-    drift::bring_to(&mut samples, [&shapes[0], &shapes[1]], [0.0; 2], h);
-    record.with_samples(samples, h)
 }
 
 /// Amplitudes times the ratios of target to response.
@@ -102,13 +91,13 @@ fn multiplied(
     let samples = filtered(record, |period| {
         at(periods, &ratios, period).clamp(-limit, limit).exp()
     });
-    without_drift(record, samples)
+    drift::ending_at_rest(record, samples)
 }
 
 /// What the record has in the band around each period: bands add up to what it has
 /// between the first and the last.
 fn bands(record: &Accelerogram, periods: &[f64]) -> Vec<Change> {
-    let shapes = end_shapes(record.samples().len());
+    let shapes = drift::end_shapes(record.samples().len());
     (0..periods.len())
         .filter_map(|k| {
             let mut weights = vec![0.0; periods.len()];
@@ -155,13 +144,4 @@ fn at(periods: &[f64], ratios: &[f64], period: f64) -> f64 {
     let i = periods.partition_point(|p| *p <= period).min(last);
     let part = (period / periods[i - 1]).ln() / (periods[i] / periods[i - 1]).ln();
     ratios[i - 1] + part * (ratios[i] - ratios[i - 1])
-}
-
-/// Half a sine and a whole one over the record: zero at both ends.
-fn end_shapes(count: usize) -> [Vec<f64>; 2] {
-    [1.0, 2.0].map(|waves| {
-        (0..count)
-            .map(|i| (PI * waves * i as f64 / (count - 1) as f64).sin())
-            .collect()
-    })
 }

@@ -4,8 +4,7 @@
 //! Each period gets wavelets that raise or lower its oscillator at the times of its
 //! greatest peaks; their amplitudes are those of [`LeastSquares`]. The wavelet leaves
 //! nearly no velocity and displacement; what is left, and what is cut off at an end of the
-//! record, is taken off under the wavelet's own window, so that the ground ends as it did
-//! before.
+//! record, is taken off under the wavelet's own window, so that the ground ends at rest.
 
 use std::f64::consts::TAU;
 
@@ -22,7 +21,8 @@ const WIDTHS: f64 = 6.0;
 struct Wavelets(LeastSquares);
 
 /// Brings a record to a target by wavelets at the times of the peaks. Velocity and
-/// displacement at the end stay what they were, times the scale.
+/// displacement at the end are zero after it: what the record has of them is taken off
+/// first.
 ///
 /// # Errors
 /// A band that the target or the record does not cover, or

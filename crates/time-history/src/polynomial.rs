@@ -7,6 +7,8 @@
 //! interval is halved until they decide. Source: G. Farin, Curves and Surfaces
 //! for CAGD, 5th edition, 2002, chapters 4 and 5 (hull property, de Casteljau).
 
+use std::sync::LazyLock;
+
 /// Number of power-basis coefficients (degree 7).
 pub(crate) const COEFFICIENTS: usize = 8;
 
@@ -94,8 +96,29 @@ pub(crate) fn fit_nodes() -> [f64; COEFFICIENTS] {
     std::array::from_fn(|i| 0.5 * (1.0 - (std::f64::consts::PI * i as f64 / DEGREE as f64).cos()))
 }
 
-/// The polynomial through samples at [`fit_nodes`] (divided differences).
+/// Coefficients of the polynomials that are one at one node of a fit and zero at the
+/// others.
+static FIT: LazyLock<[Polynomial; COEFFICIENTS]> = LazyLock::new(|| {
+    std::array::from_fn(|node| {
+        let mut samples = [0.0; COEFFICIENTS];
+        samples[node] = 1.0;
+        divided_differences(&samples)
+    })
+});
+
+/// The polynomial through samples at [`fit_nodes`].
 pub(crate) fn fit(samples: &[f64; COEFFICIENTS]) -> Polynomial {
+    let mut p = [0.0; COEFFICIENTS];
+    for (sample, basis) in samples.iter().zip(&*FIT) {
+        for (c, b) in p.iter_mut().zip(basis) {
+            *c += sample * b;
+        }
+    }
+    p
+}
+
+/// The same by divided differences.
+fn divided_differences(samples: &[f64; COEFFICIENTS]) -> Polynomial {
     let x = fit_nodes();
     let mut divided = *samples;
     for order in 1..COEFFICIENTS {

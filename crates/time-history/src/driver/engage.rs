@@ -188,7 +188,7 @@ impl Driver<'_> {
                 e.affine = are_affine(&e.touches, self.system);
                 e.powers = e.affine || are_powers(&e.touches, self.system);
                 if e.powers {
-                    e.series.take_laws(self.system, &e.touches);
+                    e.series.take_laws(self.system, &e.rows, &e.touches);
                 }
                 e.listed = true;
             }

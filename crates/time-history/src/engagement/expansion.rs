@@ -63,6 +63,24 @@ fn expand_in_place<const LANES: usize>(
                     - m.participation[l] * load;
             }
         }
+        let scale = h / (k + 1) as f64;
+        // The next rates of the levels come from this acceleration and from these forces
+        // apart: what waits for the forces is short.
+        let present = series.touches.len();
+        for i in 0..present {
+            let row = levels[series.touches[i].level].spread::<LANES>();
+            let mut sum = Lane::ZERO;
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    sum[l] += row[c][l] * a[c][l];
+                }
+            }
+            let mut rate = total(&sum);
+            for j in 0..present {
+                rate -= series.mobility[i * present + j] * series.touches[j].force[k];
+            }
+            series.touches[i].next_rate = scale * rate;
+        }
         for touch in &series.touches {
             let (force, row) = (-touch.force[k], levels[touch.level].spread::<LANES>());
             for c in 0..LANES {
@@ -71,7 +89,6 @@ fn expand_in_place<const LANES: usize>(
                 }
             }
         }
-        let scale = h / (k + 1) as f64;
         let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
         for c in 0..LANES {
             for l in 0..WIDTH {
@@ -86,14 +103,7 @@ fn expand_in_place<const LANES: usize>(
         series.displacement[range.clone()].copy_from_slice(&q);
         series.velocity[range].copy_from_slice(&p);
         for touch in &mut series.touches {
-            let row = levels[touch.level].spread::<LANES>();
-            let mut sum = Lane::ZERO;
-            for c in 0..LANES {
-                for l in 0..WIDTH {
-                    sum[l] += row[c][l] * p[c][l];
-                }
-            }
-            touch.push(k, scale, total(&sum));
+            touch.push(k, scale);
         }
     }
     series.bend.copy_from_slice(&bend);
@@ -122,10 +132,18 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             }
             p_next[c] = a;
         }
+        let scale = h / (k + 1) as f64;
+        let present = series.touches.len();
+        for i in 0..present {
+            let mut rate = levels[series.touches[i].level].dot(p_next);
+            for j in 0..present {
+                rate -= series.mobility[i * present + j] * series.touches[j].force[k];
+            }
+            series.touches[i].next_rate = scale * rate;
+        }
         for touch in &series.touches {
             levels[touch.level].add(-touch.force[k], p_next);
         }
-        let scale = h / (k + 1) as f64;
         let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
         for c in 0..lanes {
             let (v, mut a) = (p[c], p_next[c]);
@@ -142,8 +160,7 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             (series.bend[c], series.snap[c]) = (bend, snap);
         }
         for touch in &mut series.touches {
-            let rate = levels[touch.level].dot(p_next);
-            touch.push(k, scale, rate);
+            touch.push(k, scale);
         }
     }
 }

@@ -37,7 +37,20 @@ pub(super) struct Powers {
     /// Terms of the penetration times their number.
     weighted: Terms,
     rate: Terms,
+    /// One over the first term of the penetration.
+    inverse: f64,
 }
+
+/// One over the number of a term.
+const PARTS: Terms = {
+    let mut parts = [0.0; TERMS];
+    let mut k = 1;
+    while k < TERMS {
+        parts[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    parts
+};
 
 impl Powers {
     pub(super) const NONE: Self = {
@@ -51,6 +64,7 @@ impl Powers {
             delta: [0.0; TERMS],
             weighted: [0.0; TERMS],
             rate: [0.0; TERMS],
+            inverse: 0.0,
         }
     };
 
@@ -61,7 +75,11 @@ impl Powers {
         self.delta[place] = delta;
         self.weighted[place] = k as f64 * delta;
         self.rate[place] = rate;
-        let motion = (&self.delta[place..], &self.weighted[place..]);
+        if k == 0 {
+            self.inverse = 1.0 / delta;
+        }
+        let part = PARTS[k] * self.inverse;
+        let motion = (&self.delta[place..], &self.weighted[place..], part);
         let force = law.stiffness * self.spring.term(law.exponent, k, motion);
         if law.dashpot == 0.0 {
             return force;
@@ -72,19 +90,31 @@ impl Powers {
             self.dashpot.term(law.dashpot_exponent, k, motion);
             &self.dashpot.terms
         };
-        force + law.dashpot * dot(&self.rate[place..], &powers[..=k])
+        // What is known last comes last.
+        let sum = dot(&self.rate[place + 1..], &powers[1..=k]) + rate * powers[0];
+        force + law.dashpot * sum
     }
 }
 
 impl Power {
-    /// Term `k` of `delta^exponent`, for the reversed terms of the penetration.
+    /// Term `k` of `delta^exponent`, for the reversed terms of the penetration, and one over
+    /// `k` times the first of them.
     #[inline(always)]
-    fn term(&mut self, exponent: f64, k: usize, (delta, weighted): (&[f64], &[f64])) -> f64 {
+    fn term(
+        &mut self,
+        exponent: f64,
+        k: usize,
+        (delta, weighted, part): (&[f64], &[f64], f64),
+    ) -> f64 {
         let first = delta[k];
         let term = if k > 0 {
-            let rising = dot(weighted, &self.terms[..k]);
-            let falling = dot(delta, &self.weighted[..k]);
-            (exponent * rising - falling) / (k as f64 * first)
+            let j = k - 1;
+            let rising = dot(weighted, &self.terms[..j]);
+            let falling = dot(delta, &self.weighted[..j]);
+            let before = exponent * rising - falling;
+            // What is known last comes last.
+            let last = delta[j] * self.terms[j] * (exponent - j as f64);
+            (before + last) * part
         } else if exponent == 1.5 {
             first * first.sqrt()
         } else if exponent == 0.25 {

@@ -70,6 +70,23 @@ impl ModalRow {
         total(&sum)
     }
 
+    /// Product of two rows.
+    pub(crate) fn product(&self, other: &Self) -> f64 {
+        let ends = [self, other].map(|r| r.first_lane + r.weights.len());
+        let first = self.first_lane.max(other.first_lane);
+        let mut sum = Lane::ZERO;
+        for c in first..ends[0].min(ends[1]) {
+            let (a, b) = (
+                self.weights[c - self.first_lane],
+                other.weights[c - other.first_lane],
+            );
+            for l in 0..WIDTH {
+                sum[l] += a[l] * b[l];
+            }
+        }
+        total(&sum)
+    }
+
     /// Sum of the magnitudes that [`ModalRow::dot`] adds.
     #[inline(always)]
     pub(crate) fn dot_magnitudes(&self, x: &[Lane]) -> f64 {

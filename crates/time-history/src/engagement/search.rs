@@ -138,9 +138,9 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         // The same motion on both sides, but for round-off.
         return None;
     }
-    let mut rest = *terms;
-    rest.copy_within(zeros.., 0);
-    rest[TERMS - zeros..].fill(0.0);
+    let mut rest = [0.0; TERMS];
+    let count = series.terms() + 1 - zeros;
+    rest[..count].copy_from_slice(&terms[zeros..][..count]);
     if zeros > 0 && rest[0] > 0.0 {
         return Some(0.0);
     }
@@ -170,7 +170,7 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
     }
     // The fit has a root where the function itself may only come close to one.
     rest[0] -= noise + target;
-    first_rise_of_series(&rest[..=series.terms()])
+    first_rise_of_series(&rest[..count])
 }
 
 /// First passage to negative values.

@@ -3,7 +3,7 @@
 use super::expansion;
 use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow, total};
-use super::tables::{TERMS, Tables, Terms, sample, value_and_slope};
+use super::tables::{TERMS, Tables, Terms, greatest, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
 use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH, scale};
 use crate::polynomial::{fit, maximum_above};
@@ -44,14 +44,16 @@ pub(crate) struct TouchSeries {
     pub force: Terms,
     law: Law,
     powers: Powers,
+    /// Term of the rate to be taken in next.
+    pub(super) next_rate: f64,
 }
 
 impl TouchSeries {
     /// Takes the next term of the rate in.
     #[inline(always)]
-    pub(super) fn push(&mut self, k: usize, scale: f64, rate: f64) {
+    pub(super) fn push(&mut self, k: usize, scale: f64) {
         self.delta[k + 1] = scale * self.rate[k];
-        self.rate[k + 1] = rate;
+        self.rate[k + 1] = self.next_rate;
         self.force[k + 1] = self.next_force(k + 1);
     }
 
@@ -96,6 +98,8 @@ pub(crate) struct Series {
     pub(super) displacement: Vec<Lane>,
     pub(super) velocity: Vec<Lane>,
     pub touches: Vec<TouchSeries>,
+    /// Acceleration (1/kg) with which each closed level parts under a unit force on each.
+    pub(super) mobility: Vec<f64>,
     /// Sums of `k (k - 1) |term k|` of displacement and of acceleration: bounds of
     /// the second derivatives with respect to theta.
     pub bend: Vec<Lane>,
@@ -117,6 +121,7 @@ impl Series {
                 dashpot: 0.0,
             },
             powers: Powers::NONE,
+            next_rate: 0.0,
         };
         let mut touches = vec![empty; levels];
         touches.clear();
@@ -129,6 +134,7 @@ impl Series {
             displacement: terms(),
             velocity: terms(),
             touches,
+            mobility: Vec::with_capacity(levels * levels),
             bend: vec![Lane::ZERO; lanes],
             snap: vec![Lane::ZERO; lanes],
             tables: Tables::new(),
@@ -147,7 +153,7 @@ impl Series {
     }
 
     /// Takes the laws of the closed levels.
-    pub(crate) fn take_laws(&mut self, system: &System, touches: &[Touch]) {
+    pub(crate) fn take_laws(&mut self, system: &System, rows: &LevelRows, touches: &[Touch]) {
         self.touches.clear();
         let (mut squares, mut damping) = (0.0, 0.0);
         for touch in touches {
@@ -174,7 +180,14 @@ impl Series {
                 force: [0.0; TERMS],
                 law,
                 powers: Powers::NONE,
+                next_rate: 0.0,
             });
+        }
+        self.mobility.clear();
+        for a in touches {
+            let row = &rows.levels[a.level];
+            let others = touches.iter().map(|b| row.product(&rows.levels[b.level]));
+            self.mobility.extend(others);
         }
         self.rate = squares.sqrt() + damping;
     }
@@ -200,16 +213,23 @@ impl Series {
             series.force[0] = series.next_force(0);
         }
         expansion::expand(self, &constants.modes, &rows.levels);
+        // What steps of more terms left would count in sums over four terms at once.
+        let rest = self.last + 1..(self.last / 4 + 1) * 4;
+        for touch in &mut self.touches {
+            for terms in [&mut touch.delta, &mut touch.rate, &mut touch.force] {
+                terms[rest.clone()].fill(0.0);
+            }
+        }
     }
 
     /// Part of the step over which the series of all levels end in terms below `allowed`
-    /// (m); more than one if the step could be longer.
+    /// (m); one if that is all of it.
     pub(crate) fn reach(&self, allowed: f64) -> f64 {
-        let mut reach = f64::INFINITY;
+        let mut reach = 1.0_f64;
         for touch in &self.touches {
             for k in [self.last - 1, self.last] {
                 let term = touch.delta[k].abs();
-                if term > 0.0 {
+                if term > allowed {
                     reach = reach.min((allowed / term).powf(1.0 / k as f64));
                 }
             }
@@ -341,10 +361,9 @@ impl Series {
         let mut zeros = 0;
         for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(LEADING) {
             let offset = if k == 0 { offset } else { 0.0 };
-            let largest = terms[k..].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
             let noise = ROUND_OFF * (row.dot_magnitudes(lanes) + offset);
-            let noise = noise.max(NEGLIGIBLE_START * largest);
-            if terms[k].abs() > noise {
+            let term = terms[k].abs();
+            if term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..]) {
                 break;
             }
             zeros = k + 1;
@@ -382,11 +401,7 @@ impl Series {
 
     /// Value at the end, and the bound of the distance from the chord.
     pub(crate) fn end_and_bend(&self, terms: &Terms) -> (f64, f64) {
-        let (mut end, mut bend) = (0.0, 0.0);
-        for k in (0..=self.last).rev() {
-            end += terms[k];
-            bend += (k * k.saturating_sub(1)) as f64 * terms[k].abs();
-        }
+        let (end, bend) = sum_and_bend(terms, self.last);
         (end, 0.125 * bend)
     }
 }

@@ -67,13 +67,68 @@ pub(super) fn sample(terms: &Terms, last: usize, powers: &[Lane; TERMS]) -> Lane
     Lane::from_fn(|l| even[l] + odd[l])
 }
 
-/// Value and derivative of a series at `theta`.
+/// Value and derivative of a series at `theta`: four chains side by side, of every fourth
+/// term each. Terms after the last one, up to a number that four divides, are zero.
 #[inline(always)]
 pub(super) fn value_and_slope(terms: &Terms, last: usize, theta: f64) -> (f64, f64) {
-    let (mut value, mut slope) = (0.0, 0.0);
-    for k in (0..=last).rev() {
-        slope = slope * theta + value;
-        value = value * theta + terms[k];
+    let square = theta * theta;
+    let fourth = square * square;
+    let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
+    let (fours, _) = terms[..TERMS].as_chunks::<4>();
+    for four in fours[..last / 4 + 1].iter().rev() {
+        for l in 0..4 {
+            slopes[l] = slopes[l] * fourth + values[l];
+            values[l] = values[l] * fourth + four[l];
+        }
     }
-    (value, slope)
+    let [a, b, c, d] = values;
+    let value = (a + b * theta) + square * (c + d * theta);
+    let outer = (b + 2.0 * c * theta) + 3.0 * d * square;
+    let [a, b, c, d] = slopes;
+    let inner = (a + b * theta) + square * (c + d * theta);
+    (value, outer + 4.0 * theta * square * inner)
+}
+
+/// Weights of terms in the bound of the second derivative.
+const BENDS: Terms = {
+    let mut weights = [0.0; TERMS];
+    let mut k = 2;
+    while k < TERMS {
+        weights[k] = (k * (k - 1)) as f64;
+        k += 1;
+    }
+    weights
+};
+
+/// Sum of the terms, and that of `k (k - 1) |term k|`. Terms after the last one are as in
+/// [`value_and_slope`].
+#[inline(always)]
+pub(super) fn sum_and_bend(terms: &Terms, last: usize) -> (f64, f64) {
+    let (mut sums, mut bends) = ([0.0; 4], [0.0; 4]);
+    let (fours, _) = terms.as_chunks::<4>();
+    let (weights, _) = BENDS.as_chunks::<4>();
+    for (four, weight) in fours[..last / 4 + 1].iter().zip(weights).rev() {
+        for l in 0..4 {
+            sums[l] += four[l];
+            bends[l] += weight[l] * four[l].abs();
+        }
+    }
+    let total = |x: [f64; 4]| (x[0] + x[2]) + (x[1] + x[3]);
+    (total(sums), total(bends))
+}
+
+/// Greatest magnitude of the terms from this one on.
+#[inline(always)]
+pub(super) fn greatest(terms: &[f64]) -> f64 {
+    let mut most = [0.0; 4];
+    let (fours, rest) = terms.as_chunks::<4>();
+    for four in fours {
+        for l in 0..4 {
+            let x = four[l].abs();
+            most[l] = if x > most[l] { x } else { most[l] };
+        }
+    }
+    rest.iter()
+        .chain(&most)
+        .fold(0.0, |m: f64, x| m.max(x.abs()))
 }

@@ -3,11 +3,11 @@
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
 use crate::dynamics::Segment;
 use crate::engagement::{
-    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh, total,
+    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh, stand,
 };
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
-use crate::free_flight::{Flight, FreeFlight, Lane, WIDTH};
+use crate::free_flight::{Flight, FreeFlight, Lane};
 use crate::options::MethodChoice;
 use crate::system::System;
 
@@ -284,8 +284,9 @@ impl Driver<'_> {
             self.stalled = 0;
         }
         let rows = &engagement.rows.levels;
+        let stored = stand(constants, &engagement.rows, (q, p), &mut flight.penetration);
         for (l, penetration) in flight.penetration.iter_mut().enumerate() {
-            *penetration = rows[l].dot(q) - self.contacts.width(l);
+            *penetration -= self.contacts.width(l);
         }
         for touch in &engagement.touches {
             let l = touch.level;
@@ -295,17 +296,9 @@ impl Driver<'_> {
         if !engagement.affine {
             refresh(&self.contacts, &mut engagement.touches);
         }
-        // The modes hold kinetic and strain energy.
-        let mut energies = Lane::ZERO;
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let x = m.circular_frequency[l] * q[c][l];
-                energies[l] += 0.5 * (p[c][l] * p[c][l] + x * x);
-            }
-        }
         let worked: f64 = (0..layout.levels).map(|l| self.state[layout.work(l)]).sum();
         let input = self.state[layout.input()];
-        let residual = total(&energies) + self.state[layout.viscous()] + worked - input;
+        let residual = stored + self.state[layout.viscous()] + worked - input;
         if !residual.is_finite() {
             return Err(self.not_finite(time));
         }

@@ -111,8 +111,9 @@ impl Driver<'_> {
             start,
         );
         flight.acceleration_known = true;
+        e.series.contact_works();
         for touch in &e.series.touches {
-            let (work, impulse) = e.series.contact_work(touch);
+            let (work, impulse) = touch.works;
             self.state[layout.work(touch.level)] += work;
             self.state[layout.impulse(touch.level)] += impulse;
             let peaks = [

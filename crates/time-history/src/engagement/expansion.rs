@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::rows::{ModalRow, total};
 use super::series::{Series, Works};
-use super::tables::TERMS;
+use super::tables::{TERMS, sample};
 use crate::free_flight::{Lane, ModeLanes, WIDTH};
 
 /// A remainder below this, relative to the motion, is round-off.
@@ -247,5 +247,25 @@ pub(super) fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works
     Works {
         input: total(&input),
         viscous: total(&viscous),
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn contact_works(series: &mut Series) {
+    let (tables, last, step) = (&series.tables, series.last, series.step);
+    for touch in &mut series.touches {
+        let force = sample(&touch.force, last, &tables.gauss);
+        let rate = sample(&touch.rate, last, &tables.gauss);
+        let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
+        for l in 0..WIDTH {
+            impulse[l] = tables.weights[l] * force[l];
+            work[l] = impulse[l] * rate[l];
+        }
+        touch.works = (step * total(&work), step * total(&impulse));
     }
 }

@@ -1,10 +1,14 @@
 //! Peaks of floors inside a step.
 
+use multiversion::multiversion;
+
 use super::pair::Scene;
 use super::rows::{FloorRows, total};
 use super::series::Series;
 use super::span::Span;
-use crate::free_flight::{FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, transform};
+use crate::free_flight::{
+    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, to_floors, transform,
+};
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
 /// Displacement, drift and absolute acceleration of all floors.
@@ -34,15 +38,8 @@ pub(crate) fn note_floors_of_series(
     tracks: &mut Tracks<'_>,
     start: f64,
 ) {
-    let shapes = &constants.shapes;
-    transform(shapes, displacement, &mut tracks.displacement.next);
-    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
-    transform(shapes, absolute, &mut tracks.acceleration.next);
-    let rows = &constants.rows;
-    let bend = 0.125 * reach(rows, &series.bend);
-    // A drift is a difference of two floors.
-    let bounds = [bend, 2.0 * bend, 0.125 * reach(rows, &series.snap)];
-    let step = series.step();
+    let loud = values(constants, series, (displacement, absolute), tracks);
+    let (rows, end) = (&constants.rows, start + series.step());
     for (which, track) in [
         &mut *tracks.displacement,
         &mut *tracks.drift,
@@ -51,23 +48,55 @@ pub(crate) fn note_floors_of_series(
     .into_iter()
     .enumerate()
     {
-        if exceeds(track, bounds[which]) {
-            let (shapes, bound) = match which {
-                0 => (&constants.magnitudes, &series.bend),
-                1 => (&constants.drift_magnitudes, &series.bend),
-                _ => (&constants.magnitudes, &series.snap),
-            };
-            transform(shapes, bound, &mut track.overshoot);
-            for lane in &mut track.overshoot {
-                *lane = lane.map(|x| 0.125 * x);
-            }
-            inside_series(rows, series, which, track, start);
+        if !loud[which] {
+            // No value at the end can be a peak either.
+            std::mem::swap(&mut track.now, &mut track.next);
+            continue;
         }
-        raise(track, start + step);
+        let (shapes, bound) = match which {
+            0 => (&constants.magnitudes, &series.bend),
+            1 => (&constants.drift_magnitudes, &series.bend),
+            _ => (&constants.magnitudes, &series.snap),
+        };
+        transform(shapes, bound, &mut track.overshoot);
+        for lane in &mut track.overshoot {
+            *lane = lane.map(|x| 0.125 * x);
+        }
+        inside_series(rows, series, which, track, start);
+        raise(track, end);
     }
 }
 
+/// Takes the values at the end of a series, and says which of displacement, drift and
+/// acceleration could exceed a peak.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn values(
+    constants: &FreeFlight,
+    series: &Series,
+    (displacement, absolute): (&[Lane], &[Lane]),
+    tracks: &mut Tracks<'_>,
+) -> [bool; 3] {
+    let shapes = &constants.shapes;
+    to_floors(shapes, displacement, &mut tracks.displacement.next);
+    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
+    to_floors(shapes, absolute, &mut tracks.acceleration.next);
+    let bend = 0.125 * reach(&constants.rows, &series.bend);
+    let snap = 0.125 * reach(&constants.rows, &series.snap);
+    // A drift is a difference of two floors.
+    [
+        exceeds(tracks.displacement, bend),
+        exceeds(tracks.drift, 2.0 * bend),
+        exceeds(tracks.acceleration, snap),
+    ]
+}
+
 /// Bound of a function of any floor whose modal parts have these magnitudes.
+#[inline(always)]
 fn reach(rows: &FloorRows, magnitudes: &[Lane]) -> f64 {
     let mut sum = Lane::ZERO;
     for (size, part) in rows.size.iter().zip(magnitudes) {
@@ -79,6 +108,7 @@ fn reach(rows: &FloorRows, magnitudes: &[Lane]) -> f64 {
 }
 
 /// Whether any floor could exceed its peak inside, for this bound of the overshoot.
+#[inline(always)]
 fn exceeds(track: &Track, over: f64) -> bool {
     let mut any = false;
     for c in 0..track.now.len() {
@@ -93,22 +123,50 @@ fn exceeds(track: &Track, over: f64) -> bool {
 
 /// Peaks of displacement (0), drift (1) or absolute acceleration (2) inside a series.
 fn inside_series(rows: &FloorRows, series: &Series, which: usize, track: &mut Track, start: f64) {
-    for i in 0..rows.floors.len() {
-        if !turns(track, i) {
+    for c in 0..track.now.len() {
+        if !any_turns(track, c) {
             continue;
         }
-        let terms = match which {
-            0 => series.row(&rows.floors[i]),
-            1 => series.row(&rows.drifts[i]),
-            _ => series.row_acceleration(&rows.floors[i], 1.0),
-        };
-        let fitted = fit(&series.at_nodes(&terms));
-        let (c, l) = (i / WIDTH, i % WIDTH);
-        if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
-            let value = series.at(&terms, theta).0.abs();
-            take(track, i, value, start + theta * series.step());
+        for i in c * WIDTH..rows.floors.len().min((c + 1) * WIDTH) {
+            if turns(track, i) {
+                look_inside(rows, series, (which, i), track, start);
+            }
         }
     }
+}
+
+/// Takes the peak of one floor inside a series.
+fn look_inside(
+    rows: &FloorRows,
+    series: &Series,
+    (which, i): (usize, usize),
+    track: &mut Track,
+    start: f64,
+) {
+    let terms = match which {
+        0 => series.row(&rows.floors[i]),
+        1 => series.row(&rows.drifts[i]),
+        _ => series.row_acceleration(&rows.floors[i], 1.0),
+    };
+    let fitted = fit(&series.at_nodes(&terms));
+    let (c, l) = (i / WIDTH, i % WIDTH);
+    if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
+        let value = series.at(&terms, theta).0.abs();
+        take(track, i, value, start + theta * series.step());
+    }
+}
+
+/// Whether any floor of a lane could turn above its peak.
+fn any_turns(track: &Track, c: usize) -> bool {
+    let (now, next) = (track.now[c], track.next[c]);
+    let (overshoot, peak) = (track.overshoot[c], track.peak[c]);
+    let mut any = false;
+    for l in 0..WIDTH {
+        let (a, b) = (now[l].abs(), next[l].abs());
+        let above = (if a > b { a } else { b }) + overshoot[l] > peak[l];
+        any |= above & ((next[l] - now[l]).abs() <= 4.0 * overshoot[l]);
+    }
+    any
 }
 
 /// Whether this floor could turn above its peak.

@@ -126,7 +126,7 @@ impl Pair {
                 viscous[l] += m.damping[l] * p[l] * p[l];
             }
         }
-        (super::total(&input), super::total(&viscous))
+        (super::rows::total(&input), super::rows::total(&viscous))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Floors, drifts and levels as rows over the modes.
 
+use multiversion::multiversion;
+
 use crate::free_flight::{FreeFlight, Lane, WIDTH};
 use crate::system::{ContactLevel, System};
 
@@ -128,6 +130,33 @@ pub(crate) fn total(x: &Lane) -> f64 {
     let half: [f64; 4] = std::array::from_fn(|l| x[l] + x[l + 4]);
     let quarter = [half[0] + half[2], half[1] + half[3]];
     quarter[0] + quarter[1]
+}
+
+/// Closings of all levels (m) at this state of the modes, and the energy that it holds,
+/// kinetic and of strain (J).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn stand(
+    constants: &FreeFlight,
+    rows: &LevelRows,
+    (q, p): (&[Lane], &[Lane]),
+    closings: &mut [f64],
+) -> f64 {
+    for (closing, row) in closings.iter_mut().zip(&rows.levels) {
+        *closing = row.dot(q);
+    }
+    let mut energies = Lane::ZERO;
+    for (c, m) in constants.modes.iter().enumerate() {
+        for l in 0..WIDTH {
+            let x = m.circular_frequency[l] * q[c][l];
+            energies[l] += 0.5 * (p[c][l] * p[c][l] + x * x);
+        }
+    }
+    total(&energies)
 }
 
 impl FloorRows {

@@ -2,7 +2,7 @@
 
 use super::expansion;
 use super::powers::{Law, Powers};
-use super::rows::{LevelRows, ModalRow, total};
+use super::rows::{LevelRows, ModalRow};
 use super::tables::{TERMS, Tables, Terms, greatest, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
 use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH, scale};
@@ -46,6 +46,8 @@ pub(crate) struct TouchSeries {
     powers: Powers,
     /// Term of the rate to be taken in next.
     pub(super) next_rate: f64,
+    /// Work on the contact over the step (J), and its impulse (N s).
+    pub works: (f64, f64),
 }
 
 impl TouchSeries {
@@ -122,6 +124,7 @@ impl Series {
             },
             powers: Powers::NONE,
             next_rate: 0.0,
+            works: (0.0, 0.0),
         };
         let mut touches = vec![empty; levels];
         touches.clear();
@@ -181,6 +184,7 @@ impl Series {
                 law,
                 powers: Powers::NONE,
                 next_rate: 0.0,
+                works: (0.0, 0.0),
             });
         }
         self.mobility.clear();
@@ -302,17 +306,9 @@ impl Series {
         expansion::works(self, modes, end)
     }
 
-    /// Work on a contact (J), and its impulse (N s).
-    pub(crate) fn contact_work(&self, touch: &TouchSeries) -> (f64, f64) {
-        let powers = &self.tables.gauss;
-        let force = sample(&touch.force, self.last, powers);
-        let rate = sample(&touch.rate, self.last, powers);
-        let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
-        for l in 0..WIDTH {
-            impulse[l] = self.tables.weights[l] * force[l];
-            work[l] = impulse[l] * rate[l];
-        }
-        (self.step * total(&work), self.step * total(&impulse))
+    /// Works out [`TouchSeries::works`] of all closed levels.
+    pub(crate) fn contact_works(&mut self) {
+        expansion::contact_works(self);
     }
 
     /// A row's function of theta.

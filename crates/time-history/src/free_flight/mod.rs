@@ -21,4 +21,4 @@ mod transform;
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
 pub(crate) use lanes::{Lane, ModeLanes, Track, WIDTH, add, drifts, mul, raise, raise_now, scale};
-pub(crate) use transform::transform;
+pub(crate) use transform::{to_floors, transform};

@@ -20,11 +20,12 @@ pub(super) enum Law {
     Powers(PowerLaw),
 }
 
-/// One power: its terms, and these times their number.
+/// One power: its terms but the newest, and these times their number.
 #[derive(Debug, Clone, Copy)]
 struct Power {
     terms: Terms,
     weighted: Terms,
+    newest: f64,
 }
 
 /// Series of the powers in a law. Those of the penetration and of its rate stand in
@@ -37,8 +38,9 @@ pub(super) struct Powers {
     /// Terms of the penetration times their number.
     weighted: Terms,
     rate: Terms,
-    /// One over the first term of the penetration.
+    /// One over the first term of the penetration, and the first term of the rate.
     inverse: f64,
+    first_rate: f64,
 }
 
 /// One over the number of a term.
@@ -57,6 +59,7 @@ impl Powers {
         let none = Power {
             terms: [0.0; TERMS],
             weighted: [0.0; TERMS],
+            newest: 0.0,
         };
         Self {
             spring: none,
@@ -65,6 +68,7 @@ impl Powers {
             weighted: [0.0; TERMS],
             rate: [0.0; TERMS],
             inverse: 0.0,
+            first_rate: 0.0,
         }
     };
 
@@ -74,75 +78,80 @@ impl Powers {
         let place = TERMS - 1 - k;
         self.delta[place] = delta;
         self.weighted[place] = k as f64 * delta;
-        self.rate[place] = rate;
         if k == 0 {
-            self.inverse = 1.0 / delta;
+            (self.inverse, self.first_rate) = (1.0 / delta, rate);
         }
-        let part = PARTS[k] * self.inverse;
-        let motion = (&self.delta[place..], &self.weighted[place..], part);
+        let motion = Motion {
+            delta: &self.delta[place..],
+            weighted: &self.weighted[place..],
+            part: PARTS[k] * self.inverse,
+        };
         let force = law.stiffness * self.spring.term(law.exponent, k, motion);
         if law.dashpot == 0.0 {
             return force;
         }
-        let powers = if law.dashpot_exponent == law.exponent {
-            &self.spring.terms
+        let power = if law.dashpot_exponent == law.exponent {
+            &self.spring
         } else {
             self.dashpot.term(law.dashpot_exponent, k, motion);
-            &self.dashpot.terms
+            &self.dashpot
         };
         // What is known last comes last.
-        let sum = dot(&self.rate[place + 1..], &powers[1..=k]) + rate * powers[0];
+        self.rate[place] = rate;
+        let mut sum = self.first_rate * power.newest;
+        if let Some(before) = k.checked_sub(1) {
+            let inner = dot(&self.rate[place + 1..], &power.terms[1..], before);
+            sum = (inner + sum) + rate * power.terms[0];
+        }
         force + law.dashpot * sum
     }
 }
 
+/// The penetration up to one of its terms, in reverse.
+#[derive(Clone, Copy)]
+struct Motion<'a> {
+    delta: &'a [f64],
+    weighted: &'a [f64],
+    /// One over the number of the term times the first of all.
+    part: f64,
+}
+
 impl Power {
-    /// Term `k` of `delta^exponent`, for the reversed terms of the penetration, and one over
-    /// `k` times the first of them.
+    /// Term `k` of `delta^exponent`.
     #[inline(always)]
-    fn term(
-        &mut self,
-        exponent: f64,
-        k: usize,
-        (delta, weighted, part): (&[f64], &[f64], f64),
-    ) -> f64 {
-        let first = delta[k];
-        let term = if k > 0 {
-            let j = k - 1;
-            let rising = dot(weighted, &self.terms[..j]);
-            let falling = dot(delta, &self.weighted[..j]);
-            let before = exponent * rising - falling;
-            // What is known last comes last.
-            let last = delta[j] * self.terms[j] * (exponent - j as f64);
-            (before + last) * part
-        } else if exponent == 1.5 {
-            first * first.sqrt()
-        } else if exponent == 0.25 {
-            first.sqrt().sqrt()
-        } else {
-            first.powf(exponent)
+    fn term(&mut self, exponent: f64, k: usize, motion: Motion<'_>) -> f64 {
+        let Some(before) = k.checked_sub(1) else {
+            let first = motion.delta[0];
+            self.newest = if exponent == 1.5 {
+                first * first.sqrt()
+            } else if exponent == 0.25 {
+                first.sqrt().sqrt()
+            } else {
+                first.powf(exponent)
+            };
+            return self.newest;
         };
-        self.terms[k] = term;
-        self.weighted[k] = k as f64 * term;
-        term
+        let rising = dot(motion.weighted, &self.terms, before);
+        let falling = dot(motion.delta, &self.weighted, before);
+        let order = before as f64;
+        // What is known last comes last.
+        let last = motion.delta[before] * self.newest * (exponent - order);
+        self.terms[before] = self.newest;
+        self.weighted[before] = order * self.newest;
+        self.newest = ((exponent * rising - falling) + last) * motion.part;
+        self.newest
     }
 }
 
-/// Sum of products in four chains.
+/// Sum of the products of the first `count` terms, one by one: a vector would wait for
+/// terms that were stored one by one just before.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (fours, rest) = b.as_chunks::<4>();
-    for (x, y) in a.chunks_exact(4).zip(fours) {
-        for l in 0..4 {
-            sums[l] += x[l] * y[l];
-        }
-    }
+fn dot(a: &[f64], b: &[f64], count: usize) -> f64 {
     let mut sum = 0.0;
-    for (x, y) in a[4 * fours.len()..].iter().zip(rest) {
+    for (x, y) in a[..count].iter().zip(&b[..count]) {
         sum += x * y;
     }
-    (sums[0] + sums[2]) + (sums[1] + sums[3]) + sum
+    sum
 }
 
 #[cfg(test)]

@@ -99,7 +99,7 @@ impl Driver<'_> {
                 e.series.end(modes, q, p, &mut e.absolute);
             }
         }
-        let works = e.series.works(modes, q);
+        let works = e.series.works(modes);
         let layout = self.dynamics.layout;
         self.state[layout.input()] += works.input;
         self.state[layout.viscous()] += works.viscous;

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::rows::{ModalRow, total};
 use super::series::{Series, Works};
-use super::tables::{TERMS, sample};
+use super::tables::{PARTS, TERMS, sample};
 use crate::free_flight::{Lane, ModeLanes, WIDTH};
 
 /// A remainder below this, relative to the motion, is round-off.
@@ -13,10 +13,12 @@ const NEGLIGIBLE: f64 = 1.0e-17;
 /// Terms after which the remainder is round-off: `x^(k+1) e^x / (k+1)!`.
 pub(super) fn last_term(x: f64) -> usize {
     let mut k = 3;
-    let mut remainder = x * x * x * x / 24.0 * x.exp();
-    while remainder > NEGLIGIBLE && k < TERMS - 1 {
+    // No step is so long that the exponential is greater than this.
+    let exponential = 1.0 + x + x * x;
+    let mut remainder = x * x * x * x / 24.0 * exponential;
+    while remainder > NEGLIGIBLE && k < TERMS - 2 {
         k += 1;
-        remainder *= x / (k + 1) as f64;
+        remainder *= x * PARTS[k + 1];
     }
     k
 }
@@ -208,40 +210,34 @@ pub(super) fn end(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn works(series: &Series, modes: &[ModeLanes], end: &[Lane]) -> Works {
-    let (lanes, last) = (series.lanes, series.last);
-    let (start, slope) = series.ground;
-    let after = start + slope * series.step;
+pub(super) fn works(series: &Series, modes: &[ModeLanes]) -> Works {
+    let (lanes, last, step) = (series.lanes, series.last, series.step);
+    let (ground, slope) = series.ground;
+    let tables = &series.tables;
+    let weights = tables.weights.map(|w| step * w);
+    let loads = Lane::from_fn(|node| weights[node] * (ground + slope * step * tables.points[node]));
     let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
-        let mut integral = Lane::ZERO;
         let mut speeds = [Lane::ZERO; WIDTH];
         for k in (0..=last).rev() {
-            let (x, v) = (
-                series.displacement[k * lanes + c],
-                series.velocity[k * lanes + c],
-            );
-            let part = 1.0 / (k + 1) as f64;
-            for l in 0..WIDTH {
-                integral[l] += part * x[l];
-            }
+            let v = series.velocity[k * lanes + c];
             for (node, speed) in speeds.iter_mut().enumerate() {
-                let power = series.tables.gauss[k][node];
+                let power = tables.gauss[k][node];
                 for l in 0..WIDTH {
                     speed[l] += power * v[l];
                 }
             }
         }
-        let before = series.displacement[c];
-        for l in 0..WIDTH {
-            let moved = end[c][l] * after - before[l] * start - slope * series.step * integral[l];
-            input[l] -= m.participation[l] * moved;
-        }
+        let (mut pushed, mut damped) = (Lane::ZERO, Lane::ZERO);
         for (node, speed) in speeds.iter().enumerate() {
-            let weight = series.step * series.tables.weights[node];
             for l in 0..WIDTH {
-                viscous[l] += weight * m.damping[l] * speed[l] * speed[l];
+                pushed[l] += loads[node] * speed[l];
+                damped[l] += weights[node] * speed[l] * speed[l];
             }
+        }
+        for l in 0..WIDTH {
+            input[l] -= m.participation[l] * pushed[l];
+            viscous[l] += m.damping[l] * damped[l];
         }
     }
     Works {

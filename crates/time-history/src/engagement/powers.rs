@@ -6,7 +6,7 @@
 
 use pounding_gap_element::PowerLaw;
 
-use super::tables::{TERMS, Terms};
+use super::tables::{PARTS, TERMS, Terms};
 
 /// The law of a closed level as it is expanded.
 #[derive(Debug, Clone, Copy)]
@@ -42,17 +42,6 @@ pub(super) struct Powers {
     inverse: f64,
     first_rate: f64,
 }
-
-/// One over the number of a term.
-const PARTS: Terms = {
-    let mut parts = [0.0; TERMS];
-    let mut k = 1;
-    while k < TERMS {
-        parts[k] = 1.0 / k as f64;
-        k += 1;
-    }
-    parts
-};
 
 impl Powers {
     pub(super) const NONE: Self = {

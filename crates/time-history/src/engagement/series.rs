@@ -301,9 +301,9 @@ impl Series {
         }
     }
 
-    /// Works of ground motion and damping over the step, from these ends.
-    pub(crate) fn works(&self, modes: &[ModeLanes], end: &[Lane]) -> Works {
-        expansion::works(self, modes, end)
+    /// Works of ground motion and damping over the step.
+    pub(crate) fn works(&self, modes: &[ModeLanes]) -> Works {
+        expansion::works(self, modes)
     }
 
     /// Works out [`TouchSeries::works`] of all closed levels.

@@ -22,11 +22,23 @@ const GAUSS: [(f64, f64); WIDTH] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_53),
 ];
 
+/// One over the number of a term.
+pub(super) const PARTS: Terms = {
+    let mut parts = [0.0; TERMS];
+    let mut k = 1;
+    while k < TERMS {
+        parts[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    parts
+};
+
 /// Powers of the nodes of a fit, and of Gauss's rule with its weights.
 #[derive(Debug, Clone)]
 pub(super) struct Tables {
     pub fit: [Lane; TERMS],
     pub gauss: [Lane; TERMS],
+    pub points: Lane,
     pub weights: Lane,
 }
 
@@ -42,6 +54,7 @@ impl Tables {
         Self {
             fit: powers(Lane(fit_nodes())),
             gauss: powers(points),
+            points,
             weights,
         }
     }

@@ -253,6 +253,13 @@ fn polish(q: &Polynomial, bracket: (f64, f64), precision: f64) -> f64 {
     let (mut low, mut high) = bracket;
     let d = derivative(q);
     let mut x = 0.5 * (low + high);
+    if bracket == (0.0, 1.0) {
+        // Where the chord has its root.
+        let chord = q[0] / (q[0] - q.iter().sum::<f64>());
+        if chord > 0.0 && chord < 1.0 {
+            x = chord;
+        }
+    }
     for _ in 0..80 {
         let f = value(q, x);
         if f > 0.0 {

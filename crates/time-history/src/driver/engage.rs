@@ -3,7 +3,8 @@
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
 use crate::dynamics::Segment;
 use crate::engagement::{
-    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh, stand,
+    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
+    stored,
 };
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -25,6 +26,8 @@ pub(super) struct Engagement {
     pub series: Series,
     pub pair: Pair,
     pub rates: Rates,
+    /// Closings of all levels (m) at the end of the step.
+    pub closings: Vec<f64>,
     pub lengths: StepLength,
     pub absolute: Vec<Lane>,
     pub tolerance: f64,
@@ -64,6 +67,7 @@ impl<'a> Open<'a> {
                 series: Series::new(lanes, levels),
                 pair: Pair::new(lanes, levels),
                 rates: Rates::new(lanes),
+                closings: vec![0.0; levels],
                 lengths: StepLength::new(),
                 absolute: zeros(),
                 tolerance: relative_tolerance,
@@ -284,9 +288,8 @@ impl Driver<'_> {
             self.stalled = 0;
         }
         let rows = &engagement.rows.levels;
-        let stored = stand(constants, &engagement.rows, (q, p), &mut flight.penetration);
         for (l, penetration) in flight.penetration.iter_mut().enumerate() {
-            *penetration -= self.contacts.width(l);
+            *penetration = engagement.closings[l] - self.contacts.width(l);
         }
         for touch in &engagement.touches {
             let l = touch.level;
@@ -298,7 +301,7 @@ impl Driver<'_> {
         }
         let worked: f64 = (0..layout.levels).map(|l| self.state[layout.work(l)]).sum();
         let input = self.state[layout.input()];
-        let residual = stored + self.state[layout.viscous()] + worked - input;
+        let residual = stored(constants, q, p) + self.state[layout.viscous()] + worked - input;
         if !residual.is_finite() {
             return Err(self.not_finite(time));
         }

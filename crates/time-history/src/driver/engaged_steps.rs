@@ -5,7 +5,7 @@ use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
 use crate::dynamics::Segment;
 use crate::engagement::{
     Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
-    in_series, in_span, note_floors_of_series, note_floors_of_span, soon_after,
+    closings, in_series, in_span, note_floors_of_series, note_floors_of_span, soon_after,
 };
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -80,11 +80,13 @@ impl Driver<'_> {
         let modes = &constants.modes;
         let [q, p, ..] = &mut e.pair.end.motion;
         e.series.end(modes, q, p, &mut e.absolute);
+        closings(&e.rows, q, &mut e.closings);
+        let over = 0.125 * constants.rows.bound(&e.series.bend);
         let mute = &self.mute;
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
             (&e.series, &e.touches),
-            (q, &flight.penetration),
+            (&e.closings, over, &flight.penetration),
             &mut self.finder.candidates,
             |level, theta| is_muted(mute[level], theta),
         );
@@ -97,6 +99,7 @@ impl Driver<'_> {
                 step = event.theta * whole;
                 e.series.shorten(event.theta);
                 e.series.end(modes, q, p, &mut e.absolute);
+                closings(&e.rows, q, &mut e.closings);
             }
         }
         let works = e.series.works(modes);
@@ -196,6 +199,7 @@ impl Driver<'_> {
         };
         note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
         self.note_contacts(&scene, &span, &e.pair, start);
+        closings(&e.rows, &e.pair.end.motion[0], &mut e.closings);
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         Ok((step, event))
     }

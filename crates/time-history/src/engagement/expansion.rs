@@ -180,27 +180,47 @@ pub(super) fn end(
     velocity: &mut [Lane],
     absolute: &mut [Lane],
 ) {
+    let mut out = [displacement, velocity, absolute];
     let lanes = series.lanes;
-    for c in 0..lanes {
-        let (mut q, mut p) = (Lane::ZERO, Lane::ZERO);
-        let mut slope = Lane::ZERO;
-        for k in (0..=series.last).rev() {
-            let (x, v) = (
-                series.displacement[k * lanes + c],
-                series.velocity[k * lanes + c],
-            );
-            let order = k as f64;
+    // A few lanes at once: their sums do not wait for each other.
+    let mut first = 0;
+    while first + 2 <= lanes {
+        end_of::<2>(series, modes, &mut out, first);
+        first += 2;
+    }
+    if first < lanes {
+        end_of::<1>(series, modes, &mut out, first);
+    }
+}
+
+#[inline(always)]
+fn end_of<const LANES: usize>(
+    series: &Series,
+    modes: &[ModeLanes],
+    [displacement, velocity, absolute]: &mut [&mut [Lane]; 3],
+    first: usize,
+) {
+    let lanes = series.lanes;
+    let mut sums = [[Lane::ZERO; 3]; LANES];
+    for k in (0..=series.last).rev() {
+        let order = k as f64;
+        for (c, [q, p, slope]) in sums.iter_mut().enumerate() {
+            let place = k * lanes + first + c;
+            let (x, v) = (series.displacement[place], series.velocity[place]);
             for l in 0..WIDTH {
                 q[l] += x[l];
                 p[l] += v[l];
                 slope[l] += order * v[l];
             }
         }
-        let ground = series.ground.0 + series.ground.1 * series.step;
+    }
+    let ground = series.ground.0 + series.ground.1 * series.step;
+    for (c, [q, p, slope]) in sums.iter().enumerate() {
+        let c = first + c;
+        (displacement[c], velocity[c]) = (*q, *p);
         for l in 0..WIDTH {
             absolute[c][l] = slope[l] / series.step + modes[c].participation[l] * ground;
         }
-        (displacement[c], velocity[c]) = (q, p);
     }
 }
 

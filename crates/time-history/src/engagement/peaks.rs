@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 
 use super::pair::Scene;
-use super::rows::{FloorRows, total};
+use super::rows::FloorRows;
 use super::series::Series;
 use super::span::Span;
 use crate::free_flight::{
@@ -85,26 +85,14 @@ fn values(
     to_floors(shapes, displacement, &mut tracks.displacement.next);
     drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
     to_floors(shapes, absolute, &mut tracks.acceleration.next);
-    let bend = 0.125 * reach(&constants.rows, &series.bend);
-    let snap = 0.125 * reach(&constants.rows, &series.snap);
+    let bend = 0.125 * constants.rows.bound(&series.bend);
+    let snap = 0.125 * constants.rows.bound(&series.snap);
     // A drift is a difference of two floors.
     [
         exceeds(tracks.displacement, bend),
         exceeds(tracks.drift, 2.0 * bend),
         exceeds(tracks.acceleration, snap),
     ]
-}
-
-/// Bound of a function of any floor whose modal parts have these magnitudes.
-#[inline(always)]
-fn reach(rows: &FloorRows, magnitudes: &[Lane]) -> f64 {
-    let mut sum = Lane::ZERO;
-    for (size, part) in rows.size.iter().zip(magnitudes) {
-        for l in 0..WIDTH {
-            sum[l] += size[l] * part[l].abs();
-        }
-    }
-    total(&sum)
 }
 
 /// Whether any floor could exceed its peak inside, for this bound of the overshoot.
@@ -245,7 +233,7 @@ pub(crate) fn note_floors_of_span(
     transform(shapes, &rates.modal, &mut tracks.acceleration.next);
     let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
     let bend = |k: usize| {
-        let [a, b] = [span.start, span.end].map(|p| reach(rows, &p.motion[k]));
+        let [a, b] = [span.start, span.end].map(|p| rows.bound(&p.motion[k]));
         a.max(b)
     };
     // What lies between can differ from the chord by this much, and half as much again for

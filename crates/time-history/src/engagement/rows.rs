@@ -37,8 +37,6 @@ pub(crate) struct FloorRows {
 #[derive(Debug, Clone)]
 pub(crate) struct LevelRows {
     pub levels: Vec<ModalRow>,
-    /// Their magnitudes.
-    pub reach: Vec<ModalRow>,
 }
 
 impl ModalRow {
@@ -112,14 +110,6 @@ impl ModalRow {
             *x = sum;
         }
     }
-
-    fn magnitude(&self) -> Self {
-        let weights = self.weights.iter().map(|w| w.map(f64::abs));
-        Self {
-            first_lane: self.first_lane,
-            weights: weights.collect(),
-        }
-    }
 }
 
 /// Sum of a lane, in pairs: the same bits whatever the instruction set.
@@ -132,23 +122,27 @@ pub(crate) fn total(x: &Lane) -> f64 {
     quarter[0] + quarter[1]
 }
 
-/// Closings of all levels (m) at this state of the modes, and the energy that it holds,
-/// kinetic and of strain (J).
+/// Closings of all levels (m) at these displacements of the modes.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn stand(
-    constants: &FreeFlight,
-    rows: &LevelRows,
-    (q, p): (&[Lane], &[Lane]),
-    closings: &mut [f64],
-) -> f64 {
-    for (closing, row) in closings.iter_mut().zip(&rows.levels) {
+pub(crate) fn closings(rows: &LevelRows, q: &[Lane], out: &mut [f64]) {
+    for (closing, row) in out.iter_mut().zip(&rows.levels) {
         *closing = row.dot(q);
     }
+}
+
+/// Kinetic energy and energy of strain (J) of the modes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn stored(constants: &FreeFlight, q: &[Lane], p: &[Lane]) -> f64 {
     let mut energies = Lane::ZERO;
     for (c, m) in constants.modes.iter().enumerate() {
         for l in 0..WIDTH {
@@ -160,6 +154,18 @@ pub(crate) fn stand(
 }
 
 impl FloorRows {
+    /// Bound of a function of any floor whose modal parts have these magnitudes.
+    #[inline(always)]
+    pub(crate) fn bound(&self, magnitudes: &[Lane]) -> f64 {
+        let mut sum = Lane::ZERO;
+        for (size, part) in self.size.iter().zip(magnitudes) {
+            for l in 0..WIDTH {
+                sum[l] += size[l] * part[l].abs();
+            }
+        }
+        total(&sum)
+    }
+
     pub(crate) fn new(constants: &FreeFlight, mass: &[f64]) -> Self {
         // Columns of Phi' M over the masses are the floors' rows of Phi.
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
@@ -207,9 +213,6 @@ impl LevelRows {
             ModalRow::new(&left.into_iter().chain(right).collect::<Vec<_>>())
         };
         let levels: Vec<_> = system.levels().iter().map(row).collect();
-        Self {
-            reach: levels.iter().map(ModalRow::magnitude).collect(),
-            levels,
-        }
+        Self { levels }
     }
 }

@@ -91,12 +91,13 @@ fn earliest(candidates: &[Candidate]) -> Option<Candidate> {
         .reduce(|a, b| if b.theta < a.theta { b } else { a })
 }
 
-/// Events inside a series; `end` and `bend` are the modal displacements at its end and the
-/// bound of their second derivatives. `penetration` holds those at the start.
+/// Events inside a series, at whose end the levels have these closings and between whose
+/// ends no floor's displacement exceeds both by more than `over`. `penetration` holds those
+/// at the start.
 pub(crate) fn in_series(
     (system, contacts, rows): (&System, &Contacts, &LevelRows),
     (series, touches): (&Series, &[Touch]),
-    (end, penetration): (&[crate::free_flight::Lane], &[f64]),
+    (closings, over, penetration): (&[f64], f64, &[f64]),
     candidates: &mut Vec<Candidate>,
     muted: impl Fn(usize, f64) -> bool,
 ) -> Option<Candidate> {
@@ -114,13 +115,13 @@ pub(crate) fn in_series(
                 keep(&mut first, found, (l, EventKind::Transition(index)), &muted);
             }
         } else {
-            let over = 0.125 * rows.reach[l].dot(&series.bend);
-            let after = rows.levels[l].dot(end) - contacts.width(l);
+            let after = closings[l] - contacts.width(l);
+            // Every mode moves one floor of a level.
             if penetration[l].max(after) + over > 0.0 {
                 let mut terms = series.row(&rows.levels[l]);
                 terms[0] -= contacts.width(l);
-                let zeros =
-                    series.leading_zeros((&rows.levels[l], false), &terms, contacts.width(l));
+                let offset = contacts.width(l);
+                let zeros = series.leading_zeros((&rows.levels[l], false), &terms, offset);
                 let closes = rise(series, &terms, zeros);
                 keep(&mut first, closes, (l, EventKind::Close), &muted);
             }

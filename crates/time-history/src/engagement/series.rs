@@ -16,6 +16,9 @@ const LONGEST: f64 = 1.2;
 const NEGLIGIBLE_START: f64 = 1.0e-13;
 /// Part of the magnitudes in a sum that its round-off may have.
 const ROUND_OFF: f64 = 4.0e-16;
+/// What is greater than this (m, m/s) is no round-off of floors less than a kilometre from
+/// where they stood.
+const CLEAR_OF_ZERO: f64 = 1.0e-12;
 /// Terms that can be round-off at a root: floors at rest in touch move apart, or together,
 /// like the fourth power of time.
 pub(super) const LEADING: usize = 6;
@@ -51,6 +54,21 @@ pub(crate) struct TouchSeries {
 }
 
 impl TouchSeries {
+    const NONE: Self = Self {
+        level: 0,
+        delta: [0.0; TERMS],
+        rate: [0.0; TERMS],
+        force: [0.0; TERMS],
+        law: Law::Affine {
+            constant: 0.0,
+            stiffness: 0.0,
+            dashpot: 0.0,
+        },
+        powers: Powers::NONE,
+        next_rate: 0.0,
+        works: (0.0, 0.0),
+    };
+
     /// Takes the next term of the rate in.
     #[inline(always)]
     pub(super) fn push(&mut self, k: usize, scale: f64) {
@@ -92,6 +110,9 @@ pub(crate) struct Works {
 pub(crate) struct Series {
     pub(super) lanes: usize,
     rate: f64,
+    /// The last product of rate and step, and the number of terms that it takes.
+    product: f64,
+    enough: usize,
     /// Number of the last term.
     pub(super) last: usize,
     pub(super) step: f64,
@@ -112,31 +133,17 @@ pub(crate) struct Series {
 impl Series {
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
         let terms = || vec![Lane::ZERO; lanes * TERMS];
-        let empty = TouchSeries {
-            level: 0,
-            delta: [0.0; TERMS],
-            rate: [0.0; TERMS],
-            force: [0.0; TERMS],
-            law: Law::Affine {
-                constant: 0.0,
-                stiffness: 0.0,
-                dashpot: 0.0,
-            },
-            powers: Powers::NONE,
-            next_rate: 0.0,
-            works: (0.0, 0.0),
-        };
-        let mut touches = vec![empty; levels];
-        touches.clear();
         Self {
             lanes,
             rate: 0.0,
+            product: f64::NAN,
+            enough: 0,
             last: 0,
             step: 0.0,
             ground: (0.0, 0.0),
             displacement: terms(),
             velocity: terms(),
-            touches,
+            touches: Vec::with_capacity(levels),
             mobility: Vec::with_capacity(levels * levels),
             bend: vec![Lane::ZERO; lanes],
             snap: vec![Lane::ZERO; lanes],
@@ -157,9 +164,8 @@ impl Series {
 
     /// Takes the laws of the closed levels.
     pub(crate) fn take_laws(&mut self, system: &System, rows: &LevelRows, touches: &[Touch]) {
-        self.touches.clear();
         let (mut squares, mut damping) = (0.0, 0.0);
-        for touch in touches {
+        for (index, touch) in touches.iter().enumerate() {
             let level = &system.levels()[touch.level];
             let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
             let powers = level.model.power_law(collision, phase);
@@ -176,17 +182,17 @@ impl Series {
                     }
                 }
             };
-            self.touches.push(TouchSeries {
-                level: touch.level,
-                delta: [0.0; TERMS],
-                rate: [0.0; TERMS],
-                force: [0.0; TERMS],
-                law,
-                powers: Powers::NONE,
-                next_rate: 0.0,
-                works: (0.0, 0.0),
-            });
+            match self.touches.get_mut(index) {
+                // The terms in it are written before they are read.
+                Some(known) => (known.level, known.law) = (touch.level, law),
+                None => self.touches.push(TouchSeries {
+                    level: touch.level,
+                    law,
+                    ..TouchSeries::NONE
+                }),
+            }
         }
+        self.touches.truncate(touches.len());
         self.mobility.clear();
         for a in touches {
             let row = &rows.levels[a.level];
@@ -207,7 +213,12 @@ impl Series {
         let lanes = self.lanes;
         self.step = from.step;
         self.ground = from.ground;
-        self.last = expansion::last_term(from.rate * from.step).max(from.terms);
+        let product = from.rate * from.step;
+        if product != self.product {
+            // Whole samples are alike.
+            (self.product, self.enough) = (product, expansion::last_term(product));
+        }
+        self.last = self.enough.max(from.terms);
         self.displacement[..lanes].copy_from_slice(from.displacement);
         self.velocity[..lanes].copy_from_slice(from.velocity);
         for (series, touch) in self.touches.iter_mut().zip(touches) {
@@ -349,6 +360,14 @@ impl Series {
         terms: &Terms,
         offset: f64,
     ) -> usize {
+        let is_noise = |k: usize, noise: f64| {
+            let term = terms[k].abs();
+            !(term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..]))
+        };
+        // Most start clear of zero.
+        if !is_noise(0, CLEAR_OF_ZERO) {
+            return 0;
+        }
         let lanes = if rate {
             &self.velocity
         } else {
@@ -357,9 +376,7 @@ impl Series {
         let mut zeros = 0;
         for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(LEADING) {
             let offset = if k == 0 { offset } else { 0.0 };
-            let noise = ROUND_OFF * (row.dot_magnitudes(lanes) + offset);
-            let term = terms[k].abs();
-            if term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..]) {
+            if !is_noise(k, ROUND_OFF * (row.dot_magnitudes(lanes) + offset)) {
                 break;
             }
             zeros = k + 1;

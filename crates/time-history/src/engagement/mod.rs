@@ -21,6 +21,7 @@ mod span;
 mod step_length;
 mod tables;
 mod touch;
+mod touch_series;
 
 pub(crate) use clock::Clock;
 pub(crate) use pair::{Pair, Scene};

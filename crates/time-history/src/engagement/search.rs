@@ -4,10 +4,11 @@ use pounding_gap_element::{Direction, Guard, Transition};
 
 use super::pair::Scene;
 use super::rows::{LevelRows, ModalRow};
-use super::series::{LEADING, Series, TouchSeries};
+use super::series::{LEADING, Series};
 use super::span::Span;
 use super::tables::{TERMS, Terms};
 use super::touch::Touch;
+use super::touch_series::TouchSeries;
 use crate::bernstein::first_rise_of_series;
 use crate::contact::Contacts;
 use crate::events::{Candidate, EventKind};

@@ -1,10 +1,11 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
 use super::expansion;
-use super::powers::{Law, Powers};
+use super::powers::Law;
 use super::rows::{LevelRows, ModalRow};
 use super::tables::{TERMS, Tables, Terms, greatest, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
+use super::touch_series::TouchSeries;
 use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH, scale};
 use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
@@ -36,64 +37,6 @@ pub(crate) struct SeriesStep<'a> {
     pub rate: f64,
     /// Terms at least.
     pub terms: usize,
-}
-
-/// One closed level: penetration, its rate of change and force as series in theta.
-#[derive(Debug, Clone)]
-pub(crate) struct TouchSeries {
-    pub level: usize,
-    pub delta: Terms,
-    pub rate: Terms,
-    pub force: Terms,
-    law: Law,
-    powers: Powers,
-    /// Term of the rate to be taken in next.
-    pub(super) next_rate: f64,
-    /// Work on the contact over the step (J), and its impulse (N s).
-    pub works: (f64, f64),
-}
-
-impl TouchSeries {
-    const NONE: Self = Self {
-        level: 0,
-        delta: [0.0; TERMS],
-        rate: [0.0; TERMS],
-        force: [0.0; TERMS],
-        law: Law::Affine {
-            constant: 0.0,
-            stiffness: 0.0,
-            dashpot: 0.0,
-        },
-        powers: Powers::NONE,
-        next_rate: 0.0,
-        works: (0.0, 0.0),
-    };
-
-    /// Takes the next term of the rate in.
-    #[inline(always)]
-    pub(super) fn push(&mut self, k: usize, scale: f64) {
-        self.delta[k + 1] = scale * self.rate[k];
-        self.rate[k + 1] = self.next_rate;
-        self.force[k + 1] = self.next_force(k + 1);
-    }
-
-    #[inline(always)]
-    fn next_force(&mut self, k: usize) -> f64 {
-        match &self.law {
-            Law::Affine {
-                constant,
-                stiffness,
-                dashpot,
-            } => {
-                let constant = if k == 0 { *constant } else { 0.0 };
-                constant + stiffness * self.delta[k] + dashpot * self.rate[k]
-            }
-            Law::Powers(law) => {
-                let motion = (self.delta[k], self.rate[k]);
-                self.powers.term(law, k, motion)
-            }
-        }
-    }
 }
 
 /// Works of a step.
@@ -185,11 +128,7 @@ impl Series {
             match self.touches.get_mut(index) {
                 // The terms in it are written before they are read.
                 Some(known) => (known.level, known.law) = (touch.level, law),
-                None => self.touches.push(TouchSeries {
-                    level: touch.level,
-                    law,
-                    ..TouchSeries::NONE
-                }),
+                None => self.touches.push(TouchSeries::new(touch.level, law)),
             }
         }
         self.touches.truncate(touches.len());

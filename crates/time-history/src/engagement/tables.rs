@@ -145,3 +145,37 @@ pub(super) fn greatest(terms: &[f64]) -> f64 {
         .chain(&most)
         .fold(0.0, |m: f64, x| m.max(x.abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against sums term by term, for every number of terms.
+    #[test]
+    fn sums_in_chains_are_sums() {
+        for last in 0..TERMS {
+            let mut terms = [0.0; TERMS];
+            for (k, term) in terms[..=last].iter_mut().enumerate() {
+                *term = (1.7 * k as f64 + 0.3).sin();
+            }
+            let theta = 0.83_f64;
+            let (mut value, mut slope, mut sum, mut bend) = (0.0, 0.0, 0.0, 0.0);
+            for (k, term) in terms.iter().enumerate() {
+                let order = k as f64;
+                value += term * theta.powi(k as i32);
+                slope += order * term * theta.powi(k as i32 - 1);
+                sum += term;
+                bend += order * (order - 1.0) * term.abs();
+            }
+            let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{a} {b}");
+            let found = value_and_slope(&terms, last, theta);
+            near(found.0, value);
+            near(found.1, slope);
+            let found = sum_and_bend(&terms, last);
+            near(found.0, sum);
+            near(found.1, bend);
+            let most = terms.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+            assert_eq!(greatest(&terms[..=last]), most);
+        }
+    }
+}

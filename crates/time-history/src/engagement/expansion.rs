@@ -30,72 +30,92 @@ pub(super) fn last_term(x: f64) -> usize {
     "aarch64+neon"
 ))]
 pub(super) fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
-    match series.lanes {
-        1 => expand_in_place::<1>(series, modes, levels),
-        2 => expand_in_place::<2>(series, modes, levels),
-        3 => expand_in_place::<3>(series, modes, levels),
-        4 => expand_in_place::<4>(series, modes, levels),
+    match (series.lanes, series.touches.len()) {
+        (1, 0) => expand_in_place::<1, 0>(series, modes, levels),
+        (1, 1) => expand_in_place::<1, 1>(series, modes, levels),
+        (1, 2) => expand_in_place::<1, 2>(series, modes, levels),
+        (1, 3) => expand_in_place::<1, 3>(series, modes, levels),
+        (2, 0) => expand_in_place::<2, 0>(series, modes, levels),
+        (2, 1) => expand_in_place::<2, 1>(series, modes, levels),
+        (2, 2) => expand_in_place::<2, 2>(series, modes, levels),
+        (2, 3) => expand_in_place::<2, 3>(series, modes, levels),
+        (3, 0) => expand_in_place::<3, 0>(series, modes, levels),
+        (3, 1) => expand_in_place::<3, 1>(series, modes, levels),
+        (3, 2) => expand_in_place::<3, 2>(series, modes, levels),
+        (4, 0) => expand_in_place::<4, 0>(series, modes, levels),
+        (4, 1) => expand_in_place::<4, 1>(series, modes, levels),
         _ => expand_many(series, modes, levels),
     }
 }
 
-/// The same bits as [`expand_many`], with the present terms in registers.
+/// The same as [`expand_many`], with the present terms in registers: few lanes, and few
+/// levels that are closed.
 #[inline(always)]
-fn expand_in_place<const LANES: usize>(
+fn expand_in_place<const LANES: usize, const CLOSED: usize>(
     series: &mut Series,
     modes: &[ModeLanes],
     levels: &[ModalRow],
 ) {
     let (last, h) = (series.last, series.step);
+    let (ground, mobility) = (series.ground, &series.mobility);
+    let touches = &mut series.touches[..CLOSED];
+    let rows: [[Lane; LANES]; CLOSED] =
+        std::array::from_fn(|i| levels[touches[i].level].spread::<LANES>());
+    let mobility: [[f64; CLOSED]; CLOSED] =
+        std::array::from_fn(|i| std::array::from_fn(|j| mobility[i * CLOSED + j]));
+    let mut rates: [f64; CLOSED] = std::array::from_fn(|i| touches[i].rate[0]);
+    let mut forces: [f64; CLOSED] = std::array::from_fn(|i| touches[i].force[0]);
     let (mut q, mut p) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
     q.copy_from_slice(&series.displacement[..LANES]);
     p.copy_from_slice(&series.velocity[..LANES]);
     let (mut bend, mut snap) = ([Lane::ZERO; LANES], [Lane::ZERO; LANES]);
     for k in 0..last {
-        let load = match k {
-            0 => series.ground.0,
-            1 => series.ground.1 * h,
-            _ => 0.0,
-        };
         let mut a = [Lane::ZERO; LANES];
         for c in 0..LANES {
             let m = &modes[c];
             for l in 0..WIDTH {
-                a[c][l] = -(m.damping[l] * p[c][l] + m.stiffness[l] * q[c][l])
-                    - m.participation[l] * load;
+                a[c][l] = -(m.damping[l] * p[c][l] + m.stiffness[l] * q[c][l]);
             }
         }
-        let scale = h / (k + 1) as f64;
+        // The ground's acceleration has two terms.
+        if k < 2 {
+            let load = if k == 0 { ground.0 } else { ground.1 * h };
+            for c in 0..LANES {
+                for l in 0..WIDTH {
+                    a[c][l] -= modes[c].participation[l] * load;
+                }
+            }
+        }
+        let scale = h * PARTS[k + 1];
         // The next rates of the levels come from this acceleration and from these forces
         // apart: what waits for the forces is short.
-        let present = series.touches.len();
-        for i in 0..present {
-            let row = levels[series.touches[i].level].spread::<LANES>();
+        let mut next = [0.0; CLOSED];
+        for i in 0..CLOSED {
             let mut sum = Lane::ZERO;
             for c in 0..LANES {
                 for l in 0..WIDTH {
-                    sum[l] += row[c][l] * a[c][l];
+                    sum[l] += rows[i][c][l] * a[c][l];
                 }
             }
-            let mut rate = total(&sum);
-            for j in 0..present {
-                rate -= series.mobility[i * present + j] * series.touches[j].force[k];
-            }
-            series.touches[i].next_rate = scale * rate;
+            next[i] = total(&sum);
         }
-        for touch in &series.touches {
-            let (force, row) = (-touch.force[k], levels[touch.level].spread::<LANES>());
+        for i in 0..CLOSED {
+            for j in 0..CLOSED {
+                next[i] -= mobility[i][j] * forces[j];
+            }
+        }
+        for i in 0..CLOSED {
             for c in 0..LANES {
                 for l in 0..WIDTH {
-                    a[c][l] += force * row[c][l];
+                    a[c][l] -= forces[i] * rows[i][c][l];
                 }
             }
         }
-        let (order, next) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
+        let (order, before) = (((k + 1) * k) as f64, (k * k.saturating_sub(1)) as f64);
         for c in 0..LANES {
             for l in 0..WIDTH {
                 // Terms of the acceleration are those of the velocity before scaling.
-                snap[c][l] += next * a[c][l].abs();
+                snap[c][l] += before * a[c][l].abs();
                 q[c][l] = scale * p[c][l];
                 p[c][l] = scale * a[c][l];
                 bend[c][l] += order * q[c][l].abs();
@@ -104,8 +124,10 @@ fn expand_in_place<const LANES: usize>(
         let range = (k + 1) * LANES..(k + 2) * LANES;
         series.displacement[range.clone()].copy_from_slice(&q);
         series.velocity[range].copy_from_slice(&p);
-        for touch in &mut series.touches {
-            touch.push(k, scale);
+        for i in 0..CLOSED {
+            let delta = scale * rates[i];
+            rates[i] = scale * next[i];
+            forces[i] = touches[i].push(k + 1, (delta, rates[i]));
         }
     }
     series.bend.copy_from_slice(&bend);
@@ -134,14 +156,14 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             }
             p_next[c] = a;
         }
-        let scale = h / (k + 1) as f64;
+        let scale = h * PARTS[k + 1];
         let present = series.touches.len();
         for i in 0..present {
             let mut rate = levels[series.touches[i].level].dot(p_next);
             for j in 0..present {
                 rate -= series.mobility[i * present + j] * series.touches[j].force[k];
             }
-            series.touches[i].next_rate = scale * rate;
+            series.next_rates[i] = scale * rate;
         }
         for touch in &series.touches {
             levels[touch.level].add(-touch.force[k], p_next);
@@ -161,8 +183,9 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             (q_next[c], p_next[c]) = (x, a);
             (series.bend[c], series.snap[c]) = (bend, snap);
         }
-        for touch in &mut series.touches {
-            touch.push(k, scale);
+        for (touch, rate) in series.touches.iter_mut().zip(&series.next_rates) {
+            let delta = scale * touch.rate[k];
+            touch.push(k + 1, (delta, *rate));
         }
     }
 }

@@ -66,6 +66,8 @@ pub(crate) struct Series {
     pub touches: Vec<TouchSeries>,
     /// Acceleration (1/kg) with which each closed level parts under a unit force on each.
     pub(super) mobility: Vec<f64>,
+    /// Terms of the rates of the closed levels to be taken in next.
+    pub(super) next_rates: Vec<f64>,
     /// Sums of `k (k - 1) |term k|` of displacement and of acceleration: bounds of
     /// the second derivatives with respect to theta.
     pub bend: Vec<Lane>,
@@ -88,6 +90,7 @@ impl Series {
             velocity: terms(),
             touches: Vec::with_capacity(levels),
             mobility: Vec::with_capacity(levels * levels),
+            next_rates: vec![0.0; levels],
             bend: vec![Lane::ZERO; lanes],
             snap: vec![Lane::ZERO; lanes],
             tables: Tables::new(),
@@ -162,9 +165,8 @@ impl Series {
         self.velocity[..lanes].copy_from_slice(from.velocity);
         for (series, touch) in self.touches.iter_mut().zip(touches) {
             let row = &rows.levels[touch.level];
-            series.delta[0] = row.dot(from.displacement) - touch.width;
-            series.rate[0] = row.dot(from.velocity);
-            series.force[0] = series.next_force(0);
+            let delta = row.dot(from.displacement) - touch.width;
+            series.push(0, (delta, row.dot(from.velocity)));
         }
         expansion::expand(self, &constants.modes, &rows.levels);
         // What steps of more terms left would count in sums over four terms at once.

@@ -12,8 +12,6 @@ pub(crate) struct TouchSeries {
     pub force: Terms,
     pub(super) law: Law,
     powers: Powers,
-    /// Term of the rate to be taken in next.
-    pub(super) next_rate: f64,
     /// Work on the contact over the step (J), and its impulse (N s).
     pub works: (f64, f64),
 }
@@ -27,34 +25,25 @@ impl TouchSeries {
             force: [0.0; TERMS],
             law,
             powers: Powers::NONE,
-            next_rate: 0.0,
             works: (0.0, 0.0),
         }
     }
 
-    /// Takes the next term of the rate in.
+    /// Takes term `k` of penetration and rate in. Returns that of the force.
     #[inline(always)]
-    pub(super) fn push(&mut self, k: usize, scale: f64) {
-        self.delta[k + 1] = scale * self.rate[k];
-        self.rate[k + 1] = self.next_rate;
-        self.force[k + 1] = self.next_force(k + 1);
-    }
-
-    #[inline(always)]
-    pub(super) fn next_force(&mut self, k: usize) -> f64 {
-        match &self.law {
+    pub(super) fn push(&mut self, k: usize, (delta, rate): (f64, f64)) -> f64 {
+        (self.delta[k], self.rate[k]) = (delta, rate);
+        self.force[k] = match &self.law {
             Law::Affine {
                 constant,
                 stiffness,
                 dashpot,
             } => {
                 let constant = if k == 0 { *constant } else { 0.0 };
-                constant + stiffness * self.delta[k] + dashpot * self.rate[k]
+                constant + stiffness * delta + dashpot * rate
             }
-            Law::Powers(law) => {
-                let motion = (self.delta[k], self.rate[k]);
-                self.powers.term(law, k, motion)
-            }
-        }
+            Law::Powers(law) => self.powers.term(law, k, (delta, rate)),
+        };
+        self.force[k]
     }
 }

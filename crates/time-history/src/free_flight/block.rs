@@ -144,15 +144,14 @@ pub(super) fn fly(
     overshoots(constants, &block.size, largest, &mut block.modal, over);
 }
 
-/// Advances the modes alone by the first samples of a block; the end is in
-/// [`Block::end`].
+/// Advances the modes alone by some samples.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn advance(constants: &FreeFlight, now: &Modal, samples: &[f64], end: &mut Modal) {
+pub(super) fn advance(constants: &FreeFlight, samples: &[f64], now: &mut Modal) {
     for (c, m) in constants.modes.iter().enumerate() {
         let mut state = [
             now.displacement[c],
@@ -169,10 +168,10 @@ pub(super) fn advance(constants: &FreeFlight, now: &Modal, samples: &[f64], end:
             (state, _) = step_modes(m, state, ground);
         }
         [
-            end.displacement[c],
-            end.velocity[c],
-            end.input[c],
-            end.viscous[c],
+            now.displacement[c],
+            now.velocity[c],
+            now.input[c],
+            now.viscous[c],
         ] = state;
     }
 }

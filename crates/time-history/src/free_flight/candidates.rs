@@ -8,7 +8,7 @@
 use super::block::{self, BLOCK};
 use super::closer_look::CloserLook;
 use super::constants::FreeFlight;
-use super::lanes::{Ground, Modal, Track, WIDTH};
+use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
 
@@ -33,20 +33,16 @@ struct Candidate {
     snapshot: usize,
 }
 
-/// A state at a sample.
-#[derive(Debug, Clone)]
-struct Snapshot {
-    sample: usize,
-    state: Modal,
-}
-
 /// All of them, with their work space.
 #[derive(Debug, Clone)]
 pub(super) struct Candidates {
     list: Vec<Candidate>,
     capacity: usize,
-    snapshots: Vec<Snapshot>,
-    /// Snapshots in use: the first ones.
+    /// Samples of the states that are kept, and the states: displacements of all modes, then
+    /// velocities, one after another.
+    samples: [usize; SNAPSHOTS],
+    states: Vec<Lane>,
+    /// States in use: the first ones.
     used: usize,
     scratch: Modal,
     look: CloserLook,
@@ -62,14 +58,11 @@ pub(super) type Three<'a> = [&'a mut Track; 3];
 impl Candidates {
     pub(super) fn new(lanes: usize, dofs: usize) -> Self {
         let capacity = CANDIDATES.max(2 * 3 * BLOCK * dofs);
-        let snapshot = Snapshot {
-            sample: 0,
-            state: Modal::new(lanes),
-        };
         Self {
             list: Vec::with_capacity(capacity),
             capacity,
-            snapshots: vec![snapshot; SNAPSHOTS],
+            samples: [0; SNAPSHOTS],
+            states: vec![Lane::ZERO; SNAPSHOTS * 2 * lanes],
             used: 0,
             scratch: Modal::new(lanes),
             look: CloserLook::new(lanes),
@@ -100,16 +93,14 @@ impl Candidates {
         (sample, upper): (usize, f64),
     ) {
         let last = self.used.checked_sub(1);
-        let snapshot = match last.filter(|s| self.snapshots[*s].sample == first) {
+        let snapshot = match last.filter(|s| self.samples[*s] == first) {
             Some(snapshot) => snapshot,
             None => {
-                let snapshot = &mut self.snapshots[self.used];
-                snapshot.sample = first;
-                snapshot
-                    .state
-                    .displacement
-                    .copy_from_slice(&now.displacement);
-                snapshot.state.velocity.copy_from_slice(&now.velocity);
+                let lanes = now.displacement.len();
+                self.samples[self.used] = first;
+                let state = &mut self.states[self.used * 2 * lanes..][..2 * lanes];
+                state[..lanes].copy_from_slice(&now.displacement);
+                state[lanes..].copy_from_slice(&now.velocity);
                 self.used += 1;
                 self.used - 1
             }
@@ -128,10 +119,13 @@ impl Candidates {
         self.list.retain(|c| is_above(c, tracks));
         // Candidates are in order of their snapshots: close the gaps between those.
         let (mut kept, mut last) = (0, usize::MAX);
+        let both = self.states.len() / SNAPSHOTS;
         for candidate in &mut self.list {
             if candidate.snapshot != last {
                 last = candidate.snapshot;
-                self.snapshots.swap(kept, last);
+                self.samples[kept] = self.samples[last];
+                self.states
+                    .copy_within(last * both..(last + 1) * both, kept * both);
                 kept += 1;
             }
             candidate.snapshot = kept - 1;
@@ -167,9 +161,12 @@ impl Candidates {
     ) {
         let first = group[0];
         let (sample, samples) = (first.sample, &system.ground().samples);
-        let snapshot = &self.snapshots[first.snapshot];
-        let before = &samples[snapshot.sample..=sample];
-        block::advance(constants, &snapshot.state, before, &mut self.scratch);
+        let before = &samples[self.samples[first.snapshot]..=sample];
+        let lanes = constants.modes.len();
+        let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
+        self.scratch.displacement.copy_from_slice(&state[..lanes]);
+        self.scratch.velocity.copy_from_slice(&state[lanes..]);
+        block::advance(constants, before, &mut self.scratch);
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));
         self.look.begin(&self.scratch, functions);

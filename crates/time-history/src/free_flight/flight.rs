@@ -273,9 +273,7 @@ impl Flight {
         if clear == BLOCK {
             std::mem::swap(&mut self.now, &mut self.block.end);
         } else {
-            let end = &mut self.block.end;
-            block::advance(constants, &self.now, &samples[..=clear], end);
-            std::mem::swap(&mut self.now, end);
+            block::advance(constants, &samples[..=clear], &mut self.now);
         }
         let block = &self.block;
         block.floors.copy_after(clear, &mut self.displacement.now);
@@ -319,22 +317,23 @@ impl Flight {
                 if top + over <= track.peak[c][l] {
                     continue;
                 }
-                let mut a = track.now[c][l];
+                let (mut a, mut peak) = (track.now[c][l], track.peak[c][l]);
                 for s in 0..count {
                     let b = values.after(s + 1, floor);
-                    if b.abs() > track.peak[c][l] {
-                        track.peak[c][l] = b.abs();
+                    if b.abs() > peak {
+                        peak = b.abs();
                         track.time[c][l] = (first + s + 1) as f64 * constants.step;
                     }
                     let upper = a.abs().max(b.abs()) + over;
                     // A larger change excludes a turning point inside.
-                    if upper > track.peak[c][l] && (b - a).abs() <= 4.0 * over {
+                    if upper > peak && (b - a).abs() <= 4.0 * over {
                         let place = (quantity, floor);
                         self.candidates
                             .note((first, now), place, (first + s, upper));
                     }
                     a = b;
                 }
+                track.peak[c][l] = peak;
             }
         }
     }

@@ -77,6 +77,14 @@ pub enum Command {
     Merge(MergeArguments),
     /// Scale records to rising intensities: fragility, and the gap for a frequency
     Ida(Box<IdaArguments>),
+    /// Make one HTML page of a result: what happened, with tables and figures
+    Report {
+        /// Result file of `run` (HDF5)
+        result: PathBuf,
+        /// Page; by default the result's name with .html beside it
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions

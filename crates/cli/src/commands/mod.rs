@@ -10,6 +10,7 @@ mod impact;
 mod models;
 mod motion;
 mod progress;
+mod report;
 mod run;
 mod stiffness;
 mod sweep;
@@ -43,6 +44,7 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Merge(arguments) => sweep::merge(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments),
+        Command::Report { result, output } => report::report(&result, output.as_deref()),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -1,0 +1,37 @@
+//! `pounding report`: the page of a result.
+
+use std::path::Path;
+
+use pounding_report::{ReportError, RunResult, page};
+
+use super::print;
+use crate::failure::Failure;
+use crate::plot;
+
+/// Reads a result, writes its page, says where.
+pub fn report(path: &Path, output: Option<&Path>) -> Result<(), Failure> {
+    let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
+    if output == path {
+        return Err(Failure::input(
+            format!("{} would take the place of the result", output.display()),
+            Some("give the page another name with --output".to_owned()),
+        ));
+    }
+    let result = RunResult::read(path).map_err(failed)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    plot::write(&output, &page(&result, &name).map_err(failed)?)?;
+    let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
+    print(&format!(
+        "{} buildings, {} gaps, {impacts} impacts: page written to {}",
+        result.buildings.len(),
+        result.gaps.len(),
+        output.display()
+    ))
+}
+
+fn failed(e: ReportError) -> Failure {
+    match e {
+        ReportError::Figure { .. } => plot::not_drawn(e),
+        _ => Failure::input(e.to_string(), e.help()),
+    }
+}

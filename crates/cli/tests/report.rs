@@ -1,0 +1,113 @@
+//! The page of a result says what the run said.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use support::{run, text};
+
+fn example(name: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path: PathBuf = root.join("examples").join(name).join("case.toml");
+    path.display().to_string()
+}
+
+/// Four figures of a number, as the page has them.
+fn figures(x: f64) -> String {
+    let decimals = (3 - x.abs().log10().floor() as i32).max(0) as usize;
+    format!("{x:.decimals$}")
+}
+
+#[test]
+fn three_storey_pair() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = folder.path().join("pair.h5").display().to_string();
+    let told = text(
+        "run",
+        &format!("{} -o {result} --json", example("three_storey_pair")),
+    );
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let said = text("report", &result);
+    assert!(said.contains("2 buildings, 1 gaps, 45 impacts"), "{said}");
+    let html = std::fs::read_to_string(folder.path().join("pair.html")).unwrap();
+    assert!(html.contains("closes 45 times</strong> at 3 of 3 levels"));
+    let peak = |value: &Value| value["peak"].as_f64().unwrap();
+    for building in told["buildings"].as_array().unwrap() {
+        for storey in building["storeys"].as_array().unwrap() {
+            let displacement = figures(1e3 * peak(&storey["displacement"]));
+            let shear = figures(1e-3 * peak(&storey["storey_shear"]));
+            let acceleration = figures(peak(&storey["acceleration_absolute"]));
+            for value in [displacement, shear, acceleration] {
+                assert!(html.contains(&format!("<td>{value}</td>")), "{value}");
+            }
+        }
+    }
+    let force = peak(&told["gaps"][0]["levels"][2]["peak_force"]);
+    let hardest = format!("hits with {} kN at level 3", figures(1e-3 * force));
+    assert!(html.contains(&hardest), "{hardest}");
+    // The page of the same file is the same, wherever it goes.
+    let other = folder.path().join("other.html");
+    text("report", &format!("{result} -o {}", other.display()));
+    assert_eq!(std::fs::read_to_string(other).unwrap(), html);
+    assert!(!folder.path().join("pair.html.part").exists());
+}
+
+/// Yielding storeys, links, rows, a wall, velocity jumps: every kind of result has a page.
+#[test]
+fn every_kind_of_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(root).unwrap() {
+        let case = entry.unwrap().path().join("case.toml");
+        if !case.exists() {
+            continue;
+        }
+        let result = folder.path().join("a.h5").display().to_string();
+        text("run", &format!("{} -o {result}", case.display()));
+        text("report", &result);
+        let html = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
+        assert!(
+            !html.contains("NaN") && !html.contains(">inf"),
+            "{}",
+            case.display()
+        );
+        assert!(html.ends_with("</html>\n"));
+        seen += 1;
+    }
+    assert!(seen >= 8, "{seen}");
+}
+
+#[test]
+fn refusals() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let refused = |arguments: &str, code: i32, word: &str| {
+        let output = run("report", arguments);
+        let errors = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", "");
+        assert_eq!(output.status.code(), Some(code), "{errors}");
+        assert!(errors.contains(word), "{errors}");
+    };
+    refused(&at("absent.h5"), 2, "cannot be read");
+    std::fs::write(at("text.h5"), "no HDF5").unwrap();
+    refused(&at("text.h5"), 2, "not HDF5");
+    // Half of a result.
+    let result = at("pair.h5");
+    text(
+        "run",
+        &format!("{} -o {result}", example("three_storey_pair")),
+    );
+    let bytes = std::fs::read(&result).unwrap();
+    std::fs::write(at("half.h5"), &bytes[..bytes.len() / 2]).unwrap();
+    refused(&at("half.h5"), 2, "half.h5");
+    assert!(!Path::new(&at("half.html")).exists());
+    refused(&format!("{result} -o {result}"), 2, "take the place");
+    refused(
+        &format!("{result} -o {}", at("absent/page.html")),
+        4,
+        "page.html",
+    );
+    assert_eq!(std::fs::read(&result).unwrap(), bytes);
+}

@@ -1,0 +1,61 @@
+//! What can go wrong between a result file and its page.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a page could not be made.
+#[derive(Debug, Error)]
+pub enum ReportError {
+    /// The file cannot be opened as HDF5.
+    #[error("{} cannot be read: {reason}", path.display())]
+    Unreadable {
+        /// File.
+        path: PathBuf,
+        /// What the operating system or HDF5 says.
+        reason: String,
+    },
+    /// The file is HDF5, but not the result of a run.
+    #[error("{} is not the result of a run: {found}", path.display())]
+    NotAResult {
+        /// File.
+        path: PathBuf,
+        /// What it is instead, or what it lacks.
+        found: String,
+    },
+    /// A part of the result is missing or has another shape or type.
+    #[error("{}: {object} cannot be read: {reason}", path.display())]
+    Damaged {
+        /// File.
+        path: PathBuf,
+        /// Group, dataset or attribute.
+        object: String,
+        /// What HDF5 says.
+        reason: String,
+    },
+    /// A figure could not be drawn.
+    #[error("a figure could not be drawn: {reason}")]
+    Figure {
+        /// What the plotting library says.
+        reason: String,
+    },
+}
+
+impl ReportError {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Unreadable { .. } => {
+                Some("give the .h5 file that `pounding run` has written".to_owned())
+            }
+            Self::NotAResult { .. } => Some(
+                "results of `pounding run` have a page; those of sweep and ida are tables: read them with `--csv` or in Python".to_owned(),
+            ),
+            Self::Damaged { .. } => Some(
+                "run the case again: its text stands in the file as the attribute `case`".to_owned(),
+            ),
+            Self::Figure { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Figures, and the page of a result file: layer 3.
+//!
+//! [`RunResult`] reads what a run has written (`docs/result-file.md`), [`page()`] makes one
+//! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
+//! panels of curves as SVG for the command line as well. Values are SI as in the result
+//! file; the page shows them in the units that engineers write.
+
+mod decimation;
+mod error;
+mod figure;
+mod page;
+mod result;
+
+pub use error::ReportError;
+pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
+pub use page::page;
+pub use result::{
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks,
+    Table,
+};

@@ -1,0 +1,208 @@
+//! Figures of the page.
+
+use super::html::figures;
+use crate::decimation::decimated;
+use crate::error::ReportError;
+use crate::figure::{Curve, Panel, figure_of_size};
+use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult, StoreyPeaks};
+
+/// Size of a history, and of a profile beside another (pixels).
+const HISTORY: (u32, u32) = (1100, 260);
+const PROFILE: (u32, u32) = (540, 340);
+/// Parts of a history: a curve has no more points than the picture can show.
+const COLUMNS: usize = 1000;
+
+type Outcome = Result<String, ReportError>;
+
+fn history(result: &RunResult, name: &str, values: impl Iterator<Item = f64>) -> Curve {
+    let points: Vec<(f64, f64)> = result.time.iter().copied().zip(values).collect();
+    Curve {
+        name: name.to_owned(),
+        points: decimated(&points, COLUMNS),
+    }
+}
+
+fn over_time(caption: &str, curves: Vec<Curve>) -> Panel {
+    Panel {
+        caption: caption.to_owned(),
+        horizontal: "time (s)".to_owned(),
+        curves,
+    }
+}
+
+fn wide(panels: &[Panel]) -> Outcome {
+    Ok(format!(
+        "<figure>{}</figure>\n",
+        figure_of_size(panels, HISTORY)?
+    ))
+}
+
+/// Ground acceleration.
+pub(super) fn ground(result: &RunResult) -> Outcome {
+    let a = result.ground_acceleration.iter().copied();
+    let curve = history(result, "ground", a);
+    wide(&[over_time("Ground acceleration (m/s\u{b2})", vec![curve])])
+}
+
+/// Displacement of the roof.
+pub(super) fn roof(result: &RunResult, index: usize) -> Outcome {
+    let building = &result.buildings[index];
+    let top = building.displacement.columns.saturating_sub(1);
+    let u = building.displacement.column(top).map(|u| 1.0e3 * u);
+    let curve = history(result, &building.name, u);
+    wide(&[over_time("Displacement of the roof (mm)", vec![curve])])
+}
+
+/// Peaks over the height, with and without pounding.
+pub(super) fn profiles(building: &BuildingResult) -> Outcome {
+    let profile = |caption: &str, (peaks, factor): (&StoreyPeaks, f64), starts_at_zero: bool| {
+        let curve = |name: &str, values: &[f64]| {
+            let mut points: Vec<(f64, f64)> = values
+                .iter()
+                .zip(&building.elevation)
+                .map(|(x, z)| (factor * x, *z))
+                .collect();
+            if starts_at_zero {
+                points.insert(0, (0.0, 0.0));
+            } else {
+                points = steps(&points);
+            }
+            Curve {
+                name: name.to_owned(),
+                points,
+            }
+        };
+        let panel = Panel {
+            caption: format!("Elevation (m) over {caption}"),
+            horizontal: caption.to_owned(),
+            curves: vec![
+                curve("with pounding", &peaks.value),
+                curve("without", &peaks.isolated),
+            ],
+        };
+        figure_of_size(&[panel], PROFILE)
+    };
+    Ok(figures(&[
+        profile(
+            "peak displacement (mm)",
+            (&building.displacement_peaks, 1.0e3),
+            true,
+        )?,
+        profile("peak drift (%)", (&building.drift_peaks, 1.0e2), false)?,
+        profile(
+            "peak storey shear (kN)",
+            (&building.shear_peaks, 1.0e-3),
+            false,
+        )?,
+        profile(
+            "peak absolute acceleration (m/s\u{b2})",
+            (&building.acceleration_peaks, 1.0),
+            true,
+        )?,
+    ]))
+}
+
+/// A value for each storey as steps from floor to floor.
+fn steps(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut below = 0.0;
+    let mut out = Vec::with_capacity(2 * points.len());
+    for (x, z) in points {
+        out.push((*x, below));
+        out.push((*x, *z));
+        below = *z;
+    }
+    out
+}
+
+/// Opening of the level that is hit hardest, or comes closest, and all impacts.
+pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
+    let Some(level) = loudest(gap) else {
+        return Ok(String::new());
+    };
+    let opening = gap.penetration.column(level).map(|d| -1.0e3 * d);
+    let at = format!("level {}", level + 1);
+    let mut panels = vec![over_time(
+        &format!("Opening of the gap at {at} (mm); negative in contact"),
+        vec![history(result, &at, opening)],
+    )];
+    let end = result.time.last().copied().unwrap_or(0.0);
+    // Velocity jumps have no force.
+    if gap.impacts.iter().any(|i| i.peak_force.is_finite()) {
+        let force = |i: &ImpactResult| (i.peak_force_time, 1.0e-3 * i.peak_force);
+        panels.push(over_time(
+            "Peak force of every impact (kN)",
+            stems(gap, end, force),
+        ));
+    }
+    if !gap.impacts.is_empty() {
+        let velocity = |i: &ImpactResult| (i.t_close, i.approach_velocity);
+        panels.push(over_time(
+            "Approach velocity of every impact (m/s)",
+            stems(gap, end, velocity),
+        ));
+    }
+    wide(&panels)
+}
+
+/// A stem for each impact, a curve for each level that has any; all over the whole time.
+fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) -> Vec<Curve> {
+    let at = |l: usize| gap.impacts.iter().filter(move |i| i.level == l as u64 + 1);
+    (0..gap.elevation.len())
+        .filter(|l| at(*l).next().is_some())
+        .map(|l| {
+            let known = at(l)
+                .map(&stem)
+                .filter(|(t, y)| t.is_finite() && y.is_finite());
+            let inner = known.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
+            Curve {
+                name: format!("level {}", l + 1),
+                points: [(0.0, 0.0)]
+                    .into_iter()
+                    .chain(inner)
+                    .chain([(end, 0.0)])
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+/// The level with the greatest force, or without impacts that which comes closest.
+pub(super) fn loudest(gap: &GapResult) -> Option<usize> {
+    let hardest = gap
+        .impacts
+        .iter()
+        .max_by(|a, b| {
+            let size = |x: f64| if x.is_finite() { x } else { 0.0 };
+            let by_force = size(a.peak_force).total_cmp(&size(b.peak_force));
+            by_force.then(a.impulse.total_cmp(&b.impulse))
+        })
+        .map(|i| i.level as usize - 1);
+    let closest = || {
+        let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);
+        (0..gap.elevation.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))
+    };
+    hardest.or_else(closest)
+}
+
+/// Energies over time.
+pub(super) fn energy(result: &RunResult) -> Outcome {
+    let e = &result.energy;
+    let stored: Vec<f64> = e
+        .kinetic
+        .iter()
+        .zip(&e.strain)
+        .map(|(a, b)| a + b)
+        .collect();
+    let curves = [
+        ("input", &e.input),
+        ("kinetic and recoverable", &stored),
+        ("viscous damping", &e.viscous),
+        ("yielding and links", &e.hysteretic),
+        ("impacts", &e.impact),
+    ]
+    .into_iter()
+    // Nothing yields in elastic buildings.
+    .filter(|(_, values)| values.iter().any(|x| *x != 0.0))
+    .map(|(name, values)| history(result, name, values.iter().map(|x| 1.0e-3 * x)));
+    wide(&[over_time("Energy (kJ)", curves.collect())])
+}

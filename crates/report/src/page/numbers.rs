@@ -1,0 +1,58 @@
+//! Numbers as engineers write them.
+
+/// Four figures; a dash for what is not known.
+pub(super) fn figures(x: f64) -> String {
+    if !x.is_finite() {
+        return "\u{2013}".to_owned();
+    }
+    let size = x.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1.0e-4..1.0e7).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let before = size.log10().floor() as i32;
+    let decimals = (3 - before).max(0) as usize;
+    format!("{x:.decimals$}")
+}
+
+/// A ratio with two decimals; a dash where it has none.
+pub(super) fn ratio(with: f64, without: f64) -> String {
+    if !(without > 0.0) || !with.is_finite() {
+        return "\u{2013}".to_owned();
+    }
+    format!("{:.2}", with / without)
+}
+
+/// Part of a whole in percent.
+pub(super) fn percent(part: f64, whole: f64) -> String {
+    if !(whole > 0.0) || !part.is_finite() {
+        return "\u{2013}".to_owned();
+    }
+    format!("{:.1} %", 100.0 * part / whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_figures() {
+        for (x, text) in [
+            (0.0, "0"),
+            (117.208_1, "117.2"),
+            (-0.012_345, "-0.01235"),
+            (9.999_96, "10.000"),
+            (123_456.0, "123456"),
+            (1.0e9, "1.000e9"),
+            (2.0e-7, "2.000e-7"),
+            (f64::NAN, "\u{2013}"),
+        ] {
+            assert_eq!(figures(x), text);
+        }
+        assert_eq!(ratio(3.0, 2.0), "1.50");
+        assert_eq!(ratio(3.0, 0.0), "\u{2013}");
+        assert_eq!(percent(1.0, 8.0), "12.5 %");
+    }
+}

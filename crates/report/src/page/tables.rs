@@ -1,0 +1,193 @@
+//! Tables of the page.
+
+use super::html::table;
+use super::numbers::{figures, ratio};
+use crate::result::{BuildingResult, GapResult, ImpactResult, LinkResult, StoreyPeaks};
+
+/// Modes listed.
+const MODES: usize = 5;
+
+/// The first periods of a building.
+pub(super) fn modes(building: &BuildingResult) -> String {
+    let modes = building.period.iter().zip(&building.damping_ratio);
+    let rows = modes.take(MODES).enumerate().map(|(i, (period, damping))| {
+        vec![
+            (i + 1).to_string(),
+            figures(*period),
+            figures(100.0 * damping),
+        ]
+    });
+    table(&["mode", "period (s)", "damping (%)"], rows)
+}
+
+/// Peaks of all storeys, the top first.
+pub(super) fn storeys(building: &BuildingResult) -> String {
+    let headings = [
+        "storey",
+        "elevation (m)",
+        "displacement (mm)",
+        "without",
+        "ratio",
+        "drift (%)",
+        "without",
+        "ratio",
+        "shear (kN)",
+        "without",
+        "ratio",
+        "acceleration (m/s\u{b2})",
+        "without",
+        "ratio",
+        "ductility",
+    ];
+    let laws = building.ductility.is_some();
+    let headings = &headings[..headings.len() - usize::from(!laws)];
+    let quantities: [(&StoreyPeaks, f64); 4] = [
+        (&building.displacement_peaks, 1.0e3),
+        (&building.drift_peaks, 1.0e2),
+        (&building.shear_peaks, 1.0e-3),
+        (&building.acceleration_peaks, 1.0),
+    ];
+    let rows = (0..building.elevation.len()).rev().map(|i| {
+        let mut row = vec![(i + 1).to_string(), figures(building.elevation[i])];
+        for (peaks, factor) in quantities {
+            let at = |values: &[f64]| values.get(i).copied().unwrap_or(f64::NAN);
+            let (with, without) = (at(&peaks.value), at(&peaks.isolated));
+            row.push(figures(factor * with));
+            row.push(figures(factor * without));
+            row.push(ratio(with, without));
+        }
+        if let Some(ductility) = &building.ductility {
+            row.push(figures(ductility.get(i).copied().unwrap_or(f64::NAN)));
+        }
+        row
+    });
+    let note = "<p class=\"note\">Greatest absolute values, found inside the steps; \
+                <em>without</em>: the same building under the same motion without any gap.</p>\n";
+    table(headings, rows) + note
+}
+
+/// The levels of a gap, the top first.
+pub(super) fn levels(gap: &GapResult) -> String {
+    let headings = [
+        "level",
+        "elevation (m)",
+        "width (mm)",
+        "impacts",
+        "peak force (kN)",
+        "at (s)",
+        "fastest approach (m/s)",
+        "mean restitution",
+        "dissipated (kJ)",
+    ];
+    let rows = (0..gap.elevation.len()).rev().map(|l| {
+        let here: Vec<&ImpactResult> = gap
+            .impacts
+            .iter()
+            .filter(|i| i.level == l as u64 + 1)
+            .collect();
+        let hardest = here
+            .iter()
+            .filter(|i| i.peak_force.is_finite())
+            .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+        let fastest = here
+            .iter()
+            .map(|i| i.approach_velocity)
+            .fold(f64::NAN, f64::max);
+        let known: Vec<f64> = here
+            .iter()
+            .map(|i| i.achieved_restitution)
+            .filter(|e| e.is_finite())
+            .collect();
+        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        let dissipated: f64 = here
+            .iter()
+            .map(|i| i.energy_dissipated)
+            .filter(|e| e.is_finite())
+            .sum();
+        vec![
+            (l + 1).to_string(),
+            figures(gap.elevation[l]),
+            figures(1.0e3 * gap.width[l]),
+            here.len().to_string(),
+            figures(1.0e-3 * hardest.map_or(f64::NAN, |i| i.peak_force)),
+            figures(hardest.map_or(f64::NAN, |i| i.peak_force_time)),
+            figures(fastest),
+            figures(mean),
+            figures(1.0e-3 * dissipated),
+        ]
+    });
+    table(&headings, rows)
+}
+
+/// The hardest impacts of a gap, by force, or by impulse where a model has no force.
+pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
+    if gap.impacts.is_empty() {
+        return String::new();
+    }
+    let mut impacts: Vec<&ImpactResult> = gap.impacts.iter().collect();
+    let size = |i: &ImpactResult| match i.peak_force.is_finite() {
+        true => (i.peak_force, i.impulse),
+        false => (0.0, i.impulse),
+    };
+    impacts.sort_by(|a, b| {
+        let (a, b) = (size(a), size(b));
+        b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    let headings = [
+        "level",
+        "closes (s)",
+        "opens (s)",
+        "approach (m/s)",
+        "separation (m/s)",
+        "restitution",
+        "force (kN)",
+        "penetration (mm)",
+        "impulse (kN s)",
+        "dissipated (kJ)",
+    ];
+    let rows = impacts.iter().take(count).map(|i| {
+        vec![
+            i.level.to_string(),
+            format!("{:.4}", i.t_close),
+            match i.t_open.is_finite() {
+                true => format!("{:.4}", i.t_open),
+                false => figures(f64::NAN),
+            },
+            figures(i.approach_velocity),
+            figures(i.separation_velocity),
+            figures(i.achieved_restitution),
+            figures(1.0e-3 * i.peak_force),
+            figures(1.0e3 * i.peak_penetration),
+            figures(1.0e-3 * i.impulse),
+            figures(1.0e-3 * i.energy_dissipated),
+        ]
+    });
+    let shown = impacts.len().min(count);
+    format!(
+        "<h3>The hardest {shown} of {} impacts</h3>\n{}",
+        impacts.len(),
+        table(&headings, rows)
+    )
+}
+
+/// The levels of a link, the top first.
+pub(super) fn link(link: &LinkResult) -> String {
+    let headings = [
+        "level",
+        "elevation (m)",
+        "peak deformation (mm)",
+        "peak force (kN)",
+        "dissipated (kJ)",
+    ];
+    let rows = (0..link.elevation.len()).rev().map(|l| {
+        let at = |values: &[f64]| values.get(l).copied().unwrap_or(f64::NAN);
+        vec![
+            (l + 1).to_string(),
+            figures(link.elevation[l]),
+            figures(1.0e3 * at(&link.deformation)),
+            figures(1.0e-3 * at(&link.force)),
+            figures(1.0e-3 * at(&link.energy_dissipated)),
+        ]
+    });
+    format!("<p>Law: {}</p>\n", super::html::escaped(&link.law)) + &table(&headings, rows)
+}

@@ -1,0 +1,225 @@
+//! Pages of results that are made by hand: nothing that a result can hold breaks one.
+#![allow(clippy::unwrap_used)]
+
+use pounding_report::{
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, ReportError, RunResult, StoreyPeaks,
+    Table, page,
+};
+
+fn peaks(value: [f64; 2], isolated: [f64; 2]) -> StoreyPeaks {
+    StoreyPeaks {
+        value: value.to_vec(),
+        time: vec![1.0, 2.0],
+        isolated: isolated.to_vec(),
+        isolated_time: vec![1.5, 2.5],
+    }
+}
+
+fn table(column: &[f64]) -> Table {
+    Table {
+        values: column.iter().flat_map(|x| [0.5 * x, *x]).collect(),
+        columns: 2,
+    }
+}
+
+fn impact(level: u64, peak_force: f64) -> ImpactResult {
+    ImpactResult {
+        level,
+        t_close: 1.25,
+        t_open: 1.26,
+        approach_velocity: 0.321,
+        separation_velocity: 0.2,
+        achieved_restitution: 0.623,
+        peak_force,
+        peak_force_time: 1.255,
+        peak_penetration: 2.0e-3,
+        impulse: 4.0e3,
+        energy_dissipated: 6.0e2,
+        constants: [0.0; 4],
+    }
+}
+
+fn result() -> RunResult {
+    let time: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i)).collect();
+    let wave: Vec<f64> = time.iter().map(|t| 0.1 * (3.0 * t).sin()).collect();
+    let building = |name: &str| BuildingResult {
+        name: name.to_owned(),
+        elevation: vec![3.0, 6.0],
+        displacement: table(&wave),
+        displacement_peaks: peaks([0.05, 0.1], [0.06, 0.08]),
+        drift_peaks: peaks([0.016, 0.017], [0.02, 0.01]),
+        shear_peaks: peaks([2.0e5, 1.0e5], [1.0e5, 1.0e5]),
+        acceleration_peaks: peaks([4.0, 9.0], [3.0, 3.0]),
+        ductility: None,
+        period: vec![0.61, 0.2],
+        damping_ratio: vec![0.05, 0.05],
+    };
+    let energy: Vec<f64> = time.iter().map(|t| 1.0e3 * t).collect();
+    RunResult {
+        title: "A pair".to_owned(),
+        version: "0.1.0".to_owned(),
+        case: "[case]\ntitle = \"A pair\"\n".to_owned(),
+        case_sha256: "ab".repeat(32),
+        record_sha256: "cd".repeat(32),
+        record: "El Centro".to_owned(),
+        method: "event-driven".to_owned(),
+        warnings: Vec::new(),
+        steps: 1559,
+        wall_time: 0.01,
+        residual_ratio: 1.2e-13,
+        ground_acceleration: wave.clone(),
+        buildings: vec![building("light"), building("heavy")],
+        gaps: vec![GapResult {
+            name: "light-heavy".to_owned(),
+            between: "light | heavy".to_owned(),
+            model: "jankowski_2005".to_owned(),
+            separation: "zero_penetration".to_owned(),
+            elevation: vec![3.0, 6.0],
+            width: vec![0.02, 0.02],
+            penetration: table(&wave),
+            force: table(&wave),
+            impacts: vec![impact(2, 1.271e6), impact(1, 3.0e5), impact(2, 8.0e5)],
+        }],
+        links: Vec::new(),
+        energy: EnergyHistory {
+            input: energy.clone(),
+            kinetic: vec![0.0; time.len()],
+            strain: vec![0.0; time.len()],
+            viscous: energy.iter().map(|e| 0.75 * e).collect(),
+            hysteretic: vec![0.0; time.len()],
+            impact: energy.iter().map(|e| 0.25 * e).collect(),
+        },
+        time,
+    }
+}
+
+/// Every element that is opened is closed, in order, and nothing is fetched or run.
+fn is_whole(html: &str) {
+    let mut open = Vec::new();
+    for tag in html.split('<').skip(1) {
+        let (tag, _) = tag.split_once('>').unwrap();
+        let name = tag
+            .trim_start_matches('/')
+            .split([' ', '\n', '/'])
+            .next()
+            .unwrap();
+        let alone = ["!DOCTYPE", "meta", "br"].contains(&name) || tag.ends_with('/');
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(closed.trim()), "{tag}");
+        } else if !alone {
+            open.push(name.to_owned());
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+    for foreign in ["<script", "src=", "href=", "@import", "url("] {
+        assert!(!html.contains(foreign), "{foreign}");
+    }
+}
+
+#[test]
+fn the_answers_stand_in_the_page() {
+    let html = page(&result(), "pair.h5").unwrap();
+    is_whole(&html);
+    for answer in [
+        "Gap light-heavy closes 3 times</strong> at 2 of 2 levels",
+        "1271 kN at level 2 (6.000 m), 1.250 s into the motion, approaching with 0.3210 m/s",
+        "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, alone 3.000 m/s\u{b2})",
+        "viscous damping 75.0 %, impacts 25.0 %",
+        "closes to 1.2e-13",
+        "The hardest 3 of 3 impacts",
+        // Storey 2: displacement with, without, ratio.
+        "<td>100.0</td><td>80.00</td><td>1.25</td>",
+    ] {
+        assert!(html.contains(answer), "{answer}\n{html}");
+    }
+    // Nothing yields: no curve and no share of it.
+    assert!(!html.contains("yielding"));
+}
+
+#[test]
+fn texts_of_the_case_cannot_break_the_page() {
+    let mut result = result();
+    result.title = "<img src=x onerror=alert(1)> & \u{0}".to_owned();
+    result.case = "# </pre></details><script>".to_owned();
+    result.record = "<b>".to_owned();
+    result.warnings = vec!["peak < 0 & \"more\"".to_owned()];
+    result.buildings[0].name = "<i>light</i>".to_owned();
+    result.gaps[0].name = "</h2>".to_owned();
+    let html = page(&result, "<x>.h5").unwrap();
+    let html = html.replace("src=x", "");
+    is_whole(&html);
+    assert!(html.contains("peak &lt; 0 &amp; &quot;more&quot;"));
+    assert!(html.contains("&lt;i&gt;light&lt;/i&gt;"));
+}
+
+/// Gaps that stay open or have no level, velocity jumps, contacts that outlast the run, a
+/// motion of zero: dashes, not NaN.
+#[test]
+fn what_is_not_known_is_a_dash() {
+    let mut silent = result();
+    silent.gaps[0].impacts.clear();
+    silent.gaps[0].penetration = Table {
+        values: vec![-0.015; 1000],
+        columns: 2,
+    };
+    let html = page(&silent, "a.h5").unwrap();
+    is_whole(&html);
+    assert!(html.contains("stays open"), "{html}");
+    assert!(html.contains("15.00 mm of 20.00 mm are left"));
+
+    let mut jumps = result();
+    for i in &mut jumps.gaps[0].impacts {
+        (i.peak_force, i.peak_force_time) = (f64::NAN, f64::NAN);
+        (i.t_open, i.separation_velocity, i.achieved_restitution) = (f64::NAN, f64::NAN, f64::NAN);
+    }
+    let html = page(&jumps, "a.h5").unwrap();
+    is_whole(&html);
+    assert!(html.contains("with an impulse of 4.000 kN s"), "{html}");
+    assert!(!html.contains("NaN") && !html.contains(">inf"), "{html}");
+
+    let mut empty = result();
+    empty.gaps[0].elevation.clear();
+    empty.gaps[0].width.clear();
+    empty.gaps[0].impacts.clear();
+    empty.gaps[0].model.clear();
+    (empty.gaps[0].force, empty.gaps[0].penetration) = (Table::default(), Table::default());
+    let zeros = vec![0.0; empty.time.len()];
+    empty.ground_acceleration = zeros.clone();
+    empty.energy = EnergyHistory {
+        input: zeros.clone(),
+        kinetic: zeros.clone(),
+        strain: zeros.clone(),
+        viscous: zeros.clone(),
+        hysteretic: zeros.clone(),
+        impact: zeros,
+    };
+    for building in &mut empty.buildings {
+        building.displacement_peaks = peaks([0.0; 2], [0.0; 2]);
+    }
+    let html = page(&empty, "a.h5").unwrap();
+    is_whole(&html);
+    assert!(
+        html.contains("There is no gap with a contact level"),
+        "{html}"
+    );
+    assert!(!html.contains("NaN") && !html.contains(">inf"), "{html}");
+}
+
+#[test]
+fn files_that_are_no_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.h5");
+    let error = |path: &std::path::Path| RunResult::read(path).unwrap_err();
+    assert!(matches!(error(&path), ReportError::Unreadable { .. }));
+    std::fs::write(&path, "no HDF5").unwrap();
+    let found = error(&path);
+    assert!(found.to_string().contains("it is not HDF5"), "{found}");
+    assert!(found.help().is_some());
+    drop(hdf5::File::create(&path).unwrap());
+    let found = error(&path);
+    assert!(matches!(found, ReportError::NotAResult { .. }), "{found}");
+    assert!(matches!(
+        error(folder.path()),
+        ReportError::Unreadable { .. }
+    ));
+}

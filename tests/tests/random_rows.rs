@@ -1,0 +1,160 @@
+//! Rows of elastic buildings of any height beside one another: the event-driven method and
+//! the adaptive pair, which have nothing in common but the laws, agree.
+#![allow(clippy::unwrap_used)]
+
+use std::sync::Arc;
+
+use pounding_gap_element::{ImpactModel, registry};
+use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_time_history::{
+    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
+};
+use proptest::prelude::*;
+use verification::synthetic_motion;
+
+const DURATION: f64 = 6.0;
+/// Affine, powers of the penetration, powers with a dashpot, with a change of phase, and one
+/// that is neither.
+const MODELS: [&str; 8] = [
+    "anagnostopoulos_1988",
+    "anagnostopoulos_2004",
+    "jankowski_2005",
+    "lankarani_nikravesh_1990",
+    "exact_hunt_crossley",
+    "hertz_1882",
+    "mahmoud_jankowski_2011",
+    "adams_impact",
+];
+
+#[derive(Debug, Clone)]
+struct Row {
+    /// Storeys, period (s) and damping ratio of each building.
+    buildings: Vec<(usize, f64, f64)>,
+    /// Widths of the gaps (m).
+    widths: Vec<f64>,
+    model: usize,
+    restitution: f64,
+    scale: f64,
+}
+
+fn rows() -> impl Strategy<Value = Row> {
+    let building = || (1_usize..10, 0.2..1.5_f64, 0.02..0.08_f64);
+    (
+        prop::collection::vec(building(), 2..4),
+        prop::collection::vec(0.002..0.05_f64, 2),
+        0..MODELS.len(),
+        0.4..0.95_f64,
+        0.5..2.0_f64,
+    )
+        .prop_map(|(buildings, widths, model, restitution, scale)| Row {
+            buildings,
+            widths,
+            model,
+            restitution,
+            scale,
+        })
+}
+
+fn building(index: usize, (storeys, period, ratio): (usize, f64, f64)) -> ShearBuilding {
+    const MASS: f64 = 4.0e4;
+    // The first period of a uniform chain.
+    let angle = std::f64::consts::PI / (2.0 * (2.0 * storeys as f64 + 1.0));
+    let omega = std::f64::consts::TAU / period;
+    let stiffness = MASS * (omega / (2.0 * angle.sin())).powi(2);
+    ShearBuilding::new(
+        format!("b{index}"),
+        vec![MASS; storeys],
+        vec![stiffness; storeys],
+        vec![3.0; storeys],
+        Damping::Rayleigh {
+            alpha: ratio * omega,
+            beta: ratio / omega,
+        },
+    )
+    .unwrap()
+}
+
+impl Row {
+    fn model(&self) -> Arc<dyn ImpactModel> {
+        let card = registry::find(MODELS[self.model]).unwrap();
+        let parameters = card.example_parameters(self.restitution);
+        registry::build(card.name, &parameters).unwrap().into()
+    }
+
+    fn system(&self, ground: &GroundAcceleration) -> System {
+        let mut ground = ground.clone();
+        ground.samples = ground.samples.iter().map(|a| self.scale * a).collect();
+        let buildings = self.buildings.iter().enumerate();
+        let buildings: Vec<_> = buildings.map(|(i, b)| Arc::new(building(i, *b))).collect();
+        let storeys: Vec<usize> = self.buildings.iter().map(|b| b.0).collect();
+        let mut system = System::new(buildings, ground);
+        for (left, width) in (0..storeys.len() - 1).zip(&self.widths) {
+            let levels = storeys[left].min(storeys[left + 1]);
+            let pairs = (0..levels)
+                .map(|s| {
+                    let floors = (Floor::Storey(left, s), Floor::Storey(left + 1, s));
+                    (floors.0, floors.1, *width, self.model())
+                })
+                .collect();
+            let names = [format!("b{left}"), format!("b{}", left + 1)];
+            system
+                .add_gap(&format!("gap {left}"), names, pairs)
+                .unwrap();
+        }
+        system
+    }
+}
+
+fn go(system: &System, method: MethodChoice) -> Outcome {
+    let options = RunOptions {
+        method,
+        duration: Some(DURATION),
+        energy_tolerance: None,
+    };
+    run(system, &options, &mut [], &mut |_| {}).unwrap()
+}
+
+/// Greatest difference of peaks, as a part of the greatest of their kind.
+fn difference(a: &Outcome, b: &Outcome) -> f64 {
+    let kinds: [fn(&Outcome) -> Vec<f64>; 4] = [
+        |o| storeys(o, |s| s.displacement.value),
+        |o| storeys(o, |s| s.storey_shear.value),
+        |o| storeys(o, |s| s.acceleration_absolute.value),
+        |o| {
+            let levels = o.gaps.iter().flat_map(|g| &g.levels);
+            levels.map(|l| l.peak_force.value).collect()
+        },
+    ];
+    kinds.iter().fold(0.0, |worst, kind| {
+        let (a, b) = (kind(a), kind(b));
+        let size = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let most = a
+            .iter()
+            .zip(&b)
+            .fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
+        f64::max(worst, most / size.max(f64::MIN_POSITIVE))
+    })
+}
+
+fn storeys(outcome: &Outcome, pick: fn(&pounding_time_history::StoreyPeaks) -> f64) -> Vec<f64> {
+    let all = outcome.buildings.iter().flat_map(|b| &b.storeys);
+    all.map(pick).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Errors grow with every impact: what two methods with errors of 1e-12 and 1e-11 have
+    /// in common after some dozen of them.
+    #[test]
+    fn two_methods_agree(row in rows()) {
+        let ground = synthetic_motion().unwrap();
+        let system = row.system(&ground);
+        let exact = go(&system, MethodChoice::EventDriven { relative_tolerance: 1.0e-11 });
+        let pair = go(&system, MethodChoice::Adaptive { relative_tolerance: 1.0e-12 });
+        prop_assert!(exact.energy.residual_ratio < 1.0e-9, "{:?}", exact.energy);
+        prop_assert_eq!(exact.impacts.len(), pair.impacts.len());
+        let worst = difference(&exact, &pair);
+        prop_assert!(worst < 1.0e-6, "{worst}");
+    }
+}

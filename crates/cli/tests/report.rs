@@ -45,6 +45,12 @@ fn three_storey_pair() {
         }
     }
     let force = peak(&told["gaps"][0]["levels"][2]["peak_force"]);
+    // The restitution of a level is that of the run.
+    for level in told["gaps"][0]["levels"].as_array().unwrap() {
+        let restitution = level["achieved_restitution"].as_f64().unwrap();
+        let cell = format!("<td>{}</td>", figures(restitution));
+        assert!(html.contains(&cell), "{cell}");
+    }
     let hardest = format!("hits with {} kN at level 3", figures(1e-3 * force));
     assert!(html.contains(&hardest), "{hardest}");
     // The page of the same file is the same, wherever it goes.
@@ -104,10 +110,58 @@ fn refusals() {
     refused(&at("half.h5"), 2, "half.h5");
     assert!(!Path::new(&at("half.html")).exists());
     refused(&format!("{result} -o {result}"), 2, "take the place");
+    let same = folder
+        .path()
+        .join(".")
+        .join("pair.h5")
+        .display()
+        .to_string();
+    refused(&format!("{result} -o {same}"), 2, "take the place");
     refused(
         &format!("{result} -o {}", at("absent/page.html")),
         4,
         "page.html",
     );
     assert_eq!(std::fs::read(&result).unwrap(), bytes);
+}
+
+/// Files that HDF5 can read, but whose parts do not belong together.
+#[test]
+fn parts_that_do_not_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("pair.h5");
+    let case = example("three_storey_pair");
+    text("run", &format!("{case} -o {}", whole.display()));
+    let path = folder.path().join("a.h5");
+    let refused = |edit: &dyn Fn(&hdf5::File), word: &str| {
+        std::fs::copy(&whole, &path).unwrap();
+        let file = hdf5::File::open_rw(&path).unwrap();
+        edit(&file);
+        file.close().unwrap();
+        let output = run("report", &path.display().to_string());
+        let errors = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.contains(word), "{errors}");
+    };
+    let levels = |f: &hdf5::File| {
+        let gap = f.group("gap/light-heavy").unwrap();
+        gap.unlink("width").unwrap();
+        gap.new_dataset::<f64>().shape(0).create("width").unwrap();
+    };
+    refused(&levels, "do not have the same storeys or levels");
+    let storeys = |f: &hdf5::File| {
+        let peaks = f.group("building/light/peak").unwrap();
+        peaks.unlink("displacement").unwrap();
+        let two = peaks.new_dataset::<f64>().shape(2);
+        two.create("displacement").unwrap();
+    };
+    refused(&storeys, "do not have the same storeys or levels");
+    let huge = |f: &hdf5::File| {
+        f.unlink("time").unwrap();
+        let time = f.new_dataset::<f64>().chunk(1024).shape(1_usize << 40);
+        time.create("time").unwrap();
+    };
+    refused(&huge, "more values than a run records");
+    refused(&|f| f.unlink("energy/viscous").unwrap(), "viscous");
+    refused(&|f| f.delete_attr("title").unwrap(), "title");
 }

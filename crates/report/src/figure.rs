@@ -206,7 +206,8 @@ impl Stroke {
 /// Range of a coordinate with a margin, and never empty.
 fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
     let (low, high) = values
-        .filter(|x| x.is_finite())
+        // Beyond this the width of the range would not be finite.
+        .filter(|x| x.abs() < 1.0e150)
         .fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
     let width = if high > low { high - low } else { 1.0e-9 };
     low - if low < 0.0 { margin * width } else { 0.0 }..high + margin * width

@@ -9,6 +9,7 @@ mod decimation;
 mod error;
 mod figure;
 mod page;
+mod reading;
 mod result;
 
 pub use error::ReportError;

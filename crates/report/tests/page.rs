@@ -170,12 +170,28 @@ fn what_is_not_known_is_a_dash() {
     let mut jumps = result();
     for i in &mut jumps.gaps[0].impacts {
         (i.peak_force, i.peak_force_time) = (f64::NAN, f64::NAN);
-        (i.t_open, i.separation_velocity, i.achieved_restitution) = (f64::NAN, f64::NAN, f64::NAN);
+        (i.separation_velocity, i.achieved_restitution) = (f64::NAN, f64::NAN);
     }
+    jumps.gaps[0].impacts[1].t_open = f64::NAN;
     let html = page(&jumps, "a.h5").unwrap();
     is_whole(&html);
     assert!(html.contains("with an impulse of 4.000 kN s"), "{html}");
     assert!(!html.contains("NaN") && !html.contains(">inf"), "{html}");
+
+    // One that holds floors together after a jump is not the hardest.
+    let mut mixed = result();
+    (
+        mixed.gaps[0].impacts[0].peak_force,
+        mixed.gaps[0].impacts[0].impulse,
+    ) = (0.0, 9.0e3);
+    mixed.gaps[0].impacts[1].peak_force = 1.0e6;
+    let html = page(&mixed, "a.h5").unwrap();
+    is_whole(&html);
+    assert!(
+        html.contains("with an impulse of 9.000 kN s at level 2"),
+        "{html}"
+    );
+    assert!(html.contains("Velocities jump at impacts"));
 
     let mut empty = result();
     empty.gaps[0].elevation.clear();
@@ -195,6 +211,7 @@ fn what_is_not_known_is_a_dash() {
     };
     for building in &mut empty.buildings {
         building.displacement_peaks = peaks([0.0; 2], [0.0; 2]);
+        building.acceleration_peaks = peaks([2.0; 2], [1.0e-28; 2]);
     }
     let html = page(&empty, "a.h5").unwrap();
     is_whole(&html);

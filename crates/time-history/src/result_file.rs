@@ -155,8 +155,14 @@ fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<(
 fn run(file: &hdf5::File, record: &RunRecord<'_>) -> Result<()> {
     let group = file.create_group("run")?;
     text(&group, "method", record.outcome.method.title)?;
-    let warnings = &record.outcome.warnings;
-    text(&group, "warnings", &warnings.join("\n"))?;
+    let origin = record.assembly.accelerogram.origin();
+    let warnings: Vec<&str> = origin
+        .iter()
+        .flat_map(|o| &o.warnings)
+        .chain(&record.outcome.warnings)
+        .map(String::as_str)
+        .collect();
+    text(&group, "warnings", &warnings.join("\n").replace('\0', " "))?;
     let statistics = record.outcome.statistics;
     for (name, value) in [
         ("steps", statistics.steps),

@@ -11,7 +11,8 @@ use crate::plot;
 /// Reads a result, writes its page, says where.
 pub fn report(path: &Path, output: Option<&Path>) -> Result<(), Failure> {
     let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
-    if output == path {
+    let place = |p: &Path| p.canonicalize().ok();
+    if output == path || (place(path).is_some() && place(&output) == place(path)) {
         return Err(Failure::input(
             format!("{} would take the place of the result", output.display()),
             Some("give the page another name with --output".to_owned()),

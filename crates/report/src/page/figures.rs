@@ -54,18 +54,20 @@ pub(super) fn roof(result: &RunResult, index: usize) -> Outcome {
 }
 
 /// Peaks over the height, with and without pounding.
-pub(super) fn profiles(building: &BuildingResult) -> Outcome {
-    let profile = |caption: &str, (peaks, factor): (&StoreyPeaks, f64), starts_at_zero: bool| {
+pub(super) fn profiles(result: &RunResult, building: &BuildingResult) -> Outcome {
+    let ground = &result.ground_acceleration;
+    let ground = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    // `base` is the value at the ground; a value for each storey has none.
+    let profile = |caption: &str, (peaks, factor): (&StoreyPeaks, f64), base: Option<f64>| {
         let curve = |name: &str, values: &[f64]| {
             let mut points: Vec<(f64, f64)> = values
                 .iter()
                 .zip(&building.elevation)
                 .map(|(x, z)| (factor * x, *z))
                 .collect();
-            if starts_at_zero {
-                points.insert(0, (0.0, 0.0));
-            } else {
-                points = steps(&points);
+            match base {
+                Some(base) => points.insert(0, (base, 0.0)),
+                None => points = steps(&points),
             }
             Curve {
                 name: name.to_owned(),
@@ -76,8 +78,8 @@ pub(super) fn profiles(building: &BuildingResult) -> Outcome {
             caption: format!("Elevation (m) over {caption}"),
             horizontal: caption.to_owned(),
             curves: vec![
-                curve("with pounding", &peaks.value),
-                curve("without", &peaks.isolated),
+                curve("as built", &peaks.value),
+                curve("without gaps and links", &peaks.isolated),
             ],
         };
         figure_of_size(&[panel], PROFILE)
@@ -86,18 +88,18 @@ pub(super) fn profiles(building: &BuildingResult) -> Outcome {
         profile(
             "peak displacement (mm)",
             (&building.displacement_peaks, 1.0e3),
-            true,
+            Some(0.0),
         )?,
-        profile("peak drift (%)", (&building.drift_peaks, 1.0e2), false)?,
+        profile("peak drift (%)", (&building.drift_peaks, 1.0e2), None)?,
         profile(
             "peak storey shear (kN)",
             (&building.shear_peaks, 1.0e-3),
-            false,
+            None,
         )?,
         profile(
             "peak absolute acceleration (m/s\u{b2})",
             (&building.acceleration_peaks, 1.0),
-            true,
+            Some(ground),
         )?,
     ]))
 }
@@ -127,8 +129,8 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
     )];
     let end = result.time.last().copied().unwrap_or(0.0);
     // Velocity jumps have no force.
-    if gap.impacts.iter().any(|i| i.peak_force.is_finite()) {
-        let force = |i: &ImpactResult| (i.peak_force_time, 1.0e-3 * i.peak_force);
+    if gap.impacts.iter().any(|i| i.force().is_finite()) {
+        let force = |i: &ImpactResult| (i.peak_force_time, 1.0e-3 * i.force());
         panels.push(over_time(
             "Peak force of every impact (kN)",
             stems(gap, end, force),
@@ -168,15 +170,8 @@ fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) 
 
 /// The level with the greatest force, or without impacts that which comes closest.
 pub(super) fn loudest(gap: &GapResult) -> Option<usize> {
-    let hardest = gap
-        .impacts
-        .iter()
-        .max_by(|a, b| {
-            let size = |x: f64| if x.is_finite() { x } else { 0.0 };
-            let by_force = size(a.peak_force).total_cmp(&size(b.peak_force));
-            by_force.then(a.impulse.total_cmp(&b.impulse))
-        })
-        .map(|i| i.level as usize - 1);
+    let hardest = gap.impacts.iter().max_by(|a, b| gap.harder(a, b));
+    let hardest = hardest.map(|i| i.level as usize - 1);
     let closest = || {
         let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);
         (0..gap.elevation.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))

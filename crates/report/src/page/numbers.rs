@@ -6,7 +6,8 @@ pub(super) fn figures(x: f64) -> String {
         return "\u{2013}".to_owned();
     }
     let size = x.abs();
-    if size == 0.0 {
+    // Smaller than what round-off leaves of millimetres and kilojoules.
+    if size < 1.0e-12 {
         return "0".to_owned();
     }
     if !(1.0e-4..1.0e7).contains(&size) {
@@ -22,7 +23,11 @@ pub(super) fn ratio(with: f64, without: f64) -> String {
     if !(without > 0.0) || !with.is_finite() {
         return "\u{2013}".to_owned();
     }
-    format!("{:.2}", with / without)
+    match with / without {
+        // Beside almost nothing.
+        ratio if ratio >= 1.0e4 => format!("{ratio:.1e}"),
+        ratio => format!("{ratio:.2}"),
+    }
 }
 
 /// Part of a whole in percent.
@@ -53,6 +58,8 @@ mod tests {
         }
         assert_eq!(ratio(3.0, 2.0), "1.50");
         assert_eq!(ratio(3.0, 0.0), "\u{2013}");
+        assert_eq!(ratio(3.0, 1.0e-28), "3.0e28");
+        assert_eq!(figures(-1.8e-15), "0");
         assert_eq!(percent(1.0, 8.0), "12.5 %");
     }
 }

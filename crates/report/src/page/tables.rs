@@ -62,7 +62,8 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
         row
     });
     let note = "<p class=\"note\">Greatest absolute values, found inside the steps; \
-                <em>without</em>: the same building under the same motion without any gap.</p>\n";
+                <em>without</em>: the same building under the same motion without any gap \
+                or link.</p>\n";
     table(headings, rows) + note
 }
 
@@ -76,7 +77,7 @@ pub(super) fn levels(gap: &GapResult) -> String {
         "peak force (kN)",
         "at (s)",
         "fastest approach (m/s)",
-        "mean restitution",
+        "restitution",
         "dissipated (kJ)",
     ];
     let rows = (0..gap.elevation.len()).rev().map(|l| {
@@ -87,18 +88,20 @@ pub(super) fn levels(gap: &GapResult) -> String {
             .collect();
         let hardest = here
             .iter()
-            .filter(|i| i.peak_force.is_finite())
-            .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+            .filter(|i| i.force().is_finite())
+            .max_by(|a, b| a.force().total_cmp(&b.force()));
         let fastest = here
             .iter()
             .map(|i| i.approach_velocity)
             .fold(f64::NAN, f64::max);
-        let known: Vec<f64> = here
-            .iter()
-            .map(|i| i.achieved_restitution)
-            .filter(|e| e.is_finite())
-            .collect();
-        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        // Of all finished impacts together, as a run prints it: ratios of slow ones are
+        // of no weight.
+        let squares = |speed: fn(&ImpactResult) -> f64| -> f64 {
+            let finished = here.iter().filter(|i| i.separation_velocity.is_finite());
+            finished.map(|i| speed(i) * speed(i)).sum()
+        };
+        let restitution =
+            (squares(|i| i.separation_velocity) / squares(|i| i.approach_velocity)).sqrt();
         let dissipated: f64 = here
             .iter()
             .map(|i| i.energy_dissipated)
@@ -109,10 +112,10 @@ pub(super) fn levels(gap: &GapResult) -> String {
             figures(gap.elevation[l]),
             figures(1.0e3 * gap.width[l]),
             here.len().to_string(),
-            figures(1.0e-3 * hardest.map_or(f64::NAN, |i| i.peak_force)),
+            figures(1.0e-3 * hardest.map_or(f64::NAN, |i| i.force())),
             figures(hardest.map_or(f64::NAN, |i| i.peak_force_time)),
             figures(fastest),
-            figures(mean),
+            figures(restitution),
             figures(1.0e-3 * dissipated),
         ]
     });
@@ -125,14 +128,7 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
         return String::new();
     }
     let mut impacts: Vec<&ImpactResult> = gap.impacts.iter().collect();
-    let size = |i: &ImpactResult| match i.peak_force.is_finite() {
-        true => (i.peak_force, i.impulse),
-        false => (0.0, i.impulse),
-    };
-    impacts.sort_by(|a, b| {
-        let (a, b) = (size(a), size(b));
-        b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
-    });
+    impacts.sort_by(|a, b| gap.harder(b, a));
     let headings = [
         "level",
         "closes (s)",
@@ -156,7 +152,7 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
             figures(i.approach_velocity),
             figures(i.separation_velocity),
             figures(i.achieved_restitution),
-            figures(1.0e-3 * i.peak_force),
+            figures(1.0e-3 * i.force()),
             figures(1.0e3 * i.peak_penetration),
             figures(1.0e-3 * i.impulse),
             figures(1.0e-3 * i.energy_dissipated),

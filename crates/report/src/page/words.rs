@@ -2,8 +2,8 @@
 
 use super::figures::loudest;
 use super::html::escaped;
-use super::numbers::{figures, percent};
-use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult, StoreyPeaks};
+use super::numbers::{figures, percent, ratio as times};
+use crate::result::{BuildingResult, GapResult, RunResult, StoreyPeaks};
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
@@ -16,7 +16,7 @@ pub(super) fn summary(result: &RunResult) -> String {
         points.push("There is no gap with a contact level.".to_owned());
     }
     if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
-        points.extend(result.buildings.iter().map(changed));
+        points.extend(result.buildings.iter().filter_map(changed));
     }
     points.push(ledger(result));
     let items: String = points.iter().map(|p| format!("<li>{p}</li>\n")).collect();
@@ -41,22 +41,24 @@ fn hit(gap: &GapResult) -> Option<String> {
             figures(1.0e3 * gap.width[level]),
         ));
     }
-    let hardest = hardest(gap)?;
-    let force = match hardest.peak_force.is_finite() {
-        true => format!("with {} kN", figures(1.0e-3 * hardest.peak_force)),
-        // Velocity jumps have no force.
-        false => format!(
+    let hardest = gap.impacts.iter().max_by(|a, b| gap.harder(a, b))?;
+    let force = match gap.jumps() {
+        true => format!(
             "with an impulse of {} kN s",
             figures(1.0e-3 * hardest.impulse)
         ),
+        false => format!("with {} kN", figures(1.0e-3 * hardest.force())),
+    };
+    let times = match gap.impacts.len() {
+        1 => "once".to_owned(),
+        count => format!("{count} times"),
     };
     let levels = (0..gap.elevation.len())
         .filter(|l| gap.impacts.iter().any(|i| i.level == *l as u64 + 1))
         .count();
     Some(format!(
-        "<strong>Gap {name} closes {} times</strong> at {levels} of {} levels. The hardest impact \
+        "<strong>Gap {name} closes {times}</strong> at {levels} of {} levels. The hardest impact \
          hits {force} at {}, {} s into the motion, approaching with {} m/s ({}).",
-        gap.impacts.len(),
         gap.elevation.len(),
         at(level),
         figures(hardest.t_close),
@@ -65,27 +67,18 @@ fn hit(gap: &GapResult) -> Option<String> {
     ))
 }
 
-fn hardest(gap: &GapResult) -> Option<&ImpactResult> {
-    let level = loudest(gap)? as u64 + 1;
-    let here = gap.impacts.iter().filter(|i| i.level == level);
-    here.max_by(|a, b| {
-        let size = |x: f64| if x.is_finite() { x } else { 0.0 };
-        let by_force = size(a.peak_force).total_cmp(&size(b.peak_force));
-        by_force.then(a.impulse.total_cmp(&b.impulse))
-    })
-}
-
 /// What pounding changed in a building: the greatest rise of each quantity.
-fn changed(building: &BuildingResult) -> String {
+fn changed(building: &BuildingResult) -> Option<String> {
     let rise = |what: &str, peaks: &StoreyPeaks, (factor, unit): (f64, &str)| {
         let ratios = peaks.value.iter().zip(&peaks.isolated).map(|(a, b)| a / b);
         let most = ratios
             .enumerate()
             .filter(|(_, r)| r.is_finite())
             .max_by(|a, b| a.1.total_cmp(&b.1));
-        let (storey, ratio) = most?;
+        let (storey, _) = most?;
         Some(format!(
-            "{what} at most {ratio:.2} times (storey {}: {} {unit}, alone {} {unit})",
+            "{what} at most {} times (storey {}: {} {unit}, alone {} {unit})",
+            times(peaks.value[storey], peaks.isolated[storey]),
             storey + 1,
             figures(factor * peaks.value[storey]),
             figures(factor * peaks.isolated[storey]),
@@ -101,11 +94,13 @@ fn changed(building: &BuildingResult) -> String {
         ),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
-    format!(
-        "Peaks of building {} beside those of the building alone: {}.",
-        escaped(&building.name),
-        parts.join(", ")
-    )
+    (!parts.is_empty()).then(|| {
+        format!(
+            "Peaks of building {} beside those of the building alone: {}.",
+            escaped(&building.name),
+            parts.join(", ")
+        )
+    })
 }
 
 fn ledger(result: &RunResult) -> String {
@@ -124,11 +119,19 @@ pub(super) fn gap(gap: &GapResult) -> String {
             gap.separation.replace('_', " ")
         ),
     };
-    format!(
+    let mut out = format!(
         "<p>{} &middot; {}</p>\n",
         escaped(&gap.between),
         escaped(&model)
-    )
+    );
+    if gap.jumps() {
+        out.push_str(
+            "<p class=\"note\">Velocities jump at impacts: there is no force, and floor \
+             accelerations do not include the jumps. Forces are those that hold floors together \
+             where contact lasts.</p>\n",
+        );
+    }
+    out
 }
 
 /// Where the energy went.
@@ -150,9 +153,18 @@ pub(super) fn energy(result: &RunResult) -> String {
         .filter(|(_, value)| *value != 0.0)
         .map(|(name, value)| format!("{name} {}", percent(value, whole)));
     let parts: Vec<String> = parts.collect();
+    let still = result.ground_acceleration.iter().all(|a| *a == 0.0);
+    let source = match still {
+        true => "The initial motion brings",
+        false => "The ground motion, with any initial motion, brings",
+    };
+    let Some(time) = result.time.last().filter(|_| !parts.is_empty()) else {
+        return "<p>There is no energy on the output grid.</p>\n".to_owned();
+    };
     format!(
-        "<p>The ground motion puts in {} kJ relative to the ground. At the end it is in: {}.</p>\n",
+        "<p>{source} {} kJ relative to the ground by {} s, the last output time. Then it is in: {}.</p>\n",
         figures(1.0e-3 * whole),
+        figures(*time),
         parts.join(", ")
     )
 }

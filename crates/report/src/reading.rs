@@ -1,0 +1,289 @@
+//! The result of a run, read back.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use hdf5::types::VarLenUnicode;
+use hdf5::{Group, H5Type, Location};
+
+use crate::error::ReportError;
+use crate::result::{
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks,
+    Table,
+};
+
+type Outcome<T> = Result<T, ReportError>;
+
+impl RunResult {
+    /// Reads a result file.
+    ///
+    /// # Errors
+    /// A file that is no HDF5 or no result of a run, and parts of it that are missing or
+    /// have another shape.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        let unreadable = |reason: String| ReportError::Unreadable {
+            path: path.to_owned(),
+            reason,
+        };
+        // HDF5 says at length what the operating system says in a word.
+        let mut start = [0; SIGNATURE.len()];
+        std::fs::File::open(path)
+            .and_then(|mut f| f.read(&mut start))
+            .map_err(|e| unreadable(e.to_string()))?;
+        if start != SIGNATURE {
+            return Err(unreadable("it is not HDF5".to_owned()));
+        }
+        let file = hdf5::File::open(path).map_err(|e| {
+            let reason = e.to_string();
+            let reason = reason.lines().next().unwrap_or_default();
+            unreadable(format!("HDF5 cannot open it: {reason}"))
+        })?;
+        let reader = Reader {
+            path: path.to_owned(),
+        };
+        reader.is_a_result(&file)?;
+        let [energy, run, ground] = ["energy", "run", "ground"].map(|g| reader.group(&file, g));
+        let (energy, run, ground) = (energy?, run?, ground?);
+        let warnings = reader.text(&run, "warnings")?;
+        let time = reader.column(&file, "time")?;
+        Ok(Self {
+            title: reader.text(&file, "title")?,
+            version: reader.text(&file, "version")?,
+            case: reader.text(&file, "case")?,
+            case_sha256: reader.text(&file, "case_sha256")?,
+            record_sha256: reader.text(&file, "record_sha256")?,
+            record: reader.text(&ground, "record")?,
+            method: reader.text(&run, "method")?,
+            warnings: warnings.lines().map(str::to_owned).collect(),
+            steps: reader.scalar(&run, "steps")?,
+            wall_time: reader.scalar(&run, "wall_time")?,
+            residual_ratio: reader.scalar(&energy, "residual_ratio")?,
+            ground_acceleration: reader.column(&ground, "acceleration")?,
+            buildings: reader.members(&file, "building", |g, name| reader.building(g, name))?,
+            gaps: reader.members(&file, "gap", |g, name| reader.gap(g, name))?,
+            links: reader.members(&file, "link", |g, name| reader.link(g, name))?,
+            energy: EnergyHistory {
+                input: reader.column(&energy, "input")?,
+                kinetic: reader.column(&energy, "kinetic")?,
+                strain: reader.column(&energy, "strain")?,
+                viscous: reader.column(&energy, "viscous")?,
+                hysteretic: reader.column(&energy, "hysteretic")?,
+                impact: reader.column(&energy, "impact")?,
+            },
+            time,
+        })
+    }
+}
+
+/// First bytes of every HDF5 file.
+const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
+/// More values than a run can record.
+const MOST_VALUES: usize = 300_000_000;
+
+/// A dataset of a size that fits into memory: a damaged file may ask for any.
+fn moderate(data: hdf5::Dataset) -> hdf5::Result<hdf5::Dataset> {
+    let values = data
+        .shape()
+        .iter()
+        .try_fold(1_usize, |n, m| n.checked_mul(*m));
+    match values {
+        Some(values) if values <= MOST_VALUES => Ok(data),
+        _ => Err(hdf5::Error::from(
+            "it claims more values than a run records",
+        )),
+    }
+}
+
+/// Reads, and says what could not be read.
+struct Reader {
+    path: PathBuf,
+}
+
+impl Reader {
+    /// Whether the file is the finished result of a run.
+    fn is_a_result(&self, file: &hdf5::File) -> Outcome<()> {
+        let not = |found: &str| ReportError::NotAResult {
+            path: self.path.clone(),
+            found: found.to_owned(),
+        };
+        if !matches!(self.text(file, "program"), Ok(program) if program == "pounding") {
+            return Err(not("its attribute `program` does not say pounding"));
+        }
+        if !file.link_exists("building") || !file.link_exists("energy") {
+            return Err(not("it has no buildings and energies over time"));
+        }
+        match self.text(file, "status") {
+            Ok(status) if status == "complete" => Ok(()),
+            _ => Err(not("its attribute `status` does not say complete")),
+        }
+    }
+
+    fn failed(&self, object: &str) -> impl FnOnce(hdf5::Error) -> ReportError {
+        let (path, object) = (self.path.clone(), object.to_owned());
+        move |e| ReportError::Damaged {
+            path,
+            object,
+            reason: e.to_string(),
+        }
+    }
+
+    fn text(&self, place: &Location, name: &str) -> Outcome<String> {
+        let read = || {
+            let attribute = place.attr(name)?;
+            if !attribute.is_scalar() || attribute.space()?.extents()?.is_null() {
+                return Err(hdf5::Error::from("it is no single text"));
+            }
+            let text = attribute.read_scalar::<VarLenUnicode>()?;
+            // Whatever HDF5 calls UTF-8 need not be.
+            String::from_utf8(text.as_bytes().to_vec())
+                .map_err(|_| hdf5::Error::from("it is not UTF-8"))
+        };
+        let object = format!("attribute {name} of {}", place.name());
+        read().map_err(self.failed(&object))
+    }
+
+    fn scalar<T: H5Type>(&self, place: &Location, name: &str) -> Outcome<T> {
+        let object = format!("attribute {name} of {}", place.name());
+        let read = || place.attr(name)?.read_scalar::<T>();
+        read().map_err(self.failed(&object))
+    }
+
+    fn group(&self, parent: &Group, name: &str) -> Outcome<Group> {
+        parent
+            .group(name)
+            .map_err(self.failed(&format!("{}/{name}", parent.name())))
+    }
+
+    fn column(&self, parent: &Group, name: &str) -> Outcome<Vec<f64>> {
+        let read = || moderate(parent.dataset(name)?)?.read_raw::<f64>();
+        read().map_err(self.failed(&format!("{}/{name}", parent.name())))
+    }
+
+    fn table(&self, parent: &Group, name: &str) -> Outcome<Table> {
+        let read = || {
+            let data = moderate(parent.dataset(name)?)?;
+            let shape = data.shape();
+            let [_, columns] = shape[..] else {
+                return Err(hdf5::Error::from(format!("{} dimensions", shape.len())));
+            };
+            Ok(Table {
+                values: data.read_raw::<f64>()?,
+                columns,
+            })
+        };
+        read().map_err(self.failed(&format!("{}/{name}", parent.name())))
+    }
+
+    /// All groups in one of them; none where it is absent.
+    fn members<T>(
+        &self,
+        file: &hdf5::File,
+        name: &str,
+        read: impl Fn(&Group, String) -> Outcome<T>,
+    ) -> Outcome<Vec<T>> {
+        if !file.link_exists(name) {
+            return Ok(Vec::new());
+        }
+        let all = self.group(file, name)?;
+        let mut names = all.member_names().map_err(self.failed(name))?;
+        // HDF5 has them by name; the case has them from left to right.
+        let case = self.text(file, "case")?;
+        names.sort_by_key(|n| case.find(&format!("\"{n}\"")).unwrap_or(usize::MAX));
+        let one = |name: String| read(&self.group(&all, &name)?, name);
+        names.into_iter().map(one).collect()
+    }
+
+    fn building(&self, group: &Group, name: String) -> Outcome<BuildingResult> {
+        let peaks = self.group(group, "peak")?;
+        let of = |quantity: &str| -> Outcome<StoreyPeaks> {
+            let part = |name: String| self.column(&peaks, &name);
+            Ok(StoreyPeaks {
+                value: part(quantity.to_owned())?,
+                time: part(format!("{quantity}_time"))?,
+                isolated: part(format!("isolated_{quantity}"))?,
+                isolated_time: part(format!("isolated_{quantity}_time"))?,
+            })
+        };
+        let ductility = peaks
+            .link_exists("ductility")
+            .then(|| self.column(&peaks, "ductility"));
+        let building = BuildingResult {
+            name,
+            elevation: self.column(group, "storey")?,
+            displacement: self.table(group, "displacement")?,
+            displacement_peaks: of("displacement")?,
+            drift_peaks: of("drift_ratio")?,
+            shear_peaks: of("storey_shear")?,
+            acceleration_peaks: of("acceleration_absolute")?,
+            ductility: ductility.transpose()?,
+            period: self.column(group, "period")?,
+            damping_ratio: self.column(group, "damping_ratio")?,
+        };
+        let storeys = building.elevation.len();
+        let peaks = [
+            &building.displacement_peaks,
+            &building.drift_peaks,
+            &building.shear_peaks,
+            &building.acceleration_peaks,
+        ];
+        let whole = |p: &&StoreyPeaks| p.value.len() == storeys && p.isolated.len() == storeys;
+        let fits =
+            storeys > 0 && building.displacement.columns == storeys && peaks.iter().all(whole);
+        self.fits(group, fits)?;
+        Ok(building)
+    }
+
+    fn gap(&self, group: &Group, name: String) -> Outcome<GapResult> {
+        let elevation = self.column(group, "level")?;
+        // A gap without levels has no model.
+        let word = |name: &str| match elevation.is_empty() {
+            true => Ok(String::new()),
+            false => self.text(group, name),
+        };
+        let impacts = || moderate(group.dataset("impacts")?)?.read_raw::<ImpactResult>();
+        let object = format!("{}/impacts", group.name());
+        let gap = GapResult {
+            name,
+            between: self.text(group, "between")?,
+            model: word("model")?,
+            separation: word("separation")?,
+            width: self.column(group, "width")?,
+            penetration: self.table(group, "penetration")?,
+            force: self.table(group, "force")?,
+            impacts: impacts().map_err(self.failed(&object))?,
+            elevation,
+        };
+        let levels = gap.elevation.len();
+        let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
+        let tables = [&gap.penetration, &gap.force];
+        let fits = gap.width.len() == levels
+            && tables.iter().all(|t| t.columns == levels)
+            && gap.impacts.iter().all(known);
+        self.fits(group, fits)?;
+        Ok(gap)
+    }
+
+    /// Refuses a group whose parts do not fit one another.
+    fn fits(&self, group: &Group, fits: bool) -> Outcome<()> {
+        match fits {
+            true => Ok(()),
+            false => Err(self.failed(&group.name())(hdf5::Error::from(
+                "its parts do not have the same storeys or levels",
+            ))),
+        }
+    }
+
+    fn link(&self, group: &Group, name: String) -> Outcome<LinkResult> {
+        let dissipated = self.table(group, "energy_dissipated")?;
+        let columns = 0..dissipated.columns;
+        let last = |i: usize| dissipated.column(i).last().unwrap_or(f64::NAN);
+        Ok(LinkResult {
+            name,
+            law: self.text(group, "law")?,
+            elevation: self.column(group, "level")?,
+            deformation: self.column(group, "peak/deformation")?,
+            force: self.column(group, "peak/force")?,
+            energy_dissipated: columns.map(last).collect(),
+        })
+    }
+}

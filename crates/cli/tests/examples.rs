@@ -29,7 +29,7 @@ fn run_example(name: &str) -> Value {
     );
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();
     let residual = result["energy"]["residual_ratio"].as_f64().unwrap();
-    assert!(residual < 1e-8, "{name}: energy residual {residual:e}");
+    assert!(residual < 1e-9, "{name}: energy residual {residual:e}");
     result
 }
 

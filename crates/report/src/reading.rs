@@ -199,9 +199,7 @@ impl Reader {
             let part = |name: String| self.column(&peaks, &name);
             Ok(StoreyPeaks {
                 value: part(quantity.to_owned())?,
-                time: part(format!("{quantity}_time"))?,
                 isolated: part(format!("isolated_{quantity}"))?,
-                isolated_time: part(format!("isolated_{quantity}_time"))?,
             })
         };
         let ductility = peaks
@@ -249,15 +247,13 @@ impl Reader {
             separation: word("separation")?,
             width: self.column(group, "width")?,
             penetration: self.table(group, "penetration")?,
-            force: self.table(group, "force")?,
             impacts: impacts().map_err(self.failed(&object))?,
             elevation,
         };
         let levels = gap.elevation.len();
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
-        let tables = [&gap.penetration, &gap.force];
         let fits = gap.width.len() == levels
-            && tables.iter().all(|t| t.columns == levels)
+            && gap.penetration.columns == levels
             && gap.impacts.iter().all(known);
         self.fits(group, fits)?;
         Ok(gap)

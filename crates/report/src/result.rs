@@ -1,7 +1,5 @@
 //! What a page shows of the result of a run.
 
-use std::cmp::Ordering;
-
 use hdf5::H5Type;
 
 /// Rows of a quantity over time: one column a storey or level.
@@ -24,17 +22,13 @@ impl Table {
     }
 }
 
-/// Peaks of one quantity of all storeys, with and without pounding, with their times (s).
+/// Peaks of one quantity of all storeys, with and without gaps and links.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StoreyPeaks {
-    /// With pounding.
+    /// With them.
     pub value: Vec<f64>,
-    /// Times of these (s).
-    pub time: Vec<f64>,
-    /// Of the building without any gap.
+    /// Of the building alone.
     pub isolated: Vec<f64>,
-    /// Times of these (s).
-    pub isolated_time: Vec<f64>,
 }
 
 /// One building.
@@ -120,8 +114,6 @@ pub struct GapResult {
     pub width: Vec<f64>,
     /// Penetration (m), negative while the gap is open.
     pub penetration: Table,
-    /// Contact force (N).
-    pub force: Table,
     /// Impacts in order of closure.
     pub impacts: Vec<ImpactResult>,
 }
@@ -134,15 +126,18 @@ impl GapResult {
         over.any(|i| i.force().is_nan())
     }
 
-    /// Which of two impacts is harder: by force, or by impulse where velocities jump, since
-    /// the only forces there are those that hold floors together.
+    /// The hardest impacts first: by force, or by impulse where velocities jump, since the
+    /// only forces there are those that hold floors together.
     #[must_use]
-    pub fn harder(&self, a: &ImpactResult, b: &ImpactResult) -> Ordering {
+    pub fn hardest_first(&self) -> Vec<&ImpactResult> {
+        let jumps = self.jumps();
         let size = |i: &ImpactResult| {
-            let size = if self.jumps() { i.impulse } else { i.force() };
+            let size = if jumps { i.impulse } else { i.force() };
             if size.is_finite() { size } else { 0.0 }
         };
-        size(a).total_cmp(&size(b))
+        let mut impacts: Vec<&ImpactResult> = self.impacts.iter().collect();
+        impacts.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        impacts
     }
 }
 

@@ -43,45 +43,27 @@ fn bounds_are_short_and_options_named() {
     spectrum(&["--fourier", "--smoothing", "0"], &["--smoothing: "]);
     let folder = Folder::new();
     let out = folder.name("o.csv");
-    refused(
-        2,
-        &["process", &file, "-o", &out, "--trim", "start=5 s, end=2 s"],
+    let process = |option: &str, value: &str, wanted: &[&str]| {
+        refused(2, &["process", &file, "-o", &out, option, value], wanted);
+    };
+    process(
+        "--trim",
+        "start=5 s, end=2 s",
         &["--trim: ", "start = 5 is not below end = 2"],
     );
-    refused(
-        2,
-        &[
-            "process",
-            &file,
-            "-o",
-            &out,
-            "--trim",
-            "start=5 s, end=99 s",
-        ],
+    process(
+        "--trim",
+        "start=5 s, end=99 s",
         &["--trim: ", "end = 99 is outside [0.02, 31.16]"],
     );
-    refused(
-        2,
-        &[
-            "process",
-            &file,
-            "-o",
-            &out,
-            "--trim",
-            "arias_from=0.9, arias_to=0.1",
-        ],
+    process(
+        "--trim",
+        "arias_from=0.9, arias_to=0.1",
         &["first part = 0.9 is not below last part = 0.1"],
     );
-    refused(
-        2,
-        &[
-            "process",
-            &file,
-            "-o",
-            &out,
-            "--baseline",
-            "start=20 s, end=5 s",
-        ],
+    process(
+        "--baseline",
+        "start=20 s, end=5 s",
         &["t1 = 20 is not below t2 = 5"],
     );
     refused(

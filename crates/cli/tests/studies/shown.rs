@@ -90,6 +90,14 @@ fn a_shown_case_is_repeated_by_run() {
     }
 }
 
+/// The command that makes the motion of the first run.
+fn shown_command(bench: &Bench) -> String {
+    let shown = bench.text("sweep study.toml --show 0");
+    let mut lines = shown.lines();
+    let command = lines.find_map(|l| l.strip_prefix("# pounding "));
+    command.unwrap().to_owned()
+}
+
 /// What a study and `motion synth` leave out is the same: so are their motions.
 #[test]
 fn a_study_and_synth_make_one_motion() {
@@ -98,12 +106,8 @@ fn a_study_and_synth_make_one_motion() {
     );
     bench.text("sweep study.toml -o out.h5 --csv out.csv");
     bench.text("motion synth rezaeian_der_kiureghian_2010 --seed 7 --significant-duration 3 --middle-time 2 --middle-frequency 4 --duration 6 -o made.csv");
-    let shown = bench.text("sweep study.toml --show 0");
-    let command = shown
-        .lines()
-        .find_map(|l| l.strip_prefix("# pounding "))
-        .unwrap();
-    bench.text(command);
+    let command = shown_command(&bench);
+    bench.text(&command);
     assert_eq!(bench.bytes("seed_7.csv"), bench.bytes("made.csv"));
     for (option, other) in [
         ("--arias-intensity", "2"),
@@ -127,12 +131,8 @@ fn a_study_and_synth_make_one_motion() {
     bench.text("motion synth rezaeian_der_kiureghian_2010 --seed 7 --significant-duration 3 --middle-time 2 --middle-frequency 25.132741228718345rad/s --duration 6 -o turns.csv");
     let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
     bench.study(&study.replace("4 Hz", "25.132741228718345 rad/s"));
-    let shown = bench.text("sweep study.toml --show 0");
-    let command = shown
-        .lines()
-        .find_map(|l| l.strip_prefix("# pounding "))
-        .unwrap();
-    bench.text(command);
+    let command = shown_command(&bench);
+    bench.text(&command);
     assert_eq!(bench.bytes("seed_7.csv"), bench.bytes("turns.csv"));
 }
 

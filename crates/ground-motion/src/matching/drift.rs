@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, within};
 use crate::measures::integrate;
 
 /// What a change leaves at the end: velocity and displacement.
@@ -50,11 +50,19 @@ pub(crate) fn end_shapes(count: usize) -> [Vec<f64>; 2] {
 /// The record with other samples, velocity and displacement at the end brought to zero.
 ///
 /// # Errors
-/// Samples that are not finite.
+/// Fewer than four samples, between which the shapes have no values that differ, and
+/// samples that are not finite.
 pub(crate) fn ending_at_rest(
     record: &Accelerogram,
     mut samples: Vec<f64>,
 ) -> Result<Accelerogram, GroundMotionError> {
+    within(
+        "spectrum matching",
+        "number of samples",
+        samples.len() as f64,
+        4.0,
+        f64::MAX,
+    )?;
     let (h, shapes) = (record.time_step(), end_shapes(samples.len()));
     bring_to(&mut samples, [&shapes[0], &shapes[1]], [0.0; 2], h);
     record.with_samples(samples, h)

@@ -170,8 +170,7 @@ fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) 
 
 /// The level with the greatest force, or without impacts that which comes closest.
 pub(super) fn loudest(gap: &GapResult) -> Option<usize> {
-    let hardest = gap.impacts.iter().max_by(|a, b| gap.harder(a, b));
-    let hardest = hardest.map(|i| i.level as usize - 1);
+    let hardest = gap.hardest_first().first().map(|i| i.level as usize - 1);
     let closest = || {
         let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);
         (0..gap.elevation.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))

@@ -127,8 +127,7 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
     if gap.impacts.is_empty() {
         return String::new();
     }
-    let mut impacts: Vec<&ImpactResult> = gap.impacts.iter().collect();
-    impacts.sort_by(|a, b| gap.harder(b, a));
+    let impacts = gap.hardest_first();
     let headings = [
         "level",
         "closes (s)",

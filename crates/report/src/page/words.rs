@@ -41,7 +41,7 @@ fn hit(gap: &GapResult) -> Option<String> {
             figures(1.0e3 * gap.width[level]),
         ));
     }
-    let hardest = gap.impacts.iter().max_by(|a, b| gap.harder(a, b))?;
+    let hardest = *gap.hardest_first().first()?;
     let force = match gap.jumps() {
         true => format!(
             "with an impulse of {} kN s",

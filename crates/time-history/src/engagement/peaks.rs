@@ -148,20 +148,25 @@ fn look_inside(
 fn any_turns(track: &Track, c: usize) -> bool {
     let (now, next) = (track.now[c], track.next[c]);
     let (overshoot, peak) = (track.overshoot[c], track.peak[c]);
-    let mut any = false;
-    for l in 0..WIDTH {
-        let (a, b) = (now[l].abs(), next[l].abs());
-        let above = (if a > b { a } else { b }) + overshoot[l] > peak[l];
-        any |= above & ((next[l] - now[l]).abs() <= 4.0 * overshoot[l]);
-    }
-    any
+    (0..WIDTH).fold(false, |any, l| {
+        any | could_turn((now[l], next[l]), overshoot[l], peak[l])
+    })
 }
 
 /// Whether this floor could turn above its peak.
 fn turns(track: &Track, floor: usize) -> bool {
     let (c, l) = (floor / WIDTH, floor % WIDTH);
-    let (a, b, over) = (track.now[c][l], track.next[c][l], track.overshoot[c][l]);
-    a.abs().max(b.abs()) + over > track.peak[c][l] && (b - a).abs() <= 4.0 * over
+    let ends = (track.now[c][l], track.next[c][l]);
+    could_turn(ends, track.overshoot[c][l], track.peak[c][l])
+}
+
+/// Whether what overshoots its ends by so much at most could turn above a peak: a larger
+/// change excludes a turning point. Without branches, for lanes.
+#[inline(always)]
+fn could_turn((a, b): (f64, f64), overshoot: f64, peak: f64) -> bool {
+    let (first, last) = (a.abs(), b.abs());
+    let above = (if first > last { first } else { last }) + overshoot > peak;
+    above & ((b - a).abs() <= 4.0 * overshoot)
 }
 
 fn take(track: &mut Track, floor: usize, value: f64, time: f64) {

@@ -102,14 +102,31 @@ impl Driver<'_> {
                 closings(&e.rows, q, &mut e.closings);
             }
         }
-        let works = e.series.works(modes);
+        self.note_series(open, start);
+        let e = &mut open.engagement;
+        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        e.derived = false;
+        if !e.affine {
+            e.lengths.accept_series(step);
+        }
+        Some((step, event.map(|event| (event, whole))))
+    }
+
+    /// Takes works and peaks of the series as it now is, from its start (s) on.
+    fn note_series(&mut self, open: &mut Open<'_>, start: f64) {
+        let Open {
+            constants,
+            flight,
+            engagement: e,
+        } = open;
+        let works = e.series.works(&constants.modes);
         let layout = self.dynamics.layout;
         self.state[layout.input()] += works.input;
         self.state[layout.viscous()] += works.viscous;
         note_floors_of_series(
             constants,
             &e.series,
-            (q, &e.absolute),
+            (&e.pair.end.motion[0], &e.absolute),
             &mut flight.tracks(),
             start,
         );
@@ -125,16 +142,10 @@ impl Driver<'_> {
             ];
             for (terms, peak) in peaks {
                 if let Some((theta, top)) = e.series.maximum(terms, peak.value) {
-                    peak.raise(top, start + theta * step);
+                    peak.raise(top, start + theta * e.series.step());
                 }
             }
         }
-        std::mem::swap(&mut e.pair.start, &mut e.pair.end);
-        e.derived = false;
-        if !e.affine {
-            e.lengths.accept_series(step);
-        }
-        Some((step, event.map(|event| (event, whole))))
     }
 
     /// A step by the pair, cut at its first event.

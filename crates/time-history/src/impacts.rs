@@ -1,4 +1,9 @@
-//! The log of impacts and what they sum up to at every level.
+//! What counts as an impact: the only place where impacts are counted, whatever the method.
+//!
+//! A contact begins at a located closure and ends by the separation rule of its model. An
+//! impact is a run of contacts between which the floors do not part: hops of at most
+//! [`TOUCH`] are within what positions are known to, and belong to it. It counts if it
+//! amounts to more than a touch. The rule in words is in `docs/theory/impacts.md`.
 
 use pounding_gap_element::{Collision, MAXIMUM_CONSTANTS};
 
@@ -7,33 +12,74 @@ use crate::outcome::{Impact, LevelOutcome, Peak};
 use crate::peaks::Peaks;
 use crate::system::System;
 
-/// An impact in progress.
+/// Floors that part by at most this (m) stay in touch, and those that overlap by at most
+/// this do no more than touch. Round-off of displacements of a metre is 1e-16 m; at the
+/// surface of a wall, 1e-12 m has no meaning.
+pub(crate) const TOUCH: f64 = 1.0e-12;
+
+/// Change of the relative velocity (m/s) up to which rigid floors, which never overlap, do
+/// no more than touch; floors that meet no faster than this meet at rest.
+const TOUCH_VELOCITY: f64 = 1.0e-9;
+
+/// The impact of a level that is in progress, or the last one while it may go on.
 #[derive(Debug, Clone, Copy)]
-struct Open {
+struct Episode {
+    /// Place in the log.
     index: usize,
-    work: f64,
-    impulse: f64,
+    /// Time of the first contact (s), which `time_closed` may come after.
+    first_contact: f64,
+    /// Work and impulse of the level when the present contact closed; `None` between two
+    /// contacts.
+    closed_with: Option<(f64, f64)>,
+    /// Whether the present contact is a lasting one of rigid floors.
     lasting: bool,
+    sticks: usize,
+}
+
+/// What is followed of a level from contact to contact.
+#[derive(Debug, Clone, Copy)]
+struct Track {
+    episode: Option<Episode>,
+    /// Whether the floors are apart by more than a touch from the start.
+    apart_from_start: bool,
+    /// Since when they are apart (s), and how fast they parted (m/s).
+    apart_since: f64,
+    separation_velocity: f64,
+    /// Sums of squared approach and separation velocities of finished impacts.
+    squares: (f64, f64),
+    /// Gap, and level within it.
+    place: (usize, usize),
+    /// Number of constants of its model.
+    constants: usize,
+    /// Whether its impacts are velocity jumps.
+    rigid: bool,
+    effective_mass: f64,
+}
+
+impl Track {
+    /// Whether floors that close now have not parted since their last contact, or since the
+    /// start: whether they hopped no higher than a touch. The height is that of the
+    /// parabola with these velocities at its ends.
+    fn stayed_in_touch(&self, time: f64, approach_velocity: f64) -> bool {
+        let velocities = self.separation_velocity + approach_velocity;
+        !self.apart_from_start && 0.125 * velocities * (time - self.apart_since) <= TOUCH
+    }
 }
 
 /// Room for impacts before the log has to grow.
 const IMPACTS: usize = 1024;
 
-/// Impacts in order of closure.
+/// Impacts in the order in which they were found.
 #[derive(Debug)]
 pub(crate) struct ImpactLog {
     impacts: Vec<Impact>,
-    present: Vec<Option<Open>>,
-    levels: Vec<LevelOutcome>,
-    /// Sums of squared approach and separation velocities of finished impacts.
-    squares: Vec<(f64, f64)>,
-    places: Vec<(usize, usize)>,
-    /// Number of constants of each level's model, and those of all impacts: handed over
-    /// with the impact, so that nothing is allocated while it lasts.
-    count: Vec<usize>,
+    /// Constants of all impacts: handed over with the impact, so that nothing is allocated
+    /// while it lasts.
     constants: Vec<[f64; MAXIMUM_CONSTANTS]>,
-    /// Levels whose impacts are velocity jumps.
-    rigid: Vec<bool>,
+    /// Impacts that turned out to be touches.
+    touches: Vec<bool>,
+    tracks: Vec<Track>,
+    levels: Vec<LevelOutcome>,
     finished: Vec<usize>,
     handed_out: Vec<Impact>,
 }
@@ -41,9 +87,23 @@ pub(crate) struct ImpactLog {
 impl ImpactLog {
     pub(crate) fn new(system: &System) -> Self {
         let count = system.levels().len();
-        let mut places = Vec::with_capacity(count);
+        let (u, v) = system.initial_state().split_at(system.initial_state().len() / 2);
+        let mut tracks = Vec::with_capacity(count);
         for (g, gap) in system.gaps().iter().enumerate() {
-            places.extend((0..gap.levels).map(|level| (g, level)));
+            for level in 0..gap.levels {
+                let contact = &system.levels()[gap.first_level + level];
+                tracks.push(Track {
+                    episode: None,
+                    apart_from_start: contact.width - contact.relative(u) > TOUCH,
+                    apart_since: 0.0,
+                    separation_velocity: (-contact.relative(v)).max(0.0),
+                    squares: (0.0, 0.0),
+                    place: (g, level),
+                    constants: contact.model.descriptor().constants.len(),
+                    rigid: contact.model.rigid_restitution().is_some(),
+                    effective_mass: contact.effective_mass,
+                });
+            }
         }
         let empty = LevelOutcome {
             impacts: 0,
@@ -60,26 +120,16 @@ impl ImpactLog {
         };
         Self {
             impacts: Vec::with_capacity(IMPACTS),
-            present: vec![None; count],
-            levels: vec![empty; count],
-            squares: vec![(0.0, 0.0); count],
-            places,
             constants: Vec::with_capacity(IMPACTS),
-            count: system
-                .levels()
-                .iter()
-                .map(|l| l.model.descriptor().constants.len())
-                .collect(),
-            rigid: system
-                .levels()
-                .iter()
-                .map(|l| l.model.rigid_restitution().is_some())
-                .collect(),
+            touches: Vec::with_capacity(IMPACTS),
+            tracks,
+            levels: vec![empty; count],
             finished: Vec::with_capacity(IMPACTS),
             handed_out: Vec::new(),
         }
     }
 
+    /// A contact begins: with it an impact, or the present one goes on.
     pub(crate) fn close(
         &mut self,
         l: usize,
@@ -88,38 +138,50 @@ impl ImpactLog {
         layout: Layout,
         state: &[f64],
     ) {
-        let (gap, level) = self.places[l];
-        self.present[l] = Some(Open {
+        let approach_velocity = collision.approach_velocity;
+        let track = &mut self.tracks[l];
+        let closed_with = Some((state[layout.work(l)], state[layout.impulse(l)]));
+        let in_touch = track.stayed_in_touch(time, approach_velocity);
+        if let (true, Some(episode)) = (in_touch, &mut track.episode) {
+            episode.closed_with = closed_with;
+            episode.lasting = false;
+            return;
+        }
+        // Floors that lie against one another from the start are in contact from the start.
+        let time = if in_touch { track.apart_since } else { time };
+        let at_rest = in_touch && approach_velocity <= TOUCH_VELOCITY;
+        let (gap, level) = track.place;
+        self.settle(l);
+        self.tracks[l].episode = Some(Episode {
             index: self.impacts.len(),
-            work: state[layout.work(l)],
-            impulse: state[layout.impulse(l)],
+            first_contact: time,
+            closed_with,
             lasting: false,
+            sticks: 0,
         });
         self.impacts.push(Impact {
             gap,
             level,
             time_closed: time,
             time_opened: f64::NAN,
-            approach_velocity: collision.approach_velocity,
+            approach_velocity: if at_rest { 0.0 } else { approach_velocity },
             separation_velocity: f64::NAN,
             achieved_restitution: f64::NAN,
-            peak_force: Peak::default(),
-            peak_penetration: Peak::default(),
+            peak_force: Peak {
+                value: if self.tracks[l].rigid { f64::NAN } else { 0.0 },
+                time,
+            },
+            peak_penetration: Peak { value: 0.0, time },
             impulse: 0.0,
             energy_dissipated: 0.0,
             constants: Vec::new(),
         });
         self.constants.push(collision.constants);
-        let outcome = &mut self.levels[l];
-        outcome.impacts += 1;
-        outcome.first_contact.get_or_insert(time);
-        outcome.approach_velocity_max = outcome
-            .approach_velocity_max
-            .max(collision.approach_velocity);
+        self.touches.push(false);
     }
 
-    /// Ends an impact. `end` is the time (s) and the separation velocity (m/s), or
-    /// `None` if the run ends first; `stored` is what the spring still holds (J).
+    /// Ends a contact. `end` is the time (s) and the separation velocity (m/s), or `None`
+    /// if the run ends first; `stored` is what the spring still holds (J).
     pub(crate) fn open(
         &mut self,
         l: usize,
@@ -129,24 +191,62 @@ impl ImpactLog {
         state: &[f64],
         stored: f64,
     ) {
-        let Some(open) = self.present[l].take() else {
+        let track = &mut self.tracks[l];
+        let Some(episode) = &mut track.episode else {
             return;
         };
-        let impact = &mut self.impacts[open.index];
-        impact.impulse = state[layout.impulse(l)] - open.impulse;
-        impact.energy_dissipated = state[layout.work(l)] - open.work - stored;
-        impact.peak_force = peaks.force[l];
-        impact.peak_penetration = peaks.penetration[l];
-        let outcome = &mut self.levels[l];
+        let Some((work, impulse)) = episode.closed_with.take() else {
+            return;
+        };
+        let impact = &mut self.impacts[episode.index];
+        impact.impulse += state[layout.impulse(l)] - impulse;
+        impact.energy_dissipated += state[layout.work(l)] - work - stored;
+        take_larger(&mut impact.peak_force, peaks.force[l]);
+        take_larger(&mut impact.peak_penetration, peaks.penetration[l]);
         if let Some((time, separation)) = end {
             impact.time_opened = time;
             // Contact may end before the impacts that led to it would have.
             impact.time_closed = impact.time_closed.min(time);
             impact.separation_velocity = separation;
+            track.apart_from_start = false;
+            track.apart_since = time;
+            track.separation_velocity = separation;
+        } else {
+            impact.time_opened = f64::NAN;
+            impact.separation_velocity = f64::NAN;
+        }
+    }
+
+    /// The impact of a level is over for good: takes it into the sums of its level, unless
+    /// it was no more than a touch.
+    fn settle(&mut self, l: usize) {
+        let track = &mut self.tracks[l];
+        let Some(episode) = track.episode.take() else {
+            return;
+        };
+        let impact = &mut self.impacts[episode.index];
+        let is_touch = if track.rigid {
+            impact.impulse <= track.effective_mass * TOUCH_VELOCITY
+        } else {
+            impact.peak_penetration.value <= TOUCH
+        };
+        if is_touch {
+            self.touches[episode.index] = true;
+            return;
+        }
+        let outcome = &mut self.levels[l];
+        outcome.impacts += 1;
+        outcome.sticks += episode.sticks;
+        outcome.first_contact.get_or_insert(episode.first_contact);
+        outcome.approach_velocity_max = outcome
+            .approach_velocity_max
+            .max(impact.approach_velocity);
+        let separation = impact.separation_velocity;
+        if separation.is_finite() {
             if impact.approach_velocity > 0.0 {
                 impact.achieved_restitution = separation / impact.approach_velocity;
             }
-            let squares = &mut self.squares[l];
+            let squares = &mut track.squares;
             squares.0 += impact.approach_velocity * impact.approach_velocity;
             squares.1 += separation * separation;
             if squares.0 > 0.0 {
@@ -156,13 +256,20 @@ impl ImpactLog {
         outcome.impulse += impact.impulse;
         outcome.impulse_max = outcome.impulse_max.max(impact.impulse);
         outcome.energy_dissipated += impact.energy_dissipated;
-        outcome
-            .peak_force
-            .raise(impact.peak_force.value, impact.peak_force.time);
-        outcome
-            .peak_penetration
-            .raise(impact.peak_penetration.value, impact.peak_penetration.time);
-        self.finished.push(open.index);
+        for (peak, of_impact) in [
+            (&mut outcome.peak_force, impact.peak_force),
+            (&mut outcome.peak_penetration, impact.peak_penetration),
+        ] {
+            peak.raise(of_impact.value, of_impact.time);
+        }
+        self.finished.push(episode.index);
+    }
+
+    /// The run is over: so are all impacts.
+    pub(crate) fn settle_all(&mut self) {
+        for l in 0..self.tracks.len() {
+            self.settle(l);
+        }
     }
 
     /// A plastic deformation (m) widened the gap.
@@ -170,33 +277,37 @@ impl ImpactLog {
         self.levels[l].gap_widening += deformation;
     }
 
-    /// Whether an impact is in progress.
+    /// Whether a contact is in progress.
     pub(crate) fn is_running(&self, l: usize) -> bool {
-        self.present[l].is_some()
+        let episode = self.tracks[l].episode;
+        episode.is_some_and(|e| e.closed_with.is_some())
     }
 
-    /// Whether the impact in progress is a lasting contact of rigid floors.
+    /// Whether the contact in progress is a lasting one of rigid floors.
     pub(crate) fn is_lasting(&self, l: usize) -> bool {
-        self.present[l].is_some_and(|open| open.lasting)
+        self.is_running(l) && self.tracks[l].episode.is_some_and(|e| e.lasting)
     }
 
-    /// The rigid floors of the impact in progress do not part.
+    /// The rigid floors of the contact in progress do not part.
     pub(crate) fn begin_lasting(&mut self, l: usize) {
-        if let Some(open) = &mut self.present[l] {
-            open.lasting = true;
-            self.levels[l].sticks += 1;
+        if let Some(episode) = &mut self.tracks[l].episode {
+            episode.lasting = true;
+            // A touch between two lasting contacts makes one of them.
+            episode.sticks = 1;
         }
     }
 
     /// Moves the closure of the impact in progress.
     pub(crate) fn closed_at(&mut self, l: usize, time: f64) {
-        if let Some(open) = &self.present[l] {
-            self.impacts[open.index].time_closed = time;
+        if let Some(episode) = &self.tracks[l].episode {
+            self.impacts[episode.index].time_closed = time;
         }
     }
 
     pub(crate) fn stick(&mut self, l: usize) {
-        self.levels[l].sticks += 1;
+        if let Some(episode) = &mut self.tracks[l].episode {
+            episode.sticks += 1;
+        }
     }
 
     /// Impacts that ended since the last call.
@@ -210,24 +321,37 @@ impl ImpactLog {
         &self.handed_out
     }
 
-    /// Constants of a collision, as many as its model has on its card.
+    /// Constants of a collision, as many as its model's descriptor has.
     fn constants_of(&self, index: usize) -> Vec<f64> {
         let impact = &self.impacts[index];
         let place = (impact.gap, impact.level);
-        let level = self.places.iter().position(|p| *p == place);
-        let count = level.map_or(0, |l| self.count[l]);
+        let track = self.tracks.iter().find(|t| t.place == place);
+        let count = track.map_or(0, |t| t.constants);
         self.constants[index][..count].to_vec()
     }
 
+    /// What happened at every level, and all impacts in order of closure.
     pub(crate) fn into_outcome(mut self) -> (Vec<LevelOutcome>, Vec<Impact>) {
-        for (level, rigid) in self.levels.iter_mut().zip(&self.rigid) {
-            if *rigid && level.impacts > 0 && level.sticks == 0 {
+        for (level, track) in self.levels.iter_mut().zip(&self.tracks) {
+            if track.rigid && level.impacts > 0 && level.sticks == 0 {
                 level.peak_force.value = f64::NAN;
             }
         }
         for index in 0..self.impacts.len() {
             self.impacts[index].constants = self.constants_of(index);
         }
-        (self.levels, self.impacts)
+        let impacts = self.impacts.into_iter().zip(self.touches);
+        let mut impacts: Vec<_> = impacts.filter(|(_, touch)| !touch).map(|(i, _)| i).collect();
+        impacts.sort_by(|a, b| a.time_closed.total_cmp(&b.time_closed));
+        (self.levels, impacts)
+    }
+}
+
+/// Raises the peak of an impact by that of one of its contacts; a velocity jump has none.
+fn take_larger(peak: &mut Peak, other: Peak) {
+    if peak.value.is_nan() {
+        *peak = other;
+    } else {
+        peak.raise(other.value, other.time);
     }
 }

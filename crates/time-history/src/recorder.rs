@@ -166,7 +166,8 @@ pub trait Recorder {
     /// Whatever keeps the recorder from recording; it ends the run.
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError>;
 
-    /// Called for every impact when it is over, or at the end of the run.
+    /// Called for every impact once its floors have parted and closed again, or at the end
+    /// of the run: until then the next contact may belong to it.
     ///
     /// # Errors
     /// Whatever keeps the recorder from recording; it ends the run.

@@ -26,6 +26,7 @@ impl Driver<'_> {
             self.log
                 .open(l, None, &self.peaks, layout, &self.state, stored);
         }
+        self.log.settle_all();
         self.hand_out_impacts(recorders)?;
         if self.ledger.largest_input > 0.0 {
             self.ledger.residual_ratio = self.largest_residual / self.ledger.largest_input;

@@ -40,6 +40,10 @@ const EVENTS_AT_ONCE: usize = 4;
 /// loose: relative velocity and acceleration are zero there, so that only the
 /// next higher derivative tells the direction, and round-off must not.
 const PROGRESS_STEP: f64 = 1.0e-6;
+/// Closures of a level in touch before its gap is left open for a while, and the longest
+/// such while (s).
+const TOUCHES: usize = 8;
+const LONGEST_TOUCH: f64 = 1.0e-5;
 /// Events without progress before the run is given up.
 const CHATTER: usize = 10_000;
 
@@ -148,6 +152,8 @@ struct Driver<'a> {
     /// Events of each level at the present instant.
     at_once: Vec<usize>,
     mute: Vec<Mute>,
+    /// Closures of each level since it last did more than touch.
+    touches: Vec<usize>,
     /// Step (s) that a muted level makes.
     quiet: Vec<f64>,
     stalled: usize,
@@ -193,6 +199,7 @@ impl<'a> Driver<'a> {
             statistics: Statistics::default(),
             at_once: vec![0; layout.levels],
             mute: vec![Mute::No; layout.levels],
+            touches: vec![0; layout.levels],
             quiet: vec![PROGRESS_STEP; layout.levels],
             stalled: 0,
             last_ground: f64::NAN,

@@ -277,6 +277,12 @@ impl ImpactLog {
         self.levels[l].gap_widening += deformation;
     }
 
+    /// Whether floors that close now have not parted by more than a touch since their last
+    /// contact, or since the start.
+    pub(crate) fn stays_in_touch(&self, l: usize, time: f64, approach_velocity: f64) -> bool {
+        self.tracks[l].stayed_in_touch(time, approach_velocity)
+    }
+
     /// Whether a contact is in progress.
     pub(crate) fn is_running(&self, l: usize) -> bool {
         let episode = self.tracks[l].episode;

@@ -5,13 +5,15 @@ use pounding_gap_element::{Memory, Phase, SeparationRule, Target};
 use pounding_hysteresis::Guard;
 
 use super::{
-    CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, PROGRESS_STEP, SIMULTANEOUS,
+    CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, LONGEST_TOUCH, PROGRESS_STEP,
+    SIMULTANEOUS, TOUCHES,
 };
 use super::{Driver, Mute};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
+use crate::impacts::TOUCH;
 use crate::methods::Context;
 use crate::outcome::Peak;
 use crate::polynomial::{derivative, value};
@@ -98,6 +100,8 @@ impl Driver<'_> {
                     self.rigid.closing.push(other.level);
                     self.quiet[other.level] = PROGRESS_STEP;
                 }
+            } else if self.goes_on_touching(segment, tau, *other) {
+                self.mute[other.level] = Mute::Step;
             } else {
                 self.fire(segment, tau, *other);
             }
@@ -125,6 +129,45 @@ impl Driver<'_> {
             });
         }
         Ok(smooth)
+    }
+
+    /// Whether a closure is one of many between which the floors neither part nor overlap by
+    /// more than a touch. Floors that lie against one another at rest leave, or are pressed
+    /// together, like a high power of time: at first round-off decides on which side of
+    /// zero they are. The gap then stays open for a while in which its floors cannot move
+    /// by more than a touch; if they overlap after it and still approach, it closes.
+    fn goes_on_touching(&mut self, segment: &Segment, tau: f64, event: Candidate) -> bool {
+        let (n, l) = (self.dynamics.layout.dofs, event.level);
+        if event.kind != EventKind::Close {
+            return false;
+        }
+        let level = &self.system.levels()[l];
+        let rate = level.relative(&self.state[n..2 * n]);
+        let overlap = self.contacts.penetration(self.system, l, &self.state[..n]);
+        if event.theta == 0.0 && overlap > 0.0 && rate > 0.0 {
+            return false;
+        }
+        let in_touch = self.log.stays_in_touch(l, segment.start + tau, rate);
+        if !in_touch || self.peaks.penetration[l].value > TOUCH {
+            self.touches[l] = 0;
+            return false;
+        }
+        self.touches[l] += 1;
+        let Some(beyond) = self.touches[l].checked_sub(TOUCHES) else {
+            return false;
+        };
+        self.dynamics.accelerations(
+            &self.contacts,
+            Instant::committed(segment.ground(tau)),
+            &self.state,
+            &mut self.interpolated[..n],
+        );
+        let acceleration = level.relative(&self.interpolated[..n]).abs();
+        let bounded = (TOUCH / rate.abs()).min((2.0 * TOUCH / acceleration).sqrt());
+        let growing = PROGRESS_STEP * f64::from(1_u32 << beyond.min(8));
+        self.quiet[l] = growing.min(LONGEST_TOUCH).min(bounded);
+        // Floors that move by more than a touch soon are not torn by round-off.
+        self.quiet[l] >= PROGRESS_STEP
     }
 
     /// An element leaves its branch.

@@ -13,9 +13,9 @@ use crate::peaks::Peaks;
 use crate::system::System;
 
 /// Floors that part by at most this (m) stay in touch, and those that overlap by at most
-/// this do no more than touch. Round-off of displacements of a metre is 1e-16 m; at the
-/// surface of a wall, 1e-12 m has no meaning.
-pub(crate) const TOUCH: f64 = 1.0e-12;
+/// this do no more than touch. Displacements of a decimetre have a round-off of 1e-17 m,
+/// which a run gathers to some 1e-15 m.
+pub(crate) const TOUCH: f64 = 1.0e-14;
 
 /// Change of the relative velocity (m/s) up to which rigid floors, which never overlap, do
 /// no more than touch; floors that meet no faster than this meet at rest.
@@ -88,6 +88,7 @@ impl ImpactLog {
     pub(crate) fn new(system: &System) -> Self {
         let count = system.levels().len();
         let (u, v) = system.initial_state().split_at(system.initial_state().len() / 2);
+        let begins = begins_to_move(system);
         let mut tracks = Vec::with_capacity(count);
         for (g, gap) in system.gaps().iter().enumerate() {
             for level in 0..gap.levels {
@@ -95,7 +96,7 @@ impl ImpactLog {
                 tracks.push(Track {
                     episode: None,
                     apart_from_start: contact.width - contact.relative(u) > TOUCH,
-                    apart_since: 0.0,
+                    apart_since: begins,
                     separation_velocity: (-contact.relative(v)).max(0.0),
                     squares: (0.0, 0.0),
                     place: (g, level),
@@ -147,7 +148,8 @@ impl ImpactLog {
             episode.lasting = false;
             return;
         }
-        // Floors that lie against one another from the start are in contact from the start.
+        // Floors that lie against one another at rest and are pressed together, however
+        // slowly at first, are in contact since they began to move.
         let time = if in_touch { track.apart_since } else { time };
         let at_rest = in_touch && approach_velocity <= TOUCH_VELOCITY;
         let (gap, level) = track.place;
@@ -346,11 +348,26 @@ impl ImpactLog {
         for index in 0..self.impacts.len() {
             self.impacts[index].constants = self.constants_of(index);
         }
-        let impacts = self.impacts.into_iter().zip(self.touches);
-        let mut impacts: Vec<_> = impacts.filter(|(_, touch)| !touch).map(|(i, _)| i).collect();
-        impacts.sort_by(|a, b| a.time_closed.total_cmp(&b.time_closed));
+        let mut impacts = self.impacts;
+        let mut touches = self.touches.into_iter();
+        impacts.retain(|_| touches.next() == Some(false));
+        impacts.sort_unstable_by(|a, b| {
+            let places = (a.gap, a.level).cmp(&(b.gap, b.level));
+            a.time_closed.total_cmp(&b.time_closed).then(places)
+        });
         (self.levels, impacts)
     }
+}
+
+/// Time (s) until which nothing moves: that of the last sample before the ground does, unless
+/// the buildings move from the start.
+fn begins_to_move(system: &System) -> f64 {
+    let ground = system.ground();
+    if system.initial_state().iter().any(|y| *y != 0.0) {
+        return 0.0;
+    }
+    let first = ground.samples.iter().position(|a| *a != 0.0);
+    first.map_or(0.0, |i| i.saturating_sub(1) as f64 * ground.time_step)
 }
 
 /// Raises the peak of an impact by that of one of its contacts; a velocity jump has none.

@@ -117,7 +117,8 @@ fn tables_and_files() {
         assert!(shown.contains(part), "{part}: {shown}");
     }
     let table = std::fs::read_to_string(csv).unwrap();
-    assert_eq!(table.lines().count(), 1 + 2 * (2 * 4 + 6));
+    // Quantities of two buildings and a gap, then six storeys and three levels.
+    assert_eq!(table.lines().count(), 1 + 2 * (2 * 4 + 6 + 6 * 4 + 3));
     assert!(table.contains("stereomechanical,el_centro_1940_ns,light-heavy,peak_force,N,NaN"));
     assert!(std::fs::read_to_string(svg).unwrap().contains("<svg"));
 }
@@ -139,4 +140,207 @@ fn models_that_fail() {
     let unknown = compare(&["--models", "jankowsky_2005"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(text(&unknown.stderr).contains("jankowski_2005"));
+}
+
+/// Runs a command on a case file; exit code and JSON.
+fn answer(command: &str, case: &Path, more: &[&str]) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg(command)
+        .arg(case)
+        .args(more)
+        .arg("--json")
+        .output()
+        .unwrap();
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)))
+}
+
+/// Seven motions of which one does not close the gap: it has no force, and the spread and
+/// order of forces are those of the other six, exactly. Counts and energy of that record are
+/// zero.
+#[test]
+fn a_record_without_contact_is_left_out_of_the_spread_of_force() {
+    let suite = root()
+        .join("examples/synthetic_suite")
+        .canonicalize()
+        .unwrap();
+    let motions: Vec<String> = (1..=7)
+        .map(|i| suite.join(format!("motion_{i}.csv")).display().to_string())
+        .collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let with_width = |width: &str| {
+        let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+        let own = root().join("ground_motions").canonicalize().unwrap();
+        let case = case.unwrap().replace("\"20 mm\"", width);
+        let case = case.replace("../../ground_motions", own.to_str().unwrap());
+        std::fs::write(&file, case).unwrap();
+    };
+    let under = |motions: &[&String], more: &[&'static str]| -> Vec<String> {
+        let records = motions.iter().map(|m| (*m).clone());
+        let start = more.iter().map(|m| (*m).to_owned());
+        start
+            .chain(["--records".to_owned()])
+            .chain(records)
+            .collect()
+    };
+    let call = |command: &str, arguments: &[String]| {
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        answer(command, &file, &arguments)
+    };
+    with_width("\"20 mm\"");
+    let all: Vec<&String> = motions.iter().collect();
+    let check = call("gap", &under(&all, &["--points", "0"]));
+    let demand: Vec<f64> = check["gaps"][0]["demand"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|d| d.as_f64().unwrap())
+        .collect();
+    let mut sorted = demand.clone();
+    sorted.sort_by(f64::total_cmp);
+    with_width(&format!("{}", 0.5 * (sorted[0] + sorted[1])));
+    let without = demand.iter().position(|d| *d == sorted[0]).unwrap();
+    let six: Vec<&String> = (0..7)
+        .filter(|i| *i != without)
+        .map(|i| &motions[i])
+        .collect();
+    let models = "--models=jankowski_2005,anagnostopoulos_2004,linear_elastic";
+    let seven = call("compare", &under(&all, &[models]));
+    let six = call("compare", &under(&six, &[models]));
+    let name = format!("motion_{}", without + 1);
+    let gap = &seven["gaps"][0];
+    assert_eq!(gap["records_without_contact"], serde_json::json!([name]));
+    assert_eq!(gap["models_in_contact"][without], 0);
+    for kind in [
+        "peak_force",
+        "impulse",
+        "approach_velocity",
+        "achieved_restitution",
+    ] {
+        let (of_seven, of_six) = (
+            quantity(&seven, "light-heavy", kind),
+            quantity(&six, "light-heavy", kind),
+        );
+        assert_eq!(of_seven["ranking"], of_six["ranking"], "{kind}");
+        for key in [
+            "between_models",
+            "between_records",
+            "greatest_ratio",
+            "records",
+        ] {
+            assert_eq!(
+                of_seven["spread"][key], of_six["spread"][key],
+                "{kind} {key}"
+            );
+        }
+        assert_eq!(of_seven["spread"]["records"], 6);
+        assert_eq!(of_seven["spread"]["records_left_out"], 1);
+        assert!(of_seven["values"][0][without].is_null(), "{kind}");
+        assert!(!of_seven["ranking"]["models"].as_array().unwrap().is_empty());
+    }
+    for kind in ["impacts", "impact_energy"] {
+        let values = &quantity(&seven, "light-heavy", kind)["values"];
+        assert_eq!(values[0][without], 0.0, "{kind}");
+    }
+    let mut arguments = under(&all, &[models]);
+    arguments.insert(0, file.display().to_string());
+    arguments.insert(0, "compare".to_owned());
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let shown = text(&output.stdout);
+    let said = "light-heavy: no contact with any model under 1 of 7 records";
+    assert!(shown.contains(said) && shown.contains("6 of 7"), "{shown}");
+}
+
+/// At 20 mm pounding lowers the maximum over the storeys of the light building's
+/// displacement, that of its roof, and raises that of its first storey: the comparison says
+/// both, with the number of `gap`, in the table, the object and the file.
+#[test]
+fn storeys_that_answer_otherwise_are_reported() {
+    let case = root().join("examples/three_storey_pair/case.toml");
+    let check = answer("gap", &case, &["--points", "0"]);
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("models.csv");
+    let models = ["--models", "jankowski_2005,anagnostopoulos_2004"];
+    let mut arguments = models.to_vec();
+    arguments.extend(["--csv", csv.to_str().unwrap()]);
+    let result = answer("compare", &case, &arguments);
+    let conclusions = result["conclusions"].as_array().unwrap();
+    let raised = conclusions
+        .iter()
+        .find(|c| c["statement"] == "pounding raises the peak displacement of light")
+        .unwrap();
+    assert_eq!(raised["statistic"], "maximum over storeys");
+    assert_eq!(raised["counts"][0], serde_json::json!([0, 2]));
+    assert_eq!(raised["by_storey"]["counts"][0], serde_json::json!([2, 2]));
+    let storeys = result["differences_from_gap"]["storeys"]
+        .as_array()
+        .unwrap();
+    let found = |building: &str, storey: usize, kind: &str| {
+        storeys
+            .iter()
+            .find(|d| d["building"] == building && d["storey"] == storey && d["quantity"] == kind)
+    };
+    let first = found("light", 1, "displacement").unwrap();
+    let both = serde_json::json!(["jankowski_2005", "anagnostopoulos_2004"]);
+    assert_eq!(first["models"][0], both);
+    assert_eq!(first["own_law"]["differs"][0], true);
+    let own = first["own_law"]["amplification_at_storey"][0]
+        .as_f64()
+        .unwrap();
+    assert!(own > 1.01, "{own}");
+    // Every storey at which `gap` answers differently is there, with the number of `gap`:
+    // where its storeys do not agree with each other, some must differ from the maximum.
+    let raises = |x: &Value| x.as_f64().unwrap() > 1.0 + 1e-6;
+    for (b, building) in ["light", "heavy"].iter().enumerate() {
+        for kind in ["displacement", "storey_shear", "acceleration_absolute"] {
+            let of_gap = |s: usize| &check["records"][0]["amplification"][b][s][kind];
+            let maxima = (1..=3).find_map(|s| found(building, s, kind));
+            let maxima = maxima.map(|d| &d["own_law"]["ratio_of_maxima"][0]);
+            let Some(maxima) = maxima else {
+                let first = raises(of_gap(0));
+                assert!(
+                    (1..3).all(|s| raises(of_gap(s)) == first),
+                    "{building} {kind}"
+                );
+                continue;
+            };
+            for s in 0..3 {
+                let differs = raises(of_gap(s)) != raises(maxima);
+                let Some(d) = found(building, s + 1, kind) else {
+                    assert!(!differs, "{building} {kind}: storey {}", s + 1);
+                    continue;
+                };
+                assert_eq!(d["own_law"]["amplification_at_storey"][0], *of_gap(s));
+                assert_eq!(d["own_law"]["differs"][0], differs);
+            }
+        }
+    }
+    let table = std::fs::read_to_string(&csv).unwrap();
+    let row = |model: &str| {
+        let start = format!("{model},el_centro_1940_ns,light,displacement,m,");
+        let rows = table.lines().filter(|l| l.starts_with(&start));
+        rows.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let rows = row("jankowski_2005");
+    assert_eq!(rows.len(), 4, "the maximum and three storeys");
+    assert!(rows[0].ends_with(",maximum over storeys,,"), "{rows:?}");
+    assert!(
+        rows[1].ends_with(",peak of the storey,storey 1,true"),
+        "{rows:?}"
+    );
+    assert!(
+        rows[3].ends_with(",peak of the storey,storey 3,false"),
+        "{rows:?}"
+    );
+    let shown = text(&compare(&models).stdout);
+    for part in [
+        "pounding raises the peak displacement of light (maximum over storeys): fails for all models",
+        "storey by storey, as `pounding gap` answers: holds for all models",
+        "Storeys where `pounding gap` answers differently",
+    ] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
 }

@@ -175,7 +175,7 @@ fn a_folder_of_records() {
     assert!(fit["dispersion"].as_f64().unwrap() < 1e-12);
     close(&fit["bounds"][1], fit["width"].as_f64().unwrap(), 1e-9);
     let shown = text(&gap("gap_check", &arguments).stdout);
-    assert!(shown.contains("greatest of 7") && shown.contains("7 of 7 records close it"));
+    assert!(shown.contains("maximum of 7") && shown.contains("7 of 7 records close it"));
     let compared = Command::new(env!("CARGO_BIN_EXE_pounding"))
         .arg("compare")
         .arg(root().join("examples/three_storey_pair/case.toml"))
@@ -280,6 +280,84 @@ fn sweep_files() {
     assert!(text(&output.stdout).contains("displacement worst at"));
 }
 
+const BEHAVIOUR: [&str; 6] = [
+    "--set",
+    "response_modification=5",
+    "--set",
+    "displacement_amplification=4.5",
+    "--set",
+    "importance=1",
+];
+
+/// A code that multiplies elastic displacements says so, and decides nothing where the
+/// buildings yield: in the table, the JSON object and the CSV file.
+#[test]
+fn codes_are_marked_where_buildings_yield() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("codes.csv");
+    let answers = |example: &str| {
+        let mut arguments = BEHAVIOUR.to_vec();
+        arguments.extend(["--points", "0", "--codes-csv", csv.to_str().unwrap()]);
+        let shown = text(&gap(example, &arguments).stdout);
+        arguments.push("--json");
+        let result = json(&gap(example, &arguments));
+        (shown, result, std::fs::read_to_string(&csv).unwrap())
+    };
+    let line = |shown: &str, rule: &str| {
+        let line = shown.lines().find(|l| l.contains(rule));
+        line.unwrap_or_else(|| panic!("{shown}")).to_owned()
+    };
+    let (shown, result, codes) = answers("yielding_pair");
+    let provisions = &result["gaps"][0]["provisions"];
+    for (rule, factor) in [
+        ("asce_7_10_between", "Cd / Ie"),
+        ("ubc_1997_between", "0.7 R"),
+    ] {
+        let provision = named(provisions, "name", rule);
+        assert_eq!(provision["elastic_displacement_factor"], factor);
+        assert!(provision["satisfied"].is_null());
+        let caution = provision["caution"].as_str().unwrap();
+        assert!(
+            caution.contains("light and heavy is inelastic"),
+            "{caution}"
+        );
+        let level = &provision["records"][0]["levels"][2];
+        assert!(level["width"].as_f64().unwrap() > 0.0);
+        assert_eq!(level["caution"], caution);
+        let row = line(&shown, rule);
+        assert!(
+            row.contains(factor) && row.contains("not judged: elastic only"),
+            "{row}"
+        );
+        let row = line(&codes, rule);
+        assert!(row.contains(factor) && row.contains("inelastic"), "{row}");
+    }
+    let sum = named(provisions, "name", "ntc_2018_between");
+    assert!(sum["caution"].is_null() && sum["satisfied"].is_boolean());
+    let storeys = &result["records"][0]["isolated"][0]["inelastic_storeys"];
+    assert_eq!(storeys[0]["storey"], 1);
+    let ductility = storeys[0]["ductility"].as_f64().unwrap();
+    assert!(ductility > 1.2, "{ductility}");
+    let said = format!("light under 1 of 1 records (maximum ductility {ductility:.2}, storey 1");
+    assert!(shown.contains(&said), "{said}: {shown}");
+    assert!(shown.contains("these widths decide nothing"), "{shown}");
+
+    let (shown, result, codes) = answers("three_storey_pair");
+    let provisions = &result["gaps"][0]["provisions"];
+    let asce = named(provisions, "name", "asce_7_10_between");
+    assert!(asce["caution"].is_null() && asce["satisfied"].is_boolean());
+    assert!(
+        line(&shown, "asce_7_10_between").contains("Cd / Ie"),
+        "{shown}"
+    );
+    for text in [&shown, &codes] {
+        assert!(
+            !text.contains("not judged") && !text.contains("inelastic"),
+            "{text}"
+        );
+    }
+}
+
 #[test]
 fn provisions_are_listed_with_their_status() {
     let list = |more: &[&str]| {
@@ -303,6 +381,13 @@ fn provisions_are_listed_with_their_status() {
     for p in provisions {
         assert!(["verified", "from memory"].contains(&p["status"].as_str().unwrap()));
     }
+    let factor =
+        |name| named(&result["provisions"], "name", name)["elastic_displacement_factor"].clone();
+    assert_eq!(factor("is_1893_2016_between"), "R");
+    assert!(factor("ntc_2018_between").is_null());
+    let line = shown.lines().find(|l| l.contains("is_1893_2016_between"));
+    assert!(shown.contains("elastic displacement times"), "{shown}");
+    assert!(line.unwrap().contains(" R "), "{shown}");
 }
 
 #[test]

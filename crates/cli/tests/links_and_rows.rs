@@ -136,6 +136,28 @@ fn a_gap_that_a_neighbour_closes_is_too_small() {
     assert_eq!(first["records_driven_by_neighbours"], 1);
 }
 
+/// The same row in a comparison: the models close a level that the demand leaves open, and
+/// the comparison says so.
+#[test]
+fn a_level_that_a_neighbour_closes_is_reported() {
+    let row = [
+        building("a", "100 t", "16 MN/m"),
+        building("b", "100 t", "16 MN/m"),
+        building("c", "800 t", "25 MN/m"),
+        gap(["a", "b"], "5 mm"),
+        gap(["b", "c"], "20 mm"),
+    ]
+    .concat();
+    let (_, compared) = answer(&row, "compare", &["--models", "exact_hunt_crossley"]);
+    let levels = &compared["differences_from_gap"]["levels"];
+    assert_eq!(levels.as_array().unwrap().len(), 1, "{levels}");
+    let level = &levels[0];
+    assert_eq!(level["gap"], "a-b");
+    assert_eq!(level["demand_closes"][0], false);
+    assert_eq!(level["models_in_contact"][0][0], "exact_hunt_crossley");
+    assert!(level["own_law_impacts"][0].as_u64().unwrap() > 0);
+}
+
 /// A record that is named twice counts once at most.
 #[test]
 fn a_record_given_twice_is_refused() {

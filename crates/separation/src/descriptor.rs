@@ -100,6 +100,11 @@ pub struct ProvisionDescriptor {
     pub clause: &'static str,
     /// What it rests on.
     pub basis: Basis,
+    /// What the code multiplies the displacement of an elastic analysis under its reduced
+    /// forces by, in its own symbols; `None` for a rule that takes displacements as an
+    /// analysis gives them, or none. Such a rule does not hold for the displacement of an
+    /// analysis in which the structure yields: the factor would count its ductility twice.
+    pub elastic_displacement_factor: Option<&'static str>,
     /// Formula in plain characters. `u` is the unreduced peak displacement, `d` that
     /// under the reduced forces of the code, `I u / R` unless given; `h` the height of
     /// the level.
@@ -139,7 +144,7 @@ impl ProvisionDescriptor {
             return Err(working.not_applicable("it needs a building on either side"));
         };
         let width = rule(&mut working, structure, elevation, site)?;
-        Ok(working.finish(self.formula, width))
+        Ok(working.finish(self.formula, width, self.caution(&[structure])))
     }
 
     /// Distance between two buildings (m). A boundary rule gives the sum of the
@@ -149,10 +154,11 @@ impl ProvisionDescriptor {
     /// An input that is missing, or a situation that the provision does not cover.
     pub fn between(&self, situation: &Situation) -> Result<Requirement, SeparationError> {
         let mut working = Working::new(self.name);
+        let caution = self.caution(&[&situation.left, &situation.right]);
         match self.rule {
             Rule::Between(rule) => {
                 let width = rule(&mut working, situation)?;
-                Ok(working.finish(self.formula, width))
+                Ok(working.finish(self.formula, width, caution))
             }
             Rule::Boundary(rule) => {
                 let Situation {
@@ -166,9 +172,23 @@ impl ProvisionDescriptor {
                 let width = working.note("own side, left", left, "m")
                     + working.note("own side, right", right, "m");
                 let formula = format!("{}, summed over both sides", self.formula);
-                Ok(working.finish(&formula, width))
+                Ok(working.finish(&formula, width, caution))
             }
         }
+    }
+
+    /// Why the rule does not hold for the displacements of these structures.
+    fn caution(&self, structures: &[&Structure]) -> Option<String> {
+        let factor = self.elastic_displacement_factor?;
+        let taken = |s: &&&Structure| s.inelastic && s.elastic_displacement.is_none();
+        let names: Vec<_> = structures.iter().filter(taken).map(|s| &*s.name).collect();
+        if names.is_empty() {
+            return None;
+        }
+        Some(format!(
+            "the rule is for elastic displacements, which the code multiplies by {factor}; that of {} is inelastic already, and its ductility must not be counted again",
+            names.join(" and ")
+        ))
     }
 }
 

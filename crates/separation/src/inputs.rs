@@ -175,6 +175,9 @@ pub struct Structure {
     /// what a time history or an unreduced spectrum gives. Where a code amplifies the
     /// displacement under reduced forces, that one is taken as `I u / R`.
     pub displacement: Option<f64>,
+    /// Whether `displacement` comes from an analysis in which the structure yields. Rules
+    /// that multiply elastic displacements do not hold for it, and say so.
+    pub inelastic: bool,
     /// Displacement at the level under the reduced design forces of the code (m), where
     /// it is known itself. Taken instead of `I u / R`.
     pub elastic_displacement: Option<f64>,

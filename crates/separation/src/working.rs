@@ -21,8 +21,12 @@ pub struct Requirement {
     pub width: f64,
     /// Everything that went into it, in the order of use.
     pub factors: Vec<Factor>,
-    /// Formula, factors and result in a line.
+    /// Formula, factors and result in a line, with the caution.
     pub explanation: String,
+    /// Why the width decides nothing: the code multiplies the displacement of an elastic
+    /// analysis, and the one given is that of a structure that yields. `None` for a width
+    /// that holds.
+    pub caution: Option<String>,
 }
 
 /// Collects factors and complains of missing ones.
@@ -43,13 +47,17 @@ impl Working {
     }
 
     /// The requirement with its explanation.
-    pub(crate) fn finish(self, formula: &str, width: f64) -> Requirement {
+    pub(crate) fn finish(self, formula: &str, width: f64, caution: Option<String>) -> Requirement {
         let factors: Vec<String> = self.factors.iter().map(shown).collect();
-        let explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
+        let mut explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
+        if let Some(caution) = &caution {
+            explanation.push_str(&format!("; not valid: {caution}"));
+        }
         Requirement {
             width,
             factors: self.factors,
             explanation,
+            caution,
         }
     }
 

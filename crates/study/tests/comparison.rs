@@ -89,12 +89,14 @@ fn one_law_under_two_names() {
             a.records[0]
                 .as_ref()
                 .unwrap()
+                .values
                 .iter()
                 .map(|x| x.to_bits())
                 .collect::<Vec<_>>(),
             b.records[0]
                 .as_ref()
                 .unwrap()
+                .values
                 .iter()
                 .map(|x| x.to_bits())
                 .collect::<Vec<_>>()
@@ -144,7 +146,7 @@ fn all_models() {
     assert!(spread(QuantityKind::Displacement, "heavy") < 0.005);
     let holds = |text: &str| {
         let found = c.conclusions.iter().find(|x| x.statement.contains(text));
-        found.unwrap_or_else(|| panic!("{text}")).holds
+        found.unwrap_or_else(|| panic!("{text}")).judgement.holds
     };
     assert_eq!(
         holds("raises the peak absolute acceleration of light"),

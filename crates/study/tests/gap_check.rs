@@ -146,17 +146,75 @@ fn inputs_from_the_case() {
     let missing = |name: &str| &without.iter().find(|r| r.0 == name).unwrap().1;
     assert!(missing("asce_7_10_between").contains("displacement_amplification"));
     assert!(missing("gb_50011_2010_between").contains("fortification_intensity"));
-    let text = "response_modification = [8, 5]\ndisplacement_amplification = 5.5\nimportance = 1\n\
-        yield_amplification = 1\nstructural_system = \"frame\"\nsame_owner = true\n\
-        fortification_intensity = 8\nsoil_zone = \"II\"\ndesign_ground_acceleration = 2.5\n\
-        seismic_coefficient = 0.12\nductility = [4, 1]";
-    let all = Separation::parse(text, 2).unwrap();
+    let text = format!("{INPUTS}\nductility = [4, 1]");
+    let all = Separation::parse(&text, 2).unwrap();
     let names: Vec<_> = refused(&all).into_iter().map(|r| r.0).collect();
     assert_eq!(
         names,
         ["as_1170_4_boundary", "tehran_between"],
         "9 m is too low"
     );
+}
+
+/// All inputs that provisions may need, for a pair.
+const INPUTS: &str = "response_modification = [8, 5]\ndisplacement_amplification = 5.5\n\
+    importance = 1\nyield_amplification = 1\nstructural_system = \"frame\"\n\
+    same_owner = true\nfortification_intensity = 8\nsoil_zone = \"II\"\n\
+    design_ground_acceleration = 2.5\nseismic_coefficient = 0.12";
+
+/// The pair of the examples that yields, changed.
+fn yielding(change: impl Fn(&str) -> String) -> Case {
+    let file = root().join("examples/yielding_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    Case::parse(&change(&text), &file).unwrap()
+}
+
+/// Names of the provisions with a caution; none of them judges the provided widths.
+fn cautioned(case: &Case) -> Vec<&'static str> {
+    let records = under_records(case, &[]).unwrap();
+    let inputs = Separation::parse(INPUTS, 2).unwrap();
+    let check = gap_check(case, &inputs, &records, &options(), &|_, _| {}).unwrap();
+    let gap = &check.gaps[0];
+    for code in &gap.codes {
+        let silent = code.caution().is_some() || code.refusal().is_some();
+        let judged = code.satisfied_by(&gap.levels);
+        assert_eq!(judged.is_none(), silent, "{}", code.provision.name);
+    }
+    let marked = gap.codes.iter().filter(|c| c.caution().is_some());
+    marked.map(|c| c.provision.name).collect()
+}
+
+/// Alone the light building reaches 1.3 times its yield drift: all codes that multiply
+/// elastic displacements are marked, and no other. With strong storeys none is, although
+/// the storeys have laws; one weak building is enough.
+#[test]
+fn codes_for_elastic_displacements_do_not_judge_buildings_that_yield() {
+    let multiply = pounding_separation::descriptors().iter();
+    let multiply = multiply.filter(|p| p.elastic_displacement_factor.is_some());
+    let names: Vec<_> = multiply.map(|p| p.name).collect();
+    assert_eq!(names.len(), 31);
+    assert_eq!(cautioned(&yielding(str::to_owned)), names);
+    let strong = |text: &str| text.replace("14.42 MN", "14420 MN");
+    assert_eq!(cautioned(&yielding(strong)), names);
+    let strong = |text: &str| strong(text).replace("136.9 kN", "136.9 MN");
+    assert_eq!(cautioned(&yielding(strong)), [""; 0]);
+}
+
+/// A link that yields leaves the storeys elastic: nothing is marked.
+#[test]
+fn a_link_that_yields_makes_no_displacement_inelastic() {
+    let file = root().join("examples/three_storey_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let link = "[[link]]\nbetween = [\"light\", \"heavy\"]\nmodel = \"elastic_perfectly_plastic\"\n\
+        stiffness = \"1 MN/m\"\nyield_force = \"1 kN\"\n[ground_motion]";
+    let case = Case::parse(&text.replace("[ground_motion]", link), &file).unwrap();
+    let records = under_records(&case, &[]).unwrap();
+    let assembly = &records[0].assembly;
+    let alone = assembly.system.without_gaps();
+    let run = pounding_time_history::run(&alone, &assembly.options, &mut [], &mut |_| {});
+    let link = run.unwrap().links[0].levels[0].ductility.unwrap();
+    assert!(link.value > 2.0, "the link yields: {link:?}");
+    assert_eq!(cautioned(&case), [""; 0]);
 }
 
 #[test]

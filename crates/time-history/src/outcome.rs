@@ -43,6 +43,40 @@ pub struct BuildingOutcome {
     pub yielding: Vec<Option<YieldingStorey>>,
 }
 
+impl BuildingOutcome {
+    /// Storeys (from the bottom, from zero) that left their elastic range, with their
+    /// ductility (-). A storey whose law has a yield or friction force did where its
+    /// drift passed that at first yield. One whose law has none did, with `None`, where
+    /// the law dissipated energy; a law of the velocity, which dissipates without
+    /// yielding, never did.
+    #[must_use]
+    pub fn inelastic_storeys(&self) -> Vec<(usize, Option<f64>)> {
+        let storeys = self.storeys.iter().zip(&self.yielding).enumerate();
+        storeys
+            .filter_map(|(storey, (peaks, yielding))| {
+                let yielding = yielding.as_ref()?;
+                let ductility = yielding.ductility.map(|d| d.value);
+                let inelastic = ductility.map_or_else(
+                    || yielding.dissipates_without_velocity(peaks),
+                    |ductility| ductility > 1.0,
+                );
+                inelastic.then_some((storey, ductility))
+            })
+            .collect()
+    }
+}
+
+impl YieldingStorey {
+    /// Whether a law that does not depend on the velocity dissipated more than round-off
+    /// makes of the work of the greatest shear.
+    fn dissipates_without_velocity(&self, peaks: &StoreyPeaks) -> bool {
+        const ROUND_OFF: f64 = 1.0e-9;
+        let of_velocity = pounding_hysteresis::find(self.law).is_ok_and(|law| law.rate_dependent);
+        let work = peaks.storey_shear.value * peaks.displacement.value;
+        !of_velocity && self.hysteretic_energy > ROUND_OFF * work
+    }
+}
+
 /// What a storey with a law went through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldingStorey {

@@ -26,10 +26,10 @@ pub struct CompareArguments {
     /// Restitution of all models [default: that of the case's law]
     #[arg(long, value_name = "E", value_parser = number, allow_hyphen_values = true)]
     pub restitution: Option<f64>,
-    /// Approach velocity of the reference collision, such as "0.5 m/s" [default: the greatest of the case's law]
+    /// Approach velocity of the reference collision, such as "0.5 m/s" [default: the maximum of the case's law]
     #[arg(long, value_name = "V", value_parser = velocity, allow_hyphen_values = true)]
     pub approach_velocity: Option<f64>,
-    /// Write every value into this CSV file
+    /// Write every value, of storeys and levels too, into this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Draw peaks over the models into this SVG file
@@ -46,7 +46,7 @@ pub struct CompareArguments {
 /// What laws of different exponents share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StiffnessChoice {
-    /// Greatest penetration
+    /// Maximum penetration
     Penetration,
     /// Contact time
     Duration,

@@ -26,6 +26,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "AS 1170.4",
     clause: "",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "h / 100, or by analysis",
     inputs: &[],
     status: Status::FromMemory("the rule and its limit of 15 m"),

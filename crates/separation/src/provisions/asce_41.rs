@@ -34,6 +34,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "ASCE/SEI 41-17 and 41-23",
     clause: "7.2.13",
     basis: Basis::Displacement,
+    elastic_displacement_factor: None,
     formula: "min(u, 0.04 h)",
     inputs: &[Input::Displacement],
     status: Status::FromMemory("formula and clause"),

@@ -51,6 +51,7 @@ pub(crate) static ASCE_7_10_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor 
     edition: "ASCE/SEI 7-10",
     clause: "12.12.3",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("Cd / Ie"),
     formula: "deltaM = Cd d / Ie (d = Ie u / R)",
     inputs: INPUTS,
     status: Status::Verified("text of 7-10"),

@@ -37,6 +37,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "E.030",
     clause: "33",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("0.75 R or 0.85 R"),
     formula: "max(2/3 u, s / 2), s = max(0.006 h, 30 mm)",
     inputs: &[Input::Displacement],
     status: Status::FromMemory("formula and clause"),
@@ -56,6 +57,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_minimum",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "max(0.006 h, 30 mm)",
     inputs: &[],
     remarks: &["Holds beside the rule of displacements."],

@@ -27,6 +27,7 @@ pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
     edition: "EAK 2000",
     clause: "4.1.7.2",
     basis: Basis::Displacement,
+    elastic_displacement_factor: None,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
     status: Status::FromMemory("that the square root is allowed; a sum is the safe reading"),

@@ -37,6 +37,7 @@ pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "EN 1998-1:2004",
     clause: "4.4.2.7",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("qd"),
     formula: "ds, times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
     status: Status::FromMemory("the clause, with its reduction"),

@@ -55,6 +55,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     edition: "GB 50011-2010",
     clause: "6.1.4, 8.1.4",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "w = 100 mm + 20 mm for each begun step above 15 m; frame w, frame-wall max(100 mm, 0.7 w), wall max(100 mm, 0.5 w), steel 1.5 w",
     inputs: &[Input::FortificationIntensity, Input::StructuralSystem],
     status: Status::Verified("extract of the clause; whether begun steps count whole was not seen"),

@@ -48,6 +48,7 @@ pub(crate) static BOUNDARY_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor 
     edition: "Standard 2800, 4th edition, and Mabhas 6",
     clause: "1-6, 3-5",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "0.005 h",
     inputs: &[],
     status: Status::Verified("the sentence for up to 8 storeys"),

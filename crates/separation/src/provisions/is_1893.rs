@@ -18,6 +18,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     edition: "IS 1893 (Part 1):2016",
     clause: "7.11.3",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("R"),
     formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
     inputs: &[
         Input::Displacement,

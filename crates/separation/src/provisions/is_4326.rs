@@ -38,6 +38,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     edition: "IS 4326:1993 and 2013",
     clause: "Table 1",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "storeys * (15 mm walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
     inputs: &[Input::StructuralSystem, Input::SeismicCoefficient],
     status: Status::FromMemory("the table"),

@@ -15,6 +15,7 @@ pub(crate) static PRACTICE: ProvisionDescriptor = ProvisionDescriptor {
     edition: "practice, no explicit provision",
     clause: "",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "h / 100",
     inputs: &[],
     status: Status::FromMemory("the practice"),

@@ -93,6 +93,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "NTC-Sismo 2004",
     clause: "1.10",
     basis: Basis::Displacement,
+    elastic_displacement_factor: None,
     formula: "max(50 mm, u + (0.001, 0.003, 0.006 in zones I, II, III) h)",
     inputs: &[Input::Displacement, Input::SoilZone],
     status: Status::Verified("text of the clause"),

@@ -83,6 +83,7 @@ mod tests {
             height: 16.0,
             storeys: 5,
             displacement: Some(u),
+            inelastic: false,
             elastic_displacement: None,
             response_modification: Some(5.0),
             displacement_amplification: Some(4.5),
@@ -186,6 +187,137 @@ mod tests {
                 assert!(requirement.explanation.contains(&shown), "{}", card.name);
             }
             assert!(requirement.explanation.contains(card.formula));
+        }
+    }
+
+    /// Which codes multiply the displacement of an elastic analysis, by what, and where
+    /// that stands. All others take displacements as they are, or none: see below.
+    const MULTIPLIED: [(&str, &str, &str); 31] = [
+        (
+            "asce_7_10_boundary",
+            "Cd / Ie",
+            "12.8-15 and 12.12-1 of 7-10",
+        ),
+        (
+            "asce_7_10_between",
+            "Cd / Ie",
+            "12.8-15 and 12.12-2 of 7-10",
+        ),
+        ("asce_7_16_boundary", "Cd / Ie", "as 7-10"),
+        ("asce_7_16_between", "Cd / Ie", "as 7-10"),
+        ("asce_7_22_boundary", "Cd / Ie", "as 7-10"),
+        ("asce_7_22_between", "Cd / Ie", "as 7-10"),
+        ("ibc_2009_boundary", "Cd / Ie", "after ASCE 7"),
+        (
+            "ibc_2009_between",
+            "Cd / Ie",
+            "after ASCE 7, equation 16-64",
+        ),
+        ("kds_boundary", "Cd / Ie", "after ASCE 7"),
+        ("kds_between", "Cd / Ie", "after ASCE 7"),
+        ("sni_1726_2019_boundary", "Cd / Ie", "after ASCE 7"),
+        ("sni_1726_2019_between", "Cd / Ie", "after ASCE 7"),
+        ("ubc_1997_boundary", "0.7 R", "1630.9.2: 0.7 R deltaS"),
+        ("ubc_1997_between", "0.7 R", "1630.9.2: 0.7 R deltaS"),
+        ("nscp_2015_boundary", "0.7 R", "208-21: 0.7 R deltaS"),
+        ("nscp_2015_between", "0.7 R", "208-21: 0.7 R deltaS"),
+        ("nbcc_2015_between", "Rd Ro / IE", "4.1.8.13"),
+        ("en_1998_1_2004_boundary", "qd", "4.3.4: ds = qd de"),
+        ("en_1998_1_2004_between", "qd", "4.3.4: ds = qd de"),
+        ("pr_en_1998_1_2_boundary", "qd", "as the edition of 2004"),
+        ("pr_en_1998_1_2_between", "qd", "as the edition of 2004"),
+        ("is_1893_2016_between", "R", "7.11.3: R1 d1 + R2 d2"),
+        ("is_1893_2002_between", "R", "7.11.3: R times the sum"),
+        ("taiwan_2011_boundary", "0.6 * 1.4 alpha_y Ra", "2.16"),
+        ("taiwan_2011_between", "0.6 * 1.4 alpha_y Ra", "2.16"),
+        (
+            "tbdy_2018_between",
+            "0.25 R / I or 0.5 R / I",
+            "4.9.3.1: alpha",
+        ),
+        ("tdy_2007_between", "R / 4 or R / 2", "2.10.3: alpha"),
+        ("nch_433_boundary", "R* / 3", "5.9 or 5.10: (R* / 3) d"),
+        ("nch_433_between", "R* / 3", "5.9 or 5.10: (R* / 3) d"),
+        ("e_030_boundary", "0.75 R or 0.85 R", "Art. 31"),
+        ("e_030_between", "0.75 R or 0.85 R", "Art. 31"),
+    ];
+
+    /// Rules of displacements that multiply none, and what they ask for instead.
+    const AS_ANALYSED: [(&str, &str); 10] = [
+        (
+            "asce_41_boundary",
+            "displacement of the analysis, of any kind",
+        ),
+        (
+            "asce_41_between",
+            "displacement of the analysis, of any kind",
+        ),
+        (
+            "ntc_2018_between",
+            "maximum displacement of the limit state",
+        ),
+        ("eak_2000_between", "displacement of the design earthquake"),
+        (
+            "nzs_1170_5_boundary",
+            "deflection of the ultimate limit state",
+        ),
+        (
+            "nzs_1170_5_between",
+            "deflection of the ultimate limit state",
+        ),
+        ("iran_2800_boundary_by_analysis", "nonlinear displacement"),
+        (
+            "iran_2800_between",
+            "nonlinear displacement above 8 storeys",
+        ),
+        ("mexico_city_2004_boundary", "calculated displacement, 1.10"),
+        ("mexico_city_2004_between", "calculated displacement, 1.10"),
+    ];
+
+    #[test]
+    fn every_provision_says_whether_it_multiplies_elastic_displacements() {
+        assert_eq!(ALL.len(), 55);
+        for card in ALL {
+            let multiplied = MULTIPLIED.iter().find(|m| m.0 == card.name);
+            let factor = multiplied.map(|m| m.1);
+            assert_eq!(card.elastic_displacement_factor, factor, "{}", card.name);
+            let as_analysed = AS_ANALYSED.iter().any(|a| a.0 == card.name);
+            let prescriptive = card.basis == Basis::Prescriptive;
+            let classes = [multiplied.is_some(), as_analysed, prescriptive];
+            let stands_in = classes.iter().filter(|c| **c).count();
+            assert_eq!(stands_in, 1, "{}: {classes:?}", card.name);
+        }
+    }
+
+    /// A rule that multiplies elastic displacements does not hold for a structure that
+    /// yields; its width is the same and carries the caution. One building that yields is
+    /// enough; a displacement of an elastic analysis beside it is none.
+    #[test]
+    fn inelastic_displacements_are_not_multiplied_without_a_word() {
+        for card in ALL {
+            let elastic = card.between(&complete(0.1, 0.05)).unwrap();
+            assert_eq!(elastic.caution, None, "{}", card.name);
+            let mut yields = complete(0.1, 0.05);
+            yields.right.inelastic = true;
+            let marked = card.between(&yields).unwrap();
+            assert_eq!(marked.width, elastic.width, "{}", card.name);
+            let caution = marked.caution.as_deref();
+            let Some(factor) = card.elastic_displacement_factor else {
+                assert_eq!(caution, None, "{}", card.name);
+                continue;
+            };
+            let caution = caution.unwrap();
+            for part in [factor, "that of right is inelastic"] {
+                assert!(caution.contains(part), "{}: {caution}", card.name);
+            }
+            assert!(marked.explanation.ends_with(caution), "{}", card.name);
+            if card.place() == Place::Boundary {
+                let s = &yields;
+                let own = |b| card.boundary(b, s.elevation, &s.site).unwrap().caution;
+                assert!(own(&s.left).is_none() && own(&s.right).is_some());
+            }
+            yields.right.elastic_displacement = Some(0.01);
+            assert_eq!(card.between(&yields).unwrap().caution, None);
         }
     }
 

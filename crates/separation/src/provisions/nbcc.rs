@@ -18,6 +18,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     edition: "NBCC 2015 and 2020",
     clause: "4.1.8.14",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("Rd Ro / IE"),
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
     status: Status::Verified("text of Ontario"),

@@ -37,6 +37,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "NCh433",
     clause: "5.9",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("R* / 3"),
     formula: "(R* / 3) d (R* d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
     status: Status::FromMemory("formula and clause; R* stands under response_modification"),
@@ -47,6 +48,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BOUNDARY_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     name: "nch_433_boundary_minimum",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "max(0.002 h, 15 mm)",
     inputs: &[],
     status: Status::FromMemory("formula and clause"),

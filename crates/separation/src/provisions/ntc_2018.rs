@@ -27,6 +27,7 @@ pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     edition: "NTC 2018",
     clause: "7.2.1",
     basis: Basis::Displacement,
+    elastic_displacement_factor: None,
     formula: "u1 + u2",
     inputs: &[Input::Displacement],
     status: Status::FromMemory("the clause"),

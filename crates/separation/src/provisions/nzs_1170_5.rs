@@ -24,6 +24,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "NZS 1170.5:2004",
     clause: "7.4",
     basis: Basis::Displacement,
+    elastic_displacement_factor: None,
     formula: "u",
     inputs: &[Input::Displacement],
     status: Status::FromMemory("the clause"),

@@ -31,6 +31,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "seismic design code, 2011",
     clause: "2.16",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("0.6 * 1.4 alpha_y Ra"),
     formula: "0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
     inputs: &[
         Input::Displacement,

@@ -43,6 +43,7 @@ pub(crate) static TBDY_2018: ProvisionDescriptor = ProvisionDescriptor {
     edition: "TBDY 2018",
     clause: "4.9.3",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("0.25 R / I or 0.5 R / I"),
     formula: "alpha sqrt(d1^2 + d2^2), alpha = 0.25 R / I where floors are aligned, else 0.5 R / I (R d / I = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
     status: Status::FromMemory("the clause"),
@@ -53,6 +54,7 @@ pub(crate) static TBDY_2018: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static TBDY_2018_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     name: "tbdy_2018_minimum",
     basis: Basis::Prescriptive,
+    elastic_displacement_factor: None,
     formula: "30 mm up to 6 m, 10 mm more for each begun 3 m above",
     inputs: &[],
     status: Status::FromMemory("the clause, and that begun steps count whole"),
@@ -65,6 +67,7 @@ pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     name: "tdy_2007_between",
     edition: "TDY 2007",
     clause: "2.10.3",
+    elastic_displacement_factor: Some("R / 4 or R / 2"),
     formula: "alpha (d1 + d2), alpha = R / 4 where floors are aligned, else R / 2 (R d = I u)",
     inputs: &[
         Input::Displacement,

@@ -30,6 +30,7 @@ pub(crate) static UBC_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     edition: "UBC 1997",
     clause: "1633.2.11",
     basis: Basis::Displacement,
+    elastic_displacement_factor: Some("0.7 R"),
     formula: "deltaM = 0.7 R d (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
     status: Status::FromMemory("the formula; that it applied in all zones was seen"),

@@ -1,6 +1,7 @@
 //! What holds for every model, and what hangs on it.
 
 use super::{Comparison, QuantityKind};
+use crate::gap_check::{Amplification, SAME};
 
 /// How far a statement holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,11 +30,30 @@ impl Holds {
     }
 }
 
+/// Whether pounding raises a peak that it brings to this ratio of that without pounding,
+/// by more than two computations of one number differ.
+pub(super) fn raised(ratio: f64) -> bool {
+    ratio > 1.0 + SAME
+}
+
 /// A statement held against every model and record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conclusion {
     /// The statement.
     pub statement: String,
+    /// What its peaks are: how one value comes from the storeys.
+    pub statistic: &'static str,
+    /// The answer.
+    pub judgement: Judgement,
+    /// The answer storey by storey, as a gap check gives it: whether the statement holds
+    /// at some storey, or for the maximum amplification of a storey. `None` for
+    /// statements that are not about storeys.
+    pub by_storey: Option<Judgement>,
+}
+
+/// For which models and records a statement is true.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
     /// How far it holds.
     pub holds: Holds,
     /// For each record: models for which it is true, and models that can say.
@@ -57,23 +77,36 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
                 QuantityKind::StoreyShear => "storey shear",
                 _ => "absolute acceleration",
             };
-            let statement = format!("pounding raises the peak {words} of {}", quantity.of);
-            conclusions.push(judged(comparison, statement, |model, record| {
-                comparison.value(model, record, q) - comparison.isolated[record][q]
-            }));
+            let amplification = quantity.kind.amplification();
+            conclusions.push(Conclusion {
+                statement: format!("pounding raises the peak {words} of {}", quantity.of),
+                statistic: quantity.kind.statistic(),
+                judgement: judged(comparison, |model, record| {
+                    truth(comparison.ratio_of_maxima(model, record, q), raised)
+                }),
+                by_storey: amplification.map(|of| {
+                    judged(comparison, |model, record| {
+                        truth(most(comparison, model, record, quantity.index, of), raised)
+                    })
+                }),
+            });
         }
         if quantity.kind == QuantityKind::Impacts {
-            let statement = format!("{} is closed", quantity.of);
-            conclusions.push(judged(comparison, statement, |model, record| {
-                comparison.value(model, record, q)
-            }));
+            conclusions.push(Conclusion {
+                statement: format!("{} is closed", quantity.of),
+                statistic: "at some level",
+                judgement: judged(comparison, |model, record| {
+                    truth(comparison.value(model, record, q), |impacts| impacts > 0.0)
+                }),
+                by_storey: None,
+            });
         }
     }
     conclusions.extend(hardest_hit(comparison));
     conclusions
 }
 
-/// Which of two neighbours has the greater amplification of acceleration.
+/// Which of two neighbours has the larger amplification of acceleration.
 fn hardest_hit(comparison: &Comparison) -> Vec<Conclusion> {
     let accelerations: Vec<usize> = (0..comparison.quantities.len())
         .filter(|q| comparison.quantities[*q].kind == QuantityKind::AccelerationAbsolute)
@@ -87,39 +120,65 @@ fn hardest_hit(comparison: &Comparison) -> Vec<Conclusion> {
                 of(pair[0]),
                 of(pair[1])
             );
-            judged(comparison, statement, |model, record| {
-                let amplified =
-                    |q: usize| comparison.value(model, record, q) / comparison.isolated[record][q];
-                amplified(pair[0]) - amplified(pair[1])
-            })
+            let more = |x: f64| x > 0.0;
+            let kind = QuantityKind::AccelerationAbsolute;
+            Conclusion {
+                statement,
+                statistic: "ratio of the maxima over storeys",
+                judgement: judged(comparison, |model, record| {
+                    let amplified = |q: usize| comparison.ratio_of_maxima(model, record, q);
+                    truth(amplified(pair[0]) - amplified(pair[1]), more)
+                }),
+                by_storey: kind.amplification().map(|quantity| {
+                    judged(comparison, |model, record| {
+                        let building = |q: usize| comparison.quantities[q].index;
+                        let amplified =
+                            |q: usize| most(comparison, model, record, building(q), quantity);
+                        truth(amplified(pair[0]) - amplified(pair[1]), more)
+                    })
+                }),
+            }
         })
         .collect()
 }
 
-/// Holds a statement, true where `positive` is above zero, against models and records. A
-/// model for which it is NaN says nothing.
-fn judged(
+/// Whether a number fulfils a condition; `None` for NaN, which says nothing.
+fn truth(x: f64, condition: impl Fn(f64) -> bool) -> Option<bool> {
+    (!x.is_nan()).then(|| condition(x))
+}
+
+/// Maximum amplification over the storeys of a building; NaN where it has no meaning.
+fn most(
     comparison: &Comparison,
-    statement: String,
-    positive: impl Fn(usize, usize) -> f64,
-) -> Conclusion {
+    model: usize,
+    record: usize,
+    building: usize,
+    quantity: fn(&Amplification) -> f64,
+) -> f64 {
+    let run = comparison.models[model].records[record].as_ref();
+    run.map_or(f64::NAN, |run| {
+        let storeys = run.amplification[building].iter().map(quantity);
+        storeys.fold(f64::NAN, f64::max)
+    })
+}
+
+/// Holds a statement about a model and a record against all of them; `None` says nothing.
+fn judged(comparison: &Comparison, holds_for: impl Fn(usize, usize) -> Option<bool>) -> Judgement {
     let models = comparison.complete();
     let (mut counts, mut dissenters) = (Vec::new(), Vec::new());
     for record in 0..comparison.records.len() {
         let (mut yes, mut no) = (Vec::new(), Vec::new());
         for &model in &models {
-            let x = positive(model, record);
-            if x > 0.0 {
-                yes.push(model);
-            } else if !x.is_nan() {
-                no.push(model);
+            match holds_for(model, record) {
+                Some(true) => yes.push(model),
+                Some(false) => no.push(model),
+                None => {}
             }
         }
         counts.push((yes.len(), yes.len() + no.len()));
         dissenters.push(if yes.len() < no.len() { yes } else { no });
     }
-    Conclusion {
-        statement,
+    Judgement {
         holds: holds(&counts),
         counts,
         dissenters,

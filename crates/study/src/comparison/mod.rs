@@ -3,12 +3,14 @@
 
 mod calibration;
 mod conclusions;
+mod differences;
 mod quantities;
 mod spread;
 mod stiffness;
 
 pub use calibration::{CalibratedModel, ReferenceCollision, RestitutionRule};
-pub use conclusions::{Conclusion, Holds};
+pub use conclusions::{Conclusion, Holds, Judgement};
+pub use differences::{LevelDifference, StoreyDifference};
 pub use quantities::{Quantity, QuantityKind};
 pub use spread::{Ranking, Spread};
 pub use stiffness::StiffnessRule;
@@ -17,9 +19,12 @@ use std::sync::Arc;
 
 use pounding_case::Case;
 use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
-use pounding_time_history::{Outcome, run};
+use pounding_time_history::{BuildingOutcome, StoreyPeaks, run};
 
-use crate::gap_check::{CaseUnderRecord, CheckError, Progress, in_parallel, rebuilt};
+use crate::gap_check::{
+    Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, amplification,
+    demands, in_parallel, levels, rebuilt,
+};
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +37,7 @@ pub struct ComparisonOptions {
     pub restitution_rule: RestitutionRule,
     /// Restitution (-); `None`: that of the gap's own law.
     pub restitution: Option<f64>,
-    /// Approach velocity of the reference collision (m/s); `None`: the greatest that the
+    /// Approach velocity of the reference collision (m/s); `None`: the maximum that the
     /// gap's own law meets under the records.
     pub approach_velocity: Option<f64>,
     /// Threads.
@@ -46,9 +51,22 @@ pub struct ComparedModel {
     pub descriptor: &'static ModelDescriptor,
     /// Calibrated for each gap, or why it cannot be.
     pub calibrated: Result<Vec<CalibratedModel>, String>,
-    /// Values in the order of [`Comparison::quantities`] for each record (NaN where one
-    /// has no meaning), or why the run failed.
-    pub records: Vec<Result<Vec<f64>, String>>,
+    /// Its run under each record, or why that failed.
+    pub records: Vec<Result<ModelRun, String>>,
+}
+
+/// One model under one record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelRun {
+    /// Values in the order of [`Comparison::quantities`]; NaN where one has no meaning.
+    pub values: Vec<f64>,
+    /// Peaks of each building and storey.
+    pub storeys: Vec<Vec<StoreyPeaks>>,
+    /// Amplification of each building and storey, as a gap check computes it; that of
+    /// the acceleration is NaN where impacts were jumps of the velocity.
+    pub amplification: Vec<Vec<Amplification>>,
+    /// Impacts of each gap and level.
+    pub impacts: Vec<Vec<usize>>,
 }
 
 impl ComparedModel {
@@ -77,6 +95,10 @@ pub struct Comparison {
     pub references: Vec<ReferenceCollision>,
     /// Names of the records.
     pub records: Vec<String>,
+    /// What a gap check finds under each record, with the gaps' own laws.
+    pub own: Vec<RecordDemand>,
+    /// Contact levels of each gap.
+    pub levels: Vec<Vec<GapLevel>>,
     /// What is compared.
     pub quantities: Vec<Quantity>,
     /// Values without pounding for each record, in the order of `quantities`; NaN for
@@ -90,6 +112,12 @@ pub struct Comparison {
     pub rankings: Vec<Ranking>,
     /// What holds for all these models, and what does not.
     pub conclusions: Vec<Conclusion>,
+    /// Storeys at which pounding raises a peak although it does not raise the maximum over
+    /// the storeys, or the reverse: a gap check answers storey by storey.
+    pub storey_differences: Vec<StoreyDifference>,
+    /// Levels that models close although the demand of a gap check does not, or the
+    /// reverse.
+    pub level_differences: Vec<LevelDifference>,
 }
 
 /// Compares models on a case under records, made by
@@ -110,9 +138,9 @@ pub fn compare(
         return Err(CheckError::NoGap);
     }
     let cards = cards(&options.models)?;
-    let total = 2 * records.len() + cards.len() * records.len();
+    let total = records.len() + cards.len() * records.len();
     let tell = |done, _| progress(done, total);
-    let own = own_runs(records, options.threads, &tell)?;
+    let own = demands(records, options.threads, &tell)?;
     let references = references(case, records, &own, options)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
     let mut models: Vec<ComparedModel> =
@@ -127,27 +155,33 @@ pub fn compare(
             }
         });
     let quantities = quantities::of_system(system);
-    let tell = |done, _| progress(2 * records.len() + done, total);
+    let tell = |done, _| progress(records.len() + done, total);
     let count = models.len() * records.len();
     let runs = in_parallel(count, options.threads, &tell, |number| {
         let model = &models[number / records.len()];
-        one(model, &records[number % records.len()], &quantities)
+        let record = number % records.len();
+        one(model, &records[record], &own[record].isolated, &quantities)
     });
     let mut runs = runs.into_iter();
     for model in &mut models {
         model.records = runs.by_ref().take(records.len()).collect();
     }
-    let isolated = own.iter().map(|(alone, _)| isolated(&quantities, alone));
+    let isolated = own.iter().map(|r| isolated(&quantities, &r.isolated));
+    let gaps = system.gaps().iter();
     let mut comparison = Comparison {
         options: options.clone(),
         references,
         records: records.iter().map(|r| r.name.clone()).collect(),
         isolated: isolated.collect(),
+        own,
+        levels: gaps.map(|gap| levels(system, gap)).collect(),
         quantities,
         models,
         spreads: Vec::new(),
         rankings: Vec::new(),
         conclusions: Vec::new(),
+        storey_differences: Vec::new(),
+        level_differences: Vec::new(),
     };
     comparison.sum_up();
     Ok(comparison)
@@ -164,8 +198,39 @@ impl Comparison {
     /// Value of a quantity; NaN where a model failed or it has no meaning.
     #[must_use]
     pub fn value(&self, model: usize, record: usize, quantity: usize) -> f64 {
-        let values = self.models[model].records[record].as_ref();
-        values.map_or(f64::NAN, |v| v[quantity])
+        let run = self.models[model].records[record].as_ref();
+        run.map_or(f64::NAN, |run| run.values[quantity])
+    }
+
+    /// Ratio of a quantity of a building to that without pounding (-): of the maxima over
+    /// the storeys. One where both are the same.
+    #[must_use]
+    pub fn ratio_of_maxima(&self, model: usize, record: usize, quantity: usize) -> f64 {
+        ratio(
+            self.value(model, record, quantity),
+            self.isolated[record][quantity],
+        )
+    }
+
+    /// How many of the models that ran under every record close a gap under this one.
+    #[must_use]
+    pub fn models_in_contact(&self, gap: usize, record: usize) -> usize {
+        let complete = self.complete();
+        let closes = |m: &&usize| {
+            let run = self.models[**m].records[record].as_ref();
+            run.is_ok_and(|run| run.impacts[gap].iter().any(|n| *n > 0))
+        };
+        complete.iter().filter(closes).count()
+    }
+
+    /// Records under which none of these models closes a gap: its contacts have no force
+    /// there, and spreads and rankings leave it out.
+    #[must_use]
+    pub fn records_without_contact(&self, gap: usize) -> Vec<usize> {
+        let records = 0..self.records.len();
+        records
+            .filter(|r| self.models_in_contact(gap, *r) == 0)
+            .collect()
     }
 
     fn sum_up(&mut self) {
@@ -184,7 +249,14 @@ impl Comparison {
             self.rankings.push(ranking);
         }
         self.conclusions = conclusions::draw(self);
+        self.storey_differences = differences::of_storeys(self);
+        self.level_differences = differences::of_levels(self);
     }
+}
+
+/// Ratio of two peaks; 1 where they are the same.
+fn ratio(with: f64, alone: f64) -> f64 {
+    if with == alone { 1.0 } else { with / alone }
 }
 
 fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
@@ -205,39 +277,12 @@ fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> 
     Ok(cards)
 }
 
-/// Each record alone, and with the gaps' own laws.
-fn own_runs(
-    records: &[CaseUnderRecord],
-    threads: usize,
-    progress: Progress<'_>,
-) -> Result<Vec<(Outcome, Outcome)>, CheckError> {
-    let runs = in_parallel(2 * records.len(), threads, progress, |number| {
-        let record = &records[number / 2];
-        let (system, options) = (&record.assembly.system, &record.assembly.options);
-        let outcome = if number % 2 == 0 {
-            run(&system.without_gaps(), options, &mut [], &mut |_| {})
-        } else {
-            run(system, options, &mut [], &mut |_| {})
-        };
-        outcome.map_err(|source| CheckError::Record {
-            record: record.name.clone(),
-            source: Box::new(source),
-        })
-    });
-    let mut runs = runs.into_iter();
-    let mut pairs = Vec::new();
-    while let (Some(alone), Some(with)) = (runs.next(), runs.next()) {
-        pairs.push((alone?, with?));
-    }
-    Ok(pairs)
-}
-
 /// The collision of each gap that its models are calibrated in: the fastest one that the
 /// gap's own law meets.
 fn references(
     case: &Case,
     records: &[CaseUnderRecord],
-    own: &[(Outcome, Outcome)],
+    own: &[RecordDemand],
     options: &ComparisonOptions,
 ) -> Result<Vec<ReferenceCollision>, CheckError> {
     if let Some(e) = options.restitution
@@ -250,10 +295,18 @@ fn references(
         });
     }
     let system = &records[0].assembly.system;
+    let mut with = Vec::new();
+    for record in own {
+        let (_, gaps) = record.pounding.as_ref().map_err(|e| CheckError::OwnLaw {
+            record: record.name.clone(),
+            diagnosis: e.clone(),
+        })?;
+        with.push(gaps);
+    }
     let fastest = |gap: usize| {
-        let levels = own
+        let levels = with
             .iter()
-            .flat_map(|(_, with)| with.gaps[gap].levels.iter().enumerate());
+            .flat_map(|gaps| gaps[gap].levels.iter().enumerate());
         levels.fold((0, 0.0_f64), |best, (l, level)| {
             let velocity = level.approach_velocity_max;
             if velocity > best.1 {
@@ -294,10 +347,10 @@ fn references(
     Ok(references)
 }
 
-fn isolated(quantities: &[Quantity], alone: &Outcome) -> Vec<f64> {
+fn isolated(quantities: &[Quantity], alone: &[BuildingOutcome]) -> Vec<f64> {
     let value = |q: &Quantity| {
         if q.is_of_building() {
-            quantities::of_building(q.kind, &alone.buildings[q.index])
+            quantities::of_building(q.kind, &alone[q.index])
         } else {
             f64::NAN
         }
@@ -309,8 +362,9 @@ fn isolated(quantities: &[Quantity], alone: &Outcome) -> Vec<f64> {
 fn one(
     model: &ComparedModel,
     record: &CaseUnderRecord,
+    alone: &[BuildingOutcome],
     quantities: &[Quantity],
-) -> Result<Vec<f64>, String> {
+) -> Result<ModelRun, String> {
     let calibrated = model.calibrated.as_ref().map_err(Clone::clone)?;
     let laws: Vec<Arc<dyn ImpactModel>> = calibrated.iter().map(|c| Arc::clone(&c.model)).collect();
     let system = rebuilt(&record.assembly.system, |gap, level| {
@@ -320,8 +374,27 @@ fn one(
     let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
     let outcome = outcome.map_err(|e| e.to_string())?;
     let rigid = laws.iter().any(|l| l.rigid_restitution().is_some());
+    let jumps = quantities::jumps(&outcome, rigid);
     let values = quantities.iter();
-    Ok(values
-        .map(|q| quantities::value(q, &outcome, rigid))
-        .collect())
+    let mut amplification = amplification(&outcome.buildings, alone);
+    if jumps {
+        for storey in amplification.iter_mut().flatten() {
+            storey.acceleration_absolute = f64::NAN;
+        }
+    }
+    let gaps = outcome.gaps.iter();
+    Ok(ModelRun {
+        values: values
+            .map(|q| quantities::value(q, &outcome, jumps))
+            .collect(),
+        storeys: outcome
+            .buildings
+            .iter()
+            .map(|b| b.storeys.clone())
+            .collect(),
+        amplification,
+        impacts: gaps
+            .map(|g| g.levels.iter().map(|l| l.impacts).collect())
+            .collect(),
+    })
 }

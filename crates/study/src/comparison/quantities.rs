@@ -2,24 +2,26 @@
 
 use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
 
+use crate::gap_check::{Amplification, closes};
+
 /// Kind of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum QuantityKind {
-    /// Greatest floor displacement of a building (m).
+    /// Maximum floor displacement of a building (m).
     Displacement,
-    /// Greatest drift ratio of a building (-).
+    /// Maximum drift ratio of a building (-).
     DriftRatio,
-    /// Greatest storey shear of a building (N).
+    /// Maximum storey shear of a building (N).
     StoreyShear,
-    /// Greatest absolute floor acceleration of a building (m/s2); not of rigid impacts.
+    /// Maximum absolute floor acceleration of a building (m/s2); not of rigid impacts.
     AccelerationAbsolute,
     /// Impacts in a gap (-).
     Impacts,
-    /// Greatest contact force of a gap (N); not of rigid impacts.
+    /// Maximum contact force of a gap (N); not of rigid impacts.
     PeakForce,
-    /// Greatest impulse of one impact in a gap (N s).
+    /// Maximum impulse of one impact in a gap (N s).
     Impulse,
-    /// Greatest approach velocity in a gap (m/s).
+    /// Maximum approach velocity in a gap (m/s).
     ApproachVelocity,
     /// Energy dissipated in a gap (J).
     ImpactEnergy,
@@ -74,7 +76,44 @@ impl QuantityKind {
         }
     }
 
-    fn peak(self, storey: &StoreyPeaks) -> Peak {
+    /// How one value comes from storeys, or from levels and impacts.
+    #[must_use]
+    pub fn statistic(self) -> &'static str {
+        match self {
+            Self::Displacement
+            | Self::DriftRatio
+            | Self::StoreyShear
+            | Self::AccelerationAbsolute => "maximum over storeys",
+            Self::Impacts | Self::ImpactEnergy => "sum over levels",
+            Self::PeakForce => "maximum over levels",
+            Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
+            Self::AchievedRestitution => "over all levels and impacts",
+        }
+    }
+
+    /// Whether it belongs to a contact: it has no value, not even zero, where the gap does
+    /// not close.
+    #[must_use]
+    pub fn needs_contact(self) -> bool {
+        matches!(
+            self,
+            Self::PeakForce | Self::Impulse | Self::ApproachVelocity | Self::AchievedRestitution
+        )
+    }
+
+    /// The same among the amplifications of a storey; `None` for what has none.
+    pub(super) fn amplification(self) -> Option<fn(&Amplification) -> f64> {
+        match self {
+            Self::Displacement => Some(|a| a.displacement),
+            Self::StoreyShear => Some(|a| a.storey_shear),
+            Self::AccelerationAbsolute => Some(|a| a.acceleration_absolute),
+            _ => None,
+        }
+    }
+
+    /// The peak of this kind among those of a storey.
+    #[must_use]
+    pub fn peak(self, storey: &StoreyPeaks) -> Peak {
         match self {
             Self::Displacement => storey.displacement,
             Self::DriftRatio => storey.drift_ratio,
@@ -126,22 +165,31 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     all
 }
 
-/// Greatest over the storeys of a building.
+/// Maximum over the storeys of a building.
 pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64 {
     let peaks = building.storeys.iter().map(|s| kind.peak(s).value);
     peaks.fold(0.0, f64::max)
 }
 
-/// Value in an outcome; NaN where it has no meaning.
-pub(super) fn value(quantity: &Quantity, outcome: &Outcome, rigid: bool) -> f64 {
-    let jumps = rigid && outcome.impacts.iter().any(|i| i.peak_force.value.is_nan());
+/// Whether some impact of a rigid law was a jump of the velocity, which has neither a force
+/// nor an acceleration.
+pub(super) fn jumps(outcome: &Outcome, rigid: bool) -> bool {
+    rigid && outcome.impacts.iter().any(|i| i.peak_force.value.is_nan())
+}
+
+/// Value in an outcome with or without such jumps; NaN where it has no meaning.
+pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 {
     if quantity.is_of_building() {
         if jumps && quantity.kind == QuantityKind::AccelerationAbsolute {
             return f64::NAN;
         }
         return of_building(quantity.kind, &outcome.buildings[quantity.index]);
     }
-    let levels = &outcome.gaps[quantity.index].levels;
+    let gap = &outcome.gaps[quantity.index];
+    if quantity.kind.needs_contact() && !closes(gap) {
+        return f64::NAN;
+    }
+    let levels = &gap.levels;
     let greatest = |of: fn(&pounding_time_history::LevelOutcome) -> f64| {
         levels.iter().map(of).fold(0.0, f64::max)
     };

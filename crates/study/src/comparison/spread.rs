@@ -7,15 +7,18 @@ pub struct Spread {
     pub between_models: f64,
     /// The same between records, root mean square over models (-); NaN with one record.
     pub between_records: f64,
-    /// Greatest over smallest value between models, of the record where that is greatest
+    /// Maximum over minimum between models, of the record where that is a maximum
     /// (-); NaN where a smallest value is zero, or zero but for round-off.
     pub greatest_ratio: f64,
+    /// Records under which some model has a value: those that the spread is over.
+    pub records: usize,
 }
 
 /// The order of the models in one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// Numbers of the models, greatest value first; models without a value are left out.
+    /// Numbers of the models, maximum value first. Records under which no model has a
+    /// value are left out, then models without a value under one of the others.
     pub order: Vec<usize>,
     /// Mean over records of value over the mean of the models (-), in that order.
     pub relative: Vec<f64>,
@@ -70,6 +73,7 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
         (column.len() > 1 && low > ROUND_OFF * high).then(|| high / low)
     };
     Spread {
+        records: columns.iter().filter(|c| !c.is_empty()).count(),
         between_models: root_mean_square(columns.iter().filter_map(|c| variation(c))),
         between_records: root_mean_square(rows.iter().filter_map(|r| variation(r))),
         greatest_ratio: columns.iter().filter_map(ratio).fold(f64::NAN, f64::max),
@@ -78,11 +82,14 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
 
 /// Order of the models in `values[model][record]`.
 pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
-    let records = values.first().map_or(0, Vec::len);
-    let full = |row: &&Vec<f64>| row.iter().all(|x| x.is_finite());
-    let kept: Vec<usize> = (0..values.len()).filter(|m| full(&&values[*m])).collect();
-    let column = |r: usize| -> Vec<f64> { kept.iter().map(|m| values[*m][r]).collect() };
-    let columns: Vec<Vec<f64>> = (0..records).map(column).collect();
+    let records = 0..values.first().map_or(0, Vec::len);
+    let used: Vec<usize> = records
+        .filter(|r| values.iter().any(|row| row[*r].is_finite()))
+        .collect();
+    let full = |row: &Vec<f64>| !used.is_empty() && used.iter().all(|r| row[*r].is_finite());
+    let kept: Vec<usize> = (0..values.len()).filter(|m| full(&values[*m])).collect();
+    let column = |r: &usize| -> Vec<f64> { kept.iter().map(|m| values[*m][*r]).collect() };
+    let columns: Vec<Vec<f64>> = used.iter().map(column).collect();
     let relative = |place: usize| {
         let ratios = columns.iter().map(|c| {
             let mean = mean(c);
@@ -172,6 +179,39 @@ mod tests {
         assert_eq!(r.order, [2, 0]);
         assert_eq!(r.relative, [1.5, 0.5]);
         assert!(r.concordance.is_nan());
+    }
+
+    /// Six records with contact and one without: the last has no force, and neither
+    /// spread nor order changes by it. As zeros it would make the spread sqrt(6/7) of what
+    /// it is, 8.78 % for 9.48 %.
+    #[test]
+    fn a_record_without_contact_is_no_record_of_zero_force() {
+        let low = 1.0 - 0.094_8 / 2.0_f64.sqrt();
+        let six = |x: f64| (1..=6).map(|r| x * f64::from(r)).collect::<Vec<_>>();
+        let with = |x: f64, seventh: f64| [six(x), vec![seventh]].concat();
+        let other = 2.0 - low;
+        let alone = spread(&[six(low), six(other)]);
+        assert!(
+            (alone.between_models - 0.094_8).abs() < 1.0e-12,
+            "{alone:?}"
+        );
+        assert_eq!(alone.records, 6);
+        let seven = [with(low, f64::NAN), with(other, f64::NAN)];
+        assert_eq!(spread(&seven), alone);
+        let zeros = spread(&[with(low, 0.0), with(other, 0.0)]);
+        assert!((zeros.between_models - 0.087_8).abs() < 5.0e-5, "{zeros:?}");
+        let ranked = ranking(&seven);
+        assert_eq!(ranked, ranking(&[six(low), six(other)]));
+        assert_eq!(ranked.order, [1, 0]);
+        assert_eq!(ranked.concordance, 1.0);
+    }
+
+    /// No record with a value: no order.
+    #[test]
+    fn nothing_to_rank() {
+        let none = vec![f64::NAN; 2];
+        assert!(ranking(&[none.clone(), none.clone()]).order.is_empty());
+        assert_eq!(spread(&[none.clone(), none]).records, 0);
     }
 
     /// Records that agree: 1. Two that contradict one another: 0. Three judges on three

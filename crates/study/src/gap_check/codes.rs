@@ -36,10 +36,21 @@ impl CodeGap {
         results.find_map(|r| r.as_ref().err())
     }
 
+    /// Why the widths of the provision decide nothing under some record: it is a rule for
+    /// elastic displacements, and a building yields. `None` if they hold under all.
+    #[must_use]
+    pub fn caution(&self) -> Option<&str> {
+        let mut required = self.records.iter().flatten().flatten();
+        required.find_map(|r| r.caution.as_deref())
+    }
+
     /// Whether these provided widths are no less than what is required at any level under
-    /// any record; `None` if nothing is.
+    /// any record; `None` if nothing is, and for a provision with a caution.
     #[must_use]
     pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
+        if self.caution().is_some() {
+            return None;
+        }
         let records = self.records.iter();
         let pairs = records.flat_map(|r| r.iter().zip(levels));
         let known = pairs.filter_map(|(r, l)| Some((r.as_ref().ok()?.width, l.width)));
@@ -211,6 +222,9 @@ impl<'a> Inputs<'a> {
             height: building.elevations().last().copied().unwrap_or(0.0),
             storeys: building.storeys(),
             displacement: Some(alone[index].storeys[storey].displacement.value),
+            // Of the run that the displacement is taken from. Links that yield leave the
+            // storeys elastic, and no code reduces forces for them.
+            inelastic: !alone[index].inelastic_storeys().is_empty(),
             elastic_displacement: None,
             response_modification: of(&self.separation.response_modification),
             displacement_amplification: of(&self.separation.displacement_amplification),

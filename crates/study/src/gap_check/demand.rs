@@ -52,7 +52,13 @@ impl RecordDemand {
     pub fn closed(&self, gap: usize) -> bool {
         self.pounding
             .as_ref()
-            .is_ok_and(|(_, gaps)| gaps[gap].levels.iter().any(|l| l.impacts > 0))
+            .is_ok_and(|(_, gaps)| closes(&gaps[gap]))
+    }
+
+    /// Whether the buildings alone approach each other by more than the width of a level.
+    #[must_use]
+    pub fn demand_exceeds(&self, gap: usize, level: usize, width: f64) -> bool {
+        self.demand[gap][level].value > width
     }
 
     /// Amplification of each building and storey at the provided widths; `None` if that
@@ -62,6 +68,11 @@ impl RecordDemand {
         let (with, _) = self.pounding.as_ref().ok()?;
         Some(amplification(with, &self.isolated))
     }
+}
+
+/// Whether a gap closed in a run: whether a level of it had an impact.
+pub(crate) fn closes(gap: &GapOutcome) -> bool {
+    gap.levels.iter().any(|l| l.impacts > 0)
 }
 
 pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {

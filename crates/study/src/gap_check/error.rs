@@ -21,6 +21,15 @@ pub enum CheckError {
         /// Why.
         source: Box<TimeHistoryError>,
     },
+    /// The run with the gaps' own laws failed under a record, so that models have no
+    /// reference.
+    #[error("record {record}: the run with the case's own law failed: {diagnosis}")]
+    OwnLaw {
+        /// Record.
+        record: String,
+        /// Why.
+        diagnosis: String,
+    },
     /// A provision that is not known.
     #[error(transparent)]
     Separation(#[from] SeparationError),
@@ -88,6 +97,10 @@ impl CheckError {
             Self::Record { source, .. } => source.help(),
             Self::Separation(error) => error.help(),
             Self::Word { help, .. } => help.clone(),
+            Self::OwnLaw { .. } => Some(
+                "`pounding run` of the case under this record says more; another law, gap or method may help"
+                    .to_owned(),
+            ),
             Self::NoGap => Some("add a [[gap]] to the case".to_owned()),
             Self::UnknownGap { known, .. } => Some(format!("its gaps are {}", known.join(", "))),
             Self::NoRecords { .. } => Some("name record files, or a folder of them".to_owned()),

@@ -20,6 +20,7 @@ pub use required::{LognormalFit, RequiredGap};
 pub use statistics::binomial_bounds;
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
 
+pub(crate) use demand::{amplification, closes, demands, levels};
 pub(crate) use parallel::in_parallel;
 pub(crate) use systems::rebuilt;
 
@@ -86,7 +87,7 @@ pub struct GapCheck {
 
 /// Part by which a width may fall short of a demand and still be the same: peaks of two
 /// runs of the same motion differ by less.
-const SAME: f64 = 1.0e-6;
+pub(crate) const SAME: f64 = 1.0e-6;
 
 impl GapReport {
     /// Records whose demand exceeds a width (m) that may differ between them, by more than
@@ -140,7 +141,7 @@ pub fn gap_check(
     let gap = gap.transpose()?;
     let runs = swept.map_or(0, |s| s.points) * records.len();
     let total = records.len() + runs;
-    let demands = demand::demands(records, options.threads, &|done, _| progress(done, total))?;
+    let demands = demands(records, options.threads, &|done, _| progress(done, total))?;
     let mut gaps = Vec::new();
     for index in 0..first.assembly.system.gaps().len() {
         let place = codes::GapPlace {
@@ -192,7 +193,7 @@ fn report(
     (codes, combinations): (Vec<CodeGap>, Vec<CombinationGap>),
 ) -> Result<GapReport, CheckError> {
     let gap = &place.system.gaps()[place.gap];
-    let levels = demand::levels(place.system, gap);
+    let levels = levels(place.system, gap);
     let at = |record: &RecordDemand, level: usize| record.demand[place.gap][level].value;
     let over_levels = |r: &RecordDemand| (0..levels.len()).fold(0.0_f64, |m, l| m.max(at(r, l)));
     let demand: Vec<f64> = records.iter().map(over_levels).collect();
@@ -202,7 +203,10 @@ fn report(
         .rev()
         .max_by(|a, b| greatest(*a).total_cmp(&greatest(*b)))
         .unwrap_or(0);
-    let touches = |r: &&RecordDemand| (0..levels.len()).any(|l| at(r, l) > levels[l].width);
+    let touches = |r: &&RecordDemand| {
+        let mut closed = levels.iter().enumerate();
+        closed.any(|(l, level)| r.demand_exceeds(place.gap, l, level.width))
+    };
     // A building that was hit on its other side can close a gap that it would have left open.
     let driven = |r: &&RecordDemand| !touches(r) && r.closed(place.gap);
     let records_driven = records.iter().filter(driven).count();

@@ -2,13 +2,16 @@
 
 use pounding_case::Case;
 use pounding_gap_element::Verification;
-use pounding_study::comparison::{Comparison, Holds, Quantity, QuantityKind};
+use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
+use super::super::gap::level_name;
 use crate::tables::new_table;
 
 const G: f64 = 9.80665;
 /// More records than this have no tables of their own.
 const LISTED: usize = 6;
+/// Rows of a printed table of differences; all are in the JSON object and the CSV file.
+const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
 const SHOWN: [QuantityKind; 8] = [
@@ -55,6 +58,8 @@ pub fn report(case: &Case, c: &Comparison) -> String {
     text.push_str(&spreads(c));
     text.push_str(&ranking(c));
     text.push_str(&conclusions(c));
+    text.push_str(&storey_differences(c));
+    text.push_str(&level_differences(c));
     text.push_str(&remarks(c));
     text
 }
@@ -141,8 +146,14 @@ fn values(c: &Comparison, record: usize) -> String {
         );
         table.add_row(row);
     }
-    format!("\nRecord {}\n{table}\n{failures}", c.records[record])
+    format!(
+        "\nRecord {}: {STATISTICS}\n{table}\n{failures}",
+        c.records[record]
+    )
 }
+
+/// What the numbers of the tables are.
+const STATISTICS: &str = "of buildings the maximum over storeys; of gaps the sum of impacts and energy over levels, the maximum of force and velocity; \"-\" where there is no value, as of a force without contact";
 
 fn percent(x: f64) -> String {
     if x.is_nan() {
@@ -155,9 +166,11 @@ fn percent(x: f64) -> String {
 fn spreads(c: &Comparison) -> String {
     let mut table = new_table(&[
         "quantity",
+        "statistic",
         "between models (%)",
         "between records (%)",
-        "greatest / smallest model",
+        "maximum / minimum of models",
+        "records",
     ]);
     for (q, s) in c.quantities.iter().zip(&c.spreads) {
         let ratio = if s.greatest_ratio.is_nan() {
@@ -167,16 +180,54 @@ fn spreads(c: &Comparison) -> String {
         };
         table.add_row([
             q.label().replace('_', " "),
+            q.kind.statistic().to_owned(),
             percent(s.between_models),
             percent(s.between_records),
             ratio,
+            format!("{} of {}", s.records, c.records.len()),
         ]);
     }
-    format!("\nSpread, standard deviation over mean\n{table}\n")
+    format!(
+        "\nSpread, standard deviation over mean, over the records with a value\n{table}\n{}",
+        without_contact(c)
+    )
+}
+
+/// Records under which some or all models leave a gap open.
+fn without_contact(c: &Comparison) -> String {
+    let all = c.complete().len();
+    let mut text = String::new();
+    let gaps = c
+        .quantities
+        .iter()
+        .filter(|q| q.kind == QuantityKind::Impacts);
+    for gap in gaps {
+        let without = c.records_without_contact(gap.index);
+        if !without.is_empty() {
+            let names: Vec<_> = without.iter().map(|r| c.records[*r].as_str()).collect();
+            text.push_str(&format!(
+                "{}: no contact with any model under {} of {} records, which have no force, impulse, approach velocity or restitution and are left out of their spread and ranking: {}\n",
+                gap.of,
+                without.len(),
+                c.records.len(),
+                names.join(", ")
+            ));
+        }
+        for (r, record) in c.records.iter().enumerate() {
+            let some = c.models_in_contact(gap.index, r);
+            if some > 0 && some < all {
+                text.push_str(&format!(
+                    "{}: contact with {some} of {all} models under {record}; the others are left out there\n",
+                    gap.of
+                ));
+            }
+        }
+    }
+    text
 }
 
 fn ranking(c: &Comparison) -> String {
-    let mut table = new_table(&["quantity", "greatest", "smallest", "agreement of records"]);
+    let mut table = new_table(&["quantity", "largest", "smallest", "agreement of records"]);
     for (q, r) in c.quantities.iter().zip(&c.rankings) {
         let place = |i: usize| {
             let model = r.order.get(i)?;
@@ -209,33 +260,146 @@ fn ranking(c: &Comparison) -> String {
 fn conclusions(c: &Comparison) -> String {
     let mut text = "\nConclusions\n".to_owned();
     for x in &c.conclusions {
-        let counts: Vec<_> = x
-            .counts
-            .iter()
-            .zip(&c.records)
-            .map(|((yes, all), record)| format!("{record} {yes} of {all}"))
-            .collect();
-        text.push_str(&format!(
-            "  {}: {} ({})\n",
-            x.statement,
-            x.holds.name(),
-            counts.join(", ")
-        ));
-        if x.holds != Holds::ByModel {
-            continue;
-        }
-        for (record, dissenters) in c.records.iter().zip(&x.dissenters) {
-            let names = dissenters.iter().map(|m| c.models[*m].descriptor.name);
-            let names: Vec<_> = names.collect();
-            if !names.is_empty() {
-                text.push_str(&format!(
-                    "    minority under {record}: {}\n",
-                    names.join(", ")
-                ));
-            }
+        let start = format!("  {} ({}): ", x.statement, x.statistic);
+        text.push_str(&judgement(c, &start, &x.judgement));
+        let by_storey = x.by_storey.as_ref();
+        let other = |j: &&Judgement| j.counts != x.judgement.counts;
+        if let Some(by_storey) = by_storey.filter(other) {
+            let start = "    storey by storey, as `pounding gap` answers: ";
+            text.push_str(&judgement(c, start, by_storey));
         }
     }
     text
+}
+
+/// An answer with its counts, and the minority where the models disagree.
+fn judgement(c: &Comparison, start: &str, j: &Judgement) -> String {
+    let counts: Vec<_> = j
+        .counts
+        .iter()
+        .zip(&c.records)
+        .map(|((yes, all), record)| format!("{record} {yes} of {all}"))
+        .collect();
+    let mut text = format!("{start}{} ({})\n", j.holds.name(), counts.join(", "));
+    if j.holds != Holds::ByModel {
+        return text;
+    }
+    let indent = &start[..start.len() - start.trim_start().len()];
+    for (record, dissenters) in c.records.iter().zip(&j.dissenters) {
+        let names = dissenters.iter().map(|m| c.models[*m].descriptor.name);
+        let names: Vec<_> = names.collect();
+        if !names.is_empty() {
+            text.push_str(&format!(
+                "{indent}  minority under {record}: {}\n",
+                names.join(", ")
+            ));
+        }
+    }
+    text
+}
+
+/// "x0.981 to x1.667", or one of them if they are the same; "-" for none.
+fn ratios((low, high): (f64, f64)) -> String {
+    if low.is_nan() {
+        return "-".to_owned();
+    }
+    let (low, high) = (format!("x{low:.3}"), format!("x{high:.3}"));
+    if low == high {
+        high
+    } else {
+        format!("{low} to {high}")
+    }
+}
+
+/// Storeys at which pounding does what it does not do to the maximum over storeys.
+fn storey_differences(c: &Comparison) -> String {
+    let Some(first) = c.own.first().filter(|_| !c.storey_differences.is_empty()) else {
+        return String::new();
+    };
+    let mut table = new_table(&[
+        "building",
+        "quantity",
+        "storey",
+        "at the storey",
+        "maximum over storeys",
+        "models and records that differ",
+        "own law, all records, as `gap`",
+    ]);
+    for d in c.storey_differences.iter().take(ROWS) {
+        let differing: usize = d.models.iter().map(Vec::len).sum();
+        let saying: usize = d.models_that_say.iter().sum();
+        let own = d.own_at_storey.iter().copied();
+        let own = own.fold((f64::NAN, f64::NAN), |(low, high), x| {
+            (x.min(low), x.max(high))
+        });
+        table.add_row([
+            first.isolated[d.building].name.clone(),
+            d.kind.name().replace('_', " "),
+            (d.storey + 1).to_string(),
+            ratios(d.at_storey),
+            ratios(d.of_maxima),
+            format!("{differing} of {saying}"),
+            ratios(own),
+        ]);
+    }
+    let more = more(c.storey_differences.len());
+    format!(
+        "\nStoreys where `pounding gap` answers differently: pounding raises the peak of the storey (above x1) and not the maximum over storeys, or the reverse; ratios to the peaks without pounding, over the models and records that differ\n{table}\n{more}"
+    )
+}
+
+/// Levels that close, or stay open, against the demand of the buildings alone.
+fn level_differences(c: &Comparison) -> String {
+    if c.level_differences.is_empty() {
+        return String::new();
+    }
+    let mut table = new_table(&[
+        "gap",
+        "level",
+        "record",
+        "width (mm)",
+        "demand (mm)",
+        "demand closes it",
+        "models that close it",
+        "impacts of the own law",
+    ]);
+    let all = c.complete().len();
+    let rows = c.level_differences.iter().flat_map(|d| {
+        let records = 0..c.records.len();
+        let differs =
+            move |r: &usize| d.models[*r].len() != if d.demand_closes[*r] { all } else { 0 };
+        records.filter(differs).map(move |r| (d, r))
+    });
+    let rows: Vec<_> = rows.collect();
+    for (d, r) in rows.iter().take(ROWS) {
+        let place = &c.levels[d.gap][d.level];
+        let gap = c
+            .quantities
+            .iter()
+            .find(|q| q.kind == QuantityKind::Impacts && q.index == d.gap);
+        table.add_row([
+            gap.map_or_else(String::new, |q| q.of.clone()),
+            level_name(place),
+            c.records[*r].clone(),
+            format!("{:.2}", place.width * 1e3),
+            format!("{:.2}", d.demand[*r] * 1e3),
+            if d.demand_closes[*r] { "yes" } else { "no" }.to_owned(),
+            format!("{} of {all}", d.models[*r].len()),
+            d.own_impacts[*r].to_string(),
+        ]);
+    }
+    let more = more(rows.len());
+    format!(
+        "\nLevels where `pounding gap` answers differently: its demand, of the buildings alone, closes a level that models leave open, or the reverse, as a building that was hit moves otherwise\n{table}\n{more}"
+    )
+}
+
+/// How many rows a table of differences leaves out.
+fn more(rows: usize) -> String {
+    match rows.saturating_sub(ROWS) {
+        0 => String::new(),
+        left => format!("{left} more rows: --json or --csv\n"),
+    }
 }
 
 fn remarks(c: &Comparison) -> String {

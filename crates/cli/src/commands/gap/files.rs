@@ -86,7 +86,10 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                     gap.levels[level].width.to_string(),
                     demand.to_string(),
                 ];
-                let mut add = |rule: &str, status: &str, width: Result<f64, String>| {
+                let mut add = |rule: &str,
+                               status: &str,
+                               width: Result<f64, String>,
+                               [factor, caution]: [Option<&str>; 2]| {
                     let mut row = start.to_vec();
                     row.extend([rule.to_owned(), status.to_owned()]);
                     match width {
@@ -97,6 +100,7 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                         ]),
                         Err(refusal) => row.extend([String::new(), String::new(), refusal]),
                     }
+                    row.extend([factor, caution].map(|x| x.unwrap_or_default().to_owned()));
                     rows.push(row);
                 };
                 for c in &gap.combinations {
@@ -104,12 +108,15 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                         Some(e) => format!("{} ({})", c.rule.name(), e.name()),
                         None => c.rule.name().to_owned(),
                     };
-                    add(&name, c.status.name(), Ok(c.records[r][level].width));
+                    let width = c.records[r][level].width;
+                    add(&name, c.status.name(), Ok(width), [None; 2]);
                 }
                 for c in &gap.codes {
-                    let width = c.records[r][level].as_ref();
-                    let width = width.map(|w| w.width).map_err(ToString::to_string);
-                    add(c.provision.name, c.provision.status.name(), width);
+                    let required = c.records[r][level].as_ref();
+                    let width = required.map(|w| w.width).map_err(ToString::to_string);
+                    let caution = required.ok().and_then(|w| w.caution.as_deref());
+                    let marks = [c.provision.elastic_displacement_factor, caution];
+                    add(c.provision.name, c.provision.status.name(), width, marks);
                 }
             }
         }
@@ -125,11 +132,13 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         "width_m",
         "ratio_to_demand",
         "refusal",
+        "elastic_displacement_factor",
+        "caution",
     ];
     csv(&header, rows.into_iter())
 }
 
-/// Greatest amplification over storeys and records, over the width.
+/// Maximum amplification over storeys and records, over the width.
 pub fn figure(check: &GapCheck) -> Result<String, Failure> {
     let (Some(sweep), Some(first)) = (&check.sweep, check.records.first()) else {
         return Ok(String::new());
@@ -147,7 +156,7 @@ pub fn figure(check: &GapCheck) -> Result<String, Failure> {
         };
         let names = first.isolated.iter().map(|b| &b.name).enumerate();
         Panel {
-            caption: format!("Amplification of {quantity} (-), greatest over storeys and records"),
+            caption: format!("Amplification of {quantity} (-), maximum over storeys and records"),
             horizontal: "width of the gap (mm)".to_owned(),
             curves: names.map(curve).collect(),
         }

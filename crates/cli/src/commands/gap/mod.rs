@@ -6,6 +6,7 @@ mod provisions;
 mod text;
 
 pub use files::csv;
+pub use text::level_name;
 
 use std::path::Path;
 
@@ -63,6 +64,7 @@ pub fn failure(error: CheckError, case: &Case) -> Failure {
             }
             other => other,
         },
+        error @ CheckError::OwnLaw { .. } => Failure::computation(error.to_string(), help),
         error => Failure::input(error.to_string(), help),
     }
 }

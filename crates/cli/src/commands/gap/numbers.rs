@@ -41,7 +41,11 @@ fn record(r: &RecordDemand) -> Value {
         .iter()
         .map(|b| {
             let peaks: Vec<_> = b.storeys.iter().map(|s| peak(&s.displacement)).collect();
-            json!({"name": b.name, "displacement": peaks})
+            let inelastic = b.inelastic_storeys().into_iter();
+            let inelastic: Vec<_> = inelastic
+                .map(|(s, ductility)| json!({"storey": s + 1, "ductility": ductility}))
+                .collect();
+            json!({"name": b.name, "displacement": peaks, "inelastic_storeys": inelastic})
         })
         .collect();
     let impacts = r.pounding.as_ref().ok().map(|(_, gaps)| {
@@ -113,7 +117,9 @@ fn combination(gap: &GapReport, c: &CombinationGap) -> Value {
 
 fn provision(gap: &GapReport, c: &CodeGap) -> Value {
     let level = |result: &Result<pounding_separation::Requirement, _>| match result {
-        Ok(r) => json!({"width": r.width, "explanation": r.explanation}),
+        Ok(r) => json!({
+            "width": r.width, "explanation": r.explanation, "caution": r.caution,
+        }),
         Err(e) => json!({"refusal": ToString::to_string(e)}),
     };
     let records: Vec<_> = c
@@ -134,7 +140,9 @@ fn provision(gap: &GapReport, c: &CodeGap) -> Value {
         "name": p.name, "region": p.region, "edition": p.edition, "clause": p.clause,
         "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
         "status": p.status.name(), "status_remark": p.status.remark(),
+        "elastic_displacement_factor": p.elastic_displacement_factor,
         "refusal": c.refusal().map(ToString::to_string),
+        "caution": c.caution(),
         "satisfied": c.satisfied_by(&gap.levels),
         "records": records,
     })

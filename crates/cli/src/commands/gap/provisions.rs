@@ -18,6 +18,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
         "edition",
         "clause",
         "kind",
+        "elastic displacement times",
         "status",
         "formula",
         "needs",
@@ -30,12 +31,15 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
             p.edition.to_owned(),
             p.clause.to_owned(),
             format!("{}, {}", p.place().name(), p.basis.name()),
+            p.elastic_displacement_factor.unwrap_or("-").to_owned(),
             format!("{}: {}", p.status.name(), p.status.remark()),
             p.formula.to_owned(),
             inputs.join(", "),
         ]);
     }
-    let mut text = format!("{table}\n\nCombination rules\n");
+    let mut text = format!(
+        "{table}\n\"elastic displacement times\": what the code multiplies the displacement of an elastic analysis by. Such a rule decides nothing where the buildings yield.\n\nCombination rules\n"
+    );
     for rule in CombinationRule::ALL {
         let status = rule.status();
         text.push_str(&format!(
@@ -73,6 +77,7 @@ fn numbers() -> Value {
             "name": p.name, "region": p.region, "edition": p.edition, "clause": p.clause,
             "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
             "status": p.status.name(), "status_remark": p.status.remark(), "remarks": p.remarks,
+            "elastic_displacement_factor": p.elastic_displacement_factor,
             "inputs": p.inputs.iter().map(|i| i.key()).collect::<Vec<_>>(),
         })
     });

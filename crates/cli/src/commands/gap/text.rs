@@ -3,7 +3,7 @@
 use pounding_case::Case;
 use pounding_separation::Basis;
 use pounding_study::gap_check::{
-    Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
+    Amplification, CodeGap, GapCheck, GapLevel, GapReport, GapSweep, RecordDemand,
 };
 
 use crate::tables::new_table;
@@ -52,6 +52,12 @@ fn storey(s: Option<usize>) -> String {
     s.map_or("wall".to_owned(), |s| s.to_string())
 }
 
+/// A contact level by its storeys.
+pub fn level_name(level: &GapLevel) -> String {
+    let (left, right) = (storey(level.left_storey), storey(level.right_storey));
+    format!("{left}-{right}")
+}
+
 /// Demand at every level under every record.
 fn demand(check: &GapCheck, index: usize) -> String {
     let gap = &check.gaps[index];
@@ -60,19 +66,12 @@ fn demand(check: &GapCheck, index: usize) -> String {
     if few {
         header.extend(check.records.iter().map(|r| format!("{} (mm)", r.name)));
     }
-    header.extend(["greatest (mm)", "records in contact"].map(str::to_owned));
+    header.extend(["maximum (mm)", "records in contact"].map(str::to_owned));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = new_table(&header);
     for (l, level) in gap.levels.iter().enumerate().rev() {
         let peaks = check.records.iter().map(|r| r.demand[index][l]);
-        let mut row = vec![
-            format!(
-                "{}-{}",
-                storey(level.left_storey),
-                storey(level.right_storey)
-            ),
-            format!("{:.1}", level.width * 1e3),
-        ];
+        let mut row = vec![level_name(level), format!("{:.1}", level.width * 1e3)];
         if few {
             row.extend(
                 peaks
@@ -80,23 +79,35 @@ fn demand(check: &GapCheck, index: usize) -> String {
                     .map(|p| format!("{:.2} @{:.3}", p.value * 1e3, p.time)),
             );
         }
-        let greatest = peaks.clone().fold(0.0_f64, |m, p| m.max(p.value));
+        let maximum = peaks.clone().fold(0.0_f64, |m, p| m.max(p.value));
         let contacts = peaks.filter(|p| p.value > level.width).count();
-        row.push(format!("{:.2}", greatest * 1e3));
+        row.push(format!("{:.2}", maximum * 1e3));
         row.push(format!("{contacts} of {}", check.records.len()));
         table.add_row(row);
     }
     format!(
-        "\nGap {}: demand, greatest approach of the buildings alone @time (s)\n{table}\n",
+        "\nGap {}: demand, the maximum approach of the buildings without contact, @time (s)\n{table}\n",
         gap.name
     )
+}
+
+/// Stands in place of a judgement by a rule for elastic displacements where buildings
+/// yield.
+const ELASTIC_ONLY: &str = "not judged: elastic only";
+
+/// What a rule says of the provided widths.
+enum Judgement {
+    /// Whether they reach it, if it says anything.
+    Satisfied(Option<bool>),
+    /// It holds for elastic displacements, and a building yields.
+    ElasticOnly,
 }
 
 fn row(
     gap: &GapReport,
     name: &str,
     kind: &str,
-    (satisfied, status): (Option<bool>, &str),
+    (judgement, status): (Judgement, &str),
     width: impl Fn(usize) -> Option<f64> + Copy,
 ) -> [String; 7] {
     let widths = (0..gap.demand.len()).filter_map(width);
@@ -110,10 +121,11 @@ fn row(
         .least_ratio(width)
         .map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
     let few = format!("{} of {}", gap.records_beyond(width), gap.demand.len());
-    let satisfied = match satisfied {
-        Some(true) => "yes",
-        Some(false) => "no",
-        None => "-",
+    let (satisfied, ratio, few) = match judgement {
+        Judgement::Satisfied(Some(true)) => ("yes", ratio, few),
+        Judgement::Satisfied(Some(false)) => ("no", ratio, few),
+        Judgement::Satisfied(None) => ("-", ratio, few),
+        Judgement::ElasticOnly => (ELASTIC_ONLY, "-".to_owned(), "-".to_owned()),
     };
     [
         name.to_owned(),
@@ -131,9 +143,10 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
     let mut table = new_table(&[
         "rule",
         "kind",
+        "elastic displacement times",
         "width (mm)",
         "provided reaches it",
-        "least of width / demand",
+        "minimum of width / demand",
         "records that exceed it",
         "status",
     ]);
@@ -144,8 +157,12 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
             Some(effective) => format!("{} ({})", c.rule.name(), effective.name()),
             None => c.rule.name().to_owned(),
         };
-        let judged = (c.satisfied_by(&gap.levels), c.status.name());
-        table.add_row(row(gap, &name, "combination", judged, width));
+        let satisfied = Judgement::Satisfied(c.satisfied_by(&gap.levels));
+        let judged = (satisfied, c.status.name());
+        table.add_row(with_factor(
+            row(gap, &name, "combination", judged, width),
+            None,
+        ));
     }
     let spoken = |basis| {
         let of = move |c: &&CodeGap| c.refusal().is_none() && c.provision.basis == basis;
@@ -157,8 +174,15 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
             c.provision.place().name(),
             c.provision.basis.name()
         );
-        let judged = (c.satisfied_by(&gap.levels), c.provision.status.name());
-        table.add_row(row(gap, c.provision.name, &kind, judged, |r| c.width(r)));
+        let judgement = match c.caution() {
+            Some(_) => Judgement::ElasticOnly,
+            None => Judgement::Satisfied(c.satisfied_by(&gap.levels)),
+        };
+        let judged = (judgement, c.provision.status.name());
+        table.add_row(with_factor(
+            row(gap, c.provision.name, &kind, judged, |r| c.width(r)),
+            c.provision.elastic_displacement_factor,
+        ));
     }
     let mut text = format!(
         "\nGap {}: widths by rule under {} record{}; boundary rules summed over both sides\n{table}\n",
@@ -169,6 +193,9 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
     text.push_str(
         "\"from memory\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
     );
+    if gap.codes.iter().any(|c| c.caution().is_some()) {
+        text.push_str(&elastic_only(check));
+    }
     let refused: Vec<_> = gap.codes.iter().filter_map(CodeGap::refusal).collect();
     if all {
         for refusal in refused {
@@ -180,6 +207,48 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
             refused.len()
         ));
     }
+    text
+}
+
+/// The factor of a rule after its kind.
+fn with_factor(row: [String; 7], factor: Option<&str>) -> Vec<String> {
+    let mut row = row.to_vec();
+    row.insert(2, factor.unwrap_or("-").to_owned());
+    row
+}
+
+/// Which buildings yield, and what that makes of rules for elastic displacements.
+fn elastic_only(check: &GapCheck) -> String {
+    let mut text = format!(
+        "\"{ELASTIC_ONLY}\": the code multiplies the displacement of an elastic analysis, and buildings yield here without contact:\n"
+    );
+    let buildings = check.records.first().map_or(&[][..], |r| &r.isolated);
+    for (index, building) in buildings.iter().enumerate() {
+        let storeys = check.records.iter().flat_map(|record| {
+            let storeys = record.isolated[index].inelastic_storeys();
+            storeys
+                .into_iter()
+                .map(|(s, d)| (record.name.as_str(), s, d))
+        });
+        let most = |a: Option<f64>, b: Option<f64>| a.unwrap_or(0.0).total_cmp(&b.unwrap_or(0.0));
+        let Some((record, storey, ductility)) = storeys.max_by(|a, b| most(a.2, b.2)) else {
+            continue;
+        };
+        let yields = |r: &&RecordDemand| !r.isolated[index].inelastic_storeys().is_empty();
+        let how_far = ductility.map_or("no elastic range".to_owned(), |d| {
+            format!("maximum ductility {d:.2}")
+        });
+        text.push_str(&format!(
+            "  {} under {} of {} records ({how_far}, storey {} under {record})\n",
+            building.name,
+            check.records.iter().filter(yields).count(),
+            check.records.len(),
+            storey + 1,
+        ));
+    }
+    text.push_str(
+        "  Their displacement is inelastic already, and a factor would count the ductility again: these widths decide nothing. Use a rule without such a factor, or a case with elastic storeys.\n",
+    );
     text
 }
 
@@ -208,8 +277,8 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     text
 }
 
-/// Greatest over the storeys of a building, as "x1.23 (storey 3)".
-fn greatest(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> String {
+/// Maximum over the storeys of a building, as "x1.23 (storey 3)".
+fn maximum(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> String {
     let values = storeys.iter().map(quantity).enumerate();
     let top = values.fold((0, f64::NEG_INFINITY), |best, (i, x)| {
         if x > best.1 { (i, x) } else { best }
@@ -255,7 +324,7 @@ fn provided(check: &GapCheck) -> String {
         let amplification = record.amplification().unwrap_or_default();
         for (building, storeys) in with.iter().zip(amplification).filter(|_| listed) {
             let mut row = vec![name.clone(), building.name.clone()];
-            row.extend(QUANTITIES.map(|(_, q)| greatest(&storeys, q)));
+            row.extend(QUANTITIES.map(|(_, q)| maximum(&storeys, q)));
             row.push(impacts.to_string());
             table.add_row(row);
         }
@@ -267,11 +336,11 @@ fn provided(check: &GapCheck) -> String {
     }
     let jumps = if rigid(check) { JUMPS } else { "" };
     format!(
-        "\nAt the provided gaps: greatest ratio of a storey's peak with pounding to that alone\n{table}\n{failures}{jumps}"
+        "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}"
     )
 }
 
-/// A row a building, with the record under which each ratio is greatest.
+/// A row a building, with the record under which each ratio is a maximum.
 fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
     let all: Vec<_> = check
         .records
@@ -280,7 +349,7 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
         .collect();
     let buildings = check.records.first().map_or(&[][..], |r| &r.isolated);
     let row = |(index, building): (usize, &pounding_time_history::BuildingOutcome)| {
-        let mut row = vec![format!("greatest of {}", all.len()), building.name.clone()];
+        let mut row = vec![format!("maximum of {}", all.len()), building.name.clone()];
         row.extend(QUANTITIES.map(|(_, of)| {
             let tops = all.iter().filter_map(|(name, a)| {
                 let top = a.get(index)?.iter().map(of).reduce(f64::max)?;
@@ -295,7 +364,7 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
     buildings.iter().enumerate().map(row).collect()
 }
 
-/// Greatest over records of what `of_building` finds, at one width.
+/// Maximum over records of what `of_building` finds, at one width.
 pub fn over_records(
     sweep: &GapSweep,
     width: usize,
@@ -337,7 +406,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
         format!("one width of {every} shown, --csv writes all")
     };
     let mut text = format!(
-        "\nSweep over {} widths ({which}): greatest amplification over storeys and records; {shown}\n{table}\n",
+        "\nSweep over {} widths ({which}): maximum amplification over storeys and records; {shown}\n{table}\n",
         sweep.widths.len(),
     );
     text.push_str(&worst(check, sweep, &buildings));

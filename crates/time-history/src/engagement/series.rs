@@ -20,9 +20,10 @@ const ROUND_OFF: f64 = 4.0e-16;
 /// What is greater than this (m, m/s) is no round-off of floors less than a kilometre from
 /// where they stood.
 const CLEAR_OF_ZERO: f64 = 1.0e-12;
-/// Terms that can be round-off at a root: floors at rest in touch move apart, or together,
-/// like the fourth power of time.
-pub(super) const LEADING: usize = 6;
+/// Terms that can be round-off at a root: first floors at rest in touch move apart, or
+/// together, like the fourth power of time, those of every further storey like a power that
+/// is higher by two.
+pub(super) const LEADING: usize = 18;
 
 /// What a series starts from.
 #[derive(Debug, Clone, Copy)]
@@ -314,8 +315,9 @@ impl Series {
         } else {
             &self.displacement
         };
+        let leading = LEADING.min(self.last + 1);
         let mut zeros = 0;
-        for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(LEADING) {
+        for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(leading) {
             let offset = if k == 0 { offset } else { 0.0 };
             if !is_noise(k, ROUND_OFF * (row.dot_magnitudes(lanes) + offset)) {
                 break;

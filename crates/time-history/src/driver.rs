@@ -256,6 +256,9 @@ impl<'a> Driver<'a> {
             }
             let rest = segment.length - tau;
             step = self.trial(segment, tau, step)?;
+            while step > PROGRESS_STEP && self.overlaps_unseen() {
+                step = self.trial(segment, tau, (0.5 * step).max(PROGRESS_STEP))?;
+            }
             let earliest = self.find(segment, tau, step);
             let mut ended_by = None;
             if let Some(event) = earliest {

@@ -88,28 +88,39 @@ impl Driver<'_> {
         (correction, missed)
     }
 
-    /// Round-off in the function of an event that is a displacement or a velocity;
-    /// infinite for all others, whose scale is not known.
+    /// What round-off of displacements and velocities makes in the function of an event at
+    /// the end of the trial step; infinite for those that depend on more than that.
     fn round_off(&self, event: Candidate) -> f64 {
         let n = self.dynamics.layout.dofs;
+        let (u, v) = (&self.new_state[..n], &self.new_state[n..2 * n]);
         let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let velocity = || ROUND_OFF * largest(&self.new_state[n..2 * n]);
-        match event.kind {
-            EventKind::Close | EventKind::Open => ROUND_OFF * largest(&self.new_state[..n]),
-            EventKind::Branch(Guard::Turning) => velocity(),
-            EventKind::Transition(index) => {
-                let model = &self.system.levels()[event.level].model;
-                let guard = self
-                    .contacts
-                    .contact(event.level)
-                    .map(|c| model.transitions(c.phase)[index].guard);
-                match guard {
-                    Some(ContactGuard::Velocity) => velocity(),
-                    _ => f64::INFINITY,
-                }
-            }
-            EventKind::Branch(_) => f64::INFINITY,
+        let (displacement, velocity) = (ROUND_OFF * largest(u), ROUND_OFF * largest(v));
+        let index = match event.kind {
+            EventKind::Close | EventKind::Open => return displacement,
+            EventKind::Branch(Guard::Above | Guard::Below) => return displacement,
+            EventKind::Branch(Guard::Variable(_)) => return f64::INFINITY,
+            EventKind::Branch(_) => return velocity,
+            EventKind::Transition(index) => index,
+        };
+        let level = &self.system.levels()[event.level];
+        let Some(contact) = self.contacts.contact(event.level) else {
+            return f64::INFINITY;
+        };
+        let guard = level.model.transitions(contact.phase)[index].guard;
+        let function = |delta: f64, rate: f64| match guard {
+            ContactGuard::Velocity => rate,
+            ContactGuard::RawForce => contact.raw_force(level, delta, rate),
+            ContactGuard::Model(index) => contact.guard(level, index, delta, rate),
+            ContactGuard::StickLower | ContactGuard::StickUpper => f64::INFINITY,
+        };
+        let delta = self.contacts.penetration(self.system, event.level, u);
+        let rate = level.relative(v);
+        let here = function(delta, rate);
+        if !here.is_finite() {
+            return f64::INFINITY;
         }
+        (function(delta + displacement, rate) - here).abs()
+            + (function(delta, rate + velocity) - here).abs()
     }
 
     /// Processes the event and all others within tolerance of it, in the order of their

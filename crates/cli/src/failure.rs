@@ -107,6 +107,7 @@ impl Failure {
             | TimeHistoryError::NotLinear { .. }
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::CompliantModel { .. }
+            | TimeHistoryError::NoClearance { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error @ TimeHistoryError::ResultFile { .. } => {
                 Self::Output(plain(error.to_string(), help))

@@ -14,7 +14,7 @@ use pounding_hysteresis::History;
 use crate::contact::Contacts;
 use crate::dynamics::{Dynamics, Instant, Segment};
 use crate::error::TimeHistoryError;
-use crate::events::{Candidate, Finder};
+use crate::events::{Candidate, EventKind, Finder};
 use crate::impacts::ImpactLog;
 use crate::ledger;
 use crate::methods::{Context, Method, Verdict};
@@ -263,7 +263,14 @@ impl<'a> Driver<'a> {
             }
             let rest = segment.length - tau;
             step = self.trial(segment, tau, step)?;
-            let earliest = self.find(segment, tau, step);
+            while step > PROGRESS_STEP && self.overlaps_unseen() {
+                step = self.trial(segment, tau, (0.5 * step).max(PROGRESS_STEP))?;
+            }
+            let mut earliest = self.find(segment, tau, step);
+            while step > PROGRESS_STEP && earliest.is_some_and(|e| self.turns_at_once(e, step)) {
+                step = self.trial(segment, tau, (0.1 * step).max(PROGRESS_STEP))?;
+                earliest = self.find(segment, tau, step);
+            }
             let mut ended_by = None;
             if let Some(event) = earliest {
                 if event.theta * step <= EVENT_TOLERANCE {
@@ -340,6 +347,15 @@ impl<'a> Driver<'a> {
                 }
             }
         }
+    }
+
+    /// Whether an element that turned at this very instant would leave its new branch at
+    /// once: at rest, that is told by a second derivative, which the interpolant of a long
+    /// step does not have.
+    fn turns_at_once(&self, event: Candidate, step: f64) -> bool {
+        matches!(event.kind, EventKind::Branch(_))
+            && event.theta * step <= EVENT_TOLERANCE
+            && self.contacts.elements.turned[event.level]
     }
 
     fn find(&mut self, segment: &Segment, tau: f64, step: f64) -> Option<Candidate> {

@@ -103,6 +103,17 @@ pub enum TimeHistoryError {
         /// Storey height (m).
         height: f64,
     },
+    /// Rigid floors that no impact could move: contact forces between them and the walls
+    /// would not be unique.
+    #[error(
+        "the floors of {place} are rigid and lie between two walls with a clearance of {clearance:e} m: their contact forces are not unique"
+    )]
+    NoClearance {
+        /// Gap levels from wall to wall.
+        place: String,
+        /// Sum of their widths (m).
+        clearance: f64,
+    },
     /// Rigid floors that cannot give way.
     #[error(
         "the rigid impact at t = {} s has no solution; buildings in touch there: {place}",
@@ -174,7 +185,7 @@ impl TimeHistoryError {
             Self::NotLinear { .. } => {
                 "use method = \"adaptive\", \"event_driven\" or \"newmark\", or linear storeys and no links"
             }
-            Self::Wedged { .. } => {
+            Self::NoClearance { .. } | Self::Wedged { .. } => {
                 "rigid floors without clearance between two walls cannot move: give a gap a width, or its model a stiffness"
             }
             Self::CompliantModel { .. } => {

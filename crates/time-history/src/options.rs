@@ -161,6 +161,7 @@ impl RunOptions {
                 }
             }
         }
+        rigid_rows_have_clearance(system)?;
         if let Some(tolerance) = self.energy_tolerance {
             positive("energy_tolerance", tolerance)?;
         }
@@ -202,6 +203,39 @@ fn rigid_throughout(system: &System) -> Result<(), TimeHistoryError> {
                     model: level.model.descriptor().name,
                 });
             }
+        }
+    }
+    Ok(())
+}
+
+/// Clearance (m) below which rigid floors between two walls count as held.
+const LEAST_CLEARANCE: f64 = 1.0e-9;
+
+/// Rigid floors in a row from wall to wall need room: without it they cannot move, and
+/// a prestress between the walls is as good a solution as none.
+fn rigid_rows_have_clearance(system: &System) -> Result<(), TimeHistoryError> {
+    let levels = system.levels();
+    let rigid = |l: &usize| levels[*l].model.rigid_restitution().is_some();
+    let mut to_the_right = vec![None; system.degrees_of_freedom()];
+    for l in (0..levels.len()).filter(rigid) {
+        if let Some(floor) = levels[l].left {
+            to_the_right[floor] = Some(l);
+        }
+    }
+    for first in (0..levels.len()).filter(rigid) {
+        if levels[first].left.is_some() {
+            continue;
+        }
+        let next = |l: &usize| levels[*l].right.and_then(|floor| to_the_right[floor]);
+        let row = || std::iter::successors(Some(first), next);
+        let clearance: f64 = row().map(|l| levels[l].width).sum();
+        let reaches_a_wall = row().last().is_some_and(|l| levels[l].right.is_none());
+        if reaches_a_wall && clearance <= LEAST_CLEARANCE {
+            let places: Vec<_> = row().map(|l| system.place_of_level(l)).collect();
+            return Err(TimeHistoryError::NoClearance {
+                place: places.join(", "),
+                clearance,
+            });
         }
     }
     Ok(())

@@ -308,6 +308,16 @@ impl System {
         &self.levels
     }
 
+    /// Where a contact level sits, in words.
+    #[must_use]
+    pub fn place_of_level(&self, level: usize) -> String {
+        let mut gaps = self.gaps.iter();
+        let gap = gaps.find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
+        gap.map_or_else(String::new, |g| {
+            format!("{} level {}", g.name, level - g.first_level + 1)
+        })
+    }
+
     /// Ground acceleration.
     #[must_use]
     pub fn ground(&self) -> &GroundAcceleration {

@@ -1,6 +1,6 @@
 //! What the driver does at an event: cut the step there, process it, change modes.
 
-use pounding_gap_element::{Memory, Phase, SeparationRule, Target};
+use pounding_gap_element::{Guard as ContactGuard, Memory, Phase, SeparationRule, Target};
 
 use pounding_hysteresis::Guard;
 
@@ -16,12 +16,17 @@ use crate::events::{Candidate, EventKind};
 use crate::impacts::TOUCH;
 use crate::methods::Context;
 use crate::outcome::Peak;
-use crate::polynomial::{derivative, value};
+use crate::polynomial::{derivative, first_rise, value};
+
+/// Round-off of a displacement or a velocity, as a part of the greatest one.
+const ROUND_OFF: f64 = 1.0e-14;
 
 impl Driver<'_> {
     /// Cuts the step at the event: Newton on the event function, each time with a
     /// fresh trial step of the corrected length. Returns the final length, and
-    /// false if a trial was rejected before the event was reached.
+    /// false if the event was not reached: a trial was rejected before it, or the event
+    /// is not there. The interpolant of the whole step may cross zero by its own error
+    /// where the motion does not.
     pub(super) fn locate(
         &mut self,
         segment: &Segment,
@@ -36,7 +41,10 @@ impl Driver<'_> {
             if taken < step {
                 return Ok((taken, false));
             }
-            let correction = self.correction(segment, tau, step, event);
+            let (correction, missed) = self.correction(segment, tau, step, event);
+            if missed && !(correction > 0.0 && step + correction <= whole) {
+                return Ok((step, false));
+            }
             let limit = EVENT_TOLERANCE.max(4.0 * f64::EPSILON * step);
             let corrected = (step + correction).clamp(0.5 * step, whole.min(1.5 * step));
             if !correction.is_finite() || correction.abs() <= limit || corrected == step {
@@ -45,11 +53,20 @@ impl Driver<'_> {
             step = corrected;
         }
         let taken = self.trial(segment, tau, step)?;
-        Ok((taken, taken >= step))
+        let (_, missed) = self.correction(segment, tau, taken, event);
+        Ok((taken, taken >= step && !missed))
     }
 
-    /// Newton correction of the length of a step that should end at the event.
-    fn correction(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> f64 {
+    /// Newton correction of the length of a step that should end at the event, and
+    /// whether the event lies clearly, by more than round-off, neither within that step
+    /// nor at its end.
+    fn correction(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+        step: f64,
+        event: Candidate,
+    ) -> (f64, bool) {
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,
@@ -65,7 +82,47 @@ impl Driver<'_> {
             EventKind::Close => guard[0].max(0.0),
             _ => 0.0,
         };
-        (start - value(&guard, 1.0)) * step / value(&derivative(&guard), 1.0)
+        let (end, slope) = (value(&guard, 1.0), value(&derivative(&guard), 1.0));
+        let correction = (start - end) * step / slope;
+        let missed = start - end > self.round_off(event)
+            && correction.abs() > SIMULTANEOUS
+            && first_rise(&guard).is_none();
+        (correction, missed)
+    }
+
+    /// What round-off of displacements and velocities makes in the function of an event at
+    /// the end of the trial step; infinite for those that depend on more than that.
+    fn round_off(&self, event: Candidate) -> f64 {
+        let n = self.dynamics.layout.dofs;
+        let (u, v) = (&self.new_state[..n], &self.new_state[n..2 * n]);
+        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let (displacement, velocity) = (ROUND_OFF * largest(u), ROUND_OFF * largest(v));
+        let index = match event.kind {
+            EventKind::Close | EventKind::Open => return displacement,
+            EventKind::Branch(Guard::Above | Guard::Below) => return displacement,
+            EventKind::Branch(Guard::Variable(_)) => return f64::INFINITY,
+            EventKind::Branch(_) => return velocity,
+            EventKind::Transition(index) => index,
+        };
+        let level = &self.system.levels()[event.level];
+        let Some(contact) = self.contacts.contact(event.level) else {
+            return f64::INFINITY;
+        };
+        let guard = level.model.transitions(contact.phase)[index].guard;
+        let function = |delta: f64, rate: f64| match guard {
+            ContactGuard::Velocity => rate,
+            ContactGuard::RawForce => contact.raw_force(level, delta, rate),
+            ContactGuard::Model(index) => contact.guard(level, index, delta, rate),
+            ContactGuard::StickLower | ContactGuard::StickUpper => f64::INFINITY,
+        };
+        let delta = self.contacts.penetration(self.system, event.level, u);
+        let rate = level.relative(v);
+        let here = function(delta, rate);
+        if !here.is_finite() {
+            return f64::INFINITY;
+        }
+        (function(delta + displacement, rate) - here).abs()
+            + (function(delta, rate + velocity) - here).abs()
     }
 
     /// Processes the event and all others within tolerance of it, in the order of their

@@ -62,19 +62,8 @@ impl Driver<'_> {
     pub(super) fn place_of(&self, event: &Candidate) -> String {
         match event.kind {
             EventKind::Branch(_) => self.system.place_of_element(event.level),
-            _ => self.place(event.level),
+            _ => self.system.place_of_level(event.level),
         }
-    }
-
-    pub(super) fn place(&self, level: usize) -> String {
-        let gap = self
-            .system
-            .gaps()
-            .iter()
-            .find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
-        gap.map_or_else(String::new, |g| {
-            format!("{} level {}", g.name, level - g.first_level + 1)
-        })
     }
 
     pub(super) fn places_in_touch(&self) -> String {
@@ -82,7 +71,7 @@ impl Driver<'_> {
             .contacts
             .closed()
             .iter()
-            .map(|l| self.place(*l))
+            .map(|l| self.system.place_of_level(*l))
             .collect();
         if places.is_empty() {
             "none".to_owned()

@@ -1,10 +1,12 @@
 //! The explicit pair of order 8(5,3) with dense output and error control.
 
+use pounding_gap_element::APPROACH_VELOCITY_FLOOR;
 use pounding_runge_kutta::Dop853;
 
 use super::{Context, Counts, Information, Method, Verdict};
 use crate::dynamics::Layout;
 use crate::polynomial::Polynomial;
+use crate::rates::Rates;
 use crate::system::System;
 
 /// First step (s) after a closure whose force starts like a power of the
@@ -25,7 +27,14 @@ pub(crate) struct Adaptive {
     since: Option<f64>,
     /// Sizes of the internal variables of elements, in their units.
     sizes: Vec<f64>,
+    rates: Rates,
 }
+
+/// Greatest product of a step and of the fastest rate. The pair is stable in the left half
+/// of the disc of radius 5.96. Beyond it whatever is faster than the step grows up to the
+/// tolerance and stays there as noise, with its own changes of sign and events, which a
+/// control of errors cannot see.
+const STABLE: f64 = 5.0;
 
 /// Growth of a step beyond what error control asks for, after such a start.
 const LARGEST_GROWTH: f64 = 2.0;
@@ -59,6 +68,7 @@ impl Adaptive {
                     sizes.into_iter().take(e.law.internal_variables())
                 })
                 .collect(),
+            rates: Rates::new(system),
         }
     }
 }
@@ -90,6 +100,29 @@ impl Adaptive {
         }
         longest
     }
+
+    /// Size of an energy integral or of an impulse: the impulse and the work of a contact
+    /// are held to those of the level so far, or to what its floors bring along with their
+    /// approach velocity, whichever is greater. Stiff contacts move too little for the
+    /// sizes of displacements and velocities to tell anything of their forces.
+    fn integral_size(&self, context: &Context<'_, '_>, i: usize, value: f64) -> f64 {
+        if i < self.layout.work(0) {
+            return f64::INFINITY;
+        }
+        let place = i - self.layout.work(0);
+        let l = place % self.layout.levels;
+        match context.contacts.contact(l) {
+            Some(contact) if !contact.is_stuck() => {
+                let mass = context.dynamics.system.levels()[l].effective_mass;
+                let velocity = contact.collision.approach_velocity;
+                let velocity = velocity.max(APPROACH_VELOCITY_FLOOR);
+                let is_work = place < self.layout.levels;
+                let brought = mass * velocity * if is_work { velocity } else { 1.0 };
+                brought + value.abs()
+            }
+            _ => f64::INFINITY,
+        }
+    }
 }
 
 impl Method for Adaptive {
@@ -105,7 +138,8 @@ impl Method for Adaptive {
 
     fn propose(&mut self, context: &Context<'_, '_>, tau: f64, state: &[f64]) -> f64 {
         let rest = context.segment.length - tau;
-        let end = self.before_the_end(context, state);
+        let stable = STABLE / self.rates.at(context, state);
+        let end = self.before_the_end(context, state).min(stable);
         if self.next > end {
             return end.min(rest);
         }
@@ -148,7 +182,7 @@ impl Method for Adaptive {
                 let size = self.sizes[i - 2 * n];
                 tolerance * (size + state[i].abs().max(new_state[i].abs()))
             } else {
-                f64::INFINITY
+                tolerance * self.integral_size(context, i, new_state[i])
             }
         });
         if self.last_norm <= 1.0 {

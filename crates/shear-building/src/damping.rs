@@ -1,8 +1,9 @@
 //! Viscous damping of a building.
 
+use multiversion::multiversion;
 use nalgebra::DMatrix;
 
-use crate::modes::Undamped;
+use crate::modes::{LARGE, Undamped};
 use crate::tridiagonal::SymmetricTridiagonal;
 
 /// How a building is damped.
@@ -60,8 +61,17 @@ impl DampingMatrix {
         match self {
             Self::Tridiagonal(c) => c.multiply(v, out),
             Self::Dense(c) => {
-                for (i, o) in out.iter_mut().enumerate() {
-                    *o = v.iter().enumerate().map(|(j, x)| c[(i, j)] * x).sum();
+                // Column by column, as they stand in memory.
+                let mut columns = c.column_iter().zip(v);
+                if let Some((column, x)) = columns.next() {
+                    for (o, c) in out.iter_mut().zip(&column) {
+                        *o = c * x;
+                    }
+                }
+                for (column, x) in columns {
+                    for (o, c) in out.iter_mut().zip(&column) {
+                        *o += c * x;
+                    }
                 }
             }
         }
@@ -145,6 +155,14 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
         check_ratio(*ratio)?;
     }
     let ratio = |j: usize| ratios[if ratios.len() == 1 { 0 } else { j }];
+    if n > LARGE {
+        // Half of the weight on either side, so that the matrix is exactly symmetric.
+        let scaled = |p: usize, j: usize| {
+            let weight = 2.0 * ratio(j) * modes.circular_frequency[j];
+            weight.sqrt() * (mass[p] * modes.shape[(p, j)])
+        };
+        return Ok(DampingMatrix::Dense(outer_product(n, scaled)));
+    }
     Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |p, q| {
         (0..n)
             .map(|j| {
@@ -154,6 +172,55 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
             })
             .sum()
     })))
+}
+
+/// Rows side by side in [`outer_product`].
+const WIDTH: usize = 8;
+
+/// `B B'` of a square matrix, eight by eight entries at a time.
+fn outer_product(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
+    let blocks = n.div_ceil(WIDTH);
+    let mut rows = vec![[0.0; WIDTH]; blocks * n];
+    for j in 0..n {
+        for p in 0..n {
+            rows[p / WIDTH * n + j][p % WIDTH] = entry(p, j);
+        }
+    }
+    let mut out = DMatrix::zeros(n, n);
+    for (a, left) in rows.chunks_exact(n).enumerate() {
+        for (b, right) in rows.chunks_exact(n).enumerate().take(a + 1) {
+            let product = tile(left, right);
+            for (r, column) in product.iter().enumerate() {
+                for (l, x) in column.iter().enumerate() {
+                    let (p, q) = (a * WIDTH + l, b * WIDTH + r);
+                    if p < n && q < n {
+                        out[(p, q)] = *x;
+                        out[(q, p)] = *x;
+                    }
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Products of eight rows with eight rows.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn tile(left: &[[f64; WIDTH]], right: &[[f64; WIDTH]]) -> [[f64; WIDTH]; WIDTH] {
+    let mut sums = [[0.0; WIDTH]; WIDTH];
+    for (a, b) in left.iter().zip(right) {
+        for r in 0..WIDTH {
+            for l in 0..WIDTH {
+                sums[r][l] += b[r] * a[l];
+            }
+        }
+    }
+    sums
 }
 
 fn check_ratio(ratio: f64) -> Result<(), String> {

@@ -6,7 +6,7 @@ use pounding_shear_building::ShearBuilding;
 use crate::dynamics::{Instant, Layout};
 use crate::elements::{Element, ElementPlace};
 use crate::events::{Finder, penetration, velocity};
-use crate::methods::{Context, Method};
+use crate::methods::{Context, LARGE, Method};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
@@ -25,6 +25,8 @@ pub(crate) struct Peaks {
     pub elements: Vec<ElementPeaks>,
     state: Vec<f64>,
     acceleration: Vec<f64>,
+    /// Part of the present step that `acceleration` belongs to; NaN if none.
+    at: f64,
 }
 
 /// Peaks of a storey with a law, or of a level of a link.
@@ -47,6 +49,7 @@ impl Peaks {
             elements: vec![ElementPeaks::default(); elements],
             state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],
+            at: f64::NAN,
         }
     }
 
@@ -103,6 +106,7 @@ impl Peaks {
         place: (f64, f64),
     ) {
         let system = context.dynamics.system;
+        self.at = f64::NAN;
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             self.building(context, method, building, range[0], place);
         }
@@ -214,23 +218,34 @@ impl Peaks {
         a[0] += context.segment.ground(tau);
         a[1] += context.segment.slope * step;
         let floor = self.storeys[i].acceleration_absolute.value * NEAR;
-        if let Some((theta, _)) = absolute_maximum(&a, floor) {
+        let Some((theta, _)) = absolute_maximum(&a, floor) else {
+            return;
+        };
+        let ground = context.segment.ground(tau + theta * step);
+        let time = context.segment.start + tau + theta * step;
+        if theta != self.at && context.dynamics.layout.dofs > LARGE && theta > 0.0 && theta < 1.0 {
+            let at = |k: usize| value(method.polynomial(k), theta);
+            let contacts = context.contacts;
+            if let Some(own) = context.dynamics.acceleration_of(contacts, (i, ground), at) {
+                let peak = &mut self.storeys[i].acceleration_absolute;
+                peak.raise((own + ground).abs(), time);
+                return;
+            }
+        }
+        // Many floors have their peaks at the end of a step.
+        if theta != self.at {
+            self.at = theta;
             for (k, y) in self.state.iter_mut().enumerate() {
                 *y = value(method.polynomial(k), theta);
             }
-            let ground = context.segment.ground(tau + theta * step);
             let now = Instant::within(ground, method.information().implicit, theta * step);
-            context.dynamics.accelerations(
-                context.contacts,
-                now,
-                &self.state,
-                &mut self.acceleration,
-            );
-            let exact = (self.acceleration[i] + ground).abs();
-            self.storeys[i]
-                .acceleration_absolute
-                .raise(exact, context.segment.start + tau + theta * step);
+            let out = &mut self.acceleration;
+            context
+                .dynamics
+                .accelerations(context.contacts, now, &self.state, out);
         }
+        let exact = (self.acceleration[i] + ground).abs();
+        self.storeys[i].acceleration_absolute.raise(exact, time);
     }
 
     fn contact(

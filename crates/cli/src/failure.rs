@@ -107,6 +107,8 @@ impl Failure {
             | TimeHistoryError::NotLinear { .. }
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::CompliantModel { .. }
+            | TimeHistoryError::TooManySteps { .. }
+            | TimeHistoryError::RecordingTooLarge { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error @ TimeHistoryError::ResultFile { .. } => {
                 Self::Output(plain(error.to_string(), help))

@@ -61,16 +61,20 @@ impl DampingMatrix {
         match self {
             Self::Tridiagonal(c) => c.multiply(v, out),
             Self::Dense(c) => {
-                // Column by column, as they stand in memory.
-                let mut columns = c.column_iter().zip(v);
-                if let Some((column, x)) = columns.next() {
-                    for (o, c) in out.iter_mut().zip(&column) {
-                        *o = c * x;
-                    }
+                // Column by column, as they stand in memory, a few in one go.
+                for out in out.iter_mut() {
+                    *out = -0.0;
                 }
-                for (column, x) in columns {
-                    for (o, c) in out.iter_mut().zip(&column) {
-                        *o += c * x;
+                let n = out.len();
+                for (columns, v) in c.as_slice().chunks(COLUMNS * n).zip(v.chunks(COLUMNS)) {
+                    if let (Ok(v), true) = (<&[f64; COLUMNS]>::try_from(v), n > 0) {
+                        add_columns(columns, v, out);
+                        continue;
+                    }
+                    for (column, x) in columns.chunks(n).zip(v) {
+                        for (o, c) in out.iter_mut().zip(column) {
+                            *o += c * x;
+                        }
                     }
                 }
             }
@@ -172,6 +176,25 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
             })
             .sum()
     })))
+}
+
+/// Columns that [`DampingMatrix::multiply`] takes in one go.
+const COLUMNS: usize = 4;
+
+/// Adds multiples of a few columns, one after another in every place.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn add_columns(columns: &[f64], x: &[f64; COLUMNS], out: &mut [f64]) {
+    let n = out.len();
+    let [a, b, c, d] = std::array::from_fn(|k| &columns[k * n..(k + 1) * n]);
+    for i in 0..n {
+        let sum = out[i] + a[i] * x[0];
+        out[i] = ((sum + b[i] * x[1]) + c[i] * x[2]) + d[i] * x[3];
+    }
 }
 
 /// Rows side by side in [`outer_product`].

@@ -165,7 +165,11 @@ impl Factor {
             self.upper[i] = pivot;
             self.lower[i] = factor;
             self.exchanged[i] = exchange;
-            row = [other[1] - factor * pivot[1], other[2] - factor * pivot[2], 0.0];
+            row = [
+                other[1] - factor * pivot[1],
+                other[2] - factor * pivot[2],
+                0.0,
+            ];
         }
     }
 
@@ -274,7 +278,11 @@ mod tests {
         for matrix in [wilkinson, SymmetricTridiagonal::chain(&storeys)] {
             let (values, vectors) = eigen(&matrix);
             assert!(values.is_sorted());
-            assert!(orthogonality(&vectors) < 1.0e-11, "{}", orthogonality(&vectors));
+            assert!(
+                orthogonality(&vectors) < 1.0e-11,
+                "{}",
+                orthogonality(&vectors)
+            );
             let residual = residual(&matrix, &values, &vectors);
             assert!(residual < 1.0e-12, "{residual:e}");
         }

@@ -388,7 +388,11 @@ impl System {
             // The matrix is symmetric, and its columns stand together in memory.
             DampingMatrix::Dense(c) => {
                 let column = c.column(i - first);
-                column.iter().enumerate().map(|(j, c)| c * v(first + j)).sum()
+                column
+                    .iter()
+                    .enumerate()
+                    .map(|(j, c)| c * v(first + j))
+                    .sum()
             }
         };
         band(building.stiffness_matrix(), u) + damping

@@ -23,4 +23,4 @@ pub(crate) use flight::{Flight, Leg, Logbook};
 pub(crate) use lanes::{
     Lane, ModeLanes, Track, WIDTH, add, drifts, gather, mul, raise, raise_now, scale, spread,
 };
-pub(crate) use transform::{to_floors, transform};
+pub(crate) use transform::{to_floors, transform, transform_four};

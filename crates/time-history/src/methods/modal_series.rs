@@ -4,7 +4,7 @@
 
 use super::chain::{AffineContact, Sums, TERMS};
 use crate::engagement::LevelRows;
-use crate::free_flight::{FreeFlight, Lane, WIDTH, gather, spread, transform};
+use crate::free_flight::{FreeFlight, Lane, WIDTH, gather, spread, transform, transform_four};
 use crate::polynomial::{Polynomial, septic, value};
 use crate::system::System;
 
@@ -35,7 +35,8 @@ pub(crate) struct ModalSeries {
     term: [Vec<Lane>; 2],
     acceleration: Vec<Lane>,
     sums: [Vec<Lane>; SUMS],
-    floors: Vec<Lane>,
+    floors: [Vec<Lane>; 4],
+    all: Vec<bool>,
     /// Velocity of every mode over the step, and its `2 zeta omega`.
     speed: Vec<Polynomial>,
     damping: Vec<f64>,
@@ -61,7 +62,8 @@ impl ModalSeries {
             term: [zeros(), zeros()],
             acceleration: zeros(),
             sums: std::array::from_fn(|_| zeros()),
-            floors: zeros(),
+            floors: std::array::from_fn(|_| zeros()),
+            all: vec![true; lanes],
             speed: vec![Polynomial::default(); n],
             damping: (0..n)
                 .map(|i| constants.modes[i / WIDTH].damping[i % WIDTH])
@@ -108,8 +110,8 @@ impl ModalSeries {
             let known = &mut self.known[0];
             known.floors.copy_from_slice(start);
             for (modes, floors) in known.modes.iter_mut().zip(start.chunks(n)) {
-                spread(floors, &mut self.floors);
-                transform(&constants.inverse, &self.floors, modes);
+                spread(floors, &mut self.floors[0]);
+                transform(&constants.inverse, &self.floors[0], modes);
             }
         }
         let [q, p] = &self.known[0].modes;
@@ -148,7 +150,10 @@ impl ModalSeries {
         let factors = [1.0, 1.0, 1.0 / (order + 1.0)];
         let mut largest = [0.0_f64; 2];
         for c in 0..q.len() {
-            let (a, b) = (p[c].map(|x| scale * x), self.acceleration[c].map(|x| scale * x));
+            let (a, b) = (
+                p[c].map(|x| scale * x),
+                self.acceleration[c].map(|x| scale * x),
+            );
             (q[c], p[c]) = (a, b);
             let mut add = |place: usize, factor: f64, x: &Lane| {
                 let sum = &mut self.sums[place][c];
@@ -174,23 +179,30 @@ impl ModalSeries {
     }
 
     fn to_floors(&mut self, constants: &FreeFlight, out: &mut Sums) {
-        let [s0, s1, s2] = &mut out.start;
-        let [e0, e1, e2] = &mut out.end;
-        let all = [
-            &mut out.displacement,
-            &mut out.velocity,
-            &mut out.integral,
-            s0,
-            s1,
-            s2,
-            e0,
-            e1,
-            e2,
-        ];
-        for (sum, out) in self.sums.iter().zip(all) {
-            transform(&constants.shapes, sum, &mut self.floors);
-            gather(&self.floors, out);
+        let [d, v, integral, s0, s1, s2, e0, e1, e2] = &self.sums;
+        let shapes = &constants.shapes;
+        let ([os0, os1, os2], [oe0, oe1, oe2]) = (&mut out.start, &mut out.end);
+        let floors = &mut self.floors;
+        for (modal, out) in [
+            (
+                [d, v, integral, s0],
+                [
+                    &mut out.displacement,
+                    &mut out.velocity,
+                    &mut out.integral,
+                    os0,
+                ],
+            ),
+            ([s1, s2, e0, e1], [os1, os2, oe0, oe1]),
+        ] {
+            let modal = modal.map(Vec::as_slice);
+            transform_four(shapes, modal, floors, &self.all);
+            for (floors, out) in floors.iter().zip(out) {
+                gather(floors, out);
+            }
         }
+        transform(shapes, e2, &mut floors[0]);
+        gather(&floors[0], oe2);
     }
 
     fn interpolate(&mut self) {

@@ -120,9 +120,7 @@ impl Taylor {
         let load = [context.segment.ground(tau), context.segment.slope * h];
         let constants = context.dynamics.system.free_flight();
         self.terms += match (&mut self.chain, self.modal.as_mut().zip(constants)) {
-            (Some(chain), _) => {
-                chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n]))
-            }
+            (Some(chain), _) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
             (None, Some((modal, constants))) => {
                 let (start, sums) = (&state[..2 * n], &mut self.sums);
                 modal.sum(constants, &self.contacts, (load, h), start, sums)

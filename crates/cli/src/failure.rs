@@ -108,6 +108,8 @@ impl Failure {
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::NoClearance { .. }
+            | TimeHistoryError::TooManySteps { .. }
+            | TimeHistoryError::RecordingTooLarge { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error @ TimeHistoryError::ResultFile { .. } => {
                 Self::Output(plain(error.to_string(), help))

@@ -7,7 +7,12 @@ use pounding_time_history::{
 use serde_json::{Value, json};
 
 /// The object that `run --json` prints.
-pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value {
+pub fn outcome(
+    system: &System,
+    outcome: &Outcome,
+    isolated: &Outcome,
+    warnings: &[String],
+) -> Value {
     let buildings: Vec<_> = outcome
         .buildings
         .iter()
@@ -58,7 +63,7 @@ pub fn outcome(system: &System, outcome: &Outcome, isolated: &Outcome) -> Value 
             "location_steps": statistics.location_steps, "evaluations": statistics.evaluations,
             "newton_iterations": statistics.newton_iterations,
         },
-        "warnings": outcome.warnings,
+        "warnings": warnings,
     })
 }
 

@@ -18,8 +18,7 @@ pub fn report(record: &RunRecord<'_>) -> String {
     for line in record.assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    let all = warnings(record.assembly);
-    for warning in all.iter().chain(&record.outcome.warnings) {
+    for warning in record.warnings() {
         text.push_str(&format!("warning: {warning}\n"));
     }
     for index in 0..record.outcome.buildings.len() {
@@ -34,14 +33,6 @@ pub fn report(record: &RunRecord<'_>) -> String {
     }
     text.push_str(&energy(record));
     text
-}
-
-fn warnings(assembly: &Assembly) -> Vec<String> {
-    assembly
-        .accelerogram
-        .origin()
-        .map(|o| o.warnings.clone())
-        .unwrap_or_default()
 }
 
 /// A table whose columns stand at the right.
@@ -229,7 +220,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     for line in assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    for warning in warnings(assembly) {
+    for warning in assembly.warnings() {
         text.push_str(&format!("warning: {warning}\n"));
     }
     for b in assembly.system.buildings() {

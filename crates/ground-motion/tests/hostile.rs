@@ -208,3 +208,30 @@ fn enormous_counts() {
         assert!(matches!(error, GroundMotionError::Binary { .. }), "{error}");
     }
 }
+
+/// Numbers that no recorder of K-NET can give are refused where they stand: counts beyond
+/// its 24 bits (and beyond 32), and a header that promises more samples than fit anywhere.
+#[test]
+fn impossible_counts_of_k_net_are_refused() {
+    let fixture = fixtures(Format::KNet, 0).into_iter().next();
+    let fixture = fixture.unwrap();
+    let text = String::from_utf8(fixture.bytes.clone()).unwrap();
+    let lines = text.lines().count();
+    let data = text.find("Memo.").unwrap();
+    let end_of_header = data + text[data..].find('\n').unwrap() + 1;
+    let free = |counts: &str| format!("{}{counts}\n", &text[..end_of_header]);
+    let said = |text: String| {
+        let read = read_bytes("file", text.as_bytes(), &fixture.options);
+        let error = read.unwrap_err();
+        names_its_place(&error, lines, "k_net");
+        error.to_string()
+    };
+    let huge = said(free("1 2 9000000000000000000 3"));
+    assert!(huge.contains("9e18") && huge.contains("24 bits"), "{huge}");
+    let frequency = text.replace("100Hz", "9000000000000000000Hz");
+    let promised = said(frequency);
+    assert!(
+        promised.contains("samples, which no record has"),
+        "{promised}"
+    );
+}

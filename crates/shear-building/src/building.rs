@@ -18,6 +18,11 @@ pub struct StoreyLaw {
     pub yield_drift: Option<f64>,
 }
 
+/// Storeys of a building at most: its mode shapes are a full matrix, beside which a run
+/// keeps eight more of the same size (together 1.2 GB for so many storeys), and the work to
+/// find and to use them grows at least with the square of the storeys.
+pub const MAXIMUM_STOREYS: usize = 4_000;
+
 /// A chain of storeys with everything that follows from it, computed once.
 #[derive(Debug, Clone)]
 pub struct ShearBuilding {
@@ -39,8 +44,8 @@ impl ShearBuilding {
     /// heights (m), one a storey, bottom first.
     ///
     /// # Errors
-    /// No storeys, lists of unequal length, a value that is not positive and
-    /// finite, values so far apart that the modes cannot be resolved, or damping out
+    /// No storeys, more than [`MAXIMUM_STOREYS`], lists of unequal length, a value that is
+    /// not positive and finite, values so far apart that the modes cannot be resolved, or damping out
     /// of range.
     pub fn new(
         name: String,
@@ -71,6 +76,13 @@ impl ShearBuilding {
     ) -> Result<Self, ShearBuildingError> {
         if mass.is_empty() {
             return Err(ShearBuildingError::NoStoreys { building: name });
+        }
+        if mass.len() > MAXIMUM_STOREYS {
+            return Err(ShearBuildingError::TooManyStoreys {
+                building: name,
+                storeys: mass.len(),
+                largest: MAXIMUM_STOREYS,
+            });
         }
         for (quantity, values) in [
             ("mass", &mass),
@@ -104,7 +116,7 @@ impl ShearBuilding {
                 building: name.clone(),
                 reason,
             })?;
-        let modes = Modes::new(undamped, &mass, &damping_matrix);
+        let modes = Modes::new(undamped, &mass, (&damping, &damping_matrix));
         let elevations = height
             .iter()
             .scan(0.0, |sum, h| {

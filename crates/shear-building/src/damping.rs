@@ -1,8 +1,9 @@
 //! Viscous damping of a building.
 
+use multiversion::multiversion;
 use nalgebra::DMatrix;
 
-use crate::modes::Undamped;
+use crate::modes::{LARGE, Undamped};
 use crate::tridiagonal::SymmetricTridiagonal;
 
 /// How a building is damped.
@@ -60,8 +61,21 @@ impl DampingMatrix {
         match self {
             Self::Tridiagonal(c) => c.multiply(v, out),
             Self::Dense(c) => {
-                for (i, o) in out.iter_mut().enumerate() {
-                    *o = v.iter().enumerate().map(|(j, x)| c[(i, j)] * x).sum();
+                // Column by column, as they stand in memory, a few in one go.
+                for out in out.iter_mut() {
+                    *out = -0.0;
+                }
+                let n = out.len();
+                for (columns, v) in c.as_slice().chunks(COLUMNS * n).zip(v.chunks(COLUMNS)) {
+                    if let (Ok(v), true) = (<&[f64; COLUMNS]>::try_from(v), n > 0) {
+                        add_columns(columns, v, out);
+                        continue;
+                    }
+                    for (column, x) in columns.chunks(n).zip(v) {
+                        for (o, c) in out.iter_mut().zip(column) {
+                            *o += c * x;
+                        }
+                    }
                 }
             }
         }
@@ -145,6 +159,14 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
         check_ratio(*ratio)?;
     }
     let ratio = |j: usize| ratios[if ratios.len() == 1 { 0 } else { j }];
+    if n > LARGE {
+        // Half of the weight on either side, so that the matrix is exactly symmetric.
+        let scaled = |p: usize, j: usize| {
+            let weight = 2.0 * ratio(j) * modes.circular_frequency[j];
+            weight.sqrt() * (mass[p] * modes.shape[(p, j)])
+        };
+        return Ok(DampingMatrix::Dense(outer_product(n, scaled)));
+    }
     Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |p, q| {
         (0..n)
             .map(|j| {
@@ -154,6 +176,74 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
             })
             .sum()
     })))
+}
+
+/// Columns that [`DampingMatrix::multiply`] takes in one go.
+const COLUMNS: usize = 4;
+
+/// Adds multiples of a few columns, one after another in every place.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn add_columns(columns: &[f64], x: &[f64; COLUMNS], out: &mut [f64]) {
+    let n = out.len();
+    let [a, b, c, d] = std::array::from_fn(|k| &columns[k * n..(k + 1) * n]);
+    for i in 0..n {
+        let sum = out[i] + a[i] * x[0];
+        out[i] = ((sum + b[i] * x[1]) + c[i] * x[2]) + d[i] * x[3];
+    }
+}
+
+/// Rows side by side in [`outer_product`].
+const WIDTH: usize = 8;
+
+/// `B B'` of a square matrix, eight by eight entries at a time.
+fn outer_product(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
+    let blocks = n.div_ceil(WIDTH);
+    let mut rows = vec![[0.0; WIDTH]; blocks * n];
+    for j in 0..n {
+        for p in 0..n {
+            rows[p / WIDTH * n + j][p % WIDTH] = entry(p, j);
+        }
+    }
+    let mut out = DMatrix::zeros(n, n);
+    for (a, left) in rows.chunks_exact(n).enumerate() {
+        for (b, right) in rows.chunks_exact(n).enumerate().take(a + 1) {
+            let product = tile(left, right);
+            for (r, column) in product.iter().enumerate() {
+                for (l, x) in column.iter().enumerate() {
+                    let (p, q) = (a * WIDTH + l, b * WIDTH + r);
+                    if p < n && q < n {
+                        out[(p, q)] = *x;
+                        out[(q, p)] = *x;
+                    }
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Products of eight rows with eight rows.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn tile(left: &[[f64; WIDTH]], right: &[[f64; WIDTH]]) -> [[f64; WIDTH]; WIDTH] {
+    let mut sums = [[0.0; WIDTH]; WIDTH];
+    for (a, b) in left.iter().zip(right) {
+        for r in 0..WIDTH {
+            for l in 0..WIDTH {
+                sums[r][l] += b[r] * a[l];
+            }
+        }
+    }
+    sums
 }
 
 fn check_ratio(ratio: f64) -> Result<(), String> {

@@ -10,6 +10,18 @@ pub enum ShearBuildingError {
         /// Name of the building.
         building: String,
     },
+    /// More storeys than the modes of a building can have.
+    #[error(
+        "building {building} has {storeys} storeys; a building can have {largest} at most, as memory and work of its modes grow with the square of the storeys"
+    )]
+    TooManyStoreys {
+        /// Name of the building.
+        building: String,
+        /// Storeys.
+        storeys: usize,
+        /// Storeys at most.
+        largest: usize,
+    },
     /// Lists of unequal length.
     #[error("building {building}: {quantity} has {found} values for {expected} storeys")]
     Length {

@@ -9,8 +9,9 @@ mod damping;
 mod error;
 mod modes;
 mod tridiagonal;
+mod tridiagonal_eigen;
 
-pub use building::{ShearBuilding, StoreyLaw};
+pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
 pub use damping::{Damping, DampingMatrix};
 pub use error::ShearBuildingError;
 pub use modes::Modes;

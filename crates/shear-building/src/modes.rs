@@ -1,16 +1,19 @@
 //! Modes of a building.
 //!
-//! The eigenproblem is solved by nalgebra, frequencies then follow from the shapes
-//! as Rayleigh quotients (relative error below 1e-15 at 200 storeys). Measured for
-//! uniform buildings, one full decomposition with nalgebra 0.35 and faer 0.24: 0.50
-//! and 1.1 us (3 storeys), 4.0 and 6.9 us (10), 86 and 105 us (40), 0.65 and 0.24 ms
-//! (60), 1.4 and 0.45 ms (80), 19 and 3.3 ms (200). It runs once a building, and
-//! nalgebra is needed for the dense damping matrix anyway.
+//! The eigenproblem of up to [`LARGE`] storeys is solved by nalgebra as a dense one,
+//! whose work grows with the cube of the storeys (86 us for 40, 19 ms for 200, 20 s and
+//! more for 2,000); that of more storeys as the tridiagonal one that it is. Frequencies
+//! then follow from the shapes as Rayleigh quotients (relative error below 1e-15 at 200
+//! storeys).
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use crate::damping::DampingMatrix;
+use crate::damping::{Damping, DampingMatrix};
 use crate::tridiagonal::SymmetricTridiagonal;
+use crate::tridiagonal_eigen::eigen;
+
+/// Storeys up to which matrices are handled as dense ones without further thought.
+pub(crate) const LARGE: usize = 100;
 
 /// Frequencies and shapes without damping.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,13 +49,42 @@ pub(crate) fn undamped(
 ) -> Undamped {
     let n = mass.len();
     let scale: Vec<f64> = mass.iter().map(|m| 1.0 / m.sqrt()).collect();
+    let scaled = SymmetricTridiagonal {
+        diagonal: (0..n)
+            .map(|i| stiffness.diagonal[i] * scale[i] * scale[i])
+            .collect(),
+        off_diagonal: (0..n - 1)
+            .map(|i| stiffness.off_diagonal[i] * scale[i] * scale[i + 1])
+            .collect(),
+    };
+    let shape = if n > LARGE {
+        let (_, mut vectors) = eigen(&scaled);
+        for mut column in vectors.column_iter_mut() {
+            let sign = if column[n - 1] < 0.0 { -1.0 } else { 1.0 };
+            for (x, scale) in column.iter_mut().zip(&scale) {
+                *x *= sign * scale;
+            }
+        }
+        vectors
+    } else {
+        dense_shapes(&scaled, &scale)
+    };
+    Undamped {
+        circular_frequency: (0..n)
+            .map(|j| rayleigh_quotient(mass, storeys, &shape, j).sqrt())
+            .collect(),
+        shape,
+    }
+}
+
+fn dense_shapes(scaled: &SymmetricTridiagonal, scale: &[f64]) -> DMatrix<f64> {
+    let n = scale.len();
     let mut matrix = DMatrix::zeros(n, n);
     for i in 0..n {
-        matrix[(i, i)] = stiffness.diagonal[i] * scale[i] * scale[i];
+        matrix[(i, i)] = scaled.diagonal[i];
         if i + 1 < n {
-            let off = stiffness.off_diagonal[i] * scale[i] * scale[i + 1];
-            matrix[(i, i + 1)] = off;
-            matrix[(i + 1, i)] = off;
+            matrix[(i, i + 1)] = scaled.off_diagonal[i];
+            matrix[(i + 1, i)] = scaled.off_diagonal[i];
         }
     }
     let eigen = SymmetricEigen::new(matrix);
@@ -65,15 +97,9 @@ pub(crate) fn undamped(
             1.0
         }
     };
-    let shape = DMatrix::from_fn(n, n, |i, j| {
+    DMatrix::from_fn(n, n, |i, j| {
         roof_sign(order[j]) * scale[i] * eigen.eigenvectors[(i, order[j])]
-    });
-    Undamped {
-        circular_frequency: (0..n)
-            .map(|j| rayleigh_quotient(mass, storeys, &shape, j).sqrt())
-            .collect(),
-        shape,
-    }
+    })
 }
 
 /// `omega^2` of a computed shape from its drifts: never negative, and accurate to
@@ -90,7 +116,11 @@ fn rayleigh_quotient(mass: &[f64], storeys: &[f64], shape: &DMatrix<f64>, j: usi
 }
 
 impl Modes {
-    pub(crate) fn new(undamped: Undamped, mass: &[f64], damping: &DampingMatrix) -> Self {
+    pub(crate) fn new(
+        undamped: Undamped,
+        mass: &[f64],
+        (damping, matrix): (&Damping, &DampingMatrix),
+    ) -> Self {
         let n = mass.len();
         let Undamped {
             circular_frequency,
@@ -102,8 +132,12 @@ impl Modes {
         let mut product = vec![0.0; n];
         let damping_ratio = (0..n)
             .map(|j| {
+                // The product below would take the cube of the storeys to come to this.
+                if let (Damping::Modal { ratios }, true) = (damping, n > LARGE) {
+                    return ratios[if ratios.len() == 1 { 0 } else { j }];
+                }
                 let phi: Vec<f64> = shape.column(j).iter().copied().collect();
-                damping.multiply(&phi, &mut product);
+                matrix.multiply(&phi, &mut product);
                 let generalised: f64 = phi.iter().zip(&product).map(|(a, b)| a * b).sum();
                 generalised / (2.0 * circular_frequency[j])
             })

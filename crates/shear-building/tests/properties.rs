@@ -21,7 +21,7 @@ fn uniform(n: usize, damping: Damping) -> ShearBuilding {
 /// Closed form of the uniform chain: `2 sqrt(k/m) sin((2j-1) pi / (2 (2n+1)))`.
 #[test]
 fn frequencies_of_uniform_buildings() {
-    for n in [1, 3, 10, 40, 80] {
+    for n in [1, 3, 10, 40, 80, 100, 101, 250] {
         let b = uniform(n, Damping::StiffnessProportional { ratio: 0.05 });
         let modes = b.modes();
         for (j, w) in modes.circular_frequency.iter().enumerate() {
@@ -185,22 +185,57 @@ fn unresolvable_modes_are_refused_or_right() {
 
 #[test]
 fn modal_damping_is_exactly_symmetric() {
-    let n = 12;
-    let values = |base: f64| {
-        (0..n)
-            .map(|i| base * (1.0 + 0.37 * f64::from(i * i % 7)))
-            .collect::<Vec<_>>()
-    };
-    let b = ShearBuilding::new(
-        "b".into(),
-        values(2e5),
-        values(3e8),
-        vec![3.0; 12],
+    for n in [12_usize, 109] {
+        let values = |base: f64| {
+            (0..n)
+                .map(|i| base * (1.0 + 0.37 * (i * i % 7) as f64))
+                .collect::<Vec<_>>()
+        };
+        let ratios: Vec<f64> = (0..n).map(|j| 0.02 + 0.001 * (j % 40) as f64).collect();
+        let b = ShearBuilding::new(
+            "b".into(),
+            values(2e5),
+            values(3e8),
+            vec![3.0; n],
+            Damping::Modal {
+                ratios: ratios.clone(),
+            },
+        )
+        .unwrap();
+        let DampingMatrix::Dense(c) = b.damping_matrix() else {
+            panic!("modal damping is dense");
+        };
+        assert_eq!(*c, c.transpose());
+        // The definition: the shapes make it diagonal, with twice the ratio times the
+        // frequency of each mode.
+        let modes = b.modes();
+        let generalised = modes.shape.transpose() * c * &modes.shape;
+        for i in 0..n {
+            assert!((modes.damping_ratio[i] - ratios[i]).abs() < 1e-12);
+            for j in 0..n {
+                let asked = if i == j {
+                    2.0 * ratios[i] * modes.circular_frequency[i]
+                } else {
+                    0.0
+                };
+                let found = generalised[(i, j)];
+                assert!((found - asked).abs() < 1e-9, "{n} {i} {j}: {found} {asked}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_building_of_too_many_storeys_is_refused_before_its_matrices_are_made() {
+    let n = 100_000;
+    let refused = ShearBuilding::new(
+        "tower".into(),
+        vec![4.5e4; n],
+        vec![5.482e6; n],
+        vec![4.0; n],
         Damping::Modal { ratios: vec![0.05] },
-    )
-    .unwrap();
-    let DampingMatrix::Dense(c) = b.damping_matrix() else {
-        panic!("modal damping is dense");
-    };
-    assert_eq!(*c, c.transpose());
+    );
+    let text = refused.unwrap_err().to_string();
+    assert!(text.contains("100000 storeys"), "{text}");
+    assert!(text.contains(&pounding_shear_building::MAXIMUM_STOREYS.to_string()));
 }

@@ -157,11 +157,15 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
         gravity,
     )
     .map_err(|e| {
-        let place = match &e {
-            ShearBuildingError::Unstable { .. } => &b.name.span,
-            _ => &b.damping.span,
+        let (place, help) = match &e {
+            ShearBuildingError::Unstable { .. } => (&b.name.span, None),
+            ShearBuildingError::TooManyStoreys { .. } => (
+                &b.name.span,
+                Some("join storeys: several of them as one of their total height and mass, and of their stiffnesses in series".to_owned()),
+            ),
+            _ => (&b.damping.span, None),
         };
-        case.error(place.clone(), e.to_string(), None)
+        case.error(place.clone(), e.to_string(), help)
     })?;
     laws::with_storey_laws(case, b, building)
 }

@@ -268,6 +268,41 @@ impl<'a> Dynamics<'a> {
         (input, viscous)
     }
 
+    /// Acceleration of floor `i` alone relative to the ground (m/s2), from the components
+    /// `at` of the state; `None` where it depends on more than its neighbours.
+    pub(crate) fn acceleration_of(
+        &self,
+        contacts: &Contacts,
+        (i, ground): (usize, f64),
+        at: impl Fn(usize) -> f64,
+    ) -> Option<f64> {
+        let (n, system) = (self.layout.dofs, self.system);
+        let alone = system.elements().is_empty()
+            && (contacts.closed().iter())
+                .all(|&l| contacts.contact(l).is_none_or(|c| !c.is_stuck()));
+        if !alone {
+            return None;
+        }
+        let mut force = -system.resistance_of(i, &at, &|j| at(n + j));
+        for &l in contacts.closed() {
+            let level = &system.levels()[l];
+            let sign = match (level.left == Some(i), level.right == Some(i)) {
+                (true, _) => -1.0,
+                (_, true) => 1.0,
+                _ => continue,
+            };
+            let relative = |offset: usize| {
+                let one = |floor: Option<usize>| floor.map_or(0.0, |j| at(offset + j));
+                one(level.left) - one(level.right)
+            };
+            if let Some(contact) = contacts.contact(l) {
+                let penetration = relative(0) - contacts.width(l);
+                force += sign * contact.force(level, penetration, relative(n)).value;
+            }
+        }
+        Some(force / system.mass()[i] - ground)
+    }
+
     /// Adds the forces that keep the relative accelerations of stuck levels zero.
     fn hold(&mut self, accelerations: &mut [f64]) {
         let (levels, mass) = (self.system.levels(), self.system.mass());

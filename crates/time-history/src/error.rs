@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepLimit};
+
 /// Failure of an assembly, a run, or a result file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -51,6 +53,32 @@ pub enum TimeHistoryError {
         value: f64,
         /// What is allowed.
         reason: &'static str,
+    },
+    /// A run that would not end.
+    #[error(
+        "the run would take {steps:.1e} steps over {duration} s, as {limit}; {:.0e} are the most",
+        MAXIMUM_STEPS
+    )]
+    TooManySteps {
+        /// Steps needed.
+        steps: f64,
+        /// Duration (s).
+        duration: f64,
+        /// What makes them so many.
+        limit: StepLimit,
+    },
+    /// Responses on the output grid that would fill the memory.
+    #[error(
+        "{samples:.0} samples of the responses over {duration} s would take {:.1} GB of memory; {:.0} GB are the most",
+        bytes * 1e-9, MAXIMUM_RECORDING * 1e-9
+    )]
+    RecordingTooLarge {
+        /// Samples.
+        samples: f64,
+        /// Duration (s).
+        duration: f64,
+        /// Memory (bytes).
+        bytes: f64,
     },
     /// The method treats rigid impacts only.
     #[error("method moreau_jean treats rigid impacts only, but gap {gap} has model {model}")]
@@ -173,6 +201,10 @@ impl TimeHistoryError {
         let text = match self {
             Self::Case(error) => return error.help.clone(),
             Self::GroundMotion(error) => return error.help(),
+            Self::TooManySteps { limit, .. } => limit.remedy(),
+            Self::RecordingTooLarge { .. } => {
+                "raise `output_step` in [analysis], or shorten `duration`; peaks and impacts do not depend on `output_step`"
+            }
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
             }

@@ -2,6 +2,7 @@
 
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
+use crate::estimate::StepEstimate;
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
@@ -95,7 +96,7 @@ impl RunOptions {
     /// Checks the options against a system and returns the duration (s).
     ///
     /// # Errors
-    /// An option out of range.
+    /// An option out of range, or a run of more than [`crate::MAXIMUM_STEPS`] steps.
     pub fn check(&self, system: &System) -> Result<f64, TimeHistoryError> {
         require(
             system.degrees_of_freedom() > 0,
@@ -167,6 +168,7 @@ impl RunOptions {
         }
         let duration = self.duration.unwrap_or_else(|| system.record_duration());
         positive("duration", duration)?;
+        StepEstimate::new(system, &self.method, duration).check(duration)?;
         Ok(duration)
     }
 

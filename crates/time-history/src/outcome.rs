@@ -1,6 +1,7 @@
 //! What a run returns.
 
 use crate::methods::Information;
+use crate::warnings::Warning;
 
 /// A greatest absolute value and when it happened.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -264,5 +265,5 @@ pub struct Outcome {
     /// Work counts.
     pub statistics: Statistics,
     /// Anything that the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }

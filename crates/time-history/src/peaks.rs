@@ -6,7 +6,7 @@ use pounding_shear_building::ShearBuilding;
 use crate::dynamics::{Instant, Layout};
 use crate::elements::{Element, ElementPlace};
 use crate::events::{Finder, penetration, velocity};
-use crate::methods::{Context, Method};
+use crate::methods::{Context, LARGE, Method};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
@@ -24,7 +24,11 @@ pub(crate) struct Peaks {
     /// Peaks of every element: deformation (m) and force (N).
     pub elements: Vec<ElementPeaks>,
     state: Vec<f64>,
-    acceleration: Vec<f64>,
+    /// Accelerations at the start and at the end of the present step, where many floors
+    /// have their greatest ones, and at the last place inside it, with these places; NaN
+    /// before they are known.
+    acceleration: [Vec<f64>; 3],
+    at: [f64; 3],
 }
 
 /// Peaks of a storey with a law, or of a level of a link.
@@ -46,7 +50,8 @@ impl Peaks {
             penetration: vec![Peak::default(); layout.levels],
             elements: vec![ElementPeaks::default(); elements],
             state: vec![0.0; layout.motion()],
-            acceleration: vec![0.0; layout.dofs],
+            acceleration: std::array::from_fn(|_| vec![0.0; layout.dofs]),
+            at: [f64::NAN; 3],
         }
     }
 
@@ -54,7 +59,7 @@ impl Peaks {
     pub(crate) fn begin(&mut self, context: &mut Context<'_, '_>, state: &[f64]) {
         let (u, ground) = (state, context.segment.acceleration);
         let now = Instant::committed(ground);
-        let out = &mut self.acceleration;
+        let out = &mut self.acceleration[0];
         context
             .dynamics
             .accelerations(context.contacts, now, state, out);
@@ -64,7 +69,7 @@ impl Peaks {
             for (storey, i) in (range[0]..range[1]).enumerate() {
                 let (drift, peaks) = ((u[i] - below).abs(), &mut self.storeys[i]);
                 let shear = building.stiffness()[storey] * drift;
-                let acceleration = (self.acceleration[i] + ground).abs();
+                let acceleration = (self.acceleration[0][i] + ground).abs();
                 peaks.displacement.raise(u[i].abs(), 0.0);
                 peaks
                     .drift_ratio
@@ -103,6 +108,7 @@ impl Peaks {
         place: (f64, f64),
     ) {
         let system = context.dynamics.system;
+        self.at = [f64::NAN; 3];
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             self.building(context, method, building, range[0], place);
         }
@@ -214,23 +220,38 @@ impl Peaks {
         a[0] += context.segment.ground(tau);
         a[1] += context.segment.slope * step;
         let floor = self.storeys[i].acceleration_absolute.value * NEAR;
-        if let Some((theta, _)) = absolute_maximum(&a, floor) {
+        let Some((theta, _)) = absolute_maximum(&a, floor) else {
+            return;
+        };
+        let ground = context.segment.ground(tau + theta * step);
+        let time = context.segment.start + tau + theta * step;
+        let place = match theta {
+            0.0 => 0,
+            1.0 => 1,
+            _ => 2,
+        };
+        if place == 2 && context.dynamics.layout.dofs > LARGE {
+            let at = |k: usize| value(method.polynomial(k), theta);
+            let contacts = context.contacts;
+            if let Some(own) = context.dynamics.acceleration_of(contacts, (i, ground), at) {
+                let peak = &mut self.storeys[i].acceleration_absolute;
+                peak.raise((own + ground).abs(), time);
+                return;
+            }
+        }
+        if theta != self.at[place] {
+            self.at[place] = theta;
             for (k, y) in self.state.iter_mut().enumerate() {
                 *y = value(method.polynomial(k), theta);
             }
-            let ground = context.segment.ground(tau + theta * step);
             let now = Instant::within(ground, method.information().implicit, theta * step);
-            context.dynamics.accelerations(
-                context.contacts,
-                now,
-                &self.state,
-                &mut self.acceleration,
-            );
-            let exact = (self.acceleration[i] + ground).abs();
-            self.storeys[i]
-                .acceleration_absolute
-                .raise(exact, context.segment.start + tau + theta * step);
+            let out = &mut self.acceleration[place];
+            context
+                .dynamics
+                .accelerations(context.contacts, now, &self.state, out);
         }
+        let exact = (self.acceleration[place][i] + ground).abs();
+        self.storeys[i].acceleration_absolute.raise(exact, time);
     }
 
     fn contact(

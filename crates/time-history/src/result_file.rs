@@ -42,6 +42,15 @@ pub struct RunRecord<'a> {
     pub wall_time: f64,
 }
 
+impl RunRecord<'_> {
+    /// Warnings of the record, then those of the run.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        self.assembly
+            .with_those_of_the_record(&self.outcome.warnings)
+    }
+}
+
 type Result<T> = hdf5::Result<T>;
 
 /// Writes the result of a run.
@@ -155,13 +164,7 @@ fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<(
 fn run(file: &hdf5::File, record: &RunRecord<'_>) -> Result<()> {
     let group = file.create_group("run")?;
     text(&group, "method", record.outcome.method.title)?;
-    let origin = record.assembly.accelerogram.origin();
-    let warnings: Vec<&str> = origin
-        .iter()
-        .flat_map(|o| &o.warnings)
-        .chain(&record.outcome.warnings)
-        .map(String::as_str)
-        .collect();
+    let warnings = record.warnings();
     text(&group, "warnings", &warnings.join("\n").replace('\0', " "))?;
     let statistics = record.outcome.statistics;
     for (name, value) in [

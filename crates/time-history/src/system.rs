@@ -4,7 +4,7 @@ mod links;
 mod under;
 
 use pounding_gap_element::ImpactModel;
-use pounding_shear_building::ShearBuilding;
+use pounding_shear_building::{DampingMatrix, ShearBuilding, SymmetricTridiagonal};
 use std::sync::{Arc, OnceLock};
 
 use links::storeys;
@@ -371,6 +371,41 @@ impl System {
         for (o, s) in out.iter_mut().zip(scratch.iter()) {
             *o = -(*o + *s);
         }
+    }
+
+    /// Row `i` of `K u + C v` alone, which calls for no more of `u` and `v` than it needs.
+    pub(crate) fn resistance_of(
+        &self,
+        i: usize,
+        u: &impl Fn(usize) -> f64,
+        v: &impl Fn(usize) -> f64,
+    ) -> f64 {
+        let index = self.offsets.partition_point(|first| *first <= i) - 1;
+        let (building, first) = (&self.buildings[index], self.offsets[index]);
+        let band = |matrix: &SymmetricTridiagonal, x: &dyn Fn(usize) -> f64| {
+            let row = i - first;
+            let mut sum = matrix.diagonal[row] * x(i);
+            if row > 0 {
+                sum += matrix.off_diagonal[row - 1] * x(i - 1);
+            }
+            if let Some(k) = matrix.off_diagonal.get(row) {
+                sum += k * x(i + 1);
+            }
+            sum
+        };
+        let damping = match building.damping_matrix() {
+            DampingMatrix::Tridiagonal(c) => band(c, v),
+            // The matrix is symmetric, and its columns stand together in memory.
+            DampingMatrix::Dense(c) => {
+                let column = c.column(i - first);
+                column
+                    .iter()
+                    .enumerate()
+                    .map(|(j, c)| c * v(first + j))
+                    .sum()
+            }
+        };
+        band(building.stiffness_matrix(), u) + damping
     }
 
     /// Recoverable energy in the linear storeys, and of gravity through P-Delta (J).

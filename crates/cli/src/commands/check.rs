@@ -13,7 +13,9 @@ use crate::tables;
 /// Validates a case, reads its record, and prints both in SI units.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let case = read_case(path)?;
-    let assembly = assemble(&case).map_err(|e| Failure::time_history(e, &case.source))?;
+    let failed = |e| Failure::time_history(e, &case.source);
+    let assembly = assemble(&case).map_err(failed)?;
+    assembly.check_recording().map_err(failed)?;
     if !as_json {
         return print(&tables::understood(&case, &assembly));
     }
@@ -63,6 +65,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
             "samples": record.samples().len(), "time_step": record.time_step(),
             "peak": record.peak().value, "scale": record.scale(), "echo": record.echo(),
         },
+        "warnings": assembly.warnings(),
         "analysis": {"output_step": assembly.output_step, "duration": assembly.options.duration.unwrap_or(record.duration())},
     })))
 }

@@ -25,7 +25,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if let Some(path) = &output {
         writable(path)?;
     }
-    fits_into_memory(&assembly)?;
+    assembly.check_recording().map_err(failed)?;
     let started = Instant::now();
     let (outcome, isolated, recorder) = integrate_both(&assembly).map_err(failed)?;
     let wall_time = started.elapsed().as_secs_f64();
@@ -50,6 +50,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
             &assembly.system,
             &outcome,
             &isolated,
+            &record.warnings(),
         )));
     }
     let mut text = tables::report(&record);
@@ -85,32 +86,6 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
         };
         PathBuf::from(name).with_extension("h5")
     })
-}
-
-/// Recorded responses that a run may hold (bytes): far more than any record needs, and
-/// less than most machines have.
-const LARGEST_RECORDING: f64 = 2.0e9;
-
-/// Refuses a run whose recorded responses would not fit, before it begins.
-fn fits_into_memory(assembly: &Assembly) -> Result<(), Failure> {
-    let system = &assembly.system;
-    let duration = assembly.options.duration;
-    let duration = duration.unwrap_or_else(|| system.record_duration());
-    let samples = duration / assembly.output_step;
-    let numbers =
-        4 * system.degrees_of_freedom() + 2 * system.levels().len() + 3 * system.elements().len();
-    // A sample has nine lists, each with a header of three words, and ten numbers.
-    let bytes = samples * 8.0 * (numbers + 37) as f64;
-    if bytes <= LARGEST_RECORDING {
-        return Ok(());
-    }
-    Err(Failure::input(
-        format!(
-            "{samples:.0} samples of the responses over {duration} s would take {:.1} GB of memory",
-            bytes * 1e-9
-        ),
-        Some("raise `output_step` in [analysis], or shorten `duration`; peaks and impacts do not depend on `output_step`".to_owned()),
-    ))
 }
 
 /// Finds out before the run, not after it, that the result has no place.

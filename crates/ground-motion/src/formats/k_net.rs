@@ -17,6 +17,9 @@ const NAME: usize = 18;
 const COUNTS: Layout = Layout::new(8, 9);
 const REMEDY: &str = "the header is not that of K-NET: get the record again";
 
+/// A count or a number of samples that no recorder has: K-NET and KiK-net have 24 bits.
+const IMPOSSIBLE: f64 = 2_147_483_648.0;
+
 /// What the header says.
 #[derive(Default)]
 struct Header {
@@ -53,6 +56,15 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             REMEDY,
         ));
     };
+    let said = header.duration.unwrap_or(0.0) * frequency;
+    if !(said < IMPOSSIBLE) {
+        return Err(source.error(
+            end,
+            0,
+            format!("the header says {said:e} samples, which no record has"),
+            REMEDY,
+        ));
+    }
     let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
     for line in lines.by_ref() {
         // The blank after the last integer of a row is trimmed.
@@ -60,7 +72,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             fixed_row(source, line, &mut samples)?;
         } else {
             for (column, field) in line.fields() {
-                samples.push(source.number(line, column, field)?);
+                samples.push(count(source, line, column, field)?);
             }
         }
     }
@@ -94,9 +106,28 @@ fn fixed_row(
     samples: &mut Vec<f64>,
 ) -> Result<(), GroundMotionError> {
     for (i, field) in line.bytes.chunks(COUNTS.width).enumerate() {
-        samples.push(source.number(line, i * COUNTS.width, field)?);
+        samples.push(count(source, line, i * COUNTS.width, field)?);
     }
     Ok(())
+}
+
+/// One count.
+fn count(
+    source: &Source<'_>,
+    line: Line<'_>,
+    column: usize,
+    field: &[u8],
+) -> Result<f64, GroundMotionError> {
+    let count = source.number(line, column, field)?;
+    if count.abs() < IMPOSSIBLE {
+        return Ok(count);
+    }
+    Err(source.error(
+        line.number,
+        column,
+        format!("a count of {count:e} is more than the 24 bits of the recorder hold"),
+        "the file is damaged: get the record again",
+    ))
 }
 
 impl Header {

@@ -11,7 +11,7 @@ use crate::unit::AccelerationUnit;
 
 const STEP: &str = "resampling";
 /// Most samples a record may become: a wrong unit of the time step makes more.
-const MOST_SAMPLES: f64 = 5.0e7;
+pub(super) const MOST_SAMPLES: f64 = 5.0e7;
 /// Greatest denominator of a ratio of time steps.
 const GREATEST_DENOMINATOR: usize = 2000;
 /// How near the ratio must be to a fraction.

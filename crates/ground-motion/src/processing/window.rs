@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, ascending, within};
 use crate::measures::Husid;
+use crate::processing::resampling::MOST_SAMPLES;
 use crate::processing::whole_steps;
 use crate::spectra::Evaluation;
 use crate::step_record::StepRecord;
@@ -94,9 +95,10 @@ pub(crate) fn pad(
     const STEP: &str = "pad";
     /// A day: longer is a wrong unit.
     const LONGEST: f64 = 86_400.0;
-    within(STEP, "before", before, 0.0, LONGEST)?;
-    within(STEP, "after", after, 0.0, LONGEST)?;
     let h = record.time_step();
+    let longest = LONGEST.min(MOST_SAMPLES * h);
+    within(STEP, "before", before, 0.0, longest)?;
+    within(STEP, "after", after, 0.0, longest)?;
     let counts = [before, after].map(|t| (t / h - 1.0e-6).ceil().max(0.0) as usize);
     let step = StepRecord::new(STEP)
         .number("before", counts[0] as f64 * h, "s")

@@ -8,9 +8,7 @@ use crate::outcome::{
     BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, YieldingStorey,
 };
 use crate::recorder::Recorder;
-
-/// Drift ratio up to which the straight-line approximation of P-Delta is taken as good.
-const SMALL_ROTATION: f64 = 0.1;
+use crate::warnings::Warning;
 
 impl Driver<'_> {
     pub(super) fn finish(
@@ -55,8 +53,8 @@ impl Driver<'_> {
             })
             .collect();
         let links = self.elements(&mut buildings);
-        let warnings = self.warnings();
         let (levels, impacts) = self.log.into_outcome();
+        let warnings = Warning::after(self.system, self.options, (&buildings, &levels));
         let gaps = self
             .system
             .gaps()
@@ -127,36 +125,5 @@ impl Driver<'_> {
             }
         }
         links
-    }
-
-    /// What the user should know of how the run was made.
-    fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let elements = self.system.elements();
-        if self.method.information().name == "event_driven" && !elements.is_empty() {
-            warnings.push(format!(
-                "{} follows a law: in place of exact steps, which are for linear storeys without links, the whole run was made by the adaptive pair 8(5,3), which locates every event as well",
-                self.system.place_of_element(0)
-            ));
-        }
-        for (building, range) in self
-            .system
-            .buildings()
-            .iter()
-            .zip(self.system.offsets().windows(2))
-        {
-            let gravity = building.geometric_stiffness().iter().any(|k| *k > 0.0);
-            let storeys = self.peaks.storeys[range[0]..range[1]].iter();
-            let most = storeys.map(|s| s.drift_ratio.value).fold(0.0, f64::max);
-            if gravity && most > SMALL_ROTATION {
-                warnings.push(format!(
-                    "{}: a storey drifted by {:.0} % of its height; P-Delta by the straight-line approximation holds for small rotations, up to some {:.0} %",
-                    building.name(),
-                    100.0 * most,
-                    100.0 * SMALL_ROTATION
-                ));
-            }
-        }
-        warnings
     }
 }

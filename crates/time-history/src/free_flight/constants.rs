@@ -67,15 +67,28 @@ impl FreeFlight {
             modes: if parts == 1.0 {
                 this.modes.clone()
             } else {
-                Self::with_step(system, step / parts).modes
+                let mut fine = Self::empty(system, step / parts);
+                fine.add_modes(system);
+                fine.modes
             },
         };
         Some(this)
     }
 
     fn with_step(system: &System, step: f64) -> Self {
+        let mut this = Self::empty(system, step);
+        for (index, building) in system.buildings().iter().enumerate() {
+            let first = system.offsets()[index];
+            this.building.extend((0..building.storeys()).map(|_| index));
+            this.add_building(building, first);
+        }
+        this.add_modes(system);
+        this
+    }
+
+    fn empty(system: &System, step: f64) -> Self {
         let dofs = system.degrees_of_freedom();
-        let mut this = Self {
+        Self {
             step,
             fastest: 0.0,
             rows: FloorRows::default(),
@@ -88,13 +101,22 @@ impl FreeFlight {
             floor_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             fine: Fine::default(),
-        };
-        for (index, building) in system.buildings().iter().enumerate() {
-            let first = system.offsets()[index];
-            this.building.extend((0..building.storeys()).map(|_| index));
-            this.add_building(building, first);
         }
-        this
+    }
+
+    /// Constants of the modes of all buildings.
+    fn add_modes(&mut self, system: &System) {
+        for (building, first) in system.buildings().iter().zip(system.offsets()) {
+            let modes = building.modes();
+            for j in 0..building.storeys() {
+                let mode = Oscillator {
+                    circular_frequency: modes.circular_frequency[j],
+                    damping_ratio: modes.damping_ratio[j],
+                    participation: modes.participation_factor[j],
+                };
+                self.add_mode(first + j, mode);
+            }
+        }
     }
 
     fn add_building(&mut self, building: &ShearBuilding, first: usize) {
@@ -110,14 +132,6 @@ impl FreeFlight {
             .push(spread(first, count, |i, j| shape(i, j).abs()));
         let drift = |i: usize, j: usize| (shape(i, j) - below(i, j)).abs();
         self.drift_magnitudes.push(spread(first, count, drift));
-        for j in 0..count {
-            let mode = Oscillator {
-                circular_frequency: modes.circular_frequency[j],
-                damping_ratio: modes.damping_ratio[j],
-                participation: modes.participation_factor[j],
-            };
-            self.add_mode(first + j, mode);
-        }
     }
 
     /// An eighth of the step squared (s2).

@@ -20,5 +20,7 @@ mod transform;
 
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
-pub(crate) use lanes::{Lane, ModeLanes, Track, WIDTH, add, drifts, mul, raise, raise_now, scale};
-pub(crate) use transform::{to_floors, transform};
+pub(crate) use lanes::{
+    Lane, ModeLanes, Track, WIDTH, add, drifts, gather, mul, raise, raise_now, scale, spread,
+};
+pub(crate) use transform::{to_floors, transform, transform_four};

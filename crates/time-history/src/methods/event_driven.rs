@@ -2,6 +2,7 @@
 
 use super::taylor::Taylor;
 use super::{Adaptive, Context, Counts, Information, Method, Verdict};
+use crate::estimate::SERIES;
 use crate::polynomial::Polynomial;
 use crate::rates::fastest_rate;
 use crate::system::System;
@@ -10,7 +11,7 @@ use crate::system::System;
 /// and for the stiffest contact: the interpolant of degree 7, on which recorded samples
 /// and the work of the damping rest, then errs by less than 3e-11 of the mode's amplitude,
 /// and 1e-10 of the penetration.
-const LONGEST: (f64, f64) = (0.35, 0.4);
+const LONGEST: (f64, f64) = (SERIES, 0.4);
 
 /// Open flight by the exact step of the modes (`free_flight`), a Taylor series to
 /// round-off while all closed contacts are affine, the adaptive pair for the others.

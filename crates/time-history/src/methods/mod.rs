@@ -5,6 +5,7 @@ mod adaptive;
 mod chain;
 mod effective_mass;
 mod event_driven;
+mod modal_series;
 mod moreau_jean;
 mod newmark;
 mod runge_kutta_4;
@@ -12,6 +13,7 @@ mod taylor;
 
 pub(crate) use adaptive::Adaptive;
 pub(crate) use event_driven::EventDriven;
+pub(crate) use modal_series::LARGE;
 pub(crate) use moreau_jean::MoreauJean;
 pub(crate) use newmark::Newmark;
 pub(crate) use runge_kutta_4::RungeKutta4;

@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::chain::{AffineContact, Chain, Sums, TERMS};
+use super::modal_series::ModalSeries;
 use crate::dynamics::{Layout, push_apart};
 use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, hermite, septic, value};
 use crate::system::System;
@@ -24,6 +25,8 @@ pub(crate) struct Taylor {
     contacts: Vec<AffineContact>,
     /// Buildings with tridiagonal matrices, and the sums of those without.
     chain: Option<Chain>,
+    /// Large buildings with others.
+    modal: Option<ModalSeries>,
     sums: Sums,
     dense: Vec<Polynomial>,
     terms: u64,
@@ -45,6 +48,7 @@ impl Taylor {
             speed: one(),
             contacts: Vec::with_capacity(layout.levels),
             chain: Chain::new(system),
+            modal: ModalSeries::new(system),
             sums: Sums::new(layout.dofs),
             dense: vec![[0.0; COEFFICIENTS]; layout.dimension()],
             terms: 0,
@@ -114,9 +118,14 @@ impl Taylor {
     ) {
         let n = self.layout.dofs;
         let load = [context.segment.ground(tau), context.segment.slope * h];
-        self.terms += match &mut self.chain {
-            Some(chain) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
-            None => self.general(context, load, state, h),
+        let constants = context.dynamics.system.free_flight();
+        self.terms += match (&mut self.chain, self.modal.as_mut().zip(constants)) {
+            (Some(chain), _) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
+            (None, Some((modal, constants))) => {
+                let (start, sums) = (&state[..2 * n], &mut self.sums);
+                modal.sum(constants, &self.contacts, (load, h), start, sums)
+            }
+            (None, None) => self.general(context, load, state, h),
         };
         let sums = self.chain.as_ref().map_or(&self.sums, |c| &c.sums);
         let (u, v) = new[..2 * n].split_at_mut(n);
@@ -196,13 +205,20 @@ impl Taylor {
         let mut rates = [(0.0, 0.0); 2];
         for (end, y) in [(0, state), (1, &*new)] {
             let (power, input) = (
-                self.viscous_power(context, &y[n..2 * n]),
+                match &self.modal {
+                    Some(modal) => modal.viscous_power(end as f64),
+                    None => self.viscous_power(context, &y[n..2 * n]),
+                },
                 input_power(system.mass(), &y[n..2 * n], [a, b][end]),
             );
             rates[end] = (input, power);
         }
         let mut viscous = 0.0;
         for (theta, weight) in GAUSS {
+            if let Some(modal) = &self.modal {
+                viscous += weight * modal.viscous_power(theta);
+                continue;
+            }
             for i in 0..n {
                 self.speed[i] = value(&self.dense[n + i], theta);
             }

@@ -1,0 +1,213 @@
+//! What is possible but more often a mistake is said once, in `check`, in `run`, in the
+//! result file and on the page made of it.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+const CASE: &str = r#"
+title = "pair"
+[[building]]
+name = "a"
+storeys = 2
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 2
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { ratio = 0.05, modes = [1, 2] }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+[ground_motion]
+file = "record.csv"
+[analysis]
+duration = "2 s"
+"#;
+
+/// The warnings of a case: from `check --json`, and from `run --json`. Text and page are
+/// compared with them.
+struct Said {
+    check: Vec<String>,
+    run: Vec<String>,
+}
+
+fn pounding(folder: &Path, arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .args(arguments)
+        .output()
+        .unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn said(case: &str) -> Said {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let mut record = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+    for i in 0..120 {
+        let t = f64::from(i) * 0.02;
+        record.push_str(&format!("{t:.2},{:.5}\n", 0.1 * (7.0 * t).sin()));
+    }
+    std::fs::write(path.join("case.toml"), case).unwrap();
+    std::fs::write(path.join("record.csv"), record).unwrap();
+    let warnings = |text: &str| -> Vec<String> {
+        let all: Value = serde_json::from_str(text).unwrap();
+        let all = all["warnings"].as_array().unwrap().iter();
+        all.map(|w| w.as_str().unwrap().to_owned()).collect()
+    };
+    let check = warnings(&pounding(path, &["check", "case.toml", "--json"]));
+    let run = warnings(&pounding(
+        path,
+        &["run", "case.toml", "-o", "out.h5", "--json"],
+    ));
+    let lines = |text: String| -> Vec<String> {
+        let lines = text.lines().filter_map(|l| l.strip_prefix("warning: "));
+        lines.map(str::to_owned).collect()
+    };
+    assert_eq!(lines(pounding(path, &["check", "case.toml"])), check);
+    assert_eq!(
+        lines(pounding(path, &["run", "case.toml", "--no-output"])),
+        run
+    );
+    pounding(path, &["report", "out.h5", "-o", "page.html"]);
+    let page = std::fs::read_to_string(path.join("page.html")).unwrap();
+    assert_eq!(
+        page.matches("class=\"warning\"").count(),
+        run.len(),
+        "{run:?}"
+    );
+    for warning in &run {
+        let escaped = warning.replace('"', "&quot;").replace('<', "&lt;");
+        assert_eq!(page.matches(&escaped).count(), 1, "{warning}");
+    }
+    Said { check, run }
+}
+
+/// Exactly one warning has these words, before the run and after it.
+fn one(said: &Said, words: &[&str]) {
+    for all in [&said.check, &said.run] {
+        let found = all.iter().filter(|w| words.iter().all(|x| w.contains(x)));
+        assert_eq!(found.count(), 1, "{words:?} in {all:#?}");
+    }
+}
+
+#[test]
+fn a_plausible_case_has_no_warning() {
+    let said = said(CASE);
+    assert!(said.check.is_empty(), "{:?}", said.check);
+    assert!(said.run.is_empty(), "{:?}", said.run);
+}
+
+/// 25 t gives 0.864 s; a thousand times that, or a hundred-thousandth, no building has.
+#[test]
+fn periods_that_no_building_has() {
+    let heavy = said(&CASE.replacen("25 t", "25000 t", 1));
+    one(
+        &heavy,
+        &["a: the fundamental period is 27.3 s", "\"t\"", "0.864 s"],
+    );
+    assert_eq!(heavy.check.len(), 1, "{:?}", heavy.check);
+    let light = said(&CASE.replacen("\"25 t\"", "0.25", 1));
+    one(
+        &light,
+        &["a: the fundamental period is 0.00273 s", "without its unit"],
+    );
+}
+
+#[test]
+fn a_gap_wider_than_a_storey_is_high() {
+    let said = said(&CASE.replace("20 mm", "20 m"));
+    one(&said, &["gap a-b", "20 m is more than the 3 m"]);
+    assert_eq!(said.run.len(), 1, "{:?}", said.run);
+}
+
+#[test]
+fn a_ground_acceleration_that_no_record_has() {
+    let said = said(&CASE.replace(
+        "file = \"record.csv\"",
+        "file = \"record.csv\"\nscale = { pga = \"3.5 g\" }",
+    ));
+    one(&said, &["peak ground acceleration is 3.5 g"]);
+}
+
+/// Known after the run alone; with P-Delta the same cause is still one warning.
+#[test]
+fn a_drift_of_more_than_a_tenth_of_the_height() {
+    for gravity in ["", "p_delta = true\n"] {
+        let strong = CASE
+            .replace("name = \"a\"\n", &format!("name = \"a\"\n{gravity}"))
+            .replace("file =", "scale = { pga = \"1 g\" }\nfile =")
+            .replace("20 mm", "900 mm");
+        let said = said(&strong);
+        assert!(said.check.is_empty(), "{:?}", said.check);
+        assert_eq!(said.run.len(), 1, "{:?}", said.run);
+        assert!(said.run[0].starts_with("a, storey 1: the peak drift is"));
+        assert_eq!(said.run[0].contains("P-Delta"), !gravity.is_empty());
+    }
+}
+
+/// By hand, two floors of 25 t on 0.1 MN/m and 30 MN/m: the upper storey takes
+/// `k2 d2^2 / (k1 d1^2 + k2 d2^2)` of the damping in proportion to the stiffness, with
+/// `d2 / d1 = k1 / (2 k2)` for two equal masses that move together: 0.08 %.
+#[test]
+fn damping_that_brakes_the_isolators() {
+    let isolated = CASE.replace("stiffness = \"3.46 MN/m\"", "stiffness = [1e5, 3e7]");
+    let proportional = said(&isolated);
+    one(
+        &proportional,
+        &[
+            "a stands on a soft first storey",
+            "5.0 % of critical",
+            "100 % act",
+        ],
+    );
+    let rayleigh = isolated.replace(
+        "{ stiffness_proportional = 0.05 }",
+        "{ ratio = 0.05, modes = [1, 2] }",
+    );
+    one(&said(&rayleigh), &["a stands on a soft first storey"]);
+    let modal = isolated.replace("{ stiffness_proportional = 0.05 }", "{ modal = 0.05 }");
+    let modal = said(&modal);
+    assert!(modal.check.is_empty(), "{:?}", modal.check);
+}
+
+/// `pi sqrt(m / k) = 45.9 ms` for 20 t and 93.5 MN/m, elastic in approach.
+#[test]
+fn fixed_steps_that_are_too_coarse_for_the_contact() {
+    let stepped = |method: &str, step: &str| {
+        let analysis = format!(
+            "duration = \"2 s\"\nmethod = \"{method}\"\nstep = \"{step}\"\nenergy_tolerance = 10"
+        );
+        CASE.replace("duration = \"2 s\"", &analysis)
+    };
+    for method in ["newmark", "hht_alpha", "runge_kutta_4"] {
+        let coarse = said(&stepped(method, "10 ms"));
+        one(&coarse, &["a step of 10 ms is too coarse", "gap a-b"]);
+        assert!(coarse.check[0].contains("an approach velocity of 0.5 m/s"));
+        assert!(coarse.run[0].contains("the approach velocity of"));
+        let fine = said(&stepped(method, "1 ms"));
+        assert!(fine.check.is_empty() && fine.run.is_empty());
+    }
+    let hertz = stepped("newmark", "10 ms")
+        .replace("anagnostopoulos_2004", "jankowski_2005")
+        .replace("93.5 MN/m", "2.75e9 N/m^1.5");
+    one(&said(&hertz), &["a step of 10 ms is too coarse"]);
+    // Floors that never touch need no steps in contact: the run knows.
+    let apart = said(&stepped("newmark", "10 ms").replace("20 mm", "2 m"));
+    assert_eq!(apart.check.len(), 1);
+    assert!(apart.run.is_empty(), "{:?}", apart.run);
+}

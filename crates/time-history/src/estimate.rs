@@ -1,0 +1,153 @@
+//! What a run will need, before it begins: steps, and memory of recorded responses.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use crate::assemble::Assembly;
+use crate::error::TimeHistoryError;
+use crate::options::MethodChoice;
+use crate::rates::fastest_rate;
+use crate::system::System;
+
+/// Steps of a run at most: more than a day at a microsecond each.
+pub const MAXIMUM_STEPS: f64 = 1.0e11;
+
+/// Recorded responses of a run at most (bytes): far more than any record needs, and less
+/// than most machines have.
+pub const MAXIMUM_RECORDING: f64 = 2.0e9;
+
+/// Product of rate and step that the series of the event-driven method takes at most.
+pub(crate) const SERIES: f64 = 0.35;
+
+/// Product of rate and step up to which the pair of order 8 is stable, about.
+const STABLE: f64 = 6.0;
+
+/// What a step cannot be longer than.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum StepLimit {
+    /// The time step of the ground motion (s).
+    GroundMotion(f64),
+    /// The step that was asked for (s).
+    Step(f64),
+    /// The shortest period (s), or the shortest memory of a damper times two pi.
+    Period {
+        /// Name of the building that has it.
+        building: String,
+        /// Period (s).
+        period: f64,
+    },
+}
+
+impl fmt::Display for StepLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::GroundMotion(step) => write!(f, "the time step of the ground motion is {step} s"),
+            Self::Step(step) => write!(f, "`step` is {step} s"),
+            Self::Period { building, period } => {
+                write!(
+                    f,
+                    "the shortest period of building {building} is {period:.3e} s"
+                )
+            }
+        }
+    }
+}
+
+impl StepLimit {
+    /// What makes steps longer, or fewer.
+    pub(crate) fn remedy(&self) -> &'static str {
+        match self {
+            Self::GroundMotion(_) => "shorten `duration`, or correct the time step of the record",
+            Self::Step(_) => "raise `step` or shorten `duration` in [analysis]",
+            Self::Period { .. } => {
+                "correct masses, stiffnesses and damping (units?), or join storeys that are much lighter or stiffer than their neighbours; else shorten `duration`"
+            }
+        }
+    }
+}
+
+/// Steps that a run takes at least, without those of contacts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepEstimate {
+    /// Number of steps.
+    pub steps: f64,
+    /// What makes them so many.
+    pub limit: StepLimit,
+}
+
+impl StepEstimate {
+    /// For a run of this method over a duration (s) whose responses are recorded.
+    #[must_use]
+    pub fn new(system: &System, method: &MethodChoice, duration: f64) -> Self {
+        let ground = system.ground().time_step;
+        let linear = system.elements().is_empty();
+        let by_rate = |longest: f64| {
+            let rates = system.buildings().iter();
+            let rates = rates.map(|b| (fastest_rate(std::slice::from_ref(b)), b.name()));
+            let fastest = rates.max_by(|a, b| a.0.total_cmp(&b.0));
+            let (rate, building) = fastest.unwrap_or((0.0, ""));
+            let limit = StepLimit::Period {
+                building: building.to_owned(),
+                period: TAU / rate,
+            };
+            (longest / rate, limit)
+        };
+        let (step, limit) = match *method {
+            MethodChoice::EventDriven { .. } if linear => by_rate(SERIES),
+            MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => by_rate(STABLE),
+            MethodChoice::Newmark { step, .. }
+            | MethodChoice::HhtAlpha { step, .. }
+            | MethodChoice::RungeKutta4 { step }
+            | MethodChoice::MoreauJean { step, .. } => (step, StepLimit::Step(step)),
+        };
+        let (step, limit) = if step < ground {
+            (step, limit)
+        } else {
+            (ground, StepLimit::GroundMotion(ground))
+        };
+        Self {
+            steps: (duration / step).ceil(),
+            limit,
+        }
+    }
+
+    /// Refuses what would never end.
+    pub(crate) fn check(self, duration: f64) -> Result<(), TimeHistoryError> {
+        // A number of steps that is none must end here too.
+        if self.steps <= MAXIMUM_STEPS {
+            return Ok(());
+        }
+        Err(TimeHistoryError::TooManySteps {
+            steps: self.steps,
+            duration,
+            limit: self.limit,
+        })
+    }
+}
+
+impl Assembly {
+    /// Refuses responses on the output grid that would not fit into
+    /// [`MAXIMUM_RECORDING`], before a run begins.
+    ///
+    /// # Errors
+    /// [`TimeHistoryError::RecordingTooLarge`].
+    pub fn check_recording(&self) -> Result<(), TimeHistoryError> {
+        let system = &self.system;
+        let duration = self.options.duration;
+        let duration = duration.unwrap_or_else(|| system.record_duration());
+        let samples = duration / self.output_step;
+        let floors = 4 * system.degrees_of_freedom();
+        let numbers = floors + 2 * system.levels().len() + 3 * system.elements().len();
+        // A sample has nine lists, each with a header of three words, and ten numbers.
+        let bytes = samples * 8.0 * (numbers + 37) as f64;
+        if bytes <= MAXIMUM_RECORDING {
+            return Ok(());
+        }
+        Err(TimeHistoryError::RecordingTooLarge {
+            samples,
+            duration,
+            bytes,
+        })
+    }
+}

@@ -1,0 +1,439 @@
+//! What the user should know of a system, of its options and of a run: one warning a cause.
+
+use std::f64::consts::PI;
+use std::fmt;
+use std::sync::Arc;
+
+use pounding_gap_element::{Bodies, ImpactModel, collide};
+use pounding_shear_building::{Damping, DampingMatrix, ShearBuilding};
+
+use crate::assemble::Assembly;
+use crate::estimate::{StepEstimate, StepLimit};
+use crate::options::{MethodChoice, RunOptions};
+use crate::outcome::{BuildingOutcome, LevelOutcome};
+use crate::system::{ContactLevel, System};
+
+/// Fundamental periods (s) that buildings have.
+const PERIODS: (f64, f64) = (0.005, 20.0);
+/// Peak ground acceleration (g) that strong records hardly exceed.
+const GROUND_ACCELERATION: f64 = 3.0;
+/// Drift ratio beyond which buildings are no longer what the case says.
+const DRIFT_RATIO: f64 = 0.1;
+/// Steps in a contact with which fixed steps follow it to a per cent or so.
+const STEPS_IN_CONTACT: f64 = 20.0;
+/// Approach velocity (m/s) at which a contact is looked at before the run.
+const APPROACH_VELOCITY: f64 = 0.5;
+/// A first storey with at most this part of the stiffness above it, in which at least
+/// that part of the roof's first-mode displacement happens, is taken for an isolator.
+const ISOLATOR: (f64, f64) = (0.2, 0.7);
+/// Steps times floors from which a run takes long enough to say so.
+const LONG_RUN: f64 = 1.0e9;
+const GRAVITY: f64 = 9.80665;
+
+/// Something that is possible, but more often a mistake.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// A fundamental period that no building has.
+    FundamentalPeriod {
+        /// Name of the building.
+        building: String,
+        /// Period (s).
+        period: f64,
+    },
+    /// A gap wider than a storey beside it is high.
+    WideGap {
+        /// Name of the gap.
+        gap: String,
+        /// Width (m).
+        width: f64,
+        /// Storey height (m).
+        height: f64,
+    },
+    /// A ground acceleration that hardly any record has.
+    GroundAcceleration {
+        /// Peak (m/s2).
+        peak: f64,
+    },
+    /// Damping in proportion to mass and stiffness that brakes an isolator.
+    DampingInIsolator {
+        /// Name of the building.
+        building: String,
+        /// Damping ratio of the first mode (-).
+        ratio: f64,
+        /// Part of it that acts on the motion of the first storey (-).
+        share: f64,
+    },
+    /// Fixed steps that a contact is too short for.
+    CoarseStep {
+        /// Name of the gap with the shortest contact.
+        gap: String,
+        /// Step (s).
+        step: f64,
+        /// Duration of the contact (s).
+        contact: f64,
+        /// Approach velocity that it belongs to (m/s).
+        approach_velocity: f64,
+        /// Whether that velocity is taken from the run, not assumed.
+        met: bool,
+    },
+    /// A run of very many steps.
+    ManySteps {
+        /// Steps at least.
+        steps: f64,
+        /// What makes them so many.
+        limit: StepLimit,
+    },
+    /// A peak drift ratio beyond what the model of the building covers.
+    Drift {
+        /// Name of the building.
+        building: String,
+        /// Storey with the greatest one, from 1.
+        storey: usize,
+        /// Drift ratio (-).
+        ratio: f64,
+        /// Whether gravity acts through the drift.
+        second_order: bool,
+    },
+    /// The event-driven method left a run to the adaptive pair.
+    AdaptiveInPlace {
+        /// The first storey or link with a law.
+        place: String,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FundamentalPeriod { building, period } => period_text(f, building, *period),
+            Self::WideGap { gap, width, height } => write!(
+                f,
+                "gap {gap}: a width of {} m is more than the {} m of a storey beside it: is its unit right (mm, not m)?",
+                short(*width),
+                short(*height)
+            ),
+            Self::GroundAcceleration { peak } => write!(
+                f,
+                "the peak ground acceleration is {} g, more than the {GROUND_ACCELERATION} g that the strongest records reach: are unit and scale of the record right?",
+                short(peak / GRAVITY)
+            ),
+            Self::DampingInIsolator {
+                building,
+                ratio,
+                share,
+            } => write!(
+                f,
+                "{building} stands on a soft first storey, as on isolators, and its damping is in proportion to mass and stiffness: of the {:.1} % of critical in mode 1, {:.0} % act on the motion of that storey, where they brake the isolators; use `modal` or `dashpots`",
+                100.0 * ratio,
+                100.0 * share
+            ),
+            Self::CoarseStep {
+                gap,
+                step,
+                contact,
+                approach_velocity,
+                met,
+            } => write!(
+                f,
+                "a step of {} ms is too coarse for the contact of gap {gap}, which lasts {} ms at {} of {} m/s: {:.1} steps, where {STEPS_IN_CONTACT} are needed; use a step of {} ms, or method = \"event_driven\"",
+                short(1e3 * step),
+                short(1e3 * contact),
+                if *met {
+                    "the approach velocity"
+                } else {
+                    "an approach velocity"
+                },
+                short(*approach_velocity),
+                contact / step,
+                short(1e3 * rounded_down(contact / STEPS_IN_CONTACT)),
+            ),
+            Self::ManySteps { steps, limit } => write!(
+                f,
+                "the run takes {steps:.1e} steps or more, as {limit}: {}",
+                limit.remedy()
+            ),
+            Self::Drift {
+                building,
+                storey,
+                ratio,
+                second_order,
+            } => write!(
+                f,
+                "{building}, storey {storey}: the peak drift is {:.0} % of the height; beyond {:.0} % storeys are damaged or gone, and the model of small displacements{} does not hold",
+                100.0 * ratio,
+                100.0 * DRIFT_RATIO,
+                if *second_order {
+                    ", P-Delta by the straight-line approximation included,"
+                } else {
+                    ""
+                }
+            ),
+            Self::AdaptiveInPlace { place } => write!(
+                f,
+                "{place} follows a law: in place of exact steps, which are for linear storeys without links, the whole run was made by the adaptive pair 8(5,3), which locates every event as well"
+            ),
+        }
+    }
+}
+
+/// A period beside what a factor of 1000 in mass or stiffness would make of it.
+fn period_text(f: &mut fmt::Formatter<'_>, building: &str, period: f64) -> fmt::Result {
+    let factor = 1000.0_f64.sqrt();
+    let (than, likely, other) = if period > PERIODS.1 {
+        (
+            format!("longer than {} s", PERIODS.1),
+            "a mass in kg written as \"t\", or a stiffness in kN/m without its unit",
+            period / factor,
+        )
+    } else {
+        (
+            format!("shorter than {} s", PERIODS.0),
+            "a mass in t without its unit, which is taken as kg, or a stiffness in N/m written as \"kN/m\"",
+            period * factor,
+        )
+    };
+    write!(
+        f,
+        "{building}: the fundamental period is {} s, {than}: {likely}, would make it {} s",
+        short(period),
+        short(other)
+    )
+}
+
+/// Three significant digits, without zeros at the end.
+fn short(x: f64) -> String {
+    let text = format!("{x:.2e}");
+    text.parse::<f64>().map_or(text, |x| {
+        if x != 0.0 && !(1.0e-4..1.0e6).contains(&x.abs()) {
+            format!("{x:e}")
+        } else {
+            x.to_string()
+        }
+    })
+}
+
+/// One significant digit, not above the value.
+fn rounded_down(x: f64) -> f64 {
+    let unit = 10.0_f64.powf(x.log10().floor());
+    (x / unit).floor() * unit
+}
+
+impl Warning {
+    /// What can be said of a run before it begins, with an assumed approach velocity.
+    #[must_use]
+    pub fn before(system: &System, options: &RunOptions) -> Vec<Self> {
+        let mut warnings = standing(system, options);
+        let assumed = |_: usize| Some(APPROACH_VELOCITY);
+        warnings.extend(coarse_step(system, &options.method, (assumed, false)));
+        warnings
+    }
+
+    /// What can be said of it afterwards.
+    pub(crate) fn after(
+        system: &System,
+        options: &RunOptions,
+        (buildings, levels): (&[BuildingOutcome], &[LevelOutcome]),
+    ) -> Vec<Self> {
+        let mut warnings = standing(system, options);
+        let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
+        if event_driven && !system.elements().is_empty() {
+            let place = system.place_of_element(0);
+            warnings.push(Self::AdaptiveInPlace { place });
+        }
+        let met = |l: usize| {
+            let velocity = levels[l].approach_velocity_max;
+            (velocity > 0.0).then_some(velocity)
+        };
+        warnings.extend(coarse_step(system, &options.method, (met, true)));
+        for (outcome, building) in buildings.iter().zip(system.buildings()) {
+            let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
+            let most = ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((storey, ratio)) = most.filter(|m| m.1 > DRIFT_RATIO) {
+                warnings.push(Self::Drift {
+                    building: outcome.name.clone(),
+                    storey: storey + 1,
+                    ratio,
+                    second_order: building.geometric_stiffness().iter().any(|k| *k > 0.0),
+                });
+            }
+        }
+        warnings
+    }
+}
+
+impl Assembly {
+    /// Warnings of the record, then those of the system, before a run.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let ours = Warning::before(&self.system, &self.options);
+        self.with_those_of_the_record(&ours)
+    }
+
+    /// The warnings of the record before these.
+    #[must_use]
+    pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {
+        let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
+        let record = record.unwrap_or_default().iter().cloned();
+        record.chain(ours.iter().map(Warning::to_string)).collect()
+    }
+}
+
+/// What does not depend on the response.
+fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for building in system.buildings() {
+        let period = building.modes().period[0];
+        if !(PERIODS.0..=PERIODS.1).contains(&period) {
+            warnings.push(Warning::FundamentalPeriod {
+                building: building.name().to_owned(),
+                period,
+            });
+        }
+    }
+    for building in system.buildings() {
+        if let Some(share) = share_in_isolator(building) {
+            warnings.push(Warning::DampingInIsolator {
+                building: building.name().to_owned(),
+                ratio: building.modes().damping_ratio[0],
+                share,
+            });
+        }
+    }
+    for gap in system.gaps() {
+        let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+        let wide = levels.iter().filter_map(|level| {
+            let height = lower_storey(system, level)?;
+            (level.width > height).then_some((level.width, height))
+        });
+        if let Some((width, height)) = wide.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            warnings.push(Warning::WideGap {
+                gap: gap.name.clone(),
+                width,
+                height,
+            });
+        }
+    }
+    let samples = system.ground().samples.iter();
+    let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
+    if peak > GROUND_ACCELERATION * GRAVITY {
+        warnings.push(Warning::GroundAcceleration { peak });
+    }
+    let duration = options.duration.unwrap_or_else(|| system.record_duration());
+    let StepEstimate { steps, limit } = StepEstimate::new(system, &options.method, duration);
+    if steps * system.degrees_of_freedom() as f64 > LONG_RUN {
+        warnings.push(Warning::ManySteps { steps, limit });
+    }
+    warnings
+}
+
+/// Height (m) of the lower of the storeys on both sides.
+fn lower_storey(system: &System, level: &ContactLevel) -> Option<f64> {
+    let height = |floor: usize| {
+        let building = system.offsets().partition_point(|first| *first <= floor) - 1;
+        system.buildings()[building].height()[floor - system.offsets()[building]]
+    };
+    let heights = [level.left, level.right].into_iter().flatten().map(height);
+    heights.min_by(f64::total_cmp)
+}
+
+/// Part of the first mode's damping that acts on the motion of a soft first storey: what
+/// the storeys above do not take. Dashpots in proportion to the masses stand between the
+/// floors and the ground, so that the isolators move them, too.
+fn share_in_isolator(building: &ShearBuilding) -> Option<f64> {
+    let proportional = !matches!(
+        building.damping(),
+        Damping::Modal { .. } | Damping::Dashpots { .. }
+    );
+    let (stiffness, modes) = (building.stiffness(), building.modes());
+    let above = stiffness.get(1)?;
+    let shape = |i: usize| modes.shape[(i, 0)];
+    let soft = stiffness[0] <= ISOLATOR.0 * above
+        && shape(0) >= ISOLATOR.1 * shape(building.storeys() - 1);
+    let DampingMatrix::Tridiagonal(matrix) = building.damping_matrix() else {
+        return None;
+    };
+    let whole = 2.0 * modes.circular_frequency[0] * modes.damping_ratio[0];
+    if !(proportional && soft && whole > 0.0) {
+        return None;
+    }
+    let storeys = matrix.off_diagonal.iter().enumerate().map(|(i, c)| {
+        let drift = shape(i + 1) - shape(i);
+        -c * drift * drift
+    });
+    Some((1.0 - storeys.sum::<f64>() / whole).clamp(0.0, 1.0))
+}
+
+/// The shortest contact, if fixed steps are too coarse for it. `velocity` gives the
+/// approach velocity at a level (m/s), `None` where there was no contact.
+fn coarse_step(
+    system: &System,
+    method: &MethodChoice,
+    (velocity, met): (impl Fn(usize) -> Option<f64>, bool),
+) -> Option<Warning> {
+    let step = match *method {
+        MethodChoice::Newmark { step, .. }
+        | MethodChoice::HhtAlpha { step, .. }
+        | MethodChoice::RungeKutta4 { step } => step.min(system.ground().time_step),
+        // The others follow contacts with steps of their own, or have none to follow.
+        _ => return None,
+    };
+    let mut shortest: Option<(f64, &str, f64)> = None;
+    for gap in system.gaps() {
+        let range = gap.first_level..gap.first_level + gap.levels;
+        let touched = range.filter_map(|l| Some((&system.levels()[l], velocity(l)?)));
+        let touched: Vec<_> = touched.collect();
+        // Light floors and fast ones have short contacts.
+        let mass = |a: &&(&ContactLevel, f64), b: &&(&ContactLevel, f64)| {
+            a.0.effective_mass.total_cmp(&b.0.effective_mass)
+        };
+        let lightest = touched.iter().min_by(mass);
+        let fastest = touched.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        for (level, velocity) in lightest.into_iter().chain(fastest) {
+            let contact = contact_duration(&level.model, *velocity, level.effective_mass);
+            if let Some(contact) = contact
+                && shortest.is_none_or(|s| contact < s.0)
+            {
+                shortest = Some((contact, &gap.name, *velocity));
+            }
+        }
+    }
+    let (contact, gap, approach_velocity) = shortest?;
+    (contact < STEPS_IN_CONTACT * step).then(|| Warning::CoarseStep {
+        gap: gap.to_owned(),
+        step,
+        contact,
+        approach_velocity,
+        met,
+    })
+}
+
+/// Duration (s) of a free collision: in closed form where the law has one, else integrated.
+fn contact_duration(model: &Arc<dyn ImpactModel>, velocity: f64, mass: f64) -> Option<f64> {
+    if model.rigid_restitution().is_some() {
+        return None;
+    }
+    let closed = model.closed_form(velocity, mass).and_then(|c| c.duration);
+    let duration = closed.or_else(|| {
+        let bodies = Bodies {
+            mass_left: mass,
+            mass_right: None,
+            velocity_left: velocity,
+            velocity_right: 0.0,
+        };
+        collide(model.as_ref(), &bodies).ok().map(|o| o.duration)
+    });
+    // A spring alone, for a law whose free collision does not end.
+    let spring = || {
+        let collision = model.begin(velocity, mass);
+        let force = model.force(
+            &collision,
+            &pounding_gap_element::Memory::default(),
+            pounding_gap_element::Phase::Approach,
+            0.0,
+            0.0,
+        );
+        PI * (mass / force.by_penetration).sqrt()
+    };
+    let duration = duration.unwrap_or_else(spring);
+    (duration > 0.0 && duration.is_finite()).then_some(duration)
+}

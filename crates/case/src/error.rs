@@ -1,5 +1,6 @@
 //! Errors that point into the case file.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 /// Something wrong in a case file, with its place and a remedy.
@@ -18,6 +19,9 @@ pub struct CaseError {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// What else is wrong in the same file, in the order of the places; none of it follows
+    /// from this.
+    pub others: Vec<CaseError>,
 }
 
 impl CaseError {
@@ -41,6 +45,102 @@ impl CaseError {
             span,
             message: message.into(),
             help,
+            others: Vec::new(),
+        }
+    }
+
+    /// One error of all that are wrong in a file: the first, with the others in the order of
+    /// their places. `None` of no errors.
+    #[must_use]
+    pub fn of_all(mut errors: Vec<Self>) -> Option<Self> {
+        errors.sort_by_key(|e| e.span.start);
+        let mut distinct: Vec<Self> = Vec::new();
+        for error in errors {
+            if !distinct.contains(&error) {
+                distinct.push(error);
+            }
+        }
+        let mut distinct = distinct.into_iter();
+        let mut first = distinct.next()?;
+        first.others.extend(distinct);
+        Some(first)
+    }
+
+    /// This error and the others, each by itself.
+    pub fn each(mut self) -> impl Iterator<Item = Self> {
+        let others = std::mem::take(&mut self.others);
+        std::iter::once(self).chain(others)
+    }
+}
+
+/// Errors found so far in a file, and what was not read because of them.
+///
+/// A function that cannot return its value returns an error: a new one, or one that was
+/// recorded before, which is then not reported twice. So nothing is said of what only
+/// follows from another error.
+#[derive(Debug, Default)]
+pub struct Errors(RefCell<Vec<CaseError>>);
+
+impl Errors {
+    /// Records an error, with those that it brings.
+    pub fn record(&self, error: CaseError) {
+        self.0.borrow_mut().extend(error.each());
+    }
+
+    /// The value; `None` after recording the error.
+    pub fn keep<T>(&self, result: Result<T, CaseError>) -> Option<T> {
+        result.map_err(|e| self.record(e)).ok()
+    }
+
+    /// The value, or where it is wrong, after recording the error, one that nobody will see.
+    pub fn or_default<T: Default>(&self, result: Result<T, CaseError>) -> T {
+        self.keep(result).unwrap_or_default()
+    }
+
+    /// All values, unless one of them is wrong; every error is recorded.
+    ///
+    /// # Errors
+    /// One of those that were recorded.
+    pub fn all<T>(
+        &self,
+        results: impl IntoIterator<Item = Result<T, CaseError>>,
+    ) -> Result<Vec<T>, CaseError> {
+        let mut wrong = None;
+        let mut values = Vec::new();
+        for result in results {
+            match result {
+                Ok(value) => values.push(value),
+                Err(error) => {
+                    self.record(error.clone());
+                    wrong = Some(error);
+                }
+            }
+        }
+        wrong.map_or(Ok(values), Err)
+    }
+
+    /// An error recorded before: for a function that has no value because of it.
+    #[must_use]
+    pub fn recorded(&self) -> Option<CaseError> {
+        self.0.borrow().first().cloned()
+    }
+
+    /// The value, unless anything was wrong.
+    ///
+    /// # Errors
+    /// All that was recorded, and this error, as one.
+    pub fn finish<T>(self, result: Result<T, CaseError>) -> Result<T, CaseError> {
+        let value = self.keep(result);
+        match (CaseError::of_all(self.0.into_inner()), value) {
+            (None, Some(value)) => Ok(value),
+            (Some(error), _) => Err(error),
+            (None, None) => Err(CaseError::new(
+                "",
+                "",
+                0..0,
+                "the file cannot be read",
+                None,
+            )),
         }
     }
 }

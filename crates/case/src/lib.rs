@@ -12,7 +12,7 @@ mod schema;
 mod types;
 mod units;
 
-pub use error::CaseError;
+pub use error::{CaseError, Errors};
 pub use parse::process_steps;
 pub use process::{BaselineKind, ProcessStep, RemovedOffset};
 pub use schema::schema;

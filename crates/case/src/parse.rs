@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::path::Path;
 
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
-use crate::error::CaseError;
+use crate::error::{CaseError, Errors};
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
 use crate::types::{Analysis, Building, Case, Gap, Link, Located, Separation};
@@ -23,80 +23,126 @@ pub(crate) use separation::keys as separation_keys;
 
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
     let name = file.display().to_string();
-    let reader = Reader {
-        file: &name,
-        source,
-    };
-    let tree = DeTable::parse(source).map_err(|e| {
-        reader.error(
-            e.span().unwrap_or(0..0),
-            format!("this is not TOML: {}", e.message()),
-            "see the example in the README",
-        )
-    })?;
-    let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE)?;
-    let title = root
-        .optional_text("title")?
-        .map_or(String::new(), |t| t.value);
-    let buildings = buildings(&reader, &root)?;
-    let gaps = gaps(&reader, &root, &buildings)?;
-    let links = links(&reader, &root, &buildings)?;
-    let ground_motion = ground_motion::ground_motion(&reader, root.required("ground_motion")?)?;
+    let errors = Errors::default();
+    let read = whole(
+        Reader {
+            file: &name,
+            source,
+            errors: &errors,
+        },
+        file,
+    );
+    errors.finish(read)
+}
+
+fn whole(reader: Reader<'_>, file: &Path) -> Result<Case, CaseError> {
+    let tree = reader.document("see the example in the README")?;
+    let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE);
+    let keep = reader.errors;
+    let title = keep.or_default(root.optional_text("title"));
+    let row = buildings(&reader, &root);
+    let gaps = gaps(&reader, &root, &row);
+    let links = links(&reader, &root, &row);
+    let ground_motion = keep.keep(
+        root.required("ground_motion")
+            .and_then(|v| ground_motion::ground_motion(&reader, v)),
+    );
     let analysis = match root.get("analysis") {
-        Some(value) => analysis(&reader, value)?,
-        None => default_analysis(),
+        Some(value) => keep.keep(analysis(&reader, value)),
+        None => Some(default_analysis()),
     };
     let separation = match root.get("separation") {
-        Some(value) => separation::separation(&reader, value, buildings.len())?,
-        None => Separation::default(),
+        Some(value) if row.count > 0 => {
+            keep.or_default(separation::separation(&reader, value, row.count))
+        }
+        _ => Separation::default(),
+    };
+    let (Some(buildings), Some(ground_motion), Some(analysis)) =
+        (row.buildings, ground_motion, analysis)
+    else {
+        return Err(reader.lost());
     };
     Ok(Case {
-        title,
+        title: title.map_or(String::new(), |t| t.value),
         buildings,
         gaps,
         links,
         ground_motion,
         analysis,
         separation,
-        source: source.to_owned(),
+        source: reader.source.to_owned(),
         file: file.to_owned(),
     })
 }
 
-fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Result<Vec<Building>, CaseError> {
-    let mut buildings: Vec<Building> = Vec::new();
-    for value in tables(root, "building")? {
-        let building = building::building(reader, value)?;
-        let name = &building.name;
-        if let Some(first) = buildings.iter().find(|b| b.name.value == name.value) {
-            return Err(reader.error(
+/// The row of buildings as far as it could be read.
+pub(super) struct Row {
+    /// How many there are.
+    count: usize,
+    /// Their names, if all are sound.
+    names: Option<Vec<String>>,
+    /// The buildings, if all are sound.
+    buildings: Option<Vec<Building>>,
+}
+
+impl Row {
+    /// The names of the buildings.
+    fn names(&self, reader: &Reader<'_>) -> Result<&[String], CaseError> {
+        self.names.as_deref().ok_or_else(|| reader.lost())
+    }
+
+    /// The buildings.
+    fn buildings(&self, reader: &Reader<'_>) -> Result<&[Building], CaseError> {
+        self.buildings.as_deref().ok_or_else(|| reader.lost())
+    }
+}
+
+fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Row {
+    let keep = reader.errors;
+    let values = keep.or_default(tables(root, "building"));
+    if values.is_empty() && root.get("building").is_none_or(|v| v.get_ref().is_array()) {
+        let none = || reader.error(0..0, "the case has no building", "add a [[building]]");
+        keep.record(root.misspelt("building").unwrap_or_else(none));
+    }
+    let mut names: Vec<Option<Located<String>>> = Vec::new();
+    let mut buildings = Vec::new();
+    for value in &values {
+        let (name, building) = building::building(reader, value);
+        let twice = name.as_ref().and_then(|name| {
+            let first = names.iter().flatten().find(|n| n.value == name.value)?;
+            Some(reader.error(
                 name.span.clone(),
                 format!(
                     "building \"{}\" is given twice, first in line {}",
                     name.value,
-                    reader.line(&first.name.span)
+                    reader.line(&first.span)
                 ),
                 "give every building its own name",
-            ));
-        }
-        buildings.push(building);
+            ))
+        });
+        let unique = twice.map(|e| keep.record(e)).is_none();
+        names.push(name.filter(|_| unique));
+        buildings.push(keep.keep(building));
     }
-    if buildings.is_empty() {
-        return Err(reader.error(0..0, "the case has no building", "add a [[building]]"));
+    let sound = !values.is_empty();
+    let names = names.into_iter().map(|n| Some(n?.value)).collect();
+    let buildings = buildings.into_iter().collect();
+    Row {
+        count: values.len(),
+        names: if sound { names } else { None },
+        buildings: if sound { buildings } else { None },
     }
-    Ok(buildings)
 }
 
-fn gaps(
-    reader: &Reader<'_>,
-    root: &Table<'_, '_>,
-    buildings: &[Building],
-) -> Result<Vec<Gap>, CaseError> {
+fn gaps(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Gap> {
+    let keep = reader.errors;
     let mut gaps: Vec<(Gap, Range<usize>)> = Vec::new();
-    for value in tables(root, "gap")? {
-        let (gap, span) = gap::gap(reader, value, buildings)?;
+    for value in keep.or_default(tables(root, "gap")) {
+        let Some((gap, span)) = keep.keep(gap::gap(reader, value, row)) else {
+            continue;
+        };
         if let Some((_, first)) = gaps.iter().find(|(g, _)| g.between == gap.between) {
-            return Err(reader.error(
+            keep.record(reader.error(
                 span,
                 format!(
                     "gap given twice: the first is in line {}",
@@ -104,9 +150,8 @@ fn gaps(
                 ),
                 "remove one; several levels of one gap go into its `levels` and `width`",
             ));
-        }
-        if let Some((_, first)) = gaps.iter().find(|(g, _)| g.name == gap.name) {
-            return Err(reader.error(
+        } else if let Some((_, first)) = gaps.iter().find(|(g, _)| g.name == gap.name) {
+            keep.record(reader.error(
                 span,
                 format!(
                     "two gaps have the name \"{}\", the first in line {}",
@@ -115,22 +160,22 @@ fn gaps(
                 ),
                 "give every gap its own `name`",
             ));
+        } else {
+            gaps.push((gap, span));
         }
-        gaps.push((gap, span));
     }
-    Ok(gaps.into_iter().map(|(gap, _)| gap).collect())
+    gaps.into_iter().map(|(gap, _)| gap).collect()
 }
 
-fn links(
-    reader: &Reader<'_>,
-    root: &Table<'_, '_>,
-    buildings: &[Building],
-) -> Result<Vec<Link>, CaseError> {
+fn links(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Link> {
+    let keep = reader.errors;
     let mut links: Vec<(Link, Range<usize>)> = Vec::new();
-    for value in tables(root, "link")? {
-        let (link, span) = law::link(reader, value, buildings)?;
+    for value in keep.or_default(tables(root, "link")) {
+        let Some((link, span)) = keep.keep(law::link(reader, value, row)) else {
+            continue;
+        };
         if let Some((_, first)) = links.iter().find(|(l, _)| l.name == link.name) {
-            return Err(reader.error(
+            keep.record(reader.error(
                 span,
                 format!(
                     "two links have the name \"{}\", the first in line {}",
@@ -139,10 +184,11 @@ fn links(
                 ),
                 "give every link its own `name`",
             ));
+        } else {
+            links.push((link, span));
         }
-        links.push((link, span));
     }
-    Ok(links.into_iter().map(|(link, _)| link).collect())
+    links.into_iter().map(|(link, _)| link).collect()
 }
 
 /// Refuses names that cannot stand in messages or as a group of the result file.
@@ -253,20 +299,23 @@ fn default_analysis() -> Analysis {
 }
 
 fn analysis(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseError> {
-    let table = reader.table(value, "[analysis]", schema::ANALYSIS)?;
+    let table = reader.section(value, "[analysis]", schema::ANALYSIS)?;
+    let keep = reader.errors;
     let default = default_analysis();
+    let positive = |key: &str, dimension| keep.or_default(table.optional_positive(key, dimension));
+    let number = |key: &str| keep.or_default(table.optional_number(key));
     Ok(Analysis {
-        method: table.optional_text("method")?.unwrap_or(default.method),
-        duration: table.optional_positive("duration", Dimension::TIME)?,
-        output_step: table
-            .optional_positive("output_step", Dimension::TIME)?
-            .unwrap_or(default.output_step),
-        step: table.optional_positive("step", Dimension::TIME)?,
-        beta: table.optional_number("beta")?,
-        gamma: table.optional_number("gamma")?,
-        alpha: table.optional_number("alpha")?,
-        theta: table.optional_number("theta")?,
-        relative_tolerance: table.optional_positive("relative_tolerance", Dimension::NUMBER)?,
-        energy_tolerance: table.optional_positive("energy_tolerance", Dimension::NUMBER)?,
+        method: keep
+            .or_default(table.optional_text("method"))
+            .unwrap_or(default.method),
+        duration: positive("duration", Dimension::TIME),
+        output_step: positive("output_step", Dimension::TIME).unwrap_or(default.output_step),
+        step: positive("step", Dimension::TIME),
+        beta: number("beta"),
+        gamma: number("gamma"),
+        alpha: number("alpha"),
+        theta: number("theta"),
+        relative_tolerance: positive("relative_tolerance", Dimension::NUMBER),
+        energy_tolerance: positive("energy_tolerance", Dimension::NUMBER),
     })
 }

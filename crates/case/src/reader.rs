@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::CaseError;
+use crate::error::{CaseError, Errors};
 use crate::schema::Key;
 use crate::types::Located;
 use crate::units::{Dimension, Quantity, parse_quantity};
@@ -15,6 +15,8 @@ use crate::units::{Dimension, Quantity, parse_quantity};
 pub(crate) struct Reader<'a> {
     pub file: &'a str,
     pub source: &'a str,
+    /// What was found wrong so far.
+    pub errors: &'a Errors,
 }
 
 /// Largest number of storeys, lines to skip and the like: far above any use, and
@@ -39,8 +41,44 @@ impl<'a> Reader<'a> {
         self.error(span.clone(), "", "").line
     }
 
-    /// The value as a table whose keys are all known.
+    /// The document.
+    ///
+    /// # Errors
+    /// All that is not TOML; `help` says how to write it.
+    pub(crate) fn document(&self, help: &str) -> Result<Spanned<DeTable<'a>>, CaseError> {
+        let (tree, errors) = DeTable::parse_recoverable(self.source);
+        let mut lines = Vec::new();
+        for e in errors {
+            let span = e.span().unwrap_or(0..0);
+            let line = self.line(&span);
+            // What follows in the same line is mostly of the parser's own making.
+            if !lines.contains(&line) {
+                lines.push(line);
+                let message = format!("this is not TOML: {}", e.message());
+                self.errors.record(self.error(span, message, help));
+            }
+        }
+        self.errors.recorded().map_or(Ok(tree), Err)
+    }
+
+    /// The value as a table whose keys are all known: one whose keys mean something together,
+    /// so that nothing else is said of it where a key is unknown.
     pub(crate) fn table<'v>(
+        &self,
+        value: &'v Value<'a>,
+        name: &str,
+        keys: &[Key],
+    ) -> Result<Table<'v, 'a>, CaseError> {
+        let table = self.section(value, name, keys)?;
+        table
+            .unknown
+            .first()
+            .map(|(_, e)| e.clone())
+            .map_or(Ok(table), Err)
+    }
+
+    /// The value as a table whose keys are read one by one; unknown ones are recorded.
+    pub(crate) fn section<'v>(
         &self,
         value: &'v Value<'a>,
         name: &str,
@@ -49,7 +87,14 @@ impl<'a> Reader<'a> {
         let DeValue::Table(table) = value.get_ref() else {
             return Err(self.wrong_type(value, name, "a table"));
         };
-        Table::new(*self, table, value.span(), name, keys)
+        Ok(Table::new(*self, table, value.span(), name, keys))
+    }
+
+    /// The error for a value that is not there because of one recorded before.
+    pub(crate) fn lost(&self) -> CaseError {
+        self.errors
+            .recorded()
+            .unwrap_or_else(|| self.error(0..0, "the file cannot be read", "correct it"))
     }
 
     pub(crate) fn wrong_type(&self, value: &Value<'_>, key: &str, wanted: &str) -> CaseError {
@@ -187,7 +232,7 @@ impl<'a> Reader<'a> {
     ) -> Result<List, CaseError> {
         let values = match value.get_ref() {
             DeValue::Array(items) => {
-                let values = items.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+                let values = self.errors.all(items.iter().map(read))?;
                 if values.is_empty() {
                     return Err(self.error(
                         value.span(),
@@ -249,43 +294,73 @@ pub(crate) struct Table<'v, 'a> {
     table: &'v DeTable<'a>,
     pub span: Range<usize>,
     pub name: String,
+    /// Keys that are none of the table's, and what was recorded of each.
+    unknown: Vec<(Located<String>, CaseError)>,
+    /// Keys that they may stand for.
+    meant: Vec<&'static str>,
 }
 
 impl<'v, 'a> Table<'v, 'a> {
-    /// Checks the keys. An entry `*` in `keys` admits any.
+    /// Checks the keys and records those that are unknown. An entry `*` in `keys` admits
+    /// any that is not nearly one of the others: that is a slip.
     pub(crate) fn new(
         reader: Reader<'a>,
         table: &'v DeTable<'a>,
         span: Range<usize>,
         name: &str,
         keys: &[Key],
-    ) -> Result<Self, CaseError> {
-        let checked = Self {
+    ) -> Self {
+        let mut checked = Self {
             reader,
             table,
             span,
             name: name.to_owned(),
+            unknown: Vec::new(),
+            meant: Vec::new(),
         };
         let open = keys.iter().any(|k| k.name == "*");
+        let known = || keys.iter().map(|k| k.name).filter(|k| *k != "*");
         for (key, _) in checked.entries() {
             let text = key.value.as_str();
-            if !open && !keys.iter().any(|k| k.name == text) {
-                let nearest = keys
-                    .iter()
-                    .map(|k| k.name)
-                    .min_by_key(|k| distance(text, k));
-                let all: Vec<_> = keys.iter().map(|k| k.name).collect();
-                let guess = nearest
-                    .filter(|k| distance(text, k) <= 1 + text.len() / 3)
-                    .map_or_else(String::new, |k| format!("did you mean `{k}`? "));
-                return Err(reader.error(
-                    key.span.clone(),
-                    format!("unknown key `{text}` in {name}"),
-                    format!("{guess}known keys: {}", all.join(", ")),
-                ));
+            if known().any(|k| k == text) {
+                continue;
             }
+            let farthest = if open { 2 } else { 1 + text.len() / 3 };
+            let nearest = known()
+                .min_by_key(|k| distance(text, k))
+                .filter(|k| distance(text, k) <= farthest);
+            if open && nearest.is_none() {
+                continue;
+            }
+            let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`?"));
+            let help = if open {
+                guess
+            } else {
+                let all: Vec<_> = known().collect();
+                format!("{guess} known keys: {}", all.join(", "))
+                    .trim_start()
+                    .to_owned()
+            };
+            let message = format!("unknown key `{text}` in {name}");
+            let error = reader.error(key.span.clone(), message, help);
+            reader.errors.record(error.clone());
+            checked.meant.extend(nearest);
+            checked.unknown.push((key, error));
         }
-        Ok(checked)
+        checked
+    }
+
+    /// Whether a key was recorded as unknown.
+    pub(crate) fn is_unknown(&self, key: &str) -> bool {
+        self.unknown.iter().any(|(k, _)| k.value == key)
+    }
+
+    /// What was recorded of the key that was written for this one.
+    pub(crate) fn misspelt(&self, key: &str) -> Option<CaseError> {
+        self.meant
+            .contains(&key)
+            .then(|| self.reader.lost())
+            .filter(|_| self.get(key).is_none())
     }
 
     pub(crate) fn get(&self, key: &str) -> Option<&'v Value<'a>> {
@@ -297,11 +372,13 @@ impl<'v, 'a> Table<'v, 'a> {
 
     pub(crate) fn required(&self, key: &str) -> Result<&'v Value<'a>, CaseError> {
         self.get(key).ok_or_else(|| {
-            self.reader.error(
-                self.span.clone(),
-                format!("{} has no `{key}`", self.name),
-                format!("add `{key} = ...`"),
-            )
+            self.misspelt(key).unwrap_or_else(|| {
+                self.reader.error(
+                    self.span.clone(),
+                    format!("{} has no `{key}`", self.name),
+                    format!("add `{key} = ...`"),
+                )
+            })
         })
     }
 

@@ -343,43 +343,101 @@ impl Separation {
 /// has no end.
 const LARGEST_FILE: u64 = 16_000_000;
 
-/// Text of a case file, which may be a pipe.
+/// Text of a file that people write, which may be a pipe: it is read once. `what` names it
+/// in messages, such as "case".
 ///
 /// # Errors
-/// A file that cannot be read, is not UTF-8, or is larger than 16 MB.
-pub fn read_text(path: &Path) -> std::io::Result<String> {
-    let mut text = String::new();
-    let file = std::fs::File::open(path)?;
-    let read = file.take(LARGEST_FILE + 1).read_to_string(&mut text)?;
-    if read as u64 > LARGEST_FILE {
-        return Err(std::io::Error::other(
-            "it is larger than 16 MB, which no case is",
+/// A file that cannot be read, is no text, is not in UTF-8 (with the place of the first byte
+/// that is not), or is larger than 16 MB.
+pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
+    let name = path.display().to_string();
+    let unread = |reason: String| {
+        let message = format!("cannot read the {what} file: {reason}");
+        CaseError::new(&name, "", 0..0, message, Some("check the path".to_owned()))
+    };
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|e| unread(e.to_string()))?;
+    let read = file.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+    if read.map_err(|e| unread(e.to_string()))? as u64 > LARGEST_FILE {
+        return Err(unread(format!(
+            "it is larger than 16 MB, which no {what} is"
+        )));
+    }
+    encoded(&name, bytes)
+}
+
+/// Bytes as text.
+fn encoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
+    let at = |end: usize, message: String, help: &str| {
+        let before = String::from_utf8_lossy(&bytes[..end]);
+        CaseError::new(
+            name,
+            &before,
+            before.len()..before.len(),
+            message,
+            Some(help.to_owned()),
+        )
+    };
+    const SAVE: &str = "save the file as UTF-8";
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(at(
+            0,
+            "the file is in UTF-16, not in UTF-8".to_owned(),
+            SAVE,
         ));
     }
-    Ok(text)
+    let valid = match std::str::from_utf8(&bytes) {
+        Ok(_) => bytes.len(),
+        Err(e) => e.valid_up_to(),
+    };
+    if let Some(nul) = bytes.iter().take(valid + 1).position(|b| *b == 0) {
+        // Two bytes a letter of which one is zero: UTF-16 without a mark.
+        let zeros = bytes.iter().filter(|b| **b == 0).count();
+        return Err(if zeros > 1 && nul < 2 && 3 * zeros >= bytes.len() {
+            at(0, "the file is in UTF-16, not in UTF-8".to_owned(), SAVE)
+        } else {
+            let message = "a byte 0x00 stands here: the file is no text, or damaged";
+            at(
+                nul,
+                message.to_owned(),
+                "give a text file, or remove the byte",
+            )
+        });
+    }
+    let Some(wrong) = bytes.get(valid).copied() else {
+        return String::from_utf8(bytes)
+            .map_err(|e| CaseError::new(name, "", 0..0, e.to_string(), Some(SAVE.to_owned())));
+    };
+    // Letters of Latin-1 begin at 0xa0; Windows-1252 has signs below.
+    let letter = match wrong {
+        0xa0..=0xff => format!(" (in Latin-1 \"{}\")", char::from(wrong)),
+        _ => String::new(),
+    };
+    Err(at(
+        valid,
+        format!(
+            "byte 0x{wrong:02x}{letter} is not UTF-8: the file is in another encoding, such as Latin-1 or Windows-1252, or no text"
+        ),
+        SAVE,
+    ))
 }
 
 impl Case {
     /// Reads a case from a file.
     ///
     /// # Errors
-    /// A file that cannot be read, or the first thing wrong in it.
+    /// A file that cannot be read, or all that is wrong in it: the first error with the
+    /// others.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let source = read_text(path).map_err(|e| CaseError {
-            file: path.display().to_string(),
-            line: 1,
-            column: 1,
-            span: 0..0,
-            message: format!("cannot read the case file: {e}"),
-            help: Some("check the path".to_owned()),
-        })?;
+        let source = read_text(path, "case")?;
         Self::parse(&source, path)
     }
 
     /// Reads a case from a text; `file` names it and is the base of its paths.
     ///
     /// # Errors
-    /// The first thing wrong in it, with line, column and remedy.
+    /// All that is wrong in it, each with line, column and remedy: the first error with the
+    /// others.
     pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
         crate::parse::case(source, file)
     }

@@ -14,6 +14,8 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
+use quantities::figure_file;
+
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
@@ -106,7 +108,7 @@ pub struct RunArguments {
     #[arg(long, conflicts_with = "output")]
     pub no_output: bool,
     /// Draw roof displacements and contact forces into this SVG file
-    #[arg(long)]
+    #[arg(long, value_parser = figure_file())]
     pub plot: Option<PathBuf>,
     /// Print one JSON object instead of tables
     #[arg(long)]

@@ -1,5 +1,6 @@
 //! Failures as the user sees them, with exit codes.
 
+use std::io::Write as _;
 use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
@@ -10,6 +11,9 @@ use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
 use pounding_time_history::TimeHistoryError;
 
+/// Errors of one input that are shown: more help nobody.
+const MOST_SHOWN: usize = 20;
+
 /// Why a command did not succeed.
 #[derive(Debug)]
 pub enum Failure {
@@ -17,6 +21,8 @@ pub enum Failure {
     No,
     /// Bad input: exit code 2.
     Input(Report),
+    /// Several things wrong with the input: exit code 2.
+    Inputs(Vec<Report>),
     /// The computation failed: exit code 3.
     Computation(Report),
     /// Output could not be written: exit code 4.
@@ -26,17 +32,39 @@ pub enum Failure {
 impl Failure {
     /// Prints the failure and returns the exit code.
     pub fn report(self) -> ExitCode {
-        let (report, code) = match self {
+        let (reports, code) = match self {
             Self::No => return ExitCode::from(1),
-            Self::Input(report) => (report, 2),
-            Self::Computation(report) => (report, 3),
-            Self::Output(report) => (report, 4),
+            Self::Input(report) => (vec![report], 2),
+            Self::Inputs(reports) => (reports, 2),
+            Self::Computation(report) => (vec![report], 3),
+            Self::Output(report) => (vec![report], 4),
         };
-        #[allow(clippy::print_stderr)]
-        {
-            eprintln!("{report:?}");
+        let mut text = String::new();
+        for report in reports.iter().take(MOST_SHOWN) {
+            text.push_str(&format!("{report:?}\n"));
         }
+        if reports.len() > MOST_SHOWN {
+            text.push_str(&format!(
+                "{} errors, the first {MOST_SHOWN} shown\n",
+                reports.len()
+            ));
+        } else if reports.len() > 1 {
+            text.push_str(&format!("{} errors\n", reports.len()));
+        }
+        // Where nobody can read it any more, the exit code still tells.
+        let _ = std::io::stderr().lock().write_all(text.as_bytes());
         ExitCode::from(code)
+    }
+
+    /// What is wrong with several inputs, each for itself.
+    pub fn inputs(mut reports: Vec<Report>) -> Self {
+        match reports.pop() {
+            Some(only) if reports.is_empty() => Self::Input(only),
+            last => {
+                reports.extend(last);
+                Self::Inputs(reports)
+            }
+        }
     }
 
     /// Bad input without a place in a file.
@@ -78,22 +106,9 @@ impl Failure {
         Self::Output(plain(message, help))
     }
 
-    /// An error of the case, with the line it stands in.
+    /// The errors of a file, each with the line it stands in.
     pub fn case(error: CaseError, source: &str) -> Self {
-        let mut diagnostic = MietteDiagnostic::new(error.to_string());
-        diagnostic.help = error.help.clone();
-        if source.is_empty() {
-            return Self::Input(Report::new(diagnostic));
-        }
-        let length = error
-            .span
-            .len()
-            .min(source.len().saturating_sub(error.span.start));
-        let diagnostic = diagnostic.with_label(LabeledSpan::at((error.span.start, length), "here"));
-        Self::Input(
-            Report::new(diagnostic)
-                .with_source_code(NamedSource::new(error.file.clone(), source.to_owned())),
-        )
+        Self::inputs(error.each().map(|e| located(e, source)).collect())
     }
 
     /// An error of assembly, run or result file.
@@ -163,6 +178,21 @@ impl From<HysteresisError> for Failure {
             error => Self::input(error.to_string(), help),
         }
     }
+}
+
+/// An error with the line it stands in, where the text is known.
+fn located(error: CaseError, source: &str) -> Report {
+    let mut diagnostic = MietteDiagnostic::new(error.to_string());
+    diagnostic.help = error.help;
+    if source.is_empty() {
+        return Report::new(diagnostic);
+    }
+    let length = error
+        .span
+        .len()
+        .min(source.len().saturating_sub(error.span.start));
+    let diagnostic = diagnostic.with_label(LabeledSpan::at((error.span.start, length), "here"));
+    Report::new(diagnostic).with_source_code(NamedSource::new(error.file, source.to_owned()))
 }
 
 fn plain(message: String, help: Option<String>) -> Report {

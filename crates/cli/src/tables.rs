@@ -1,11 +1,14 @@
 //! Tables that an engineer can read.
 
 mod elements;
+mod width;
 
-use comfy_table::{CellAlignment, Table};
+use comfy_table::CellAlignment;
 use pounding_case::Case;
 use pounding_gap_element::Verification;
 use pounding_time_history::{Assembly, ContactLevel, LevelOutcome, Peak, RunRecord};
+
+pub use width::Table;
 
 const G: f64 = 9.80665;
 

@@ -1,7 +1,7 @@
 //! From what a reader found to a series in SI, held against the header.
 
 use crate::accelerogram::{Origin, Processing};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series};
 use crate::source::Source;
@@ -48,6 +48,8 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
+    /// Length of the record that the header states (s).
+    pub header_duration: Option<f64>,
     pub peak: Option<DraftPeak>,
     pub initial: Option<(f64, f64)>,
     pub processing: Processing,
@@ -71,6 +73,7 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
+            header_duration: None,
             peak: None,
             initial: None,
             processing: Processing::Unstated,
@@ -93,6 +96,7 @@ impl Draft {
         self.missing();
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         let (sampling, step_text) = self.sampling(source)?;
+        self.duration(source, &sampling)?;
         for a in &mut self.samples {
             *a *= factor;
         }
@@ -303,6 +307,54 @@ impl Draft {
         Ok((
             Sampling::Even { time_step: step },
             format!("{step} s ({by})"),
+        ))
+    }
+}
+
+/// Part of a duration by which header and samples may differ.
+const DURATION_TOLERANCE: f64 = 0.01;
+
+impl Draft {
+    /// Holds the duration in the header against count and step. Agencies count n or n - 1
+    /// steps and round the duration: one and a half steps are no difference.
+    fn duration(
+        &mut self,
+        source: &Source<'_>,
+        sampling: &Sampling,
+    ) -> Result<(), GroundMotionError> {
+        let Some(stated) = self.header_duration else {
+            return Ok(());
+        };
+        let count = self.samples.len();
+        let (found, step, how) = match sampling {
+            Sampling::Even { time_step } => {
+                let found = count as f64 * time_step;
+                (
+                    found,
+                    *time_step,
+                    format!("{count} samples at {time_step} s last {} s", bound(found)),
+                )
+            }
+            Sampling::Uneven { times } => {
+                let found = times.last().copied().unwrap_or(0.0);
+                let how = format!("the times of its {count} samples end at {} s", bound(found));
+                (found, found / count as f64, how)
+            }
+        };
+        let difference = (found - stated).abs();
+        if difference <= 1.5 * step {
+            return Ok(());
+        }
+        let message = format!("the header says a duration of {stated} s, but {how}");
+        if difference <= DURATION_TOLERANCE * stated || source.options.lenient {
+            self.warnings.push(message);
+            return Ok(());
+        }
+        Err(source.error(
+            self.lines.0,
+            0,
+            message,
+            "duration, count or time step of the header is wrong: get the record again, or set `lenient = true` to use count and time step as they are",
         ))
     }
 }

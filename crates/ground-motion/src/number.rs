@@ -126,6 +126,42 @@ pub(crate) fn after(text: &str, key: &str) -> Option<(f64, f64)> {
     first_in(text.get(at..)?)
 }
 
+/// The time step (s) of a text such as `equally spaced at .005 sec` or `at 200 pts/sec`,
+/// with one unit of its last printed digit: the number after `at` is a step or a rate as
+/// its unit says, and nothing without one.
+pub(crate) fn time_step(text: &str) -> Option<(f64, f64)> {
+    let lower = text.to_ascii_lowercase();
+    lower.match_indices("at ").find_map(|(at, key)| {
+        let rest = lower[at + key.len()..].trim_start();
+        let end = rest
+            .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e')))
+            .unwrap_or(rest.len());
+        let word = rest[..end].trim_end_matches(['e', '-']);
+        let unit = rest[word.len()..].trim_start_matches([' ', '-']);
+        let printed = word.as_bytes();
+        let (value, digit) = (parse(printed).ok()?, resolution(printed));
+        if !(value > 0.0) {
+            return None;
+        }
+        let word = unit.split(|c: char| !c.is_ascii_alphabetic()).next()?;
+        let mut words = unit.split_whitespace();
+        let first = words.next()?;
+        let a_second = first.contains("/s")
+            || matches!(words.next(), Some("per" | "/"))
+                && words.next().is_some_and(|w| w.starts_with('s'));
+        match word {
+            "s" | "sec" | "secs" | "second" | "seconds" => Some((value, digit)),
+            "ms" | "msec" | "msecs" | "millisecond" | "milliseconds" => {
+                Some((value * 1.0e-3, digit * 1.0e-3))
+            }
+            // The digit of a rate is a part of the step.
+            "hz" | "hertz" | "sps" => Some((1.0 / value, digit / (value * value))),
+            _ if a_second => Some((1.0 / value, digit / (value * value))),
+            _ => None,
+        }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -184,5 +220,46 @@ mod tests {
             11.576
         );
         assert_eq!(first_in("at 100 Samples/sec").unwrap().0, 100.0);
+    }
+
+    #[test]
+    fn steps_and_rates_by_their_units() {
+        for (text, step) in [
+            (
+                "12001 POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)",
+                0.005,
+            ),
+            (
+                "2674 POINTS OF ACC DATA EQUALLY SPACED AT   .020 SEC.",
+                0.02,
+            ),
+            ("equally spaced at 5 ms", 0.005),
+            ("equally spaced at 5 msec intervals", 0.005),
+            (
+                " 31932 Accelerogram points at 100 pts/sec in units of g. Format: (8f9.6)",
+                0.01,
+            ),
+            ("RECORD LENGTH = 60.000 SEC   AT 200 SAMPLES/SEC", 0.005),
+            ("at 250 samples per second", 0.004),
+            (
+                "points of accel data equally spaced at 0.010 sec in cm/sec/sec",
+                0.01,
+            ),
+            ("peak at the roof, sampled at 50 Hz", 0.02),
+            ("at 200sps", 0.005),
+        ] {
+            let found = time_step(text).unwrap().0;
+            assert!((found / step - 1.0).abs() < 1e-12, "{text}: {found}");
+        }
+        for text in [
+            "at .005",
+            "at 200 points",
+            "at -1 sec",
+            "at 0 sec",
+            "11999 points",
+            "at g",
+        ] {
+            assert_eq!(time_step(text), None, "{text}");
+        }
     }
 }

@@ -8,6 +8,8 @@ pub(crate) struct TimeColumn {
     times: Vec<f64>,
     /// Coarsest unit of a last printed digit (s).
     digit: f64,
+    /// One unit of the printed times (s).
+    unit: f64,
 }
 
 impl TimeColumn {
@@ -15,14 +17,20 @@ impl TimeColumn {
         Self {
             times: Vec::with_capacity(capacity),
             digit: 0.0,
+            unit: 1.0,
         }
     }
 
+    /// The same for times that are printed in another unit than seconds.
+    pub(crate) fn in_unit(self, unit: f64) -> Self {
+        Self { unit, ..self }
+    }
+
     pub(crate) fn push(&mut self, time: f64, printed: &[u8]) {
-        self.times.push(time);
+        self.times.push(time * self.unit);
         // A bare `0` or `1` among decimals says nothing of the others' digits.
         if printed.contains(&b'.') {
-            self.digit = self.digit.max(number::resolution(printed));
+            self.digit = self.digit.max(self.unit * number::resolution(printed));
         }
     }
 

@@ -148,7 +148,9 @@ impl Label {
                 "dis" => Some((Quantity::Displacement, SeriesUnit::CM)),
                 _ => None,
             });
-        let step = number::after(&lower, " at ").filter(|s| s.0 > 0.0);
+        let step = number::time_step(&lower)
+            // Without a unit it is that of the format, seconds.
+            .or_else(|| number::after(&lower, " at ").filter(|s| s.0 > 0.0));
         let (Some(count), Some((quantity, usual)), Some(step)) = (count, quantity, step) else {
             return Err(source.error(
                 line.number,

@@ -38,7 +38,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         draft.title = header.title(6, 2);
         draft.start_time = header.start_time();
         draft.peak = peak(&header);
-        check_length(&header, &mut draft);
+        draft.header_duration = duration(&header);
         series.push(draft.finish(source)?);
         end_of_channel(source, &mut lines);
     }
@@ -122,10 +122,9 @@ fn even(
         ));
     }
     let expected = in_label.or(in_header);
-    let rate = |text: &str| number::after(text, " at ").filter(|r| r.0 > 0.0);
-    let step = rate(&text)
-        .or_else(|| rate(&header.find("samples/sec")?))
-        .map(|r| 1.0 / r.0);
+    let step = number::time_step(&text)
+        .or_else(|| number::time_step(&header.find("samples/sec")?))
+        .map(|step| step.0);
     let samples = source.block(lines, layout, expected, None)?;
     let mut draft = Draft::new(
         samples,
@@ -171,20 +170,11 @@ fn pairs(
     Ok(draft)
 }
 
-/// Holds the length of the record (real 3) against count and step.
-fn check_length(header: &ChannelHeader<'_>, draft: &mut Draft) {
-    let Some(length) = header.reals.positive(3) else {
-        return;
-    };
-    let found = match &draft.times {
-        Times::Step(Some(step)) => draft.samples.len() as f64 * step,
-        Times::Each(times) => times.last().copied().unwrap_or(0.0),
-        Times::Step(None) => return,
-    };
-    let step = found / draft.samples.len().max(1) as f64;
-    if (found - length).abs() > 1.5 * step {
-        draft.warnings.push(format!(
-            "the header says {length} s, the samples last {found:.3} s"
-        ));
-    }
+/// The length of the record in the header (s): real 3, else the text.
+fn duration(header: &ChannelHeader<'_>) -> Option<f64> {
+    header.reals.positive(3).or_else(|| {
+        let line = header.find("record length")?;
+        let stated = number::after(&line, "record length").map(|n| n.0);
+        stated.filter(|s| *s > 0.0)
+    })
 }

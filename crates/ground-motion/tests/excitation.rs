@@ -179,7 +179,8 @@ fn layouts_that_are_found() {
 #[test]
 fn plain_columns_that_are_refused() {
     for (text, word) in [
-        ("0,02;0,5\n0,04;0,6\n", "decimal comma"),
+        ("0,5\n0,6\n", "decimal comma"),
+        ("0,02 0,5\n0,04 0,6\n", "decimal comma"),
         ("1.0 2.0\n1.0\n1.0 2.0\n", "another number of values"),
         ("0.1\n0.2\nend of file\n", "text among the numbers"),
         ("# nothing\n", "no data"),

@@ -87,8 +87,12 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         }).into_bytes()),
         ("at2", [b"a\nb\nUNITS OF G\nNPTS= 1572000, DT= .01\n".to_vec(), repeat(b"1 ")].concat()),
         ("k-net", {
-            let head = common::fixtures(Format::KNet, 0)[0].bytes.clone();
-            [head, repeat(b"1 ")].concat()
+            let rest = repeat(b"1 ");
+            let count = common::COUNT + rest.len() / 2;
+            let head = String::from_utf8(common::fixtures(Format::KNet, 0)[0].bytes.clone()).unwrap();
+            // The duration of all these samples, as the header is held against them.
+            let head = head.replace("(s)  0.23", &format!("(s)  {:.2}", count as f64 / 100.0));
+            [head.into_bytes(), rest].concat()
         }),
         ("jma", [b"SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal\nNS,EW,UD\n".to_vec(), repeat(b"1,2,3\n")].concat()),
         ("isesd", [b"file: a\nwaveform code: 1\nsampling period: 0.01\nunits: m/s*s\n-> acceleration\n".to_vec(), repeat(b"1 ")].concat()),

@@ -45,7 +45,59 @@ fn names(card: &'static LawDescriptor) -> impl Iterator<Item = &'static str> {
     std::iter::once(card.name).chain(card.aliases.iter().map(|a| a.name))
 }
 
+/// Words of other programs and of the literature, and the law that does what they say; they
+/// are suggested, never taken.
+const SYNONYMS: [(&[&str], &str); 13] = [
+    (
+        &["tension_only", "hook", "cable", "tie", "slack", "stopper"],
+        "gap_hook",
+    ),
+    (
+        &["compression_only", "no_tension", "gap", "bumper", "buffer"],
+        "gap_hook",
+    ),
+    (
+        &["epp", "elasto_plastic", "perfectly_plastic"],
+        "elastic_perfectly_plastic",
+    ),
+    (&["steel01", "kinematic", "strain_hardening"], "bilinear"),
+    (&["steel02", "menegotto", "giuffre"], "menegotto_pinto_1973"),
+    (&["bouc", "boucwen"], "bouc_wen"),
+    (&["clough", "degrading_stiffness"], "modified_clough"),
+    (
+        &["ibarra", "imk", "medina", "krawinkler"],
+        "ibarra_medina_krawinkler_2005_bilinear",
+    ),
+    (
+        &["pinching", "pinched"],
+        "ibarra_medina_krawinkler_2005_pinching",
+    ),
+    (&["friction", "slider", "coulomb"], "coulomb_friction"),
+    (&["damper", "viscous", "dashpot"], "viscous_damper"),
+    (&["spring", "elastic"], "linear"),
+    (&["iwan"], "iwan_six_parameter"),
+];
+
+/// The law of a known word within the name.
+fn by_word(name: &str) -> Option<&'static str> {
+    let plain = name.to_lowercase().replace(['-', ' '], "_");
+    let within = |word: &str| format!("_{plain}_").contains(&format!("_{word}_"));
+    let found = SYNONYMS
+        .iter()
+        .find(|(words, _)| words.iter().any(|w| within(w)));
+    found.map(|(_, law)| *law)
+}
+
+/// The nearest known name: one that is misspelt, else one by a word that means it.
 fn nearest(name: &str) -> &'static str {
+    let spelt = by_spelling(name);
+    if edit_distance(name, spelt) <= 1 + name.chars().count() / 4 {
+        return spelt;
+    }
+    by_word(name).unwrap_or(spelt)
+}
+
+fn by_spelling(name: &str) -> &'static str {
     laws::ALL
         .iter()
         .flat_map(|card| names(card))
@@ -67,4 +119,33 @@ fn edit_distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_others_lead_to_a_law() {
+        for (name, law) in [
+            ("tension_only", "gap_hook"),
+            ("Tension-Only", "gap_hook"),
+            ("no tension", "gap_hook"),
+            ("compression_only_gap", "gap_hook"),
+            ("cable", "gap_hook"),
+            ("epp", "elastic_perfectly_plastic"),
+            ("Steel02", "menegotto_pinto_1973"),
+            ("viscous", "viscous_damper"),
+            ("imk", "ibarra_medina_krawinkler_2005_bilinear"),
+            // Misspelt, not meant otherwise.
+            ("bilinaer", "bilinear"),
+            ("gap_hok", "gap_hook"),
+            ("bouc_wenn", "bouc_wen"),
+        ] {
+            assert_eq!(nearest(name), law, "{name}");
+        }
+        for (_, law) in SYNONYMS {
+            assert!(find(law).is_ok(), "{law}");
+        }
+    }
 }

@@ -150,12 +150,6 @@ impl StudyError {
                 "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
             }
             Self::ResultFile { .. } => "check that it is the HDF5 file of a sweep",
-            Self::File {
-                what: "read the study file",
-                ..
-            } => {
-                "give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/studies.md says what stands in it"
-            }
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }

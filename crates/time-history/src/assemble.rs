@@ -7,7 +7,7 @@ pub use again::{assemble_with_record, regap};
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Damping, Gap, Located, Parameter, Side};
+use pounding_case::{Building, Case, CaseError, Damping, Errors, Gap, Located, Parameter, Side};
 use pounding_gap_element::{
     ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
@@ -39,14 +39,13 @@ pub struct Assembly {
 /// What the case says of models, methods or the record cannot be: with its place
 /// in the case file, or in the record.
 pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
-    let buildings = case
-        .buildings
-        .iter()
-        .map(|b| building(case, b).map(Arc::new))
-        .collect::<Result<Vec<_>, _>>()?;
-    let models = models(case)?;
-    let options = options(case)?;
+    let parts = Parts::of(case)?;
     let accelerogram = accelerogram(case)?;
+    let Parts {
+        buildings,
+        models,
+        options,
+    } = parts;
     let system = with_gaps(case, &models, System::new(buildings, ground(&accelerogram)))?;
     options.check(&system)?;
     Ok(Assembly {
@@ -58,6 +57,33 @@ pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
 }
 
 type Models = Vec<Arc<dyn ImpactModel>>;
+
+/// What a case says of buildings, models and options.
+struct Parts {
+    buildings: Vec<Arc<ShearBuilding>>,
+    models: Models,
+    options: RunOptions,
+}
+
+impl Parts {
+    /// Makes all of it, and reports all that is wrong in it.
+    fn of(case: &Case) -> Result<Self, CaseError> {
+        let errors = Errors::default();
+        let buildings = case.buildings.iter();
+        let buildings = errors.all(buildings.map(|b| building(case, b).map(Arc::new)));
+        let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
+        let options = errors.all([options(case)]);
+        errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
+        let parts = buildings.and_then(|buildings| {
+            Ok(Self {
+                buildings,
+                models: models?,
+                options: options?.remove(0),
+            })
+        });
+        errors.finish(parts)
+    }
+}
 
 /// The impact model of each gap.
 fn models(case: &Case) -> Result<Models, CaseError> {
@@ -181,10 +207,9 @@ fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
         .find(|p| p.key.value == "exponent")
         .map(|p| p.value.value.value);
     let mut parameters = ModelParameters::default();
-    for parameter in &gap.parameters {
+    let errors = Errors::default();
+    let read = errors.all(gap.parameters.iter().map(|parameter| {
         let value = model_parameter(case, descriptor, exponent, parameter)?;
-        let before = parameters.values.insert(parameter.key.value.clone(), value);
-        debug_assert!(before.is_none(), "TOML keys are unique");
         // Each alone first, so that the error points at the one that is wrong.
         let alone = ModelParameters {
             values: [(parameter.key.value.clone(), value)].into(),
@@ -193,10 +218,13 @@ fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
         alone
             .check_values(descriptor)
             .map_err(|e| case.error(parameter.value.span.clone(), e.to_string(), e.help()))?;
-    }
+        Ok((parameter.key.value.clone(), value))
+    }));
     if let Some(separation) = &gap.separation {
-        parameters.separation = Some(separation_rule(case, descriptor, separation)?);
+        parameters.separation = errors.keep(separation_rule(case, descriptor, separation));
     }
+    // TOML keys are unique.
+    parameters.values = errors.finish(read)?.into_iter().collect();
     Ok(registry::build(descriptor.name, &parameters)
         .map_err(at_model)?
         .into())

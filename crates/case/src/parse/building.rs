@@ -10,8 +10,21 @@ use crate::schema;
 use crate::types::{Building, Damping, Located};
 use crate::units::Dimension;
 
-pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Building, CaseError> {
-    let table = reader.table(value, "[[building]]", schema::BUILDING)?;
+/// Reads a building; its name also where the rest is wrong.
+pub(super) fn building(
+    reader: &Reader<'_>,
+    value: &Value<'_>,
+) -> (Option<Located<String>>, Result<Building, CaseError>) {
+    let table = match reader.section(value, "[[building]]", schema::BUILDING) {
+        Ok(table) => table,
+        Err(e) => return (None, Err(e)),
+    };
+    let name = reader.errors.keep(name(reader, &table));
+    let rest = named(reader, &table, name.clone());
+    (name, rest)
+}
+
+fn name(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Located<String>, CaseError> {
     let name = check_name(
         reader,
         reader.text(table.required("name")?, "name")?,
@@ -24,25 +37,41 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
             "in `between`, \"wall\" is the rigid wall; give the building another name",
         ));
     }
+    Ok(name)
+}
+
+fn named(
+    reader: &Reader<'_>,
+    table: &Table<'_, '_>,
+    name: Option<Located<String>>,
+) -> Result<Building, CaseError> {
+    let keep = reader.errors;
     let read = |key: &str, dimension| {
-        let value = table.required(key)?;
-        reader.list(value, key, |v| reader.positive(v, key, dimension))
+        let value = table.required(key);
+        keep.keep(value.and_then(|v| reader.list(v, key, |v| reader.positive(v, key, dimension))))
     };
-    let mass = read("mass", Dimension::MASS)?;
-    let stiffness = read("stiffness", Dimension::STIFFNESS)?;
-    let height = read("height", Dimension::LENGTH)?;
+    let mass = read("mass", Dimension::MASS);
+    let stiffness = read("stiffness", Dimension::STIFFNESS);
+    let height = read("height", Dimension::LENGTH);
     let start = |key: &'static str, dimension| {
         let value = table.get(key);
-        value
-            .map(|value| reader.list(value, key, |v| reader.quantity(v, key, dimension)))
-            .transpose()
+        keep.or_default(
+            value
+                .map(|value| reader.list(value, key, |v| reader.quantity(v, key, dimension)))
+                .transpose(),
+        )
     };
-    let displacement = start("initial_displacement", Dimension::LENGTH)?;
-    let velocity = start("initial_velocity", Dimension::VELOCITY)?;
-    let stated = table
-        .get("storeys")
-        .map(|v| reader.count(v, "storeys", 1))
-        .transpose()?;
+    let displacement = start("initial_displacement", Dimension::LENGTH);
+    let velocity = start("initial_velocity", Dimension::VELOCITY);
+    let stated = table.get("storeys").map(|v| reader.count(v, "storeys", 1));
+    let stated = keep.keep(stated.transpose());
+    let p_delta = keep.or_default(table.flag("p_delta"));
+    let damped = keep.keep(table.required("damping"));
+    let (Some(mass), Some(stiffness), Some(height), Some(stated)) =
+        (mass, stiffness, height, stated)
+    else {
+        return Err(reader.lost());
+    };
     let mut lists = vec![
         ("mass", &mass),
         ("stiffness", &stiffness),
@@ -50,13 +79,25 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
     ];
     lists.extend(displacement.iter().map(|l| ("initial_displacement", l)));
     lists.extend(velocity.iter().map(|l| ("initial_velocity", l)));
-    let storeys = storeys(&table, stated, &lists)?;
+    let storeys = storeys(table, stated, &lists)?;
     let all = |list: List| match list.values {
         Values::Scalar(x) => vec![x; storeys],
         Values::List(values) => values,
     };
     let at_start = |list: Option<List>| list.map_or_else(|| vec![0.0; storeys], all);
-    let value = table.required("damping")?;
+    let laws = match table.get("law") {
+        Some(value) => keep.or_default(storey_laws(reader, value, storeys)),
+        None => Vec::new(),
+    };
+    let damping = damped.and_then(|value| {
+        Some(Located {
+            value: keep.keep(damping(reader, value, storeys))?,
+            span: value.span(),
+        })
+    });
+    let (Some(name), Some(damping)) = (name, damping) else {
+        return Err(reader.lost());
+    };
     Ok(Building {
         initial_displacement: Located {
             span: displacement
@@ -69,15 +110,9 @@ pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> Result<Buildin
         mass: all(mass),
         stiffness: all(stiffness),
         height: all(height),
-        laws: match table.get("law") {
-            Some(value) => storey_laws(reader, value, storeys)?,
-            None => Vec::new(),
-        },
-        p_delta: table.flag("p_delta")?,
-        damping: Located {
-            value: damping(reader, value, storeys)?,
-            span: value.span(),
-        },
+        laws,
+        p_delta,
+        damping,
     })
 }
 
@@ -108,11 +143,13 @@ fn storeys(
         }
     }
     known.map(|(_, n)| n).ok_or_else(|| {
-        table.reader.error(
-            table.span.clone(),
-            "the building does not say how many storeys it has",
-            "add `storeys = ...`",
-        )
+        table.misspelt("storeys").unwrap_or_else(|| {
+            table.reader.error(
+                table.span.clone(),
+                "the building does not say how many storeys it has",
+                "add `storeys = ...`",
+            )
+        })
     })
 }
 

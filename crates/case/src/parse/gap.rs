@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{check_name, not_negative, spread};
+use super::{Row, check_name, not_negative, spread};
 use crate::error::CaseError;
 use crate::reader::{Reader, Table, Value, distance};
 use crate::schema;
@@ -17,26 +17,29 @@ use crate::units::Dimension;
 pub(super) fn gap(
     reader: &Reader<'_>,
     value: &Value<'_>,
-    buildings: &[Building],
+    row: &Row,
 ) -> Result<(Gap, Range<usize>), CaseError> {
-    let table = reader.table(value, "[[gap]]", schema::GAP)?;
-    // First, as a misspelt key says more than the absence of the right one.
-    let parameters = parameters(&table)?;
-    let place = table.required("between")?;
-    let (between, names) = between(reader, place, buildings)?;
-    let name = match table.optional_text("name")? {
-        Some(name) => check_name(reader, name, "gap")?.value,
-        None => names.join("-"),
-    };
-    let pairs = levels(&table, between, buildings, place.span())?;
-    let width = table.required("width")?;
+    let table = reader.section(value, "[[gap]]", schema::GAP)?;
+    let keep = reader.errors;
+    let parameters = parameters(&table);
     let read = |v: &Value<'_>| not_negative(reader, v, "width", Dimension::LENGTH);
-    let widths = spread(
-        reader,
-        reader.list(width, "width", read)?,
-        pairs.len(),
-        "contact level",
-    )?;
+    let width = table.required("width");
+    let width = keep.keep(width.and_then(|v| reader.list(v, "width", read)));
+    let model = keep.keep(
+        table
+            .required("model")
+            .and_then(|v| reader.text(v, "model")),
+    );
+    let separation = keep.or_default(table.optional_text("separation"));
+    let name = keep.or_default(name(&table, "gap"));
+    let place = table.required("between")?;
+    let (between, names) = between(reader, place, row)?;
+    let buildings = row.buildings(reader)?;
+    let pairs = levels(&table, between, buildings, place.span())?;
+    let (Some(width), Some(model)) = (width, model) else {
+        return Err(reader.lost());
+    };
+    let widths = spread(reader, width, pairs.len(), "contact level")?;
     let mut levels: Vec<ContactLevel> = pairs
         .into_iter()
         .zip(widths)
@@ -44,62 +47,61 @@ pub(super) fn gap(
         .collect();
     levels.sort_by_key(|level| (level.left, level.right));
     let gap = Gap {
-        name,
+        name: name.unwrap_or_else(|| names.join("-")),
         between,
         levels,
-        model: reader.text(table.required("model")?, "model")?,
-        separation: table.optional_text("separation")?,
+        model,
+        separation,
         parameters,
     };
     Ok((gap, place.span()))
 }
 
+/// The name of a gap or link, if it states one.
+pub(super) fn name(table: &Table<'_, '_>, what: &str) -> Result<Option<String>, CaseError> {
+    let name = table.optional_text("name")?;
+    let name = name.map(|name| check_name(&table.reader, name, what));
+    Ok(name.transpose()?.map(|name| name.value))
+}
+
 /// All keys but those of the gap itself.
-fn parameters(table: &Table<'_, '_>) -> Result<Vec<Parameter>, CaseError> {
+fn parameters(table: &Table<'_, '_>) -> Vec<Parameter> {
     let reader = &table.reader;
     let mut parameters = Vec::new();
     for (key, value) in table.entries() {
-        if schema::GAP.iter().any(|k| k.name == key.value) {
+        let own = schema::GAP.iter().any(|k| k.name == key.value);
+        if own || table.is_unknown(&key.value) {
             continue;
         }
-        // An unknown key next to a key of the gap is a slip, not a parameter.
-        let near = schema::GAP
-            .iter()
-            .find(|k| k.name != "*" && distance(&key.value, k.name) <= 2);
-        if let Some(near) = near {
-            return Err(reader.error(
-                key.span,
-                format!("unknown key `{}` in [[gap]]", key.value),
-                format!("did you mean `{}`?", near.name),
-            ));
+        if let Some(quantity) = reader.errors.keep(reader.any_quantity(value, &key.value)) {
+            parameters.push(Parameter {
+                key,
+                value: Located {
+                    value: quantity,
+                    span: value.span(),
+                },
+            });
         }
-        let quantity = reader.any_quantity(value, &key.value)?;
-        parameters.push(Parameter {
-            key,
-            value: Located {
-                value: quantity,
-                span: value.span(),
-            },
-        });
     }
-    Ok(parameters)
+    parameters
 }
 
 pub(super) fn between(
     reader: &Reader<'_>,
     value: &Value<'_>,
-    buildings: &[Building],
+    row: &Row,
 ) -> Result<([Side; 2], [String; 2]), CaseError> {
     let DeValue::Array(items) = value.get_ref() else {
         return Err(reader.wrong_type(value, "between", "a list of two names"));
     };
+    let buildings = row.names(reader)?;
     let mut sides = Vec::new();
     for item in items.iter() {
         let name = reader.text(item, "between")?;
         let side = if name.value == "wall" {
             Side::Wall
         } else {
-            let found = buildings.iter().position(|b| b.name.value == name.value);
+            let found = buildings.iter().position(|b| *b == name.value);
             Side::Building(found.ok_or_else(|| unknown_building(reader, &name, buildings))?)
         };
         sides.push((side, name.value));
@@ -154,12 +156,7 @@ fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bo
     }
 }
 
-fn unknown_building(
-    reader: &Reader<'_>,
-    name: &Located<String>,
-    buildings: &[Building],
-) -> CaseError {
-    let names: Vec<&str> = buildings.iter().map(|b| b.name.value.as_str()).collect();
+fn unknown_building(reader: &Reader<'_>, name: &Located<String>, names: &[String]) -> CaseError {
     let guess = names
         .iter()
         .min_by_key(|n| distance(n, &name.value))
@@ -190,6 +187,9 @@ pub(super) fn levels(
     place: Range<usize>,
 ) -> Result<Vec<Pair>, CaseError> {
     let reader = &table.reader;
+    for key in ["levels", "elevation_tolerance"] {
+        table.misspelt(key).map_or(Ok(()), Err)?;
+    }
     let (mut matching_only, mut listed) = (false, None);
     if let Some(value) = table.get("levels") {
         match value.get_ref() {

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
-use crate::error::CaseError;
+use crate::error::{CaseError, Errors};
 use crate::parse::not_negative;
 use crate::parse::scale::scale;
 use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
@@ -26,52 +26,66 @@ pub(crate) fn ground_motion(
     reader: &Reader<'_>,
     value: &Value<'_>,
 ) -> Result<GroundMotion, CaseError> {
-    let table = reader.table(value, "[ground_motion]", schema::GROUND_MOTION)?;
-    let file = path(reader, table.required("file")?, "file")?;
-    let plain = |key: &str| Ok::<_, CaseError>(table.optional_text(key)?.map(|t| t.value));
-    let count = |key: &str| table.get(key).map_or(Ok(0), |v| reader.count(v, key, 0));
-    Ok(GroundMotion {
-        file,
-        format: table.optional_text("format")?,
-        time_step: table.optional_positive("time_step", Dimension::TIME)?,
-        unit: table.optional_text("unit")?,
-        layout: plain("layout")?,
-        component: plain("component")?,
-        rotation: rotation(reader, &table)?,
-        quantity: table.optional_text("quantity")?,
-        skip_lines: count("skip_lines")?,
-        skip_columns: count("skip_columns")?,
-        prepend_zero: table.flag("prepend_zero")?,
-        lenient: table.flag("lenient")?,
-        sensitivity: table.optional_positive("sensitivity", SENSITIVITY)?,
-        gravity: table.optional_positive("gravity", Dimension::ACCELERATION)?,
-        offset: offset(reader, &table)?,
-        process: match table.get("process") {
-            Some(value) => process(reader, value)?,
-            None => Vec::new(),
+    let table = reader.section(value, "[ground_motion]", schema::GROUND_MOTION)?;
+    let keep = reader.errors;
+    let file = keep.keep(table.required("file").and_then(|v| path(reader, v, "file")));
+    let text = |key: &str| keep.or_default(table.optional_text(key));
+    let plain = |key: &str| text(key).map(|t| t.value);
+    let positive = |key: &str, dimension| keep.or_default(table.optional_positive(key, dimension));
+    let flag = |key: &str| keep.or_default(table.flag(key));
+    let count =
+        |key: &str| keep.or_default(table.get(key).map_or(Ok(0), |v| reader.count(v, key, 0)));
+    let process = table.get("process").map(|v| process(reader, v)).transpose();
+    let scale = table
+        .get("scale")
+        .map_or(Ok(Scale::None), |v| scale(reader, v));
+    let motion = GroundMotion {
+        file: Located {
+            value: PathBuf::new(),
+            span: 0..0,
         },
-        scale: table
-            .get("scale")
-            .map_or(Ok(Scale::None), |v| scale(reader, v))?,
-    })
+        format: text("format"),
+        time_step: positive("time_step", Dimension::TIME),
+        unit: text("unit"),
+        layout: plain("layout"),
+        component: plain("component"),
+        rotation: keep.or_default(rotation(reader, &table)),
+        quantity: text("quantity"),
+        skip_lines: count("skip_lines"),
+        skip_columns: count("skip_columns"),
+        prepend_zero: flag("prepend_zero"),
+        lenient: flag("lenient"),
+        sensitivity: positive("sensitivity", SENSITIVITY),
+        gravity: positive("gravity", Dimension::ACCELERATION),
+        offset: keep
+            .keep(offset(reader, &table))
+            .unwrap_or(Offset::Automatic),
+        process: keep.or_default(process).unwrap_or_default(),
+        scale: keep.keep(scale).unwrap_or(Scale::None),
+    };
+    let file = file.ok_or_else(|| reader.lost())?;
+    Ok(GroundMotion { file, ..motion })
 }
 
 /// Reads a text `process = [...]`, the same list as in a case file: for programs that
 /// offer the steps elsewhere. `name` stands in messages.
 ///
 /// # Errors
-/// The first thing wrong in the text, with its place.
+/// All that is wrong in the text, with its places.
 pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep>>, CaseError> {
-    let reader = Reader { file: name, source };
-    let tree = DeTable::parse(source).map_err(|e| {
-        reader.error(
-            e.span().unwrap_or(0..0),
-            format!("this is not TOML: {}", e.message()),
-            "write process = [{ remove_offset = \"mean\" }, ...]",
-        )
-    })?;
-    let root = Table::new(reader, tree.get_ref(), 0..0, "the steps", schema::STEPS)?;
-    process(&reader, root.required("process")?)
+    let errors = Errors::default();
+    let reader = Reader {
+        file: name,
+        source,
+        errors: &errors,
+    };
+    let read = reader
+        .document("write process = [{ remove_offset = \"mean\" }, ...]")
+        .and_then(|tree| {
+            let root = Table::new(reader, tree.get_ref(), 0..0, "the steps", schema::STEPS);
+            process(&reader, root.required("process")?)
+        });
+    errors.finish(read)
 }
 
 pub(super) fn path(
@@ -126,6 +140,9 @@ fn offset(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Offset, CaseErro
 fn rotation(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Option<Rotation>, CaseError> {
     const EXAMPLE: &str =
         "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
+    for key in ["second_component", "rotate"] {
+        table.misspelt(key).map_or(Ok(()), Err)?;
+    }
     match (table.get("second_component"), table.get("rotate")) {
         (None, None) => Ok(None),
         (Some(second), Some(angle)) => {
@@ -151,7 +168,8 @@ fn process(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<Located<Process
     let DeValue::Array(items) = value.get_ref() else {
         return Err(reader.wrong_type(value, "process", "a list of steps"));
     };
-    items.iter().map(|item| step(reader, item)).collect()
+    let steps = items.iter().map(|item| step(reader, item));
+    reader.errors.all(steps)
 }
 
 fn step(reader: &Reader<'_>, item: &Value<'_>) -> Result<Located<ProcessStep>, CaseError> {

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::gap::{between, levels};
-use super::{check_name, one_each};
+use super::gap::{between, levels, name};
+use super::{Row, one_each};
 use crate::error::CaseError;
-use crate::reader::{Reader, Table, Value, distance};
+use crate::reader::{Reader, Table, Value};
 use crate::schema::{self, Key};
-use crate::types::{Building, LawParameter, Link, Located, StoreyLaw};
+use crate::types::{LawParameter, Link, Located, StoreyLaw};
 
 /// Reads `law` of a building: one table, or several that name their storeys.
 pub(super) fn storey_laws(
@@ -24,8 +24,10 @@ pub(super) fn storey_laws(
     let mut taken: Vec<Option<Range<usize>>> = vec![None; storeys];
     let mut laws = Vec::new();
     for value in tables {
-        let table = reader.table(value, "law", schema::STOREY_LAW)?;
-        let law = storey_law(reader, &table, storeys)?;
+        let table = reader.section(value, "law", schema::STOREY_LAW)?;
+        let Some(law) = reader.errors.keep(storey_law(reader, &table, storeys)) else {
+            continue;
+        };
         for storey in &law.storeys {
             if let Some(first) = &taken[*storey] {
                 return Err(reader.error(
@@ -50,17 +52,20 @@ fn storey_law(
     table: &Table<'_, '_>,
     storeys: usize,
 ) -> Result<StoreyLaw, CaseError> {
-    // First, as a misspelt key says more than the absence of the right one.
-    let near = misspelt(table, schema::STOREY_LAW);
-    near.map_or(Ok(()), Err)?;
+    let model = table
+        .required("model")
+        .and_then(|v| reader.text(v, "model"));
+    let model = reader.errors.keep(model);
+    table.misspelt("storeys").map_or(Ok(()), Err)?;
     let listed = match table.get("storeys") {
         None => (0..storeys).collect(),
         Some(value) => listed_storeys(reader, value, storeys)?,
     };
+    let parameters = parameters(table, schema::STOREY_LAW, listed.len());
     Ok(StoreyLaw {
-        parameters: parameters(table, schema::STOREY_LAW, listed.len())?,
+        parameters,
         storeys: listed,
-        model: reader.text(table.required("model")?, "model")?,
+        model: model.ok_or_else(|| reader.lost())?,
     })
 }
 
@@ -98,56 +103,37 @@ fn listed_storeys(
 pub(super) fn link(
     reader: &Reader<'_>,
     value: &Value<'_>,
-    buildings: &[Building],
+    row: &Row,
 ) -> Result<(Link, Range<usize>), CaseError> {
-    let table = reader.table(value, "[[link]]", schema::LINK)?;
-    let near = misspelt(&table, schema::LINK);
-    near.map_or(Ok(()), Err)?;
+    let table = reader.section(value, "[[link]]", schema::LINK)?;
+    let keep = reader.errors;
+    let model = keep.keep(
+        table
+            .required("model")
+            .and_then(|v| reader.text(v, "model")),
+    );
+    let name = keep.or_default(name(&table, "link"));
     let place = table.required("between")?;
-    let (between, names) = between(reader, place, buildings)?;
-    let name = match table.optional_text("name")? {
-        Some(name) => check_name(reader, name, "link")?.value,
-        None => names.join("-"),
-    };
-    let mut levels = levels(&table, between, buildings, place.span())?;
+    let (between, names) = between(reader, place, row)?;
+    let mut levels = levels(&table, between, row.buildings(reader)?, place.span())?;
     levels.sort_unstable();
     let link = Link {
-        name,
+        name: name.unwrap_or_else(|| names.join("-")),
         between,
-        parameters: parameters(&table, schema::LINK, levels.len())?,
+        parameters: parameters(&table, schema::LINK, levels.len()),
         levels,
-        model: reader.text(table.required("model")?, "model")?,
+        model: model.ok_or_else(|| reader.lost())?,
     };
     Ok((link, place.span()))
 }
 
-/// An unknown key next to one of the table's own is a slip, not a parameter.
-fn misspelt(table: &Table<'_, '_>, keys: &[Key]) -> Option<CaseError> {
-    let own = |text: &str| keys.iter().any(|k| k.name == text);
-    table.entries().into_iter().find_map(|(key, _)| {
-        let near = keys
-            .iter()
-            .find(|k| k.name != "*" && distance(&key.value, k.name) <= 2)?;
-        (!own(&key.value)).then(|| {
-            table.reader.error(
-                key.span,
-                format!("unknown key `{}` in {}", key.value, table.name),
-                format!("did you mean `{}`?", near.name),
-            )
-        })
-    })
-}
-
 /// All keys but those of the table itself: one value for each of `count` places.
-fn parameters(
-    table: &Table<'_, '_>,
-    keys: &[Key],
-    count: usize,
-) -> Result<Vec<LawParameter>, CaseError> {
+fn parameters(table: &Table<'_, '_>, keys: &[Key], count: usize) -> Vec<LawParameter> {
     let reader = &table.reader;
+    let keep = reader.errors;
     let mut parameters = Vec::new();
     for (key, value) in table.entries() {
-        if keys.iter().any(|k| k.name == key.value) {
+        if keys.iter().any(|k| k.name == key.value) || table.is_unknown(&key.value) {
             continue;
         }
         let one = |v: &Value<'_>| {
@@ -158,12 +144,12 @@ fn parameters(
         };
         let values = match value.get_ref() {
             DeValue::Array(items) => {
-                let values = items.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-                one_each(reader, values, value.span(), count)?
+                let values = keep.all(items.iter().map(one));
+                keep.keep(values.and_then(|v| one_each(reader, v, value.span(), count)))
             }
-            _ => vec![one(value)?; count],
+            _ => keep.keep(one(value)).map(|value| vec![value; count]),
         };
-        parameters.push(LawParameter { key, values });
+        parameters.extend(values.map(|values| LawParameter { key, values }));
     }
-    Ok(parameters)
+    parameters
 }

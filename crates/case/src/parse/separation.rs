@@ -1,9 +1,9 @@
 //! What provisions for the gap need to know beside the buildings themselves.
 
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::spread;
-use crate::error::CaseError;
+use crate::error::{CaseError, Errors};
 use crate::reader::{Reader, Table, Value};
 use crate::schema;
 use crate::types::{Located, Separation};
@@ -15,66 +15,62 @@ pub(super) fn separation(
     value: &Value<'_>,
     buildings: usize,
 ) -> Result<Separation, CaseError> {
-    let table = reader.table(value, "[separation]", schema::SEPARATION)?;
-    from_table(&table, buildings)
+    let table = reader.section(value, "[separation]", schema::SEPARATION)?;
+    Ok(from_table(&table, buildings))
 }
 
 /// Reads the keys of `[separation]` alone, from an argument.
 pub(crate) fn keys(text: &str, buildings: usize) -> Result<Separation, CaseError> {
-    let name = "--set";
+    let errors = Errors::default();
     let reader = Reader {
-        file: name,
+        file: "--set",
         source: text,
+        errors: &errors,
     };
-    let tree = DeTable::parse(text).map_err(|e| {
-        reader.error(
-            e.span().unwrap_or(0..0),
-            format!("this is not TOML: {}", e.message()),
-            "write key=value as in the case file, texts in quotes, such as --set 'soil_zone=\"II\"'",
-        )
-    })?;
-    let table = Table::new(
-        reader,
-        tree.get_ref(),
-        0..0,
-        "[separation]",
-        schema::SEPARATION,
-    )?;
-    from_table(&table, buildings)
+    let read = reader
+        .document("write key=value as in the case file, texts in quotes, such as --set 'soil_zone=\"II\"'")
+        .map(|tree| {
+            let keys = schema::SEPARATION;
+            let table = Table::new(reader, tree.get_ref(), 0..0, "[separation]", keys);
+            from_table(&table, buildings)
+        });
+    errors.finish(read)
 }
 
-fn from_table(table: &Table<'_, '_>, buildings: usize) -> Result<Separation, CaseError> {
+fn from_table(table: &Table<'_, '_>, buildings: usize) -> Separation {
     let reader = &table.reader;
-    let numbers = |key: &str, dimension: Dimension| -> Result<Option<Vec<f64>>, CaseError> {
-        let Some(value) = table.get(key) else {
-            return Ok(None);
-        };
+    let keep = reader.errors;
+    let numbers = |key: &str, dimension: Dimension| -> Option<Vec<f64>> {
         let read = |v: &Value<'_>| reader.positive(v, key, dimension);
-        let list = reader.list(value, key, read)?;
-        spread(reader, list, buildings, "building").map(Some)
+        let list = keep.keep(reader.list(table.get(key)?, key, read))?;
+        keep.keep(spread(reader, list, buildings, "building"))
     };
-    let flag = |key: &str| -> Result<Option<bool>, CaseError> {
-        table.get(key).map(|v| reader.boolean(v, key)).transpose()
+    let flag = |key: &str| {
+        table
+            .get(key)
+            .and_then(|v| keep.keep(reader.boolean(v, key)))
     };
-    Ok(Separation {
-        response_modification: numbers("response_modification", Dimension::NUMBER)?,
-        displacement_amplification: numbers("displacement_amplification", Dimension::NUMBER)?,
-        importance: numbers("importance", Dimension::NUMBER)?,
-        yield_amplification: numbers("yield_amplification", Dimension::NUMBER)?,
-        ductility: numbers("ductility", Dimension::NUMBER)?,
-        structural_system: texts(table, "structural_system", Some(buildings))?,
-        floors_aligned: flag("floors_aligned")?,
-        same_owner: flag("same_owner")?,
+    let texts = |key: &str, count| keep.or_default(texts(table, key, count));
+    Separation {
+        response_modification: numbers("response_modification", Dimension::NUMBER),
+        displacement_amplification: numbers("displacement_amplification", Dimension::NUMBER),
+        importance: numbers("importance", Dimension::NUMBER),
+        yield_amplification: numbers("yield_amplification", Dimension::NUMBER),
+        ductility: numbers("ductility", Dimension::NUMBER),
+        structural_system: texts("structural_system", Some(buildings)),
+        floors_aligned: flag("floors_aligned"),
+        same_owner: flag("same_owner"),
         fortification_intensity: table
             .get("fortification_intensity")
-            .map(|v| reader.count(v, "fortification_intensity", 1))
-            .transpose()?,
-        soil_zone: table.optional_text("soil_zone")?,
-        design_ground_acceleration: table
-            .optional_positive("design_ground_acceleration", Dimension::ACCELERATION)?,
-        seismic_coefficient: table.optional_positive("seismic_coefficient", Dimension::NUMBER)?,
-        provisions: texts(table, "provisions", None)?,
-    })
+            .and_then(|v| keep.keep(reader.count(v, "fortification_intensity", 1))),
+        soil_zone: keep.or_default(table.optional_text("soil_zone")),
+        design_ground_acceleration: keep.or_default(
+            table.optional_positive("design_ground_acceleration", Dimension::ACCELERATION),
+        ),
+        seismic_coefficient: keep
+            .or_default(table.optional_positive("seismic_coefficient", Dimension::NUMBER)),
+        provisions: texts("provisions", None),
+    }
 }
 
 /// A text for all, or a list of texts; of this length, if one is given.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::quantities::{number, velocity};
+use super::quantities::{figure_file, number, velocity};
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
@@ -33,7 +33,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Draw peaks over the models into this SVG file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::quantities::number;
+use super::quantities::{figure_file, number};
 
 /// Arguments of `gap`.
 #[derive(Debug, clap::Args)]
@@ -47,7 +47,7 @@ pub struct GapArguments {
     #[arg(long, value_name = "FILE")]
     pub codes_csv: Option<PathBuf>,
     /// Draw amplification over the width into this SVG file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]

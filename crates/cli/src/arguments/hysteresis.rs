@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::quantities::figure_file;
+
 /// Arguments of `hysteresis`.
 #[derive(Debug, clap::Args)]
 pub struct HysteresisArguments {
@@ -64,7 +66,7 @@ pub struct HysteresisArguments {
     #[arg(long, requires = "law")]
     pub csv: Option<PathBuf>,
     /// Draw the loop and the dissipation curve into this SVG file
-    #[arg(long, requires = "law")]
+    #[arg(long, value_parser = figure_file(), requires = "law")]
     pub svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]

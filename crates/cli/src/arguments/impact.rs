@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::quantities::figure_file;
+
 use super::ImpactCommand;
 
 /// Arguments of `impact`. A subcommand beside the models needs none of them.
@@ -69,7 +71,7 @@ pub struct ImpactArguments {
     #[arg(long)]
     pub csv: Option<PathBuf>,
     /// Draw the histories, or the table, into this SVG file
-    #[arg(long)]
+    #[arg(long, value_parser = figure_file())]
     pub svg: Option<PathBuf>,
     /// Compare with a measured force history: columns time, force with units in the header
     #[arg(long, value_name = "FILE", conflicts_with = "table")]

@@ -10,6 +10,8 @@ use clap::{Subcommand, ValueEnum};
 pub use generators::*;
 pub use steps::StepArguments;
 
+use super::quantities::figure_file;
+
 /// What to do with recorded and made motions.
 #[derive(Debug, Subcommand)]
 pub enum MotionCommand {
@@ -99,7 +101,7 @@ pub struct InfoArguments {
     #[arg(long)]
     pub csv: Option<PathBuf>,
     /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
-    #[arg(long)]
+    #[arg(long, value_parser = figure_file())]
     pub svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
@@ -159,7 +161,7 @@ pub struct SpectrumArguments {
     #[arg(long)]
     pub csv: Option<PathBuf>,
     /// Draw the spectra into this SVG file
-    #[arg(long)]
+    #[arg(long, value_parser = figure_file())]
     pub svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
@@ -218,7 +220,7 @@ pub struct OutputArguments {
     #[arg(short, long)]
     pub output: PathBuf,
     /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
-    #[arg(long)]
+    #[arg(long, value_parser = figure_file())]
     pub svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]

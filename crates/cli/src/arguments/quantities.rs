@@ -1,5 +1,8 @@
-//! Values of arguments that are texts with units.
+//! Values of arguments: texts with units, names of figures.
 
+use std::path::PathBuf;
+
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use pounding_case::{Dimension, parse_quantity};
 
 /// A number without dimension, such as `0.1` or `10 %`.
@@ -10,6 +13,18 @@ pub fn number(text: &str) -> Result<f64, String> {
 /// A velocity (m/s), such as `0.5 m/s` or `50 cm/s`.
 pub fn velocity(text: &str) -> Result<f64, String> {
     of_dimension(text, Dimension::VELOCITY)
+}
+
+/// A file for a figure: figures are SVG, and the name says so.
+pub fn figure_file() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+        if svg {
+            Ok(path)
+        } else {
+            Err("figures are written as SVG: give a name that ends in .svg, and convert the file for other formats")
+        }
+    })
 }
 
 fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {

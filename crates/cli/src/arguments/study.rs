@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::quantities::figure_file;
+
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
 pub struct SweepArguments {
@@ -76,7 +78,7 @@ pub struct IdaArguments {
     #[arg(long, value_name = "FILE")]
     pub table: Option<PathBuf>,
     /// Draw fragilities and frequencies into this SVG file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Print one JSON object instead of tables
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! `pounding impact calibrate`: the factor alpha of papi_toopchi_2022.
 
-use comfy_table::Table;
+use crate::tables::Table;
 use pounding_case::Dimension;
 use pounding_gap_element::calibration::{
     Calibration, CalibrationError, CalibrationStep, DropTest, calibrate as search,

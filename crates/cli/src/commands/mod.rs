@@ -56,7 +56,8 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
 
 /// Prints to standard output. A reader that closed the pipe has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(std::io::stdout().lock(), "{}", text.trim_end()) {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         Err(e) => Err(Failure::output(&e, "to standard output")),
         Ok(()) => Ok(()),

@@ -65,10 +65,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// Reads and validates a case file.
 pub fn read_case(path: &Path) -> Result<Case, Failure> {
-    Case::read(path).map_err(|e| {
-        let source = pounding_case::read_text(path).unwrap_or_default();
-        Failure::case(e, &source)
-    })
+    // Read once: a pipe has nothing to give a second time.
+    let source = pounding_case::read_text(path, "case").map_err(|e| Failure::case(e, ""))?;
+    Case::parse(&source, path).map_err(|e| Failure::case(e, &source))
 }
 
 fn output_path(arguments: &RunArguments) -> PathBuf {

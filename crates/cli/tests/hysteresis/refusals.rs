@@ -128,7 +128,7 @@ fn motions_that_make_no_sense_are_refused() {
     refused("bilinear --cycles 1mm --steps 0", &["--steps"]);
     refused("--cycles 1mm", &["LAW"]);
     refused(
-        "bilinear --cycles 1mm --csv a --svg a",
+        "bilinear --cycles 1mm --csv a.svg --svg a.svg",
         &["name the same file"],
     );
     refused("bilinear --cycles 1mm --history a.csv", &["--history"]);

@@ -129,14 +129,14 @@ fn bad_arguments() {
 #[test]
 fn output_replaces_files_only() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::create_dir(folder.path().join("taken")).unwrap();
+    std::fs::create_dir(folder.path().join("taken.svg")).unwrap();
     for option in ["--csv", "--svg"] {
-        let arguments = format!("exact_hunt_crossley|--example|{option}|taken");
+        let arguments = format!("exact_hunt_crossley|--example|{option}|taken.svg");
         refused_with(
             folder.path(),
             &arguments,
             4,
-            &["cannot write taken", "not a regular file"],
+            &["cannot write taken.svg", "not a regular file"],
         );
     }
     let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();

@@ -91,14 +91,7 @@ fn channel(
         unit: None,
         shift: 0.0,
     });
-    if let (Some(length), Times::Step(Some(step))) = (reals.positive(63), &draft.times)
-        && (length - draft.samples.len() as f64 * step).abs() > 1.5 * step
-    {
-        draft.warnings.push(format!(
-            "the header says {length} s, the samples last {} s",
-            draft.samples.len() as f64 * step
-        ));
-    }
+    draft.header_duration = reals.positive(63);
     Ok(draft)
 }
 

@@ -15,6 +15,7 @@ use crate::text::Line;
 struct Header {
     step: Option<f64>,
     count: Option<usize>,
+    duration: Option<f64>,
     unit: Option<SeriesUnit>,
     quantity: Option<Quantity>,
     peak: Option<(f64, f64)>,
@@ -63,6 +64,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = header.count;
+    draft.header_duration = header.duration;
     draft.component = header.stream;
     draft.title = format!("{}; {}", header.event, header.station);
     draft.start_time = header.start;
@@ -106,6 +108,7 @@ impl Header {
             "SAMPLING_INTERVAL_S" => {
                 self.step = Some(source.number(line, key.len() + 2, value.as_bytes())?);
             }
+            "DURATION_S" => self.duration = first.map(|n| n.0).filter(|d| *d > 0.0),
             "NDATA" => {
                 self.count = Some(value.parse().map_err(|_| {
                     source.error(

@@ -152,6 +152,9 @@ fn block(
         (header.reals.first + 2, first, lines.number()),
     );
     draft.header_count = Some(count);
+    // "Number of points  5800    Duration 115.98 sec", pads included.
+    let stated = number::after(&header.text[9].lower(), "duration").map(|n| n.0);
+    draft.header_duration = stated.filter(|d| *d > 0.0);
     let step = header.reals.positive(26);
     draft.times = Times::Step(step);
     let component = header.text[12].text();

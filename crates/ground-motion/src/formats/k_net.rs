@@ -76,6 +76,24 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             }
         }
     }
+    // A whole number of seconds: the count follows from it, so that what is more than a
+    // second too many belongs to another rate or duration.
+    if let Some(duration) = header.duration
+        && !source.options.lenient
+    {
+        let found = samples.len() as f64 / frequency;
+        if found > 1.01 * duration && found > duration + 1.0 {
+            return Err(source.error(
+                end,
+                0,
+                format!(
+                    "the header says a duration of {duration} s, but {} samples at {frequency} Hz last {found} s",
+                    samples.len()
+                ),
+                "duration or sampling frequency of the header is wrong: get the record again, or set `lenient = true`",
+            ));
+        }
+    }
     let mut draft = Draft::new(
         samples,
         DraftUnit::Scaled(SeriesUnit::CM_S2, scale),

@@ -1,6 +1,7 @@
 //! Plain columns of numbers: one column, a series wrapped along the rows, times
 //! and one or more series, `npts dt` before the values, card images with row
-//! numbers; with any number of comment and text lines before them.
+//! numbers; with any number of comment and text lines before them, of which one may name
+//! the columns with their units.
 
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
@@ -10,9 +11,15 @@ use crate::source::Source;
 use crate::text::Line;
 use crate::time_column::TimeColumn;
 
+mod decimal;
+mod header;
 mod survey;
 
+use header::{Header, Role};
 use survey::{Arrangement, Survey};
+
+use super::pounding_csv::Keys;
+use crate::quantity::SeriesUnit;
 
 const COMMENTS: [&[u8]; 6] = [b"#", b"%", b"*", b"!", b"//", b"$"];
 /// Names of columns that are not accelerations.
@@ -36,7 +43,15 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
             bytes: l.bytes.get(columns..).unwrap_or(&[]),
         })
         .filter(|l| !l.is_blank() && !is_comment(l))
-        .skip_while(Line::is_text)
+        .skip_while(|l| l.is_text() || header::parse(l).is_some())
+}
+
+/// The line before the rows, comments among them, that names their columns.
+fn header(source: &Source<'_>) -> Option<Header> {
+    let first = rows(source).next()?.number;
+    let before = source.lines().skip(source.options.skip_lines);
+    let before = before.take_while(|l| l.number < first);
+    before.filter_map(|l| header::parse(&l)).last()
 }
 
 /// Damaged and touching values are numbers to detection: the reader names them.
@@ -54,6 +69,21 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
 }
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let header = header(source);
+    let bytes = decimal::with_points(source, header.as_ref())?;
+    let pointed = Source::new(source.file, &bytes, source.options);
+    let series = numbers(&pointed, header.as_ref())?;
+    for warning in pointed.warnings() {
+        source.warn(&warning);
+    }
+    Ok(series)
+}
+
+/// Reads numbers with decimal points.
+fn numbers(
+    source: &Source<'_>,
+    header: Option<&Header>,
+) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(text) = &source.options.layout {
         if let Some(layout) = Layout::parse(text) {
             return fixed(source, layout);
@@ -64,15 +94,120 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             return wrapped(source, &survey, None);
         }
         let survey = Survey::new(source, true)?;
-        return columns(source, &survey, &names);
+        return columns(source, &survey, &Columns::new(names, header), &Keys::default());
+    }
+    if let Some(header) = header {
+        let survey = Survey::new(source, true)?;
+        return headed(source, &survey, header);
     }
     let survey = Survey::new(source, false)?;
     match survey.arrangement(source)? {
         Arrangement::Wrapped => wrapped(source, &survey, None),
         Arrangement::CountAndStep(count, step) => wrapped(source, &survey, Some((count, step))),
-        Arrangement::Columns(names) => columns(source, &survey, &names),
+        Arrangement::Columns(names) => columns(source, &survey, &Columns::new(names, None), &Keys::default()),
         Arrangement::Cards => cards(source, &survey),
     }
+}
+
+/// Columns by name, as they stand in the rows.
+struct Columns {
+    names: Vec<String>,
+    /// Unit of each, where the file states it.
+    units: Vec<Option<SeriesUnit>>,
+    /// One unit of the times (s).
+    time_unit: f64,
+    /// Whether pairs `t,a` may follow one another along a row.
+    pairs: bool,
+}
+
+impl Columns {
+    /// Columns that the user or the numbers name; units are those of a header that has as
+    /// many columns.
+    fn new(names: Vec<String>, header: Option<&Header>) -> Self {
+        let roles = header.map_or(&[][..], |h| &h.columns);
+        let roles = if roles.len() == names.len() { roles } else { &[] };
+        let mut columns = Self::of_roles(roles);
+        columns.units.resize(names.len(), None);
+        columns.pairs = names.len() == 2 && names[0] == "t" && header.is_none();
+        columns.names = names;
+        columns
+    }
+
+    fn of_roles(roles: &[Role]) -> Self {
+        let several = roles.iter().filter(|r| matches!(r, Role::Acceleration(..))).count() > 1;
+        let mut columns = Self {
+            names: Vec::new(),
+            units: Vec::new(),
+            time_unit: 1.0,
+            pairs: false,
+        };
+        for (k, role) in roles.iter().enumerate() {
+            let (name, unit) = match role {
+                Role::Time(unit) => {
+                    columns.time_unit = *unit;
+                    ("t".to_owned(), None)
+                }
+                // Names that mean something else here, or stand twice.
+                Role::Acceleration(name, unit) if several => {
+                    let taken = ["t", "v", "d"].contains(&name.as_str())
+                        || OTHERS.contains(&name.as_str())
+                        || columns.names.contains(name);
+                    let name = if taken { format!("column_{}", k + 1) } else { name.clone() };
+                    (name, *unit)
+                }
+                Role::Acceleration(_, unit) => ("a".to_owned(), *unit),
+                Role::Other => ("-".to_owned(), None),
+            };
+            columns.names.push(name);
+            columns.units.push(unit);
+        }
+        columns
+    }
+}
+
+/// Columns that a header names, held against the key lines before it.
+fn headed(
+    source: &Source<'_>,
+    survey: &Survey,
+    header: &Header,
+) -> Result<Vec<Series>, GroundMotionError> {
+    let keys = Keys::before(source, header.line);
+    let columns = Columns::of_roles(&header.columns);
+    for unit in columns.units.iter().flatten() {
+        keys.agree(source, *unit, &header.text)?;
+    }
+    if columns.names == ["a"] {
+        // Values may follow one another along the rows.
+        let samples = along(source, survey, 0)?;
+        let unit = columns.units[0].map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
+        draft.times = Times::Step(keys.step(source, None)?);
+        draft.component = "a".to_owned();
+        let mut series = draft.finish(source)?;
+        keys.tell(&mut series.origin);
+        return Ok(vec![series]);
+    }
+    let row = rows(source).find(|l| l.fields().count() != columns.names.len());
+    if let Some(row) = row {
+        let found = row.fields().count();
+        let twice = found == 2 * columns.names.len() && !row.bytes.contains(&b'.');
+        return Err(source.error(
+            row.number,
+            0,
+            format!(
+                "{found} numbers where the header \"{}\" names {} columns{}",
+                header.text,
+                columns.names.len(),
+                if twice { ": commas both within numbers and between them?" } else { "" }
+            ),
+            "correct the row or the header; with decimal commas separate the columns by semicolons or tabs",
+        ));
+    }
+    let mut series = self::columns(source, survey, &columns, &keys)?;
+    for one in &mut series {
+        keys.tell(&mut one.origin);
+    }
+    Ok(series)
 }
 
 /// A series along rows of fixed width.
@@ -99,13 +234,7 @@ fn wrapped(
     survey: &Survey,
     head: Option<(usize, f64)>,
 ) -> Result<Vec<Series>, GroundMotionError> {
-    let mut samples = Vec::with_capacity(survey.numbers);
-    for line in rows(source).skip(usize::from(head.is_some())) {
-        for (column, field) in line.fields() {
-            let column = column + source.options.skip_columns;
-            samples.push(source.number(line, column, field)?);
-        }
-    }
+    let samples = along(source, survey, usize::from(head.is_some()))?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Unstated,
@@ -116,6 +245,22 @@ fn wrapped(
         draft.times = Times::Step(Some(step));
     }
     Ok(vec![draft.finish(source)?])
+}
+
+/// All numbers of the rows after the first few.
+fn along(
+    source: &Source<'_>,
+    survey: &Survey,
+    skipped: usize,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let mut samples = Vec::with_capacity(survey.numbers);
+    for line in rows(source).skip(skipped) {
+        for (column, field) in line.fields() {
+            let column = column + source.options.skip_columns;
+            samples.push(source.number(line, column, field)?);
+        }
+    }
+    Ok(samples)
 }
 
 /// Card images: the last number of each row is the row's.
@@ -145,9 +290,10 @@ fn cards(source: &Source<'_>, survey: &Survey) -> Result<Vec<Series>, GroundMoti
 fn columns(
     source: &Source<'_>,
     survey: &Survey,
-    names: &[String],
+    columns: &Columns,
+    keys: &Keys,
 ) -> Result<Vec<Series>, GroundMotionError> {
-    let pairs = names.len() == 2 && names[0] == "t";
+    let (names, pairs) = (columns.names.as_slice(), columns.pairs);
     let count = survey.numbers / names.len() + 1;
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
     for (name, column) in names.iter().zip(&mut values) {
@@ -155,7 +301,7 @@ fn columns(
             column.reserve_exact(count);
         }
     }
-    let mut times = TimeColumn::with_capacity(count);
+    let mut times = TimeColumn::with_capacity(count).in_unit(columns.time_unit);
     for line in rows(source) {
         let found = line.fields().count();
         if found != names.len() && !(pairs && found.is_multiple_of(2)) {
@@ -187,14 +333,18 @@ fn columns(
     } else {
         Times::Step(None)
     };
+    let times = match times {
+        Times::Step(found) => Times::Step(keys.step(source, found)?),
+        each => each,
+    };
     let mut series = Vec::new();
-    for (name, samples) in names.iter().zip(values) {
+    for ((name, unit), samples) in names.iter().zip(&columns.units).zip(values) {
         if name == "t" || is_other(names, name) {
             continue;
         }
         let mut draft = Draft::new(
             samples,
-            DraftUnit::Unstated,
+            unit.map_or(DraftUnit::Unstated, DraftUnit::Stated),
             (survey.first, survey.first, survey.last),
         );
         draft.component.clone_from(name);

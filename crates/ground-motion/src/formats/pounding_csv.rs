@@ -1,25 +1,28 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
 use crate::draft::{Draft, DraftUnit, Times};
+use crate::accelerogram::Origin;
 use crate::error::{GroundMotionError, bound};
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::time_column::TimeColumn;
 use crate::unit::AccelerationUnit;
 
-const REMEDY: &str = "the layout is in ground_motions/README.md";
+const REMEDY: &str = "the layout is in ground_motions/README.md; decimal commas need semicolons or tabs between the columns, also in the header";
 const START: &str = "time_s,acceleration_";
 
 /// `# Key: value` lines that mean something.
 #[derive(Default)]
-struct Keys {
+pub(super) struct Keys {
     title: Vec<String>,
     component: String,
     history: Vec<String>,
     unit: Option<(usize, String)>,
-    step: Option<f64>,
+    /// Time step (s) and its line.
+    step: Option<(usize, f64)>,
 }
 
 pub(crate) fn matches(source: &Source<'_>) -> bool {
@@ -50,39 +53,88 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         ));
     };
     let unit = unit_of_header(suffix)?;
-    if let Some((line, stated)) = &keys.unit {
-        let other: AccelerationUnit = stated.parse()?;
-        if other != unit {
-            return Err(source.error(
-                *line,
-                0,
-                format!("unit \"{stated}\" contradicts the column header \"{text}\""),
-                "make both the same",
-            ));
-        }
+    if let Some((_, stated)) = &keys.unit {
+        // A word that is no unit is wrong here, where the key is part of the layout.
+        let _: AccelerationUnit = stated.parse()?;
     }
-    let Some(step) = keys.step.or(source.options.time_step) else {
-        return Err(GroundMotionError::MissingTimeStep {
-            file: source.file.to_owned(),
-            line: header.number,
-        });
-    };
+    keys.agree(source, SeriesUnit::from(unit), &text)?;
+    let step = keys.step.map(|s| s.1);
     let first = lines.number() + 1;
-    let samples = rows(source, &mut lines, step)?;
+    let mut times = TimeColumn::with_capacity(0);
+    let samples = rows(source, &mut lines, step.or(source.options.time_step), &mut times)?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Stated(SeriesUnit::from(unit)),
         (header.number, first, lines.number()),
     );
-    draft.times = Times::Step(keys.step);
-    draft.title = keys.title.join("; ");
-    draft.component = keys.component;
+    draft.times = match step.or(source.options.time_step) {
+        Some(_) => Times::Step(step),
+        None => times.finish(&mut draft.warnings),
+    };
+    draft.component.clone_from(&keys.component);
     let mut series = draft.finish(source)?;
-    series.origin.history = keys.history;
+    keys.tell(&mut series.origin);
     Ok(vec![series])
 }
 
 impl Keys {
+    /// The keys in the comments before a line, for a file whose comments need not be of this
+    /// layout: what is none of its keys means nothing.
+    pub(super) fn before(source: &Source<'_>, line: usize) -> Self {
+        let mut keys = Self::default();
+        let comments = source.lines().take_while(|l| l.number < line);
+        for comment in comments.filter(|l| l.bytes.starts_with(b"#")) {
+            let _ = keys.take(source, comment);
+        }
+        keys
+    }
+
+    /// Refuses a unit in the keys other than that of the column header.
+    pub(super) fn agree(
+        &self,
+        source: &Source<'_>,
+        unit: SeriesUnit,
+        header: &str,
+    ) -> Result<(), GroundMotionError> {
+        match &self.unit {
+            Some((line, stated)) if SeriesUnit::parse(stated).is_some_and(|s| s != unit) => {
+                Err(source.error(
+                    *line,
+                    0,
+                    format!("unit \"{stated}\" contradicts the column header \"{header}\""),
+                    "make both the same",
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The time step (s) of the keys, which that of a column of times must not contradict.
+    pub(super) fn step(
+        &self,
+        source: &Source<'_>,
+        found: Option<f64>,
+    ) -> Result<Option<f64>, GroundMotionError> {
+        match (self.step, found) {
+            (Some((line, stated)), Some(found)) if (found - stated).abs() > 0.01 * stated.abs() => {
+                Err(source.error(
+                    line,
+                    0,
+                    format!("dt = {stated} s, but the times are {} s apart", bound(found)),
+                    "make both the same",
+                ))
+            }
+            (Some((_, stated)), _) => Ok(Some(stated)),
+            (None, found) => Ok(found),
+        }
+    }
+
+    /// What they say of the record's origin.
+    pub(super) fn tell(&self, origin: &mut Origin) {
+        origin.title = self.title.join("; ");
+        origin.history.clone_from(&self.history);
+    }
+
     fn take(&mut self, source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
         let text = line.columns(1, line.bytes.len());
         let Some((key, value)) = text.split_once(':') else {
@@ -96,7 +148,7 @@ impl Keys {
             "Unit" => self.unit = Some((line.number, value.to_owned())),
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);
-                self.step = Some(source.number(line, 0, number.as_bytes())?);
+                self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));
             }
             _ => {}
         }
@@ -115,7 +167,8 @@ fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {
 fn rows(
     source: &Source<'_>,
     lines: &mut Lines<'_>,
-    step: f64,
+    step: Option<f64>,
+    times: &mut TimeColumn,
 ) -> Result<Vec<f64>, GroundMotionError> {
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
     for line in lines {
@@ -124,15 +177,20 @@ fn rows(
         }
         let mut row = line.bytes.split(|b| *b == b',');
         let (Some(time), Some(value), None) = (row.next(), row.next(), row.next()) else {
-            return Err(source.error(
-                line.number,
-                0,
-                "there must be two columns, time and acceleration",
-                REMEDY,
-            ));
+            let message = if line.bytes.contains(&b'.') {
+                "there must be two columns, time and acceleration, with a comma between them"
+            } else {
+                "there must be two columns, time and acceleration: is the comma both between them and within numbers?"
+            };
+            return Err(source.error(line.number, 0, message, REMEDY));
+        };
+        let found = source.number(line, 0, time)?;
+        let Some(step) = step else {
+            times.push(found, time);
+            samples.push(source.number(line, time.len() + 1, value)?);
+            continue;
         };
         let expected = samples.len() as f64 * step;
-        let found = source.number(line, 0, time)?;
         // Half the step, or what the time's digits leave open.
         if (found - expected).abs() > (0.51 * step).min(1.01 * number::resolution(time) + 1e-9) {
             return Err(source.error(

@@ -117,15 +117,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         Times::Step(step)
     };
     let ends = words.float(6).zip(words.float(5)).map(|(e, b)| e - b);
-    if let (Some(length), Some(step)) = (ends, step)
-        && !uneven
-        && (length - (count - 1) as f64 * step).abs() > 0.5 * step + 1.0e-6 * length.abs()
-    {
-        draft.warnings.push(format!(
-            "the header says {length} s from first to last sample, count and step {} s",
-            (count - 1) as f64 * step
-        ));
-    }
+    draft.header_duration = ends.filter(|length| !uneven && *length > 0.0);
     // Version 7 has 22 doubles after the data.
     if words.integer(VERSION) == 6 && present > count {
         draft.warnings.push(format!(

@@ -78,6 +78,7 @@ pub fn csmip_1(written: i64) -> Vec<Fixture> {
     vec![
         fixture("csmip_v1_pairs", Format::CsmipV1, old, found),
         csmip_1_even(written),
+        csmip_1_spaced(written),
     ]
 }
 
@@ -108,6 +109,30 @@ fn csmip_1_even(written: i64) -> Fixture {
     ));
     let found = vec![truth(ACC, "360 deg", &printed, G, 0.01)];
     fixture("csmip_v1_even", Format::CsmipV1, text, found)
+}
+
+/// The line before the data states the step, not the rate.
+fn csmip_1_spaced(written: i64) -> Fixture {
+    let (data, printed) = block(&signal(-1.9, 0.6), 8, 9, 6);
+    let most = peak(&printed);
+    let mut text = volume_1_text(
+        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 01/01/00, CDMG 00000",
+        "CHAN  1:  90 DEG",
+        written,
+        &format!(
+            "UNITS OF UNCOR ACCEL IS G.                 MAX  = {:.3} G, AT {:.3} SEC.",
+            most.0,
+            most.1 as f64 * 0.005
+        ),
+    )
+    .replace(".110 SEC", ".110 SEC   AT 200 SAMPLES/SEC");
+    text.push_str(&integers(100, 16, 5, 0, &[(27, 90), (28, written)]));
+    text.push_str(&reals(50, 8, 10, 3, 0.0, &[(3, 0.11), (5, 1.0)]));
+    text.push_str(&format!(
+        "{written:>5} POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)\n{data}/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n"
+    ));
+    let found = vec![truth(ACC, "90 deg", &printed, G, 0.005)];
+    fixture("csmip_v1_spaced", Format::CsmipV1, text, found)
 }
 
 pub fn caltech_1(written: i64) -> Vec<Fixture> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_case::{Dimension, parse_quantity};
+use pounding_case::{Dimension, parse_quantity, read_text};
 
 use super::IntensityMeasure;
 
@@ -49,51 +49,79 @@ struct Table<'t> {
 /// Reads points from a file of two columns; lines that start with `#` are comments. A
 /// header names them with their units, in either order; without one the first line is a
 /// point already: intensity in SI, frequency in 1/year.
-pub(super) fn read(path: &Path, measure: &IntensityMeasure) -> Result<Vec<(f64, f64)>, Refusal> {
+///
+/// # Errors
+/// All that is wrong in the file, each with its line.
+pub(super) fn read(
+    path: &Path,
+    measure: &IntensityMeasure,
+) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|e| {
-        let help = "a path in a study is relative to the folder of the study";
-        (format!("cannot read {file}: {e}"), help.to_owned())
+    let text = read_text(path, "hazard").map_err(|e| {
+        let relative = "a path in a study is relative to the folder of the study".to_owned();
+        let help = match path.is_file() {
+            true => e.help.clone().unwrap_or(relative),
+            false => relative,
+        };
+        vec![(e.to_string(), help)]
     })?;
     Table { file, measure }.points(text.trim_start_matches('\u{feff}'))
 }
 
 impl Table<'_> {
-    fn points(&self, text: &str) -> Result<Vec<(f64, f64)>, Refusal> {
+    fn points(&self, text: &str) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
         let mut columns = None;
-        let mut points = Vec::new();
+        let (mut points, mut wrong) = (Vec::new(), Vec::new());
         for (line, content) in text.lines().enumerate() {
             if content.trim().is_empty() || content.trim_start().starts_with('#') {
                 continue;
             }
-            let separator = ['\t', ';', ','].into_iter().find(|s| content.contains(*s));
-            let fields: Vec<&str> = match separator {
-                Some(separator) => content.split(separator).collect(),
-                None => content.split_whitespace().collect(),
-            };
-            let [a, b] = fields[..] else {
-                let message = format!("there are {} columns here", fields.len());
-                let help = "give two columns, intensity and mean annual frequency, separated by commas, with decimal points";
-                return Err(self.wrong(line, &message, help));
-            };
-            let cells = [a, b].map(|f| f.trim().trim_matches('"').trim());
-            let Some(columns) = columns else {
-                // A damaged number is still none of a header's words.
-                if cells.iter().any(|c| looks_numeric(c)) {
-                    columns = Some([Column::Intensity(1.0), Column::Frequency]);
-                    points.push(self.point(
-                        line,
-                        cells,
-                        [Column::Intensity(1.0), Column::Frequency],
-                    )?);
-                } else {
-                    columns = Some(self.header(line, cells)?);
-                }
-                continue;
-            };
-            points.push(self.point(line, cells, columns)?);
+            match self.line(line, content, &mut columns) {
+                Ok(point) => points.extend(point),
+                Err(refusal) => wrong.push(refusal),
+            }
+            // Without its header no line can be read.
+            if columns.is_none() {
+                break;
+            }
         }
-        Ok(points)
+        if wrong.is_empty() {
+            Ok(points)
+        } else {
+            Err(wrong)
+        }
+    }
+
+    /// A line: a point, or the header, which says what the columns are.
+    fn line(
+        &self,
+        line: usize,
+        content: &str,
+        columns: &mut Option<[Column; 2]>,
+    ) -> Result<Option<(f64, f64)>, Refusal> {
+        let separator = ['\t', ';', ','].into_iter().find(|s| content.contains(*s));
+        let fields: Vec<&str> = match separator {
+            Some(separator) => content.split(separator).collect(),
+            None => content.split_whitespace().collect(),
+        };
+        let [a, b] = fields[..] else {
+            let message = format!("there are {} columns here", fields.len());
+            let help = "give two columns, intensity and mean annual frequency, separated by commas, with decimal points";
+            return Err(self.wrong(line, &message, help));
+        };
+        let cells = [a, b].map(|f| f.trim().trim_matches('"').trim());
+        let known = match *columns {
+            Some(known) => known,
+            // A damaged number is still none of a header's words.
+            None if cells.iter().any(|c| looks_numeric(c)) => {
+                *columns.insert([Column::Intensity(1.0), Column::Frequency])
+            }
+            None => {
+                *columns = Some(self.header(line, cells)?);
+                return Ok(None);
+            }
+        };
+        self.point(line, cells, known).map(Some)
     }
 
     fn wrong(&self, line: usize, message: &str, help: &str) -> Refusal {
@@ -272,7 +300,7 @@ mod tests {
         }
     }
 
-    fn of(measure: &IntensityMeasure, text: &str) -> Result<Vec<(f64, f64)>, Refusal> {
+    fn of(measure: &IntensityMeasure, text: &str) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
         let file = "hazard.csv".to_owned();
         Table { file, measure }.points(text)
     }
@@ -342,7 +370,10 @@ mod tests {
             ("0.5,1e-2,3\n", 1, "3 columns"),
             ("0.5,nan\n", 1, "not a finite number"),
         ] {
-            let (message, help) = of(&spectral(), text).unwrap_err();
+            let refusals = of(&spectral(), text).unwrap_err();
+            let [(message, help)] = refusals.as_slice() else {
+                panic!("{text}: {refusals:?}");
+            };
             assert!(
                 message.starts_with(&format!("hazard.csv:{line}: ")),
                 "{message}"

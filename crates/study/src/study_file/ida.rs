@@ -114,42 +114,49 @@ pub(super) fn settings(
     let (record, intensity, measure) = variables;
     let limits = table.get("limit").map_or(Ok(Vec::new()), |v| {
         let items = reader.list(v, "limit")?;
-        items.iter().map(|item| limit(reader, item, base)).collect()
-    })?;
+        reader.all(items.iter().map(|item| limit(reader, item, base)))
+    });
+    let limits = reader.keep(limits)?;
     let hazard = table
         .get("hazard")
-        .map(|v| hazard(reader, v, &measure, folder))
-        .transpose()?;
+        .map(|v| hazard(reader, v, &measure, folder));
+    let hazard = reader.keep(hazard.transpose())?;
     let per_year = |v: &Value<'_>| reader.positive(v, "target_frequency", Dimension::NUMBER);
-    let target_frequency = table.get("target_frequency").map(per_year).transpose()?;
-    if let (Some(v), None) = (table.get("target_frequency"), &hazard) {
-        return Err(reader.error(
+    let target_frequency = table.get("target_frequency").map(per_year).transpose();
+    let target_frequency = reader.keep(target_frequency)?;
+    if let (Some(v), None) = (table.get("target_frequency"), table.get("hazard")) {
+        reader.keep(Err::<(), _>(reader.error(
             v.span(),
             "a target frequency needs a hazard curve",
             "add `hazard = [[intensity, frequency], ...]` or the name of a CSV file",
-        ));
+        )))?;
     }
-    let confidence = match table.get("confidence") {
-        Some(v) => {
-            let c = reader.positive(v, "confidence", Dimension::NUMBER)?;
-            if c >= 1.0 {
-                return Err(reader.error(
-                    v.span(),
-                    "`confidence` lies between 0 and 1",
-                    "for example 0.95",
-                ));
-            }
-            c
+    let confidence = table.get("confidence").map_or(Ok(0.95), |v| {
+        let c = reader.positive(v, "confidence", Dimension::NUMBER)?;
+        if c < 1.0 {
+            return Ok(c);
         }
-        None => 0.95,
+        Err(reader.error(
+            v.span(),
+            "`confidence` lies between 0 and 1",
+            "for example 0.95",
+        ))
+    });
+    let confidence = reader.keep(confidence)?;
+    let gaps = table
+        .get("gaps")
+        .map_or(Ok(Vec::new()), |v| gaps(reader, v));
+    let gaps = reader.keep(gaps)?;
+    let (Some(gaps), Some(limits), Some(hazard), Some(target_frequency), Some(confidence)) =
+        (gaps, limits, hazard, target_frequency, confidence)
+    else {
+        return Err(reader.lost());
     };
     Ok(IdaSettings {
         record,
         intensity,
         measure,
-        gaps: table
-            .get("gaps")
-            .map_or(Ok(Vec::new()), |v| gaps(reader, v))?,
+        gaps,
         limits,
         hazard,
         target_frequency,
@@ -258,20 +265,23 @@ fn hazard(
         reader.error(value.span(), format!("the hazard curve: {reason}"), help)
     };
     let points = match value.get_ref().as_str() {
-        Some(name) => hazard_file::read(&folder.join(name), measure)
-            .map_err(|(message, help)| reader.error(value.span(), message, help))?,
-        None => {
-            let mut points = Vec::new();
-            for item in reader.list(value, "hazard")? {
-                match reader.list(item, "hazard")? {
-                    [a, b] => points.push((
-                        reader.positive(a, "hazard", measure.dimension())?,
-                        reader.positive(b, "hazard", Dimension::NUMBER)?,
-                    )),
-                    _ => return Err(wrong("a point is a pair".to_owned())),
-                }
+        Some(name) => hazard_file::read(&folder.join(name), measure).map_err(|refusals| {
+            let wrong = refusals.into_iter();
+            let wrong = wrong.map(|(m, help)| Err(reader.error(value.span(), m, help)));
+            match reader.all::<()>(wrong) {
+                Err(e) => e,
+                Ok(_) => reader.lost(),
             }
-            points
+        })?,
+        None => {
+            let point = |item| match reader.list(item, "hazard")? {
+                [a, b] => Ok((
+                    reader.positive(a, "hazard", measure.dimension())?,
+                    reader.positive(b, "hazard", Dimension::NUMBER)?,
+                )),
+                _ => Err(wrong("a point is a pair".to_owned())),
+            };
+            reader.all(reader.list(value, "hazard")?.iter().map(point))?
         }
     };
     HazardCurve::new(points).map_err(|e| wrong(e.to_string()))

@@ -112,13 +112,17 @@ impl Study {
     /// Reads a study and its case.
     ///
     /// # Errors
-    /// A file that cannot be read, or the first thing wrong in it, with its place. Every
+    /// A file that cannot be read, or all that is wrong in it, with its places. Every
     /// value of every variable is tried in the case alone.
     pub fn read(path: &FilePath) -> Result<Self, StudyError> {
-        let source = std::fs::read_to_string(path).map_err(|source| StudyError::File {
-            what: "read the study file",
-            path: path.to_owned(),
-            source,
+        let source = pounding_case::read_text(path, "study").map_err(|mut error| {
+            if !path.is_file() {
+                error.help = Some("give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/studies.md says what stands in it".to_owned());
+            }
+            StudyError::Text {
+                error: Box::new(error),
+                source_text: String::new(),
+            }
         })?;
         Self::parse(&source, path)
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_case::Case;
+use pounding_case::{Case, CaseError, Errors};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use pounding_time_history::assemble_with_record;
 use toml::de::DeTable;
@@ -22,15 +22,62 @@ const CHUNK: usize = 256;
 
 pub(super) fn study(source: &str, file: &Path) -> Result<Study> {
     let name = file.display().to_string();
+    let errors = Errors::default();
     let reader = Reader {
         file: &name,
         source,
+        errors: &errors,
     };
-    let tree = DeTable::parse(source).map_err(|e| {
-        let message = format!("this is not TOML: {}", e.message());
-        reader.error(e.span().unwrap_or(0..0), message, "see docs/studies.md")
-    })?;
-    let root = Table::new(reader, tree.get_ref(), 0..0, "the study", &STUDY)?;
+    // What is wrong elsewhere, such as in the case, comes after all that is wrong here.
+    let (study, elsewhere) = match whole(&reader, file).map(|s| reader.keep(Ok(s))) {
+        Ok(study) => (study?, None),
+        Err(e) => match reader.keep(Err(e)) {
+            Ok(study) => (study, None),
+            Err(e) => (None, Some(e)),
+        },
+    };
+    let text = |error| StudyError::Text {
+        error: Box::new(error),
+        source_text: source.to_owned(),
+    };
+    errors.finish(Ok(())).map_err(text)?;
+    match (study, elsewhere) {
+        (Some(study), _) => Ok(study),
+        (None, Some(e)) => Err(e),
+        (None, None) => {
+            let error = CaseError::new(&name, source, 0..0, "the study cannot be read", None);
+            Err(text(error))
+        }
+    }
+}
+
+fn whole(reader: &Reader<'_>, file: &Path) -> Result<Study> {
+    let (tree, wrong) = DeTable::parse_recoverable(reader.source);
+    let mut starts: Vec<usize> = Vec::new();
+    for e in wrong {
+        let span = e.span().unwrap_or(0..0);
+        let line = reader.source[..span.start].matches('\n').count();
+        // What follows in the same line is mostly of the parser's own making.
+        if !starts.contains(&line) {
+            starts.push(line);
+            let message = format!("this is not TOML: {}", e.message());
+            reader.keep(Err::<(), _>(reader.error(
+                span,
+                message,
+                "see docs/studies.md",
+            )))?;
+        }
+    }
+    if !starts.is_empty() {
+        return Err(reader.lost());
+    }
+    let root = Table::open(*reader, tree.get_ref(), 0..0, "the study", &STUDY);
+    let title = reader.keep(
+        root.get("title")
+            .map(|v| reader.text(v, "title"))
+            .transpose(),
+    )?;
+    let output = reader.keep(output(&root))?;
     let folder = file.parent().unwrap_or(Path::new(""));
     let base = base(&root, folder)?;
     let first_periods = first_periods(&base)?;
@@ -40,25 +87,28 @@ pub(super) fn study(source: &str, file: &Path) -> Result<Study> {
         first_periods: &first_periods,
     };
     let (variables, records) = variables(&root, &context)?;
-    let design = design(&root, &variables)?;
-    let (chunk, mut isolated_demand) = output(&root)?;
+    if root.lacks("variable") {
+        return Err(reader.lost());
+    }
+    let design = reader.keep(design(&root, &variables))?;
     let ida = match root.get("ida") {
         Some(value) => {
-            isolated_demand = true;
-            let chosen = ida_variables(&reader, value, &variables)?;
-            Some(ida::settings(&reader, value, &base, folder, chosen)?)
+            let chosen = ida_variables(reader, value, &variables)?;
+            Some(ida::settings(reader, value, &base, folder, chosen)?)
         }
         None => None,
     };
-    let title = root.get("title").map(|v| reader.text(v, "title"));
+    let (Some(title), Some((chunk, demand)), Some(design)) = (title, output, design) else {
+        return Err(reader.lost());
+    };
     Ok(Study {
-        title: title.transpose()?.unwrap_or_default(),
+        title: title.unwrap_or_default(),
         file: file.to_owned(),
-        source: source.to_owned(),
+        source: reader.source.to_owned(),
         variables,
         design,
         chunk,
-        isolated_demand,
+        isolated_demand: demand || ida.is_some(),
         ida,
         records: records.unwrap_or_else(|| vec![records::of_case(&base)]),
         base,
@@ -68,13 +118,13 @@ pub(super) fn study(source: &str, file: &Path) -> Result<Study> {
 fn base(root: &Table<'_, '_>, folder: &Path) -> Result<Case> {
     let value = root.required("case")?;
     let path = folder.join(root.reader.text(value, "case")?);
-    let source = std::fs::read_to_string(&path).map_err(|e| {
-        let message = format!("cannot read the case {}: {e}", path.display());
-        root.reader.error(
-            value.span(),
-            message,
-            "`case` is relative to the folder of the study",
-        )
+    let source = pounding_case::read_text(&path, "case").map_err(|e| {
+        let relative = "`case` is relative to the folder of the study".to_owned();
+        let help = match path.is_file() {
+            true => e.help.clone().unwrap_or(relative),
+            false => relative,
+        };
+        root.reader.error(value.span(), e.to_string(), help)
     })?;
     let error = |e| StudyError::Text {
         error: Box::new(e),
@@ -111,8 +161,9 @@ fn variables(
     let value = root.required("variable")?;
     let mut variables: Vec<Variable> = Vec::new();
     let mut records = None;
-    for item in reader.list(value, "variable")? {
-        let (variable, named) = variable(&reader, item, context)?;
+    let items = reader.list(value, "variable")?;
+    let read = reader.all(items.iter().map(|item| variable(&reader, item, context)))?;
+    for (item, (variable, named)) in items.iter().zip(read) {
         if let Some(named) = named {
             if records.is_some() {
                 return Err(reader.error(

@@ -3,7 +3,7 @@
 use std::num::IntErrorKind;
 use std::ops::Range;
 
-use pounding_case::{CaseError, Dimension, Quantity, parse_quantity};
+use pounding_case::{CaseError, Dimension, Errors, Quantity, parse_quantity};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -17,6 +17,8 @@ pub(super) type Result<T> = std::result::Result<T, StudyError>;
 pub(super) struct Reader<'a> {
     pub file: &'a str,
     pub source: &'a str,
+    /// What was found wrong so far.
+    pub errors: &'a Errors,
 }
 
 /// Largest count that is taken for meant.
@@ -30,9 +32,49 @@ impl<'a> Reader<'a> {
         help: impl Into<String>,
     ) -> StudyError {
         let error = CaseError::new(self.file, self.source, span, message, Some(help.into()));
+        self.text_error(error)
+    }
+
+    fn text_error(&self, error: CaseError) -> StudyError {
         StudyError::Text {
             error: Box::new(error),
             source_text: self.source.to_owned(),
+        }
+    }
+
+    /// The value; `None` after recording what is wrong in this file.
+    ///
+    /// # Errors
+    /// What is wrong elsewhere, such as in the case.
+    pub(super) fn keep<T>(&self, result: Result<T>) -> Result<Option<T>> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(StudyError::Text { error, source_text }) if source_text == self.source => {
+                self.errors.record(*error);
+                Ok(None)
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// All values; where some are wrong, one of these errors after recording all.
+    pub(super) fn all<T>(&self, results: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>> {
+        let mut sound = true;
+        let mut values = Vec::new();
+        for result in results {
+            match self.keep(result)? {
+                Some(value) => values.push(value),
+                None => sound = false,
+            }
+        }
+        if sound { Ok(values) } else { Err(self.lost()) }
+    }
+
+    /// The error for a value that is not there because of one recorded before.
+    pub(super) fn lost(&self) -> StudyError {
+        match self.errors.recorded() {
+            Some(error) => self.text_error(error),
+            None => self.error(0..0, "the study cannot be read", "correct it"),
         }
     }
 
@@ -145,7 +187,7 @@ impl<'a> Reader<'a> {
         &self,
         value: &'v Value<'a>,
         name: &str,
-        keys: &[&str],
+        keys: &[&'static str],
     ) -> Result<Table<'v, 'a>> {
         match value.get_ref() {
             DeValue::Table(table) => Table::new(*self, table, value.span(), name, keys),
@@ -160,6 +202,9 @@ pub(super) struct Table<'v, 'a> {
     table: &'v DeTable<'a>,
     pub span: Range<usize>,
     name: String,
+    /// Keys that are none of the table's: how many, and which they may stand for.
+    unknown: usize,
+    meant: Vec<&'static str>,
 }
 
 impl<'v, 'a> Table<'v, 'a> {
@@ -168,8 +213,32 @@ impl<'v, 'a> Table<'v, 'a> {
         table: &'v DeTable<'a>,
         span: Range<usize>,
         name: &str,
-        keys: &[&str],
+        keys: &[&'static str],
     ) -> Result<Self> {
+        let table = Self::open(reader, table, span, name, keys);
+        // Its keys mean something together: nothing else is said of it where one is unknown.
+        match table.unknown {
+            0 => Ok(table),
+            _ => Err(reader.lost()),
+        }
+    }
+
+    /// A table that is read key by key: unknown ones are recorded.
+    pub(super) fn open(
+        reader: Reader<'a>,
+        table: &'v DeTable<'a>,
+        span: Range<usize>,
+        name: &str,
+        keys: &[&'static str],
+    ) -> Self {
+        let mut checked = Self {
+            reader,
+            table,
+            span,
+            name: name.to_owned(),
+            unknown: 0,
+            meant: Vec::new(),
+        };
         for key in table.keys() {
             let text = key.get_ref().as_ref();
             if keys.contains(&text) {
@@ -180,18 +249,20 @@ impl<'v, 'a> Table<'v, 'a> {
                 .min_by_key(|k| strsim::levenshtein(text, k))
                 .filter(|k| strsim::levenshtein(text, k) <= 1 + text.len() / 3);
             let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
-            return Err(reader.error(
-                key.span(),
-                format!("unknown key `{text}` in {name}"),
-                format!("{guess}known keys: {}", keys.join(", ")),
-            ));
+            let message = format!("unknown key `{text}` in {name}");
+            let help = format!("{guess}known keys: {}", keys.join(", "));
+            let file = reader.file;
+            let error = CaseError::new(file, reader.source, key.span(), message, Some(help));
+            reader.errors.record(error);
+            checked.unknown += 1;
+            checked.meant.extend(nearest.copied());
         }
-        Ok(Self {
-            reader,
-            table,
-            span,
-            name: name.to_owned(),
-        })
+        checked
+    }
+
+    /// Whether an unknown key may stand for this one, so that something of it is missing.
+    pub(super) fn lacks(&self, key: &str) -> bool {
+        self.meant.contains(&key)
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&'v Value<'a>> {
@@ -201,6 +272,9 @@ impl<'v, 'a> Table<'v, 'a> {
 
     pub(super) fn required(&self, key: &str) -> Result<&'v Value<'a>> {
         self.get(key).ok_or_else(|| {
+            if self.lacks(key) {
+                return self.reader.lost();
+            }
             self.reader.error(
                 self.span.clone(),
                 format!("{} has no `{key}`", self.name),

@@ -43,10 +43,9 @@ pub(super) fn records(
     let mut records: Vec<RecordSource> = Vec::new();
     let mut places = Vec::new();
     if let Some(value) = table.get("records") {
-        for item in reader.list(value, "records")? {
-            records.push(record(&reader, item, base, folder)?);
-            places.push(item.span());
-        }
+        let items = reader.list(value, "records")?;
+        records = reader.all(items.iter().map(|item| record(&reader, item, base, folder)))?;
+        places.extend(items.iter().map(|item| item.span()));
     }
     if let Some(value) = table.get("synthetic") {
         records.extend(synthetic(&reader, value)?);

@@ -92,8 +92,7 @@ pub(super) fn numbers<'v, 'a>(
     }
     if let Some(list) = table.get("values") {
         let items = reader.list(list, "values")?;
-        let numbers = items.iter().map(|item| read(item, "values"));
-        let numbers = numbers.collect::<Result<Vec<_>>>()?;
+        let numbers = reader.all(items.iter().map(|item| read(item, "values")))?;
         return Ok((Values::Numbers(numbers), items.iter().collect()));
     }
     if table.get("from").is_none() {

@@ -175,9 +175,8 @@ fn named(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(
     let reader = table.reader;
     let items = reader.list(table.required("values")?, "values")?;
     let (labels, texts) = choices(&reader, items)?;
-    for (item, text) in items.iter().zip(&texts) {
-        tried.edits(vec![entry.with(text)], item)?;
-    }
+    let each = items.iter().zip(&texts);
+    reader.all(each.map(|(item, text)| tried.edits(vec![entry.with(text)], item)))?;
     let path = tried.path.clone();
     let target = Target::Entry { entry, path, texts };
     Ok((Values::Choices(labels), target))
@@ -187,13 +186,14 @@ fn named(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(
 fn counted(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(Values, Target)> {
     let reader = table.reader;
     let (values, places) = numbers(table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
-    for value in places {
+    reader.all(places.into_iter().map(|value| {
         // As it is written, so that its unit is checked, and as runs will have it.
         let number = reader.any_quantity(value, "values")?.value;
         for text in [reader.source[value.span()].to_owned(), written(number)] {
             tried.edits(vec![entry.with(&text)], value)?;
         }
-    }
+        Ok(())
+    }))?;
     let path = tried.path.clone();
     let texts = Vec::new();
     let target = Target::Entry { entry, path, texts };

@@ -1,12 +1,10 @@
 //! Assembly of many cases that have much in common: records are read once, and buildings
 //! keep what was computed of them.
 
-use std::sync::Arc;
-
 use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 
-use super::{Assembly, building, ground, models, options, with_gaps};
+use super::{Assembly, Parts, ground, models, options, with_gaps};
 use crate::error::TimeHistoryError;
 use crate::options::RunOptions;
 use crate::system::System;
@@ -20,13 +18,11 @@ pub fn assemble_with_record(
     case: &Case,
     accelerogram: &Accelerogram,
 ) -> Result<Assembly, TimeHistoryError> {
-    let buildings = case
-        .buildings
-        .iter()
-        .map(|b| building(case, b).map(Arc::new))
-        .collect::<Result<Vec<_>, _>>()?;
-    let models = models(case)?;
-    let options = options(case)?;
+    let Parts {
+        buildings,
+        models,
+        options,
+    } = Parts::of(case)?;
     let system = System::new(buildings, ground(accelerogram));
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;

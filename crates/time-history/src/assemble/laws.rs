@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, LawParameter, Link, Located, Side};
+use pounding_case::{Building, Case, CaseError, Errors, LawParameter, Link, Located, Side};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, build, find};
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 
@@ -20,7 +20,8 @@ pub(super) fn with_storey_laws(
         return Ok(building);
     };
     let mut laws: Vec<Option<StoreyLaw>> = vec![None; b.mass.len()];
-    for law in &b.laws {
+    let errors = Errors::default();
+    let read = errors.all(b.laws.iter().map(|law| {
         let card = card(case, &law.model)?;
         let own = card.parameters.iter().any(|p| p.name == "stiffness");
         for (place, storey) in law.storeys.iter().enumerate() {
@@ -33,7 +34,9 @@ pub(super) fn with_storey_laws(
             check_stiffness(case, b, (*storey, &law.model), &built)?;
             laws[*storey] = Some(built);
         }
-    }
+        Ok(())
+    }));
+    errors.finish(read)?;
     building
         .with_laws(laws)
         .map_err(|e| case.error(first.model.span.clone(), e.to_string(), None))
@@ -73,31 +76,43 @@ pub(super) fn add_link(
     link: &Link,
     system: &mut System,
 ) -> Result<(), TimeHistoryError> {
-    let card = card(case, &link.model)?;
+    let laws = laws_of_link(case, link)?;
     let floor = |side: Side, storey: Option<usize>| match (side, storey) {
         (Side::Building(b), Some(s)) => Floor::Storey(b, s),
         _ => Floor::Wall,
     };
-    let pairs = link
-        .levels
-        .iter()
-        .enumerate()
-        .map(|(place, (left, right))| {
-            let values = parameters(case, card, &link.parameters, place)?;
-            let StoreyLaw { law, yield_drift } = built(case, &link.model, card, &values)?;
-            Ok(LinkedPair {
+    let levels = link.levels.iter().zip(laws);
+    let pairs = levels
+        .map(
+            |((left, right), StoreyLaw { law, yield_drift })| LinkedPair {
                 left: floor(link.between[0], *left),
                 right: floor(link.between[1], *right),
                 law,
                 yield_deformation: yield_drift,
-            })
-        })
-        .collect::<Result<Vec<_>, CaseError>>()?;
+            },
+        )
+        .collect();
     let names = link.between.map(|side| match side {
         Side::Building(b) => case.buildings[b].name.value.clone(),
         Side::Wall => "wall".to_owned(),
     });
     system.add_link(&link.name, names, pairs)
+}
+
+/// The law of each level of a link.
+fn laws_of_link(case: &Case, link: &Link) -> Result<Vec<StoreyLaw>, CaseError> {
+    let card = card(case, &link.model)?;
+    (0..link.levels.len())
+        .map(|place| {
+            let values = parameters(case, card, &link.parameters, place)?;
+            built(case, &link.model, card, &values)
+        })
+        .collect()
+}
+
+/// Refuses a link whose laws cannot be.
+pub(super) fn check_link(case: &Case, link: &Link) -> Result<(), CaseError> {
+    laws_of_link(case, link).map(|_| ())
 }
 
 fn card(case: &Case, model: &Located<String>) -> Result<&'static LawDescriptor, CaseError> {
@@ -128,8 +143,8 @@ fn parameters(
         .iter()
         .find(|p| p.key.value == "exponent")
         .map(|p| p.values[place].value.value);
-    let mut all = LawParameters::default();
-    for LawParameter { key, values } in given {
+    let errors = Errors::default();
+    let read = errors.all(given.iter().map(|LawParameter { key, values }| {
         let Some(known) = card.parameters.iter().find(|p| p.name == key.value) else {
             let names: Vec<_> = card.parameters.iter().map(|p| p.name).collect();
             return Err(case.error(
@@ -162,8 +177,10 @@ fn parameters(
             };
             return Err(at(case, span.clone(), &error));
         }
-        all.values.insert(key.value.clone(), value.value);
-    }
+        Ok((key.value.clone(), value.value))
+    }));
+    let mut all = LawParameters::default();
+    all.values.extend(errors.finish(read)?);
     Ok(all)
 }
 

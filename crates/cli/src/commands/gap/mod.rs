@@ -59,6 +59,12 @@ pub fn failure(error: CheckError, case: &Case) -> Failure {
         CheckError::Case(error) => Failure::case(error, &case.source),
         CheckError::Record { source, record } => match Failure::time_history(*source, "") {
             Failure::Input(report) => Failure::Input(report.wrap_err(format!("record {record}"))),
+            Failure::Inputs(reports) => Failure::Inputs(
+                reports
+                    .into_iter()
+                    .map(|r| r.wrap_err(format!("record {record}")))
+                    .collect(),
+            ),
             Failure::Computation(report) => {
                 Failure::Computation(report.wrap_err(format!("record {record}")))
             }

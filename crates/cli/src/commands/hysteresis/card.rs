@@ -1,6 +1,6 @@
 //! The cards of the laws, for people and for machines.
 
-use comfy_table::Table;
+use crate::tables::Table;
 use pounding_hysteresis::{LawDescriptor, Verification};
 use serde_json::{Value, json};
 

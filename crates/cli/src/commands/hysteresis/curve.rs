@@ -1,6 +1,7 @@
 //! Dissipation of steady cycles over their amplitude.
 
-use comfy_table::{CellAlignment, Table};
+use crate::tables::Table;
+use comfy_table::CellAlignment;
 use pounding_case::Dimension;
 use pounding_hysteresis::laboratory::{Cycling, dissipation_curve};
 use serde_json::{Value, json};

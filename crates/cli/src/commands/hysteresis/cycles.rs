@@ -1,6 +1,7 @@
 //! A loop: force and dissipated energy along a path, and what its cycles amount to.
 
-use comfy_table::{CellAlignment, Table};
+use crate::tables::Table;
+use comfy_table::CellAlignment;
 use pounding_hysteresis::HysteresisLaw;
 use serde_json::{Value, json};
 

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use comfy_table::{CellAlignment, Table};
+use crate::tables::Table;
+use comfy_table::CellAlignment;
 use pounding_case::Dimension;
 use pounding_hysteresis::iwan::{DissipationFit, FitOptions, IwanDensity, fit_dissipation};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters};

@@ -1,6 +1,7 @@
 //! Tables of an incremental dynamic analysis.
 
-use comfy_table::{CellAlignment, Table};
+use crate::tables::Table;
+use comfy_table::CellAlignment;
 use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, PoundingDemand};
 
 /// The report for people.

@@ -1,6 +1,6 @@
 //! Computed against measured force.
 
-use comfy_table::Table;
+use crate::tables::Table;
 use pounding_case::Dimension;
 use pounding_gap_element::CollisionSample;
 use serde_json::{Value, json};

@@ -1,6 +1,7 @@
 //! The same collision by each model.
 
-use comfy_table::{CellAlignment, Table, presets};
+use crate::tables::Table;
+use comfy_table::{CellAlignment, presets};
 use pounding_gap_element::{CollisionOutcome, CollisionSample, collide_with};
 use serde_json::{Map, Value, json};
 

@@ -1,6 +1,6 @@
 //! The list of all models.
 
-use comfy_table::Table;
+use crate::tables::Table;
 use pounding_gap_element::{ModelDescriptor, Verification};
 
 /// One line a model.

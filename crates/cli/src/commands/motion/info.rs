@@ -53,14 +53,22 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         ..MeasureOptions::default()
     };
     let component = read.component.take();
-    let mut files = Vec::new();
+    let (mut files, mut wrong) = (Vec::new(), Vec::new());
+    let options = ReadOptions {
+        component,
+        ..read.clone()
+    };
     for file in &arguments.files {
-        let recording = read_all(file, &read)?;
-        let options = ReadOptions {
-            component: component.clone(),
-            ..read.clone()
-        };
-        files.push(shown(file, recording, &options, measured)?);
+        let recording = read_all(file, &read).map_err(Failure::from);
+        match recording.and_then(|recording| shown(file, recording, &options, measured)) {
+            Ok(shown) => files.push(shown),
+            // The others are shown nevertheless.
+            Err(Failure::Input(report)) => wrong.push(report),
+            Err(failure) => return Err(failure),
+        }
+    }
+    if files.is_empty() {
+        return Err(Failure::inputs(wrong));
     }
     if let Some(path) = &arguments.csv {
         plot::write(path, &comma_separated(&files))?;
@@ -72,7 +80,12 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         pretty(&as_json(&files))
     } else {
         as_text(&files)
-    })
+    })?;
+    if wrong.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::inputs(wrong))
+    }
 }
 
 fn shown(

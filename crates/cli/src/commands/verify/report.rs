@@ -1,6 +1,6 @@
 //! Published beside computed, with a verdict a line.
 
-use comfy_table::Table;
+use crate::tables::Table;
 use serde_json::{Map, Value, json};
 
 /// How a computed value stands to a published one, the worst first.

@@ -47,8 +47,6 @@ impl Survey {
             last_length: 0,
             ragged: None,
         };
-        let mut comma = None;
-        let mut point = false;
         for line in rows(source) {
             if line.is_text() {
                 return Err(source.error(
@@ -61,27 +59,11 @@ impl Survey {
             let length = line.fields().count();
             survey.last_ends(declared);
             survey.add(line.number, length);
-            point |= line.bytes.contains(&b'.');
-            if comma.is_none() {
-                comma = line
-                    .bytes
-                    .iter()
-                    .position(|b| *b == b',')
-                    .map(|column| (line.number, column));
-            }
         }
         if survey.rows == 0 {
             return Err(source.error(1, 0, "the file has no data", "give a file with values"));
         }
-        match comma {
-            Some((line, column)) if !point => Err(source.error(
-                line,
-                column,
-                "commas, but no decimal point in the whole file: decimal commas, or whole numbers between commas?",
-                "write the values with decimal points",
-            )),
-            _ => Ok(survey),
-        }
+        Ok(survey)
     }
 
     /// The row before is not the last one: a short one is ragged.

@@ -1,0 +1,482 @@
+//! What the program says where something is wrong, and that it says all of it.
+#![allow(clippy::unwrap_used)]
+
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+const CASE: &str = r#"title = "pair"
+[[building]]
+name = "a"
+storeys = 2
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 2
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { ratio = 0.05, modes = [1, 2] }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+[ground_motion]
+file = "record.csv"
+[analysis]
+duration = "1 s"
+"#;
+
+const LINK: &str = r#"[[link]]
+between = ["a", "b"]
+model = "gap_hook"
+tension_stiffness = "10 MN/m"
+tension_gap = "5 mm"
+"#;
+
+const STUDY: &str = r#"title = "levels"
+case = "case.toml"
+[[variable]]
+records = ["record.csv"]
+[[variable]]
+intensity = "peak_ground_acceleration"
+values = ["0.1 g", "0.2 g"]
+[ida]
+gaps = ["10 mm", "30 mm"]
+hazard = "hazard.csv"
+confidence = 0.9
+"#;
+
+const HAZARD: &str = "pga (g),annual_frequency\n0.05,0.02\n0.1,0.01\n0.4,0.0004\n";
+
+fn record() -> String {
+    let mut text = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+    for i in 0..60 {
+        let t = f64::from(i) * 0.02;
+        text.push_str(&format!("{t:.2},{:.5}\n", 0.4 * (7.0 * t).sin()));
+    }
+    text
+}
+
+/// A folder with a sound case, study, hazard and record.
+fn bench() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        ("case.toml", CASE.to_owned()),
+        ("study.toml", STUDY.to_owned()),
+        ("hazard.csv", HAZARD.to_owned()),
+        ("record.csv", record()),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn pounding(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    command
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .env_remove("COLUMNS");
+    command
+}
+
+fn run(folder: &Path, arguments: &str) -> Output {
+    let arguments = arguments.split_whitespace();
+    pounding(folder).args(arguments).output().unwrap()
+}
+
+/// The message on one line, as it is broken where its writer likes.
+fn message(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Replaces texts that must be there.
+fn changed(text: &str, replaced: &[(&str, &str)]) -> String {
+    replaced.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    })
+}
+
+/// Exit code 2, these errors, and so many.
+fn refused(output: &Output, errors: &[&str]) {
+    let said = message(output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    for error in errors {
+        assert!(said.contains(error), "{error}: {said}");
+    }
+    let count = match errors.len() {
+        1 => said.contains(" errors"),
+        n => !said.ends_with(&format!("{n} errors")),
+    };
+    assert!(!count, "{said}");
+    assert_eq!(said.matches('×').count(), errors.len(), "{said}");
+}
+
+#[test]
+fn all_errors_of_a_case() {
+    let folder = bench();
+    let text = changed(
+        CASE,
+        &[
+            ("\"25 t\"", "\"25 kN\""),
+            ("width", "wdith"),
+            ("\"1 s\"", "\"1 kg\""),
+        ],
+    );
+    std::fs::write(folder.path().join("bad.toml"), text).unwrap();
+    for command in ["check", "run --no-output", "gap"] {
+        refused(
+            &run(folder.path(), &format!("{command} bad.toml")),
+            &[
+                "bad.toml:5:8:",
+                "bad.toml:18:1: unknown key `wdith`",
+                "bad.toml:25:12:",
+            ],
+        );
+    }
+    // What models and laws refuse comes together, too.
+    let text = changed(
+        &format!("{CASE}{LINK}"),
+        &[
+            ("restitution = 0.65", "restitution = 6.5"),
+            ("\"93.5 MN/m\"", "\"93.5 MN\""),
+            ("gap_hook", "tension_only"),
+            ("duration = \"1 s\"", "method = \"newmark\""),
+        ],
+    );
+    std::fs::write(folder.path().join("bad.toml"), text).unwrap();
+    refused(
+        &run(folder.path(), "check bad.toml"),
+        &[
+            "bad.toml:20:13:",
+            "bad.toml:21:15:",
+            "bad.toml:25:10: method \"newmark\" needs a step",
+            "bad.toml:28:9: unknown hysteresis law \"tension_only\"",
+        ],
+    );
+}
+
+#[test]
+fn laws_are_found_by_what_they_do() {
+    let folder = bench();
+    let text = changed(&format!("{CASE}{LINK}"), &[("gap_hook", "tension_only")]);
+    std::fs::write(folder.path().join("bad.toml"), text).unwrap();
+    for arguments in ["check bad.toml", "hysteresis tension_only"] {
+        let said = message(&run(folder.path(), arguments));
+        assert!(said.contains("did you mean \"gap_hook\"?"), "{said}");
+    }
+    let said = message(&run(folder.path(), "models rigid"));
+    assert!(
+        said.contains("did you mean \"stereomechanical\"?"),
+        "{said}"
+    );
+}
+
+#[test]
+fn all_errors_of_a_study() {
+    let folder = bench();
+    let study = |replaced: &[(&str, &str)]| {
+        let text = changed(STUDY, replaced);
+        std::fs::write(folder.path().join("study.toml"), text).unwrap();
+        run(folder.path(), "sweep study.toml --plan")
+    };
+    assert_eq!(
+        study(&[]).status.code(),
+        Some(0),
+        "{}",
+        message(&study(&[]))
+    );
+    refused(
+        &study(&[("title", "titel"), ("confidence = 0.9", "confidence = 9")]),
+        &["study.toml:1:1: unknown key `titel`", "study.toml:11:14:"],
+    );
+    refused(
+        &study(&[
+            ("\"levels\"", "1"),
+            ("\"0.1 g\", \"0.2 g\"", "\"0.1 m\", -1, nan"),
+            ("[\"record.csv\"]", "1"),
+        ]),
+        &[
+            "study.toml:1:9:",
+            "study.toml:4:11:",
+            "study.toml:7:11:",
+            "study.toml:7:20:",
+            "study.toml:7:24:",
+        ],
+    );
+    refused(
+        &study(&[("[[variable]]\nrecords", "[[varaible]]\nrecords")]),
+        &["study.toml:3:3: unknown key `varaible`"],
+    );
+    refused(
+        &study(&[("= \"levels\"", "= levels"), ("= 0.9", "= ")]),
+        &["study.toml:1:9: this is not TOML", "study.toml:11:"],
+    );
+    // The case of a study, with its own places.
+    let bad = changed(CASE, &[("\"25 t\"", "\"25 kN\""), ("\"1 s\"", "\"1 kg\"")]);
+    std::fs::write(folder.path().join("case.toml"), bad).unwrap();
+    refused(&study(&[]), &["case.toml:5:8:", "case.toml:25:12:"]);
+}
+
+#[test]
+fn all_errors_of_a_hazard_file() {
+    let folder = bench();
+    let bad = changed(
+        HAZARD,
+        &[("0.1,0.01", "0.1,x"), ("0.4,0.0004", "0.4;0.0004;1")],
+    );
+    std::fs::write(folder.path().join("hazard.csv"), bad).unwrap();
+    refused(
+        &run(folder.path(), "sweep study.toml --plan"),
+        &[
+            "hazard.csv:3: \"x\" is not a finite number",
+            "hazard.csv:4: there are 3 columns",
+        ],
+    );
+}
+
+#[test]
+fn other_encodings_are_named() {
+    let folder = bench();
+    let latin_1 = |text: &str| -> Vec<u8> { text.chars().map(|c| c as u8).collect() };
+    for (name, text, arguments) in [
+        (
+            "case.toml",
+            changed(CASE, &[("pair", "Gebäude")]),
+            "check case.toml",
+        ),
+        (
+            "study.toml",
+            changed(STUDY, &[("levels", "Höhen")]),
+            "sweep study.toml --plan",
+        ),
+        (
+            "hazard.csv",
+            format!("# Gefährdung\n{HAZARD}"),
+            "sweep study.toml --plan",
+        ),
+        (
+            "case.toml",
+            changed(CASE, &[("pair", "Gebäude")]),
+            "sweep study.toml --plan",
+        ),
+    ] {
+        let folder = if arguments.starts_with("check") {
+            &folder
+        } else {
+            &bench()
+        };
+        std::fs::write(folder.path().join(name), latin_1(&text)).unwrap();
+        let output = run(folder.path(), arguments);
+        let said = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(&format!("{name}:1:")), "{said}");
+        assert!(
+            said.contains("Latin-1") && said.contains("save the file as UTF-8"),
+            "{said}"
+        );
+    }
+}
+
+/// A pipe is read once, and its text is at hand for the message.
+#[test]
+#[cfg(unix)]
+fn a_case_from_a_pipe_shows_its_line() {
+    let folder = bench();
+    let text = changed(CASE, &[("\"25 t\"", "\"25 kN\"")]);
+    for command in ["check", "run", "gap"] {
+        let mut child = pounding(folder.path())
+            .args([command, "/dev/stdin"])
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut pipe = child.stdin.take().unwrap();
+        pipe.write_all(text.as_bytes()).unwrap();
+        drop(pipe);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(said.contains("/dev/stdin:5:8"), "{said}");
+        assert!(said.contains("mass = \"25 kN\""), "{said}");
+    }
+}
+
+/// One bad file among others: these are shown, it is reported.
+#[test]
+fn info_goes_on_after_a_bad_file() {
+    let folder = bench();
+    std::fs::write(folder.path().join("bad.csv"), "nothing\n").unwrap();
+    let output = run(
+        folder.path(),
+        "motion info record.csv bad.csv absent.csv record.csv",
+    );
+    refused(&output, &["bad.csv", "absent.csv"]);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(shown.matches("record.csv\n").count(), 2, "{shown}");
+    let output = run(folder.path(), "motion info bad.csv record.csv --json");
+    refused(&output, &["bad.csv"]);
+    assert!(
+        String::from_utf8(output.stdout)
+            .unwrap()
+            .contains("record.csv")
+    );
+    let output = run(folder.path(), "motion info bad.csv");
+    refused(&output, &["bad.csv"]);
+    assert!(output.stdout.is_empty());
+}
+
+/// Every option that draws writes SVG, and refuses another name before any work.
+#[test]
+fn figures_are_svg() {
+    let folder = bench();
+    for arguments in [
+        "run case.toml --plot",
+        "gap case.toml --plot",
+        "compare case.toml --plot",
+        "ida study.toml --plot",
+        "impact hertz_1882 --example --svg",
+        "hysteresis bilinear --cycles 1mm --svg",
+        "motion info record.csv --svg",
+        "motion spectrum record.csv --svg",
+        "motion process record.csv -o new.csv --svg",
+        "motion match record.csv -o new.csv --svg",
+        "motion synth ricker_1953 -o new.csv --svg",
+    ] {
+        for name in ["x.png", "x", "x.svg.pdf"] {
+            let output = run(folder.path(), &format!("{arguments} {name}"));
+            let said = message(&output);
+            assert_eq!(output.status.code(), Some(2), "{arguments}: {said}");
+            assert!(
+                said.contains("figures are written as SVG"),
+                "{arguments}: {said}"
+            );
+            assert!(output.stdout.is_empty());
+        }
+    }
+    let mut left: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|f| f.unwrap().file_name())
+        .collect();
+    left.sort();
+    assert_eq!(
+        left,
+        ["case.toml", "hazard.csv", "record.csv", "study.toml"]
+    );
+    assert_eq!(
+        run(folder.path(), "motion info record.csv --svg X.SVG")
+            .status
+            .code(),
+        Some(0)
+    );
+    // The list above is whole: so many options say that they draw.
+    let mut drawing = 0;
+    for command in [
+        "run",
+        "gap",
+        "compare",
+        "ida",
+        "impact",
+        "hysteresis",
+        "motion info",
+        "motion spectrum",
+        "motion process",
+        "motion match",
+        "motion synth ricker_1953",
+        "check",
+        "models",
+        "sweep",
+        "merge",
+        "report",
+        "verify impact",
+        "stiffness",
+        "motion convert",
+    ] {
+        let help = run(folder.path(), &format!("{command} --help")).stdout;
+        drawing += usize::from(String::from_utf8_lossy(&help).contains("SVG"));
+    }
+    assert_eq!(drawing, 11);
+}
+
+#[test]
+fn tables_are_as_wide_as_columns_says() {
+    let folder = bench();
+    let widest = |columns: &str| {
+        let mut command = pounding(folder.path());
+        command.args(["run", "case.toml", "--no-output"]);
+        if !columns.is_empty() {
+            command.env("COLUMNS", columns);
+        }
+        let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+        let lines = text.lines().filter(|l| l.starts_with(['|', '+']));
+        (lines.map(|l| l.chars().count()).max().unwrap(), text)
+    };
+    let (free, whole) = widest("");
+    assert!(free > 100, "{whole}");
+    for (columns, most) in [("500", free), ("100", 100), ("80", 80), ("nonsense", free)] {
+        let (found, text) = widest(columns);
+        assert!(found <= most, "{columns}: {text}");
+        // Every number stands whole, wherever the cells are broken.
+        let numbers = |text: &str| {
+            let words = text.split(|c: char| c.is_whitespace() || c == '|');
+            let mut words: Vec<String> = words
+                .filter(|w| {
+                    w.starts_with(['@', 'x']) && w[1..].starts_with(|c: char| c.is_ascii_digit())
+                })
+                .map(str::to_owned)
+                .collect();
+            words.sort();
+            words
+        };
+        assert_eq!(numbers(&text), numbers(&whole), "{columns}: {text}");
+    }
+}
+
+/// Where nobody listens the exit code still tells.
+#[test]
+#[cfg(unix)]
+fn closed_outputs_keep_the_exit_code() {
+    let folder = bench();
+    std::fs::write(folder.path().join("bad.toml"), "title = 1\n").unwrap();
+    let shell = |line: &str| {
+        let program = env!("CARGO_BIN_EXE_pounding");
+        let output = Command::new("sh")
+            .current_dir(folder.path())
+            .args(["-c", &line.replace("pounding", &format!("'{program}'"))])
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!errors.contains("panicked"), "{line}: {errors}");
+        output.status.code()
+    };
+    // A reader that has gone before anything is written.
+    let gone = "{ sleep 0.2; pounding COMMAND; echo $? > code; }";
+    for (command, code) in [
+        ("check bad.toml", 2),
+        ("check case.toml", 0),
+        ("check absent.toml", 2),
+        ("gap case.toml", 1),
+        ("motion info absent.csv record.csv", 2),
+        ("nonsense", 2),
+        ("--help", 0),
+    ] {
+        for redirection in ["2>&-", ">&-", ">&- 2>&-"] {
+            let line = format!("pounding {command} {redirection}");
+            assert_eq!(shell(&line), Some(code), "{line}");
+        }
+        let gone = gone.replace("COMMAND", command);
+        for line in [format!("{gone} 2>&1 | true"), format!("{gone} | true")] {
+            shell(&line);
+            let found = std::fs::read_to_string(folder.path().join("code")).unwrap();
+            assert_eq!(found.trim(), code.to_string(), "{line}");
+        }
+    }
+}

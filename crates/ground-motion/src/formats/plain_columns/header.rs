@@ -1,0 +1,264 @@
+//! Names and units of columns in the line before the rows: `time (s),acceleration (m/s2)`,
+//! `t [s];a [g]`, `time_s acceleration_g`.
+
+use crate::quantity::{Quantity, SeriesUnit};
+use crate::text::Line;
+
+/// What a column holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Role {
+    /// Times; one of their unit (s).
+    Time(f64),
+    /// Accelerations with their name and, if it stands there, their unit.
+    Acceleration(String, Option<SeriesUnit>),
+    /// Velocities, displacements, row numbers: passed over.
+    Other,
+}
+
+/// A header that names every column.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Header {
+    /// Its line, from 1.
+    pub line: usize,
+    /// As it stands there.
+    pub text: String,
+    /// The columns in their order.
+    pub columns: Vec<Role>,
+    /// What stands between the names; `None`: blanks.
+    pub separator: Option<char>,
+}
+
+/// Bytes that a header may have: a row of numbers may be the whole file.
+const LONGEST: usize = 4000;
+const TIME: [&str; 7] = ["t", "time", "times", "elapsed time", "zeit", "temps", "tiempo"];
+const ACCELERATION: [&str; 9] = [
+    "a",
+    "ag",
+    "a g",
+    "acc",
+    "accel",
+    "acceleration",
+    "accelerations",
+    "ground acceleration",
+    "ground accel",
+];
+const MOTION: [&str; 8] = [
+    "v", "vel", "velocity", "ground velocity", "d", "disp", "displacement", "ground displacement",
+];
+const COUNTER: [&str; 8] = ["-", "#", "n", "no", "nr", "row", "index", "sample"];
+/// Names behind which a unit may follow after a blank or an underscore alone. `a_g` is not
+/// one: it may be the symbol of the ground's acceleration, or an acceleration in g.
+const LONG: [&str; 10] = [
+    "t",
+    "time",
+    "times",
+    "elapsed time",
+    "acc",
+    "accel",
+    "acceleration",
+    "accelerations",
+    "ground acceleration",
+    "ground accel",
+];
+
+/// Units of time (s).
+fn time_unit(text: &str) -> Option<f64> {
+    match text.trim().trim_end_matches('.').to_lowercase().as_str() {
+        "s" | "sec" | "secs" | "second" | "seconds" => Some(1.0),
+        "ms" | "msec" | "millisecond" | "milliseconds" => Some(1.0e-3),
+        _ => None,
+    }
+}
+
+/// A unit of motion in any of its spellings: `m/s²`, `m/s^2`, `m s-2`, `m_s2`, `m/s**2`.
+fn motion_unit(text: &str) -> Option<SeriesUnit> {
+    let plain = text.trim().to_lowercase().replace('²', "2").replace(['−', '⁻'], "-");
+    let spaced = ["s-2", "s^-2", "sec-2", "sec^-2"].iter().find_map(|end| {
+        let length = plain.strip_suffix(end)?;
+        let length = length.strip_suffix([' ', '.', '·', '*', '_'])?;
+        Some(format!("{length}/s2"))
+    });
+    // SeriesUnit takes stops out, which are none of a unit of a header.
+    let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
+    known(&spaced.unwrap_or_else(|| plain.clone()))
+        .or_else(|| known(&plain.replacen('_', "/", 1)))
+}
+
+/// The header, if every cell of the line names a column and one is an acceleration.
+pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
+    if line.bytes.len() > LONGEST {
+        return None;
+    }
+    let text = match std::str::from_utf8(line.bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => line.text(),
+    };
+    // What programs write before a header that others should pass over.
+    let bare = text.trim_start_matches(['#', '%', '!', '*', '/', ' ', '\u{feff}']);
+    let separator = [';', '\t', ','].into_iter().find(|s| bare.contains(*s));
+    let cells: Vec<String> = match separator {
+        Some(separator) => bare.split(separator).map(str::to_owned).collect(),
+        None => words(bare),
+    };
+    // A separator may close the line.
+    let cells = match cells.split_last() {
+        Some((last, rest)) if last.trim().is_empty() && !rest.is_empty() => rest.to_vec(),
+        _ => cells,
+    };
+    let columns: Vec<Role> = cells.iter().map(|c| role(c)).collect::<Option<_>>()?;
+    let times = columns.iter().filter(|c| matches!(c, Role::Time(_))).count();
+    let found = columns.iter().any(|c| matches!(c, Role::Acceleration(..)));
+    (found && times <= 1).then(|| Header {
+        line: line.number,
+        text: text.trim().to_owned(),
+        columns,
+        separator,
+    })
+}
+
+/// Names between blanks; a unit in brackets belongs to the name before it.
+fn words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut depth = 0_usize;
+    for word in text.split_whitespace() {
+        match words.last_mut() {
+            Some(last) if depth > 0 || word.starts_with(['(', '[']) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => words.push(word.to_owned()),
+        }
+        let opened = word.matches(['(', '[']).count();
+        depth = (depth + opened).saturating_sub(word.matches([')', ']']).count());
+    }
+    words
+}
+
+fn role(cell: &str) -> Option<Role> {
+    let cell = cell.trim().trim_matches(['"', '\'']).trim();
+    let named = |name: &str, unit: &str| of_unit(&plain(name), name.trim(), unit);
+    if let Some((name, rest)) = cell.split_once(['(', '[']) {
+        let unit = rest.strip_suffix([')', ']'])?;
+        // `a/(m/s2)`, as standards on quantities write.
+        return named(name.trim_end_matches('/'), unit);
+    }
+    let whole = plain(cell);
+    if TIME.contains(&whole.as_str()) {
+        return Some(Role::Time(1.0));
+    }
+    if ACCELERATION.contains(&whole.as_str()) {
+        return Some(Role::Acceleration(cell.to_owned(), None));
+    }
+    if MOTION.contains(&whole.as_str()) || COUNTER.contains(&whole.as_str()) {
+        return Some(Role::Other);
+    }
+    if let Some((name, unit)) = cell.split_once(" in ") {
+        return named(name, unit);
+    }
+    cell.match_indices(['_', ' ', '/']).find_map(|(at, divider)| {
+        let (name, unit) = (&cell[..at], &cell[at + 1..]);
+        let known = plain(name);
+        let takes = |names: &[&str]| names.contains(&known.as_str());
+        let may = takes(&LONG) || takes(&MOTION) || divider == "/" && takes(&ACCELERATION);
+        if may { named(name, unit) } else { None }
+    })
+}
+
+/// Lower case, blanks for underscores, without a stop at the end.
+fn plain(name: &str) -> String {
+    let lower = name.trim().trim_end_matches(['.', ':', '_']).to_lowercase();
+    let words: Vec<&str> = lower.split(['_', ' ']).filter(|w| !w.is_empty()).collect();
+    words.join(" ")
+}
+
+/// A name with its unit: both must mean the same quantity.
+fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
+    if TIME.contains(&known) {
+        return time_unit(unit).map(Role::Time);
+    }
+    let unit = motion_unit(unit)?;
+    let accelerates = unit.quantity == Quantity::Acceleration;
+    if ACCELERATION.contains(&known) {
+        return accelerates.then(|| Role::Acceleration(name.to_owned(), Some(unit)));
+    }
+    if MOTION.contains(&known) {
+        // `d (g)` is no displacement, `v (g)` may be the vertical component.
+        return match accelerates {
+            true if known == "v" => Some(Role::Acceleration(name.to_owned(), Some(unit))),
+            true => None,
+            false => Some(Role::Other),
+        };
+    }
+    // A component or channel by its own name.
+    Some(match accelerates {
+        true => Role::Acceleration(name.to_owned(), Some(unit)),
+        false => Role::Other,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn of(text: &str) -> Option<Vec<Role>> {
+        let line = Line {
+            number: 1,
+            bytes: text.as_bytes(),
+        };
+        parse(&line).map(|h| h.columns)
+    }
+
+    #[test]
+    fn names_with_units_in_every_spelling() {
+        for (text, unit) in [
+            ("time_s,acceleration_g", SeriesUnit::G),
+            ("time_s;acceleration_m_s2", SeriesUnit::M_S2),
+            ("time (s),acceleration (m/s2)", SeriesUnit::M_S2),
+            ("t [s];a [g]", SeriesUnit::G),
+            ("t [s]\ta [cm/s^2]", SeriesUnit::CM_S2),
+            ("Time (sec)  Accel (g)", SeriesUnit::G),
+            ("# t [s], a [m/s²]", SeriesUnit::M_S2),
+            ("\"Time (s)\",\"Acceleration (mm/s²)\"", SeriesUnit::MM_S2),
+            ("t/s;a/(m/s2)", SeriesUnit::M_S2),
+            ("t/s;a/g", SeriesUnit::G),
+            ("time_s acc_gal", SeriesUnit::CM_S2),
+            ("Time in s,Acceleration in g", SeriesUnit::G),
+            ("time (s);a (m s-2);", SeriesUnit::M_S2),
+            ("t (s), NS (gal)", SeriesUnit::CM_S2),
+        ] {
+            let found = of(text).unwrap_or_else(|| panic!("{text}"));
+            assert_eq!(found[0], Role::Time(1.0), "{text}");
+            let Role::Acceleration(_, found) = &found[1] else {
+                panic!("{text}: {found:?}");
+            };
+            assert_eq!(*found, Some(unit), "{text}");
+        }
+        assert_eq!(of("time_ms,acceleration_g").unwrap()[0], Role::Time(1.0e-3));
+        let several = of("n,t (s),NS (g),EW (g),velocity (m/s)").unwrap();
+        assert_eq!(several[0], Role::Other);
+        assert_eq!(several[3], Role::Acceleration("EW".to_owned(), Some(SeriesUnit::G)));
+        assert_eq!(several[4], Role::Other);
+        // Named, but without a unit: never guessed.
+        assert_eq!(of("t,a_g").unwrap()[1], Role::Acceleration("a_g".to_owned(), None));
+        assert_eq!(of("time,acceleration").unwrap()[0], Role::Time(1.0));
+    }
+
+    #[test]
+    fn what_is_no_header() {
+        for text in [
+            "El Centro 1940, north-south",
+            "Acceleration of Kobe, 1995",
+            "0.0,0.1",
+            "time (s),displacement (m)",
+            "time (years),acceleration (g)",
+            "t (s),t (s),a (g)",
+            "time_s,acceleration_furlongs",
+            "acceleration (m)",
+            "Unit: g",
+            "",
+        ] {
+            assert_eq!(of(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Names, units and decimal signs of plain columns: read where one reading fits, refused
+//! where two do.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::{
+    AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions, read_bytes,
+};
+
+const G: f64 = 9.80665;
+
+fn read(text: &str) -> Result<Accelerogram, GroundMotionError> {
+    read_bytes("r.csv", text.as_bytes(), &ReadOptions::default())
+}
+
+/// Five samples at 0.02 s.
+const TIMES: [f64; 5] = [0.0, 0.02, 0.04, 0.06, 0.08];
+const VALUES: [f64; 5] = [0.0, 0.25, -1.5, 0.125, 10.0];
+
+/// Rows of times and values with a decimal sign and a separator.
+fn rows(decimal: char, separator: &str) -> String {
+    let number = |x: f64, digits| format!("{x:.digits$}").replace('.', &decimal.to_string());
+    let row = |(t, a): (&f64, &f64)| format!("{}{separator}{}\n", number(*t, 2), number(*a, 3));
+    TIMES.iter().zip(&VALUES).map(row).collect()
+}
+
+fn hold(text: &str, unit: f64) {
+    let record = read(text).unwrap_or_else(|e| panic!("{text}: {e} ({:?})", e.help()));
+    assert_eq!(record.time_step(), 0.02, "{text}");
+    assert_eq!(record.samples().len(), VALUES.len(), "{text}");
+    for (a, b) in record.samples().iter().zip(&VALUES) {
+        assert!(
+            (a - b * unit).abs() <= 1e-15 * b.abs() * unit,
+            "{text}: {a} {b}"
+        );
+    }
+}
+
+#[test]
+fn units_in_column_names() {
+    for (header, unit) in [
+        ("time_s,acceleration_g", G),
+        ("time_s,acceleration_m_s2", 1.0),
+        ("Time_s,Acceleration_g", G),
+        ("time (s),acceleration (m/s2)", 1.0),
+        ("time (s), acceleration (cm/s²)", 0.01),
+        ("# time (s), acceleration (g)", G),
+        ("a title of the record\n\ntime (s),acceleration (g)", G),
+    ] {
+        hold(&format!("{header}\n{}", rows('.', ",")), unit);
+    }
+    for (header, separator, unit) in [
+        ("t [s];a [g]", ";", G),
+        ("t [s]; a [g];", "; ", G),
+        ("t [s]\ta [mm/s^2]", "\t", 1e-3),
+        ("t(s) a(g)", "  ", G),
+    ] {
+        for decimal in ['.', ','] {
+            hold(&format!("{header}\n{}", rows(decimal, separator)), unit);
+        }
+    }
+    // Exports often end every row with the separator.
+    let closed = rows(',', ";").replace('\n', ";\r\n");
+    hold(&format!("t [s];a [g];\r\n{closed}"), G);
+    let milliseconds = "time_ms,acceleration_g\n0,0.0\n20,0.25\n40,-1.5\n60,0.125\n80,10.0\n";
+    hold(milliseconds, G);
+}
+
+#[test]
+fn decimal_commas_without_a_header() {
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::StandardGravity),
+        ..ReadOptions::default()
+    };
+    for separator in [";", "; ", "\t"] {
+        let text = rows(',', separator);
+        let record = read_bytes("r", text.as_bytes(), &options).unwrap();
+        assert_eq!((record.time_step(), record.samples().len()), (0.02, 5));
+        assert!((record.samples()[2] + 1.5 * G).abs() < 1e-14);
+    }
+}
+
+/// Whole numbers between commas are no decimal commas where a header names them.
+#[test]
+fn whole_numbers_between_commas() {
+    let record = read("time (s),acceleration (cm/s2)\n0,0\n1,5\n2,-3\n").unwrap();
+    assert_eq!(record.time_step(), 1.0);
+    assert_eq!(record.samples(), [0.0, 0.05, -0.03]);
+}
+
+#[test]
+fn components_of_a_header() {
+    let text = "time (s),NS (g),EW (g),v (m/s)\n0.00,0.1,0.2,9.0\n0.02,0.3,0.4,9.0\n";
+    let options = |component: &str| ReadOptions {
+        component: Some(component.to_owned()),
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("r", text.as_bytes(), &options("EW")).unwrap();
+    assert_eq!(record.samples(), [0.2 * G, 0.4 * G]);
+    assert!(matches!(
+        read(text),
+        Err(GroundMotionError::AmbiguousSeries { .. })
+    ));
+}
+
+/// What could be read in two ways is refused with its place, and says what to do.
+#[test]
+fn two_readings_are_refused() {
+    for (text, place, word) in [
+        // Commas between the columns and within the numbers.
+        (
+            "time_s,acceleration_g\n0,00,0,5\n0,02,0,6\n",
+            "r.csv:2:1: ",
+            "within numbers",
+        ),
+        (
+            "time (s),acceleration (g)\n0,00,0,5\n0,02,0,6\n",
+            "r.csv:2:2: ",
+            "decimal commas",
+        ),
+        (
+            "t [s];a [g]\n0,00,0,5\n0,02,0,6\n",
+            "r.csv:2:2: ",
+            "decimal commas",
+        ),
+        ("t [s];a [g]\n0,5\n1,6\n", "r.csv:2:2: ", "decimal commas"),
+        // Both signs, or a sign for thousands.
+        (
+            "t [s];a [g]\n0,00;0,5\n0,02;1.5\n",
+            "r.csv:2:2: ",
+            "line 3 has a decimal point",
+        ),
+        (
+            "t [s];a [cm/s2]\n0.00;1,234.5\n0.02;0.0\n",
+            "r.csv:2:7: ",
+            "line 2 has a decimal point",
+        ),
+        (
+            "t [s];a [cm/s2]\n0,00;1,234,5\n0,02;0,0\n",
+            "r.csv:2:11: ",
+            "decimal commas, or",
+        ),
+        (
+            "0,1 0,2\n0,3 0,4\n",
+            "r.csv:1:2: ",
+            "decimal commas, or whole numbers",
+        ),
+        // More or fewer columns than names.
+        (
+            "time (s),acceleration (g)\n0.0,0.1,0.2\n0.1,0.2,0.3\n",
+            "r.csv:2:1: ",
+            "names 2 columns",
+        ),
+        (
+            "time (s),NS (g),EW (g)\n0.0,0.1\n0.1,0.2\n",
+            "r.csv:2:1: ",
+            "names 3 columns",
+        ),
+    ] {
+        let error = read(text).unwrap_err();
+        let shown = error.to_string();
+        assert!(shown.starts_with(place), "{text}: {shown}");
+        assert!(shown.contains(word), "{text}: {shown}");
+        assert!(error.help().is_some(), "{text}");
+    }
+}
+
+#[test]
+fn contradictions_name_both() {
+    let given = |text: &str, options: ReadOptions| {
+        read_bytes("r.csv", text.as_bytes(), &options)
+            .unwrap_err()
+            .to_string()
+    };
+    let rows = rows('.', ",");
+    for header in ["time_s,acceleration_g", "time (s),acceleration (g)"] {
+        let text = format!("{header}\n{rows}");
+        let unit = ReadOptions {
+            unit: Some(AccelerationUnit::MetrePerSecondSquared),
+            ..ReadOptions::default()
+        };
+        let shown = given(&text, unit);
+        assert!(
+            shown.contains("is g in the file but m/s2 was given"),
+            "{shown}"
+        );
+        let keyed = format!("# Unit: m/s2\n{text}");
+        let shown = given(&keyed, ReadOptions::default());
+        assert!(shown.starts_with("r.csv:1:1: unit \"m/s2\""), "{shown}");
+        assert!(shown.contains(header), "{shown}");
+        let stepped = format!("# dt: 0.01 s\n{text}");
+        let shown = given(&stepped, ReadOptions::default());
+        assert!(shown.contains("0.01") && shown.contains("0.02"), "{shown}");
+    }
+    let step = ReadOptions {
+        time_step: Some(0.01),
+        ..ReadOptions::default()
+    };
+    let shown = given(&format!("time (s),acceleration (g)\n{rows}"), step);
+    assert!(
+        shown.contains("0.02 s in the file but 0.01 s was given"),
+        "{shown}"
+    );
+}
+
+/// A unit is never guessed from a name.
+#[test]
+fn names_without_units() {
+    for header in [
+        "time,acceleration",
+        "t,a",
+        "t;a_g",
+        "time (s),ground acceleration",
+    ] {
+        let error = read(&format!("{header}\n{}", rows('.', ";"))).unwrap_err();
+        assert!(
+            matches!(error, GroundMotionError::MissingUnit { .. }),
+            "{header}: {error}"
+        );
+    }
+}

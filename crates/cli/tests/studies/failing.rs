@@ -1,8 +1,6 @@
 //! Runs that fail, records that cannot be read, disks that are full.
 
 #[cfg(unix)]
-use std::process::Command;
-
 use serde_json::Value;
 
 use super::{Bench, MIXED};

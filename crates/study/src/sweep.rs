@@ -196,7 +196,10 @@ fn make(
             })?;
             now.stored = now.stored_before + now.made - store.waiting();
             let asked = progress(&now);
-            if stopped || asked.is_continue() {
+            if stopped {
+                return Ok(ControlFlow::Break(()));
+            }
+            if asked.is_continue() {
                 return Ok(asked);
             }
             // Once more: what has finished is stored, and it is told so.

@@ -5,6 +5,7 @@
 //! line and column.
 
 mod error;
+mod files;
 mod parse;
 mod process;
 mod reader;

@@ -5,11 +5,10 @@ mod gap;
 mod hysteresis;
 mod impact;
 mod motion;
+mod paths;
 mod quantities;
 mod study;
 mod verification;
-
-use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
@@ -21,6 +20,7 @@ pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
 pub use motion::*;
+pub use paths::{InputPath, OutputFolder, OutputPath, PathKind, file_use};
 pub use study::*;
 pub use verification::*;
 
@@ -42,7 +42,7 @@ pub enum Command {
     /// Validate a case and print what was understood
     Check {
         /// Case file (TOML)
-        case: PathBuf,
+        case: InputPath,
         /// Print one JSON object
         #[arg(long)]
         json: bool,
@@ -56,7 +56,7 @@ pub enum Command {
         json: bool,
         /// Write the documentation's page of every model into this folder
         #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json"])]
-        pages: Option<PathBuf>,
+        pages: Option<OutputFolder>,
     },
     /// Let two bodies collide: what a model really returns
     Impact(Box<ImpactArguments>),
@@ -82,10 +82,10 @@ pub enum Command {
     /// Make one HTML page of a result: what happened, with tables and figures
     Report {
         /// Result file of `run` (HDF5)
-        result: PathBuf,
+        result: InputPath,
         /// Page; by default the result's name with .html beside it
         #[arg(short, long)]
-        output: Option<PathBuf>,
+        output: Option<OutputPath>,
     },
     /// Print the JSON Schema of the case file
     Schema,
@@ -100,16 +100,16 @@ pub enum Command {
 #[derive(Debug, clap::Args)]
 pub struct RunArguments {
     /// Case file (TOML)
-    pub case: PathBuf,
+    pub case: InputPath,
     /// Result file (HDF5); by default the case's name with .h5 in the current folder
     #[arg(short, long)]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Do not write a result file
     #[arg(long, conflicts_with = "output")]
     pub no_output: bool,
     /// Draw roof displacements and contact forces into this SVG file
     #[arg(long, value_parser = figure_file())]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutputPath>,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

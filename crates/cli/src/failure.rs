@@ -5,11 +5,14 @@ use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_case::CaseError;
+use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
 use pounding_time_history::TimeHistoryError;
+
+use crate::interruption::EXIT_CODE;
 
 /// Errors of one input that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
@@ -27,6 +30,8 @@ pub enum Failure {
     Computation(Report),
     /// Output could not be written: exit code 4.
     Output(Report),
+    /// Interrupted by a signal: exit code 5.
+    Interrupted(Report),
 }
 
 impl Failure {
@@ -38,6 +43,7 @@ impl Failure {
             Self::Inputs(reports) => (reports, 2),
             Self::Computation(report) => (vec![report], 3),
             Self::Output(report) => (vec![report], 4),
+            Self::Interrupted(report) => (vec![report], EXIT_CODE),
         };
         let mut text = String::new();
         for report in reports.iter().take(MOST_SHOWN) {
@@ -101,6 +107,11 @@ impl Failure {
         Self::Computation(plain(message, help))
     }
 
+    /// A computation that was stopped.
+    pub fn interrupted(message: String, help: Option<String>) -> Self {
+        Self::Interrupted(plain(message, help))
+    }
+
     /// Output that could not be written, in the words of who tried.
     pub fn unwritten(message: String, help: Option<String>) -> Self {
         Self::Output(plain(message, help))
@@ -131,6 +142,12 @@ impl Failure {
             }
             error => Self::Computation(plain(error.to_string(), help)),
         }
+    }
+}
+
+impl From<FileUseError> for Failure {
+    fn from(error: FileUseError) -> Self {
+        Self::input(error.to_string(), Some(error.help()))
     }
 }
 

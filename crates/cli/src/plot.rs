@@ -26,18 +26,9 @@ pub fn not_drawn(e: ReportError) -> Failure {
     Failure::output(&std::io::Error::other(e.to_string()), "the picture")
 }
 
-/// Writes a text file beside its place and renames it: a reader never sees half.
-/// Renaming would put the file in the place of a device, such as /dev/stdout.
+/// Writes a text file, whole or not at all.
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    if path.exists() && !path.is_file() {
-        let e = std::io::Error::other("it is not a regular file");
-        return Err(Failure::output(&e, &path.display().to_string()));
-    }
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    std::fs::write(&part, text)
-        .and_then(|()| std::fs::rename(&part, path))
+    pounding_files::write(path, text.as_bytes())
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
 }
 

@@ -95,13 +95,26 @@ pub enum StudyError {
         /// Why.
         reason: String,
     },
-    /// A merged result that would take the place of what it is made of.
-    #[error(
-        "cannot merge into {path}: it is one of the files that are merged, or the result itself"
-    )]
-    MergedOnto {
-        /// The output or the table.
+    /// An output that is an input, or another output.
+    #[error(transparent)]
+    FileUse(#[from] pounding_files::FileUseError),
+    /// A finished result of something else, where one was to be resumed.
+    #[error("{path} holds {found}, not {wanted} that is to be resumed")]
+    OtherResult {
+        /// The output.
         path: PathBuf,
+        /// What it holds.
+        found: String,
+        /// What it would hold.
+        wanted: String,
+    },
+    /// The study was stopped; what had finished is stored.
+    #[error("interrupted: {stored} of {of} runs are stored")]
+    Interrupted {
+        /// Runs stored.
+        stored: usize,
+        /// Runs asked for.
+        of: usize,
     },
     /// A shard that does not exist.
     #[error("\"{text}\" is no shard")]
@@ -161,7 +174,11 @@ impl StudyError {
                 "name another result with -o, or remove the folder if its runs are of no use"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
-            Self::MergedOnto { .. } => "name another output with -o, or another table with --csv",
+            Self::FileUse(error) => return Some(error.help()),
+            Self::OtherResult { .. } => {
+                "name another result with -o; without --resume this one is replaced when the new one is complete"
+            }
+            Self::Interrupted { .. } => "go on with --resume",
             Self::Merge { .. } => {
                 "merge all shards i/n of one study for one n, made by one version of the program"
             }

@@ -30,4 +30,4 @@ pub use study_file::{
     DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
     Variable,
 };
-pub use sweep::{Progress, Shard, SweepOptions, SweepReport, sweep, writable};
+pub use sweep::{Progress, Shard, SweepOptions, SweepReport, parts_folder, sweep, writable};

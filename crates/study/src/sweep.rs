@@ -1,11 +1,14 @@
 //! A study from its file to its result: resume, shards, failures.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::time::Duration;
+
+use pounding_files::PartFile;
 
 use crate::error::StudyError;
-use crate::parts::Parts;
+use crate::parts::{Parts, Store};
 use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value};
@@ -54,6 +57,9 @@ pub struct SweepOptions {
     pub shard: Shard,
     /// Goes on with the finished runs of an interrupted call.
     pub resume: bool,
+    /// How long a finished run waits at most until it is stored; the results do not
+    /// depend on it.
+    pub store_every: Duration,
     /// Records runs whose motion cannot be read as failed, instead of refusing the study.
     pub keep_going: bool,
 }
@@ -67,10 +73,20 @@ pub struct Progress {
     pub stored_before: usize,
     /// Runs made by this call.
     pub made: usize,
-    /// Failures among them.
+    /// Those of this call and of earlier ones that are on the disk.
+    pub stored: usize,
+    /// Failures among those made.
     pub failed: usize,
     /// Collapses among them.
     pub collapsed: usize,
+}
+
+impl Progress {
+    /// Whether every finished run is on the disk.
+    #[must_use]
+    pub fn all_stored(&self) -> bool {
+        self.stored == self.stored_before + self.made
+    }
 }
 
 /// A finished study.
@@ -100,15 +116,18 @@ const SHOWN: usize = 5;
 /// Runs a study, or what is left of it, and writes its result.
 ///
 /// A run that fails is recorded with its diagnosis. Finished runs are stored in
-/// `<output>.parts` until the result is complete; `progress` is told of every run.
+/// `<output>.parts` until the result is complete, at least every
+/// [`store_every`](SweepOptions::store_every). `progress` is told of every run, and asked
+/// several times a second; if it breaks off, no more runs are begun, what has finished is
+/// stored, and it is told so before the runs in flight are awaited.
 ///
 /// # Errors
-/// A motion that cannot be read, a disk that is full: see [`StudyError`]. Runs finished
-/// until then stay stored.
+/// A motion that cannot be read, a disk that is full, [`StudyError::Interrupted`] if
+/// `progress` broke off: see [`StudyError`]. Runs finished until then stay stored.
 pub fn sweep(
     study: &Study,
     options: &SweepOptions,
-    progress: &mut dyn FnMut(&Progress),
+    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SweepReport, StudyError> {
     let runner = Runner::new(study, options.keep_going)?;
     let description = describe(&runner, options.shard);
@@ -117,43 +136,84 @@ pub fn sweep(
     }
     let chunks = chunks(study.runs(), study.chunk, options.shard);
     let total = chunks.iter().map(Range::len).sum();
-    let parts = Parts::open(
+    let mut parts = Parts::open(
         &options.output,
         &signature(&description),
         chunks,
         options.resume,
     )?;
-    let left = parts.left();
-    let mut now = Progress {
-        total,
-        stored_before: total - left.iter().map(Range::len).sum::<usize>(),
-        ..Progress::default()
-    };
-    let mut kept = now.stored_before;
-    progress(&now);
-    let mut tick = |row: &Row| {
-        now.made += 1;
-        now.failed += usize::from(row.ending.failed());
-        now.collapsed += usize::from(row.ending.collapsed());
-        progress(&now);
-    };
-    let mut store = |chunk: Range<usize>, rows: Vec<Row>| {
-        let failed = |source| StudyError::Store {
-            folder: parts.folder.clone(),
-            source,
-            stored: kept,
-            of: total,
-        };
-        parts.write(&chunk, &rows).map_err(failed)?;
-        kept += rows.len();
-        Ok(())
-    };
-    run_all(&runner, &left, options.threads, &mut tick, &mut store)?;
+    let now = make(&runner, &mut parts, total, options, progress)?;
     let mut report = assemble(&runner, &description, &parts, options)?;
     report.made = now.made;
     // Its runs are in the result; a folder that stays does no harm.
     let _ = parts.remove();
     Ok(report)
+}
+
+/// Makes the runs that are left and stores them.
+fn make(
+    runner: &Runner<'_>,
+    parts: &mut Parts,
+    total: usize,
+    options: &SweepOptions,
+    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Progress, StudyError> {
+    let left = parts.left();
+    let stored_before = total - left.len();
+    let mut now = Progress {
+        total,
+        stored_before,
+        stored: stored_before,
+        ..Progress::default()
+    };
+    if progress(&now).is_break() {
+        return Err(StudyError::Interrupted {
+            stored: now.stored,
+            of: total,
+        });
+    }
+    let mut stopped = false;
+    let mut store = Store::new(parts, runner.study.chunk, options.store_every);
+    let mut take = |row: Option<Row>| {
+        if let Some(row) = row {
+            now.made += 1;
+            now.failed += usize::from(row.ending.failed());
+            now.collapsed += usize::from(row.ending.collapsed());
+            store.take(row);
+        }
+        let last = now.stored_before + now.made == total;
+        loop {
+            let written = if stopped || last {
+                store.store()
+            } else {
+                store.store_if_due()
+            };
+            written.map_err(|source| StudyError::Store {
+                folder: store.folder(),
+                source,
+                stored: now.stored,
+                of: total,
+            })?;
+            now.stored = now.stored_before + now.made - store.waiting();
+            let asked = progress(&now);
+            if stopped {
+                return Ok(ControlFlow::Break(()));
+            }
+            if asked.is_continue() {
+                return Ok(asked);
+            }
+            // Once more: what has finished is stored, and it is told so.
+            stopped = true;
+        }
+    };
+    run_all(runner, &left, options.threads, &mut take)?;
+    if stopped {
+        return Err(StudyError::Interrupted {
+            stored: now.stored,
+            of: total,
+        });
+    }
+    Ok(now)
 }
 
 /// Runs of each chunk of a shard: chunks are dealt out in turn.
@@ -243,10 +303,17 @@ fn complete(
     if !options.resume || !options.output.is_file() {
         return Ok(None);
     }
-    let reader = match ResultReader::open(&options.output) {
-        Ok(reader) if signature(&reader.description) == signature(description) => reader,
-        _ => return Ok(None),
+    // What is no result is replaced as by any other command.
+    let Ok(reader) = ResultReader::open(&options.output) else {
+        return Ok(None);
     };
+    if signature(&reader.description) != signature(description) {
+        return Err(other_result(
+            &options.output,
+            &reader.description,
+            description,
+        ));
+    }
     let mut report = empty_report(runner, description);
     let mut table = table(options, description)?;
     for start in (0..reader.rows).step_by(READ_AT_ONCE) {
@@ -261,6 +328,24 @@ fn complete(
     Ok(Some(report))
 }
 
+/// A finished result that is not the one which `--resume` is to complete.
+fn other_result(path: &Path, found: &Description, wanted: &Description) -> StudyError {
+    let part = |(index, count): (usize, usize)| match count {
+        1 => "the whole".to_owned(),
+        _ => format!("shard {index}/{count}"),
+    };
+    let found = if found.study_sha256 == wanted.study_sha256 {
+        format!("{} of this study", part(found.shard))
+    } else {
+        "another study, or another version of this one".to_owned()
+    };
+    StudyError::OtherResult {
+        path: path.to_owned(),
+        found,
+        wanted: part(wanted.shard),
+    }
+}
+
 /// Rows of a result that are held at once.
 const READ_AT_ONCE: usize = 1024;
 
@@ -272,7 +357,7 @@ fn table(options: &SweepOptions, d: &Description) -> Result<Option<RunTable>, St
         .transpose()
 }
 
-/// Writes the result from the stored chunks, one after another.
+/// Writes the result from the stored runs, one after another.
 fn assemble(
     runner: &Runner<'_>,
     description: &Description,
@@ -283,47 +368,35 @@ fn assemble(
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
     let mut table = table(options, description)?;
-    for chunk in &parts.chunks {
-        let rows = parts.read(chunk).map_err(|source| StudyError::File {
-            what: "read the finished runs in",
-            path: parts.folder.clone(),
-            source,
-        })?;
-        for row in rows {
-            let point: Vec<Value> = runner.study.point(row.run);
-            report.count(&row);
-            if let Some(table) = &mut table {
-                table.push(&row, &point)?;
-            }
-            writer.push(row, point)?;
+    parts.rows(&mut |row| {
+        let point: Vec<Value> = runner.study.point(row.run);
+        report.count(&row);
+        if let Some(table) = &mut table {
+            table.push(&row, &point)?;
         }
-    }
+        writer.push(row, point)
+    })?;
     table.map_or(Ok(()), RunTable::finish)?;
     writer.finish()?;
     Ok(report)
 }
 
-/// Whether a path can be the place of a result.
+/// Finds out before the runs, not after them, whether a path can be the place of a result.
 ///
 /// # Errors
-/// [`StudyError::ResultFile`] if it is a folder or a device, or the folder is not there.
+/// [`StudyError::ResultFile`] if it is a folder or a device, or its folder is not there or
+/// cannot be written to.
 pub fn writable(path: &Path) -> Result<(), StudyError> {
-    let failed = |reason: String| StudyError::ResultFile {
+    let failed = |e: std::io::Error| StudyError::ResultFile {
         what: "write",
         path: path.to_owned(),
-        reason,
+        reason: e.to_string(),
     };
-    if path.exists() && !path.is_file() {
-        return Err(failed("it is not a regular file".to_owned()));
-    }
-    let folder = path
-        .parent()
-        .filter(|f| !f.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let found = std::fs::metadata(folder).map_err(|e| failed(e.to_string()))?;
-    if found.is_dir() {
-        Ok(())
-    } else {
-        Err(failed("its folder is no folder".to_owned()))
-    }
+    PartFile::beside(path).map(drop).map_err(failed)
+}
+
+/// The folder in which the finished runs of a result are kept until it is complete.
+#[must_use]
+pub fn parts_folder(output: &Path) -> PathBuf {
+    Parts::folder(output)
 }

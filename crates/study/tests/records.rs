@@ -45,9 +45,15 @@ fn rows(study: &Study, folder: &Path, keep_going: bool) -> (Vec<Row>, ResultRead
         threads: 2,
         shard: Shard::WHOLE,
         resume: false,
+        store_every: std::time::Duration::from_secs(5),
         keep_going,
     };
-    sweep(study, &options, &mut |_| {}).unwrap();
+    sweep(
+        study,
+        &options,
+        &mut |_| std::ops::ControlFlow::Continue(()),
+    )
+    .unwrap();
     let reader = ResultReader::open(&output).unwrap();
     let rows = reader.block(0..reader.rows).unwrap();
     (rows.into_iter().map(|(row, _)| row).collect(), reader)

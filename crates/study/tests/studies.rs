@@ -40,9 +40,15 @@ fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
         threads: 2,
         shard: Shard::WHOLE,
         resume: false,
+        store_every: std::time::Duration::from_secs(5),
         keep_going: false,
     };
-    sweep(study, &options, &mut |_| {}).unwrap();
+    sweep(
+        study,
+        &options,
+        &mut |_| std::ops::ControlFlow::Continue(()),
+    )
+    .unwrap();
     let reader = ResultReader::open(&output).unwrap();
     reader.block(0..reader.rows).unwrap()
 }

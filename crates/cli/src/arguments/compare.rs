@@ -1,6 +1,6 @@
 //! Arguments of `compare`.
 
-use std::path::PathBuf;
+use super::{InputPath, OutputPath};
 
 use clap::ValueEnum;
 
@@ -10,13 +10,13 @@ use super::quantities::{figure_file, number, velocity};
 #[derive(Debug, clap::Args)]
 pub struct CompareArguments {
     /// Case file (TOML); its first law gives stiffness and restitution
-    pub case: PathBuf,
+    pub case: InputPath,
     /// Models, separated by commas [default: all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "MODEL")]
     pub models: Vec<String>,
     /// Records, or folders of them [default: that of the case]
     #[arg(long, num_args = 1.., value_name = "FILE")]
-    pub records: Vec<PathBuf>,
+    pub records: Vec<InputPath>,
     /// What elastic laws of different exponents share in the reference collision
     #[arg(long, value_enum, default_value_t = StiffnessChoice::Penetration)]
     pub stiffness_rule: StiffnessChoice,
@@ -31,10 +31,10 @@ pub struct CompareArguments {
     pub approach_velocity: Option<f64>,
     /// Write every value, of storeys and levels too, into this CSV file
     #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Draw peaks over the models into this SVG file
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

@@ -1,6 +1,6 @@
 //! Arguments of `gap`.
 
-use std::path::PathBuf;
+use super::{InputPath, OutputPath};
 
 use super::quantities::{figure_file, number};
 
@@ -9,13 +9,13 @@ use super::quantities::{figure_file, number};
 pub struct GapArguments {
     /// Case file (TOML)
     #[arg(required_unless_present = "list")]
-    pub case: Option<PathBuf>,
+    pub case: Option<InputPath>,
     /// List the provisions and what each needs, instead of a check
     #[arg(long, conflicts_with_all = ["case", "records"])]
     pub list: bool,
     /// Records, or folders of them [default: that of the case]
     #[arg(long, num_args = 1.., value_name = "FILE")]
-    pub records: Vec<PathBuf>,
+    pub records: Vec<InputPath>,
     /// Provisions to apply [default: those of the case, or all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
     pub provisions: Vec<String>,
@@ -42,13 +42,13 @@ pub struct GapArguments {
     pub gap: Option<String>,
     /// Write every width, record, building and storey of the sweep into this CSV file
     #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Write demand, code gaps and their ratios for every record and level into this CSV file
     #[arg(long, value_name = "FILE")]
-    pub codes_csv: Option<PathBuf>,
+    pub codes_csv: Option<OutputPath>,
     /// Draw amplification over the width into this SVG file
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

@@ -1,6 +1,6 @@
 //! Arguments of `hysteresis` and `verify hysteresis`.
 
-use std::path::PathBuf;
+use super::{InputPath, OutputFolder, OutputPath};
 
 use super::quantities::figure_file;
 
@@ -27,7 +27,7 @@ pub struct HysteresisArguments {
     /// Deformations in a text file: one column with its unit in the header, such as
     /// deformation_mm, or time and deformation
     #[arg(long, value_name = "FILE", requires = "law")]
-    pub history: Option<PathBuf>,
+    pub history: Option<InputPath>,
     /// Duration of a harmonic cycle, for laws that depend on the rate [default: 1 s]
     #[arg(long, requires = "law", allow_hyphen_values = true)]
     pub period: Option<String>,
@@ -60,20 +60,20 @@ pub struct HysteresisArguments {
     /// Fit iwan_six_parameter to a measured curve: a text file with the columns amplitude and
     /// dissipation of a cycle, units in the header, such as amplitude_mm,dissipation_J
     #[arg(long, value_name = "FILE", requires = "law")]
-    pub fit: Option<PathBuf>,
+    pub fit: Option<InputPath>,
 
     /// Write the loop, or else the dissipation curve or the fit, into this CSV file
     #[arg(long, requires = "law")]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Draw the loop and the dissipation curve into this SVG file
     #[arg(long, value_parser = figure_file(), requires = "law")]
-    pub svg: Option<PathBuf>,
+    pub svg: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
     /// Write the documentation's page of every law into this folder
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["law", "json"])]
-    pub pages: Option<PathBuf>,
+    pub pages: Option<OutputFolder>,
 }
 
 /// Arguments of `verify hysteresis`.

@@ -1,6 +1,6 @@
 //! Arguments of `impact`.
 
-use std::path::PathBuf;
+use super::{InputPath, OutputPath};
 
 use super::quantities::figure_file;
 
@@ -69,13 +69,13 @@ pub struct ImpactArguments {
     pub table: bool,
     /// Write the histories, or the table, into this CSV file
     #[arg(long)]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Draw the histories, or the table, into this SVG file
     #[arg(long, value_parser = figure_file())]
-    pub svg: Option<PathBuf>,
+    pub svg: Option<OutputPath>,
     /// Compare with a measured force history: columns time, force with units in the header
     #[arg(long, value_name = "FILE", conflicts_with = "table")]
-    pub against: Option<PathBuf>,
+    pub against: Option<InputPath>,
     /// Units of the measured columns if the file does not say, such as "ms,kN"
     #[arg(long, value_name = "TIME,FORCE", requires = "against")]
     pub against_units: Option<String>,

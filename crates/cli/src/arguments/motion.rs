@@ -3,7 +3,7 @@
 mod generators;
 mod steps;
 
-use std::path::PathBuf;
+use super::{InputPath, OutputPath};
 
 use clap::{Subcommand, ValueEnum};
 
@@ -87,7 +87,7 @@ pub enum OffsetWord {
 pub struct InfoArguments {
     /// Record files of any known format
     #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
+    pub files: Vec<InputPath>,
     /// Acceleration of bracketed and uniform duration
     #[arg(long, default_value = "0.05 g", allow_hyphen_values = true)]
     pub duration_threshold: String,
@@ -99,10 +99,10 @@ pub struct InfoArguments {
     pub at_samples: bool,
     /// Write a row of measures for each series into this CSV file, in SI units
     #[arg(long)]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
     #[arg(long, value_parser = figure_file())]
-    pub svg: Option<PathBuf>,
+    pub svg: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -115,7 +115,7 @@ pub struct InfoArguments {
 #[derive(Debug, clap::Args)]
 pub struct SpectrumArguments {
     /// Record file
-    pub file: PathBuf,
+    pub file: InputPath,
     /// Spectra over all directions of two components: RotD50 and RotD100
     #[arg(long, conflicts_with = "fourier")]
     pub rotated: bool,
@@ -124,7 +124,7 @@ pub struct SpectrumArguments {
     pub second_component: Option<String>,
     /// File of the other component [default: the same file]
     #[arg(long, requires = "rotated")]
-    pub second_file: Option<PathBuf>,
+    pub second_file: Option<InputPath>,
     /// Fourier amplitudes instead of responses
     #[arg(long)]
     pub fourier: bool,
@@ -159,10 +159,10 @@ pub struct SpectrumArguments {
     pub at_samples: bool,
     /// Write the spectra into this CSV file, in SI units
     #[arg(long)]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Draw the spectra into this SVG file
     #[arg(long, value_parser = figure_file())]
-    pub svg: Option<PathBuf>,
+    pub svg: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -189,10 +189,10 @@ pub enum Layout {
 #[derive(Debug, clap::Args)]
 pub struct ConvertArguments {
     /// Record file
-    pub file: PathBuf,
+    pub file: InputPath,
     /// File to write
     #[arg(short, long)]
-    pub output: PathBuf,
+    pub output: OutputPath,
     /// Its format
     #[arg(long, value_enum, default_value = "pounding_csv")]
     pub to: Layout,
@@ -218,10 +218,10 @@ pub struct ConvertArguments {
 pub struct OutputArguments {
     /// File to write, in our CSV layout with a header that says what was done
     #[arg(short, long)]
-    pub output: PathBuf,
+    pub output: OutputPath,
     /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
     #[arg(long, value_parser = figure_file())]
-    pub svg: Option<PathBuf>,
+    pub svg: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -231,7 +231,7 @@ pub struct OutputArguments {
 #[derive(Debug, clap::Args)]
 pub struct ProcessArguments {
     /// Record file
-    pub file: PathBuf,
+    pub file: InputPath,
     /// Output
     #[command(flatten)]
     pub output: OutputArguments,
@@ -263,13 +263,13 @@ pub enum MatchMethod {
 #[derive(Debug, clap::Args)]
 pub struct MatchArguments {
     /// Record file
-    pub file: PathBuf,
+    pub file: InputPath,
     /// Output
     #[command(flatten)]
     pub output: OutputArguments,
     /// Table of the spectrum to reach: header period_s,psa_g (or psa_m_s2, psa_cm_s2)
     #[arg(long, required_unless_present = "code", conflicts_with = "code")]
-    pub target: Option<PathBuf>,
+    pub target: Option<InputPath>,
     /// Spectrum of a code: "eurocode_8_2004, ag=0.25 g, ground=B, type=1" or "asce_7_2016, sds=1.0 g, sd1=0.6 g, tl=8 s"
     #[arg(long)]
     pub code: Option<String>,

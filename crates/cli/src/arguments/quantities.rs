@@ -1,9 +1,9 @@
 //! Values of arguments: texts with units, names of figures.
 
-use std::path::PathBuf;
-
-use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use pounding_case::{Dimension, parse_quantity};
+
+use super::OutputPath;
 
 /// A number without dimension, such as `0.1` or `10 %`.
 pub fn number(text: &str) -> Result<f64, String> {
@@ -16,8 +16,9 @@ pub fn velocity(text: &str) -> Result<f64, String> {
 }
 
 /// A file for a figure: figures are SVG, and the name says so.
-pub fn figure_file() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(|path| {
+pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
+    OsStringValueParser::new().try_map(|name| {
+        let path = OutputPath::from(name);
         let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
         if svg {
             Ok(path)

@@ -1,6 +1,6 @@
 //! Arguments of `sweep`, `merge` and `ida`.
 
-use std::path::PathBuf;
+use super::{InputPath, OutputPath};
 
 use super::quantities::figure_file;
 
@@ -8,7 +8,7 @@ use super::quantities::figure_file;
 #[derive(Debug, clap::Args)]
 pub struct SweepArguments {
     /// Study file (TOML)
-    pub study: PathBuf,
+    pub study: InputPath,
     /// How it is run
     #[command(flatten)]
     pub running: RunningArguments,
@@ -34,16 +34,20 @@ pub struct SweepArguments {
 pub struct RunningArguments {
     /// Result (HDF5); by default the study's name with .h5 in the current folder
     #[arg(short, long)]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
     #[arg(long, visible_alias = "export", value_name = "FILE")]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Threads; all cores by default. Results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
     /// Go on with the finished runs of an interrupted call
     #[arg(long)]
     pub resume: bool,
+    /// Time that a finished run waits at most until it is stored for --resume; the result does
+    /// not depend on it
+    #[arg(long, value_name = "TIME", default_value = "5 s")]
+    pub store_every: String,
     /// Record runs whose record cannot be read as failed, and make all others
     #[arg(long)]
     pub keep_going: bool,
@@ -54,13 +58,13 @@ pub struct RunningArguments {
 pub struct MergeArguments {
     /// Results of all shards of a study
     #[arg(required = true)]
-    pub shards: Vec<PathBuf>,
+    pub shards: Vec<InputPath>,
     /// Result of the whole study (HDF5)
     #[arg(short, long)]
-    pub output: PathBuf,
+    pub output: OutputPath,
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
     #[arg(long, visible_alias = "export", value_name = "FILE")]
-    pub csv: Option<PathBuf>,
+    pub csv: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -70,16 +74,16 @@ pub struct MergeArguments {
 #[derive(Debug, clap::Args)]
 pub struct IdaArguments {
     /// Study file (TOML) with a part `ida`
-    pub study: PathBuf,
+    pub study: InputPath,
     /// How it is run
     #[command(flatten)]
     pub running: RunningArguments,
     /// Write the counts of every state at every intensity as a CSV table
     #[arg(long, value_name = "FILE")]
-    pub table: Option<PathBuf>,
+    pub table: Option<OutputPath>,
     /// Draw fragilities and frequencies into this SVG file
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutputPath>,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

@@ -5,17 +5,18 @@ mod tables;
 
 use std::path::Path;
 
+use pounding_files::FileUse;
 use pounding_study::{FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, evaluate};
 use serde_json::{Value, json};
 
 use super::sweep::{all_failed, as_json, options, run, summary};
-use super::{pretty, print};
+use super::{have_a_place, pretty, print};
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
 use crate::plot;
 
 /// Runs all records at all intensities and evaluates them.
-pub fn ida(arguments: &IdaArguments) -> Result<(), Failure> {
+pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
     let Some(settings) = &study.ida else {
         return Err(Failure::input(
@@ -23,7 +24,8 @@ pub fn ida(arguments: &IdaArguments) -> Result<(), Failure> {
             Some("add it, or run the study with pounding sweep".to_owned()),
         ));
     };
-    let options = options(&arguments.study, &arguments.running, Shard::WHOLE)?;
+    let options = options(&study, &arguments.running, Shard::WHOLE, &mut files)?;
+    have_a_place([arguments.plot.as_deref(), arguments.table.as_deref()])?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
     let report = evaluate(&study, &ResultReader::open(&options.output)?)?;

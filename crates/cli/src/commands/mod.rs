@@ -17,16 +17,19 @@ mod sweep;
 mod verify;
 
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
+use pounding_files::{FileUse, PartFile};
 
 use crate::arguments::{Arguments, Command, ImpactCommand};
 use crate::failure::Failure;
 
-/// Carries a command out.
-pub fn dispatch(command: Command) -> Result<(), Failure> {
+/// Carries a command out. `files` are those of its arguments, held against one another
+/// already; a command that reads or writes more adds them and checks again.
+pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
     match command {
-        Command::Run(arguments) => run::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments, files),
         Command::Check { case, json } => check::check(&case, json),
         Command::Models { name, json, pages } => {
             models::models(name.as_deref(), json, pages.as_deref())
@@ -35,16 +38,16 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
             Some(ImpactCommand::Calibrate(arguments)) => calibrate::calibrate(arguments),
             None => impact::impact(&arguments),
         },
-        Command::Gap(arguments) => gap::gap(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Gap(arguments) => gap::gap(&arguments, files),
+        Command::Compare(arguments) => compare::run(&arguments, files),
         Command::Hysteresis(arguments) => hysteresis::hysteresis(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
-        Command::Motion(command) => motion::motion(&command),
-        Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Motion(command) => motion::motion(&command, files),
+        Command::Sweep(arguments) => sweep::sweep(&arguments, files),
         Command::Merge(arguments) => sweep::merge(&arguments),
-        Command::Ida(arguments) => ida::ida(&arguments),
-        Command::Report { result, output } => report::report(&result, output.as_deref()),
+        Command::Ida(arguments) => ida::ida(&arguments, files),
+        Command::Report { result, output } => report::report(&result, output.as_deref(), files),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();
@@ -52,6 +55,28 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
             print(&String::from_utf8_lossy(&bytes))
         }
     }
+}
+
+/// Adds files that a case or a study names to those of the arguments, and holds all against
+/// one another: before any work is done.
+pub fn reads_too(
+    files: &mut FileUse,
+    more: impl IntoIterator<Item = (&'static str, PathBuf)>,
+) -> Result<(), Failure> {
+    for (role, path) in more {
+        files.reads(role, path);
+    }
+    Ok(files.check()?)
+}
+
+/// Finds out before the work, not after it, that outputs have no place.
+pub fn have_a_place<'p>(
+    outputs: impl IntoIterator<Item = Option<&'p Path>>,
+) -> Result<(), Failure> {
+    for path in outputs.into_iter().flatten() {
+        PartFile::beside(path).map_err(|e| Failure::output(&e, &path.display().to_string()))?;
+    }
+    Ok(())
 }
 
 /// Prints to standard output. A reader that closed the pipe has seen enough.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_files::FileUse;
 use pounding_report::{ReportError, RunResult, page};
 
 use super::print;
@@ -9,15 +10,16 @@ use crate::failure::Failure;
 use crate::plot;
 
 /// Reads a result, writes its page, says where.
-pub fn report(path: &Path, output: Option<&Path>) -> Result<(), Failure> {
-    let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
-    let place = |p: &Path| p.canonicalize().ok();
-    if output == path || (place(path).is_some() && place(&output) == place(path)) {
-        return Err(Failure::input(
-            format!("{} would take the place of the result", output.display()),
-            Some("give the page another name with --output".to_owned()),
-        ));
-    }
+pub fn report(path: &Path, output: Option<&Path>, mut files: FileUse) -> Result<(), Failure> {
+    let output = match output {
+        Some(output) => output.to_owned(),
+        None => {
+            let beside = path.with_extension("html");
+            files.writes("--output", &beside);
+            files.check()?;
+            beside
+        }
+    };
     let result = RunResult::read(path).map_err(failed)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     plot::write(&output, &page(&result, &name).map_err(failed)?)?;

@@ -1,33 +1,37 @@
 //! `pounding run`: the main job.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use pounding_case::Case;
+use pounding_files::FileUse;
 use pounding_time_history::{
     Assembly, GridRecorder, Outcome, Recorder, RunRecord, TimeHistoryError, assemble,
     run as integrate, write_result,
 };
 
-use super::{pretty, print};
+use super::progress::{Progress, Unit};
+use super::{have_a_place, pretty, print, reads_too};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::{json, plot, tables};
 
 /// Runs a case with and without its gaps, writes the result, prints the answer.
-pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case)?;
     let failed = |e| Failure::time_history(e, &case.source);
-    let assembly = assemble(&case).map_err(failed)?;
     let output = (!arguments.no_output).then(|| output_path(arguments));
-    if let Some(path) = &output {
-        writable(path)?;
+    if let (Some(path), None) = (&output, &arguments.output) {
+        files.writes("result", path);
     }
+    reads_too(&mut files, case.files())?;
+    let assembly = assemble(&case).map_err(failed)?;
+    have_a_place([output.as_deref(), arguments.plot.as_deref()])?;
     assembly.check_recording().map_err(failed)?;
     let started = Instant::now();
-    let (outcome, isolated, recorder) = integrate_both(&assembly).map_err(failed)?;
+    let progress = Progress::begin(Unit::Part)?;
+    let (outcome, isolated, recorder) = integrate_both(&assembly, &progress).map_err(failed)?;
+    drop(progress);
     let wall_time = started.elapsed().as_secs_f64();
     let record = RunRecord {
         title: &case.title,
@@ -71,7 +75,8 @@ pub fn read_case(path: &Path) -> Result<Case, Failure> {
 }
 
 fn output_path(arguments: &RunArguments) -> PathBuf {
-    arguments.output.clone().unwrap_or_else(|| {
+    let given = arguments.output.as_deref().map(Path::to_owned);
+    given.unwrap_or_else(|| {
         // Examples are all called case.toml: their folder names them better.
         let stem = arguments.case.file_stem().unwrap_or_default();
         let folder = arguments
@@ -87,26 +92,11 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
     })
 }
 
-/// Finds out before the run, not after it, that the result has no place.
-fn writable(path: &Path) -> Result<(), Failure> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    // A result replaces what has its name: never a folder or a device.
-    if path.exists() && !path.is_file() {
-        let e = std::io::Error::other("it is not a regular file");
-        return Err(Failure::output(&e, &path.display().to_string()));
-    }
-    std::fs::File::create(&part)
-        .and_then(|_| std::fs::remove_file(&part))
-        .map_err(|e| Failure::output(&e, &path.display().to_string()))
-}
-
 /// The run, and the same buildings without gaps.
 fn integrate_both(
     assembly: &Assembly,
+    progress: &Progress,
 ) -> Result<(Outcome, Outcome, GridRecorder), TimeHistoryError> {
-    let bar = progress_bar();
     let mut recorder = GridRecorder::new(assembly.output_step)?;
     let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
     let outcome = integrate(
@@ -114,7 +104,7 @@ fn integrate_both(
         &assembly.options,
         &mut recorders,
         &mut |done| {
-            bar.set_position((done * 900.0) as u64);
+            progress.show((done * 900.0) as usize, 1000, "");
         },
     )?;
     let isolated = integrate(
@@ -122,24 +112,8 @@ fn integrate_both(
         &assembly.options,
         &mut [],
         &mut |done| {
-            bar.set_position(900 + (done * 100.0) as u64);
+            progress.show(900 + (done * 100.0) as usize, 1000, "");
         },
     )?;
-    bar.finish_and_clear();
     Ok((outcome, isolated, recorder))
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress_bar() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(1000);
-    if let Ok(style) =
-        ProgressStyle::with_template("{elapsed:>4} {wide_bar} {percent:>3} %  {eta} left")
-    {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

@@ -1,21 +1,28 @@
 //! `pounding sweep` and `pounding merge`: many runs of one case.
 
 mod plan;
-mod progress;
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
+use pounding_case::Dimension;
+use pounding_files::FileUse;
 use pounding_study::{
-    Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run, sweep as make, writable,
+    Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run,
+    parts_folder, sweep as make, writable,
 };
 use serde_json::{Value, json};
 
-use super::{pretty, print};
+use super::progress::{Progress, Unit};
+use super::stiffness::value;
+use super::{pretty, print, reads_too};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
+use crate::interruption;
 
 /// Runs a study, or shows what it would run.
-pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
     if let Some(run) = arguments.show {
         return print(&case_of_run(&study, run)?);
@@ -27,7 +34,7 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         Some(text) => text.parse()?,
         None => Shard::WHOLE,
     };
-    let options = options(&arguments.study, &arguments.running, shard)?;
+    let options = options(&study, &arguments.running, shard, &mut files)?;
     let report = run(&study, &options)?;
     if arguments.json {
         print(&pretty(&as_json(&report, &options)))?;
@@ -40,11 +47,8 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 /// Merges the results of all shards.
 pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     writable(&arguments.output)?;
-    let merged = pounding_study::merge(
-        &arguments.shards,
-        &arguments.output,
-        arguments.csv.as_deref(),
-    )?;
+    let shards: Vec<_> = arguments.shards.iter().map(|p| p.to_path_buf()).collect();
+    let merged = pounding_study::merge(&shards, &arguments.output, arguments.csv.as_deref())?;
     if arguments.json {
         let output = arguments.output.display().to_string();
         return print(&pretty(&json!({
@@ -63,27 +67,43 @@ pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
 }
 
 /// How a study is run, as the arguments say; finds out before the runs that the result
-/// has no place.
+/// has no place, or would have that of a file that is read.
 pub fn options(
-    study: &Path,
+    study: &Study,
     running: &RunningArguments,
     shard: Shard,
+    files: &mut FileUse,
 ) -> Result<SweepOptions, Failure> {
-    let output = running
-        .output
-        .clone()
-        .unwrap_or_else(|| default_output(study, shard));
+    let output = match &running.output {
+        Some(output) => output.to_path_buf(),
+        None => {
+            let output = default_output(&study.file, shard);
+            files.writes("result", &output);
+            output
+        }
+    };
+    let folder = "the folder of its finished runs, which is removed at the end";
+    files.fills(folder, parts_folder(&output));
+    reads_too(files, study.files())?;
     writable(&output)?;
     if let Some(csv) = &running.csv {
         writable(csv)?;
     }
+    let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;
+    let store_every = Duration::try_from_secs_f64(seconds).map_err(|_| {
+        Failure::input(
+            format!("--store-every: {seconds} s is no time to wait"),
+            Some("give a time such as \"5 s\"".to_owned()),
+        )
+    })?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Ok(SweepOptions {
         output,
-        csv: running.csv.clone(),
+        csv: running.csv.as_deref().map(Path::to_owned),
         threads: running.threads.map_or(cores, |n| n as usize),
         shard,
         resume: running.resume,
+        store_every,
         keep_going: running.keep_going,
     })
 }
@@ -107,12 +127,36 @@ fn default_output(study: &Path, shard: Shard) -> PathBuf {
     })
 }
 
-/// Runs a study with progress on a terminal.
+/// Runs a study and shows how far it is. Asked to end, it stores what has finished, says
+/// how to go on, and ends the process.
 pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure> {
-    let mut bar = progress::Bar::new();
-    let report = make(study, options, &mut |now| bar.show(now));
-    bar.finish();
+    interruption::resume_with(interruption::this_command_resumed());
+    let progress = Progress::begin(Unit::Runs)?;
+    let report = make(study, options, &mut |now| {
+        show(&progress, now);
+        // Once all runs are stored nobody looks any more: a signal ends the process at once.
+        if !interruption::wait(now.stored < now.total) {
+            return ControlFlow::Continue(());
+        }
+        if now.all_stored() {
+            let stored = format!("{} of {} runs are stored", now.stored, now.total);
+            interruption::leave(&stored);
+        }
+        ControlFlow::Break(())
+    });
+    drop(progress);
     Ok(report?)
+}
+
+fn show(progress: &Progress, now: &Stand) {
+    let mut more = String::new();
+    for (count, what) in [(now.failed, "failed"), (now.collapsed, "collapsed")] {
+        if count > 0 {
+            more.push_str(&format!(", {count} {what}"));
+        }
+    }
+    // Rate and remaining time are those of this call.
+    progress.show(now.made, now.total - now.stored_before, &more);
 }
 
 /// A study of which no run succeeded has computed nothing.
@@ -209,6 +253,7 @@ impl From<StudyError> for Failure {
                 Self::unwritten(e.to_string(), help)
             }
             e @ StudyError::Evaluation { .. } => Self::computation(e.to_string(), help),
+            e @ StudyError::Interrupted { .. } => Self::interrupted(e.to_string(), help),
             e => Self::input(e.to_string(), help),
         }
     }

@@ -68,27 +68,31 @@ fn a_killed_study_goes_on_where_it_was() {
     );
 }
 
-/// A whole chunk is kept and a damaged one made again.
+/// A whole piece is kept and a damaged one made again.
 #[test]
-fn damaged_chunks_are_made_again() {
+fn damaged_pieces_are_made_again() {
     let bench = Bench::new(MIXED);
     bench.text("sweep study.toml -o whole.h5");
-    // The result cannot be written, so that the chunks stay.
-    std::fs::create_dir(bench.path("again.h5.part")).unwrap();
-    bench.complaint("sweep study.toml -o again.h5", 4);
+    // Stored by number alone, four at once.
+    bench.without_its_result("sweep study.toml -o again.h5 --store-every 1000s");
     let parts = bench.path("again.h5.parts");
-    std::fs::remove_dir(bench.path("again.h5.part")).unwrap();
     let told = bench.complaint("sweep study.toml -o again.h5", 2);
     assert!(
         told.contains("60 finished runs of this study from an interrupted call"),
         "{told}"
     );
     assert!(told.contains("--resume"), "{told}");
-    let chunk = parts.join("000000000008.runs");
-    let mut bytes = std::fs::read(&chunk).unwrap();
+    let mut pieces: Vec<_> = std::fs::read_dir(&parts)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "runs"))
+        .collect();
+    pieces.sort();
+    assert_eq!(pieces.len(), 15);
+    let mut bytes = std::fs::read(&pieces[2]).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 4;
-    std::fs::write(&chunk, bytes).unwrap();
+    std::fs::write(&pieces[2], bytes).unwrap();
     let told = bench.text("sweep study.toml -o again.h5 --resume");
     assert!(
         told.contains("56 of them stored by an earlier call"),
@@ -114,8 +118,7 @@ fn damaged_chunks_are_made_again() {
 #[test]
 fn a_changed_study_does_not_go_on() {
     let bench = Bench::new(MIXED);
-    std::fs::create_dir(bench.path("a.h5.part")).unwrap();
-    bench.complaint("sweep study.toml -o a.h5", 4);
+    bench.without_its_result("sweep study.toml -o a.h5");
     bench.study(&MIXED.replace("\"20 t\"", "\"21 t\""));
     let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
     assert!(told.contains("runs of another study"), "{told}");
@@ -125,8 +128,7 @@ fn a_changed_study_does_not_go_on() {
             .replace("\"20 t\"", "20000")
             .replace("seed = 3", "seed = 3 # as before"),
     );
-    let told = bench.complaint("sweep study.toml -o a.h5 --resume", 4);
-    assert!(told.contains("cannot write the result"), "{told}");
+    bench.without_its_result("sweep study.toml -o a.h5 --resume");
 }
 
 /// Two processes never work on the same runs.
@@ -144,4 +146,56 @@ fn one_process_at_a_time() {
     );
     drop(held);
     bench.text("sweep study.toml -o a.h5 --resume");
+}
+
+/// However long a study takes and however often it is stored, its files are no more than its
+/// chunks and the small ones of one chunk; and none of it shows in the result.
+#[test]
+fn small_pieces_become_large_ones() {
+    let bench = Bench::new(&MIXED.replace("chunk = 4", "chunk = 20"));
+    bench.text("sweep study.toml -o whole.h5");
+    bench.without_its_result("sweep study.toml -o often.h5 --store-every 0s --threads 1");
+    let pieces = stored(&bench.path("often.h5.parts"));
+    assert!((3..3 + 20).contains(&pieces), "{pieces}");
+    let told = bench.text("sweep study.toml -o often.h5 --resume");
+    assert!(
+        told.contains("60 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert!(bench.bytes("often.h5") == bench.bytes("whole.h5"));
+}
+
+/// A finished result of another shard, or of another study, is never taken for one that is to
+/// be resumed.
+#[test]
+fn a_finished_shard_is_not_replaced_by_another() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/3 -o x.h5");
+    let first = bench.bytes("x.h5");
+    for (shard, wanted) in [
+        (
+            "--shard 2/3",
+            "x.h5 holds shard 1/3 of this study, not shard 2/3",
+        ),
+        (
+            "--shard 1/2",
+            "x.h5 holds shard 1/3 of this study, not shard 1/2",
+        ),
+        ("", "x.h5 holds shard 1/3 of this study, not the whole"),
+    ] {
+        let told = bench.complaint(&format!("sweep study.toml {shard} -o x.h5 --resume"), 2);
+        assert!(told.contains(wanted), "{told}");
+        assert!(told.contains("name another result with -o"), "{told}");
+        assert!(bench.bytes("x.h5") == first);
+        assert!(!bench.path("x.h5.parts").exists());
+    }
+    bench.text("sweep study.toml --shard 1/3 -o x.h5 --resume");
+    assert!(bench.bytes("x.h5") == first);
+    bench.study(&MIXED.replace("seed = 3", "seed = 4"));
+    let told = bench.complaint("sweep study.toml --shard 1/3 -o x.h5 --resume", 2);
+    assert!(told.contains("another version of this one"), "{told}");
+    assert!(bench.bytes("x.h5") == first);
+    // Asked for anew, it is replaced, as all results are.
+    bench.text("sweep study.toml --shard 2/3 -o x.h5");
+    assert!(bench.bytes("x.h5") != first);
 }

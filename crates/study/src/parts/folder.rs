@@ -1,34 +1,47 @@
-//! The folder of the finished chunks of a result, beside it.
+//! The folder of the finished runs of a result, beside it.
 
+use std::collections::BTreeMap;
 use std::fs::File;
+use std::io::{Error, ErrorKind};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::chunk::{read_chunk, write_chunk};
+use super::piece;
 use crate::error::StudyError;
 use crate::runs::Row;
 
-/// The file that tells whose chunks lie here.
+/// The file that tells whose runs lie here.
 const STUDY: &str = "study.txt";
 /// The file that one process at a time holds.
 const LOCK: &str = "lock";
+/// How often a folder that another process is just removing is made anew.
+const TRIES: usize = 10;
 
-/// Finished chunks of one study, or of one shard of it.
+/// Finished runs of one study, or of one shard of it.
 #[derive(Debug)]
 pub(crate) struct Parts {
     pub folder: PathBuf,
     study: String,
     /// Chunks of this shard, in order.
     pub chunks: Vec<Range<usize>>,
+    /// The piece in which each stored run stands.
+    stored: BTreeMap<usize, PathBuf>,
     /// Held as long as this lives.
     _lock: File,
 }
 
 impl Parts {
-    /// Opens the folder of a result, `<name>.parts`; makes it if it is not there.
+    /// The folder of the finished runs of a result, `<name>.parts`.
+    pub(crate) fn folder(result: &Path) -> PathBuf {
+        let mut name = result.file_name().unwrap_or_default().to_owned();
+        name.push(".parts");
+        result.with_file_name(name)
+    }
+
+    /// Opens the folder of a result; makes it if it is not there.
     ///
     /// # Errors
-    /// Chunks of an earlier call without `resume`, those of another study, another
+    /// Runs of an earlier call without `resume`, those of another study, another
     /// process at work there, or a folder that cannot be made.
     pub(crate) fn open(
         result: &Path,
@@ -36,26 +49,13 @@ impl Parts {
         chunks: Vec<Range<usize>>,
         resume: bool,
     ) -> Result<Self, StudyError> {
-        let mut name = result.file_name().unwrap_or_default().to_owned();
-        name.push(".parts");
-        let folder = result.with_file_name(name);
-        let failed = |what: &'static str, path: &Path| {
-            let path = path.to_owned();
-            move |source| StudyError::File { what, path, source }
-        };
-        std::fs::create_dir_all(&folder).map_err(failed("make the folder", &folder))?;
-        let path = folder.join(LOCK);
-        let lock = File::create(&path).map_err(failed("write", &path))?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(std::fs::TryLockError::WouldBlock) => return Err(StudyError::Busy { folder }),
-            // A file system without locks: nothing to hold.
-            Err(std::fs::TryLockError::Error(_)) => {}
-        }
-        let parts = Self {
+        let folder = Self::folder(result);
+        let lock = lock(&folder)?;
+        let mut parts = Self {
             folder,
             study: study.to_owned(),
             chunks,
+            stored: BTreeMap::new(),
             _lock: lock,
         };
         parts.claim(resume)?;
@@ -63,64 +63,168 @@ impl Parts {
     }
 
     /// Writes whose folder this is, or finds that it is ours.
-    fn claim(&self, resume: bool) -> Result<(), StudyError> {
+    fn claim(&mut self, resume: bool) -> Result<(), StudyError> {
         let path = self.folder.join(STUDY);
-        let folder = || self.folder.clone();
+        let folder = self.folder.clone();
         let failed = |what| {
             let path = path.clone();
             move |source| StudyError::File { what, path, source }
         };
         match std::fs::read_to_string(&path) {
-            Ok(text) if text != self.study => Err(StudyError::OtherStudy { folder: folder() }),
+            Ok(text) if text != self.study => Err(StudyError::OtherStudy { folder }),
             Ok(_) => {
-                let all: usize = self.chunks.iter().map(Range::len).sum();
-                let stored = all - self.left().iter().map(Range::len).sum::<usize>();
+                self.look();
+                let stored = self.stored.len();
                 if stored > 0 && !resume {
-                    return Err(StudyError::Unfinished {
-                        folder: folder(),
-                        stored,
-                    });
+                    return Err(StudyError::Unfinished { folder, stored });
                 }
                 Ok(())
             }
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => {
-                let part = path.with_extension("writing");
-                std::fs::write(&part, &self.study)
-                    .and_then(|()| std::fs::rename(&part, &path))
-                    .map_err(failed("write"))
+            Err(e) if e.kind() == ErrorKind::NotFound => {
+                pounding_files::write(&path, self.study.as_bytes()).map_err(failed("write"))
             }
             Err(e) => Err(failed("read")(e)),
         }
     }
 
-    fn path(&self, chunk: &Range<usize>) -> PathBuf {
-        self.folder.join(format!("{:012}.runs", chunk.start))
+    /// Finds out which runs are stored whole, and where.
+    fn look(&mut self) {
+        for path in files(&self.folder, &["runs"]) {
+            // What is damaged is made again.
+            let rows = piece::read(&path, &self.study).unwrap_or_default();
+            for run in rows.iter().map(|r| r.run) {
+                let place = self.chunks.partition_point(|c| c.end <= run);
+                if self.chunks.get(place).is_some_and(|c| c.contains(&run)) {
+                    self.stored.insert(run, path.clone());
+                }
+            }
+        }
     }
 
-    /// Chunks that have no whole file yet.
-    pub(crate) fn left(&self) -> Vec<Range<usize>> {
-        let missing = |chunk: &&Range<usize>| self.read(chunk).is_err();
-        self.chunks.iter().filter(missing).cloned().collect()
+    /// Runs that are not stored, in order.
+    pub(crate) fn left(&self) -> Vec<usize> {
+        let all = self.chunks.iter().flat_map(Clone::clone);
+        all.filter(|run| !self.stored.contains_key(run)).collect()
     }
 
-    /// Rows of a chunk.
+    /// Stores some rows, which are in the order of their runs, as a piece.
     ///
     /// # Errors
-    /// A file that is not there or not whole.
-    pub(crate) fn read(&self, chunk: &Range<usize>) -> std::io::Result<Vec<Row>> {
-        read_chunk(&self.path(chunk), &self.study, chunk)
+    /// What the system said; the other pieces stay as they are.
+    pub(super) fn write(&mut self, rows: &[Row]) -> std::io::Result<PathBuf> {
+        let content = piece::encode(&self.study, rows);
+        let path = self.folder.join(piece::name(&content, rows));
+        pounding_files::write(&path, &content)?;
+        for row in rows {
+            self.stored.insert(row.run, path.clone());
+        }
+        Ok(path)
     }
 
-    /// Stores the rows of a chunk.
+    /// Hands all rows over, in the order of their runs.
     ///
     /// # Errors
-    /// What the system said; the other chunks stay as they are.
-    pub(crate) fn write(&self, chunk: &Range<usize>, rows: &[Row]) -> std::io::Result<()> {
-        write_chunk(&self.path(chunk), &self.study, rows)
+    /// A run that is not stored, a piece that is not whole, or what `take` says.
+    pub(crate) fn rows(
+        &self,
+        take: &mut dyn FnMut(Row) -> Result<(), StudyError>,
+    ) -> Result<(), StudyError> {
+        let failed = |source| StudyError::File {
+            what: "read the finished runs in",
+            path: self.folder.clone(),
+            source,
+        };
+        // Runs were made nearly in order, so that few pieces are open at a time.
+        let mut open: BTreeMap<usize, Row> = BTreeMap::new();
+        for run in self.chunks.iter().flat_map(Clone::clone) {
+            if !open.contains_key(&run) {
+                let path = self.stored.get(&run).ok_or_else(|| lost(run));
+                let rows = path.and_then(|path| piece::read(path, &self.study));
+                let rows = rows.map_err(failed)?.into_iter();
+                open.extend(rows.filter(|r| r.run >= run).map(|r| (r.run, r)));
+            }
+            let row = open.remove(&run).ok_or_else(|| failed(lost(run)))?;
+            take(row)?;
+        }
+        Ok(())
     }
 
-    /// Removes the folder, when its runs are in the result.
+    /// Removes what is ours, when its runs are in the result. A file of somebody else stays,
+    /// and the folder with it.
     pub(crate) fn remove(self) -> std::io::Result<()> {
-        std::fs::remove_dir_all(&self.folder)
+        // With the part files of killed processes: nobody else writes any under the lock.
+        for path in files(&self.folder, &["runs", "part"]) {
+            std::fs::remove_file(path)?;
+        }
+        std::fs::remove_file(self.folder.join(STUDY))?;
+        // Last of all: who comes now makes a folder of its own.
+        std::fs::remove_file(self.folder.join(LOCK))?;
+        std::fs::remove_dir(&self.folder)
     }
+}
+
+fn lost(run: usize) -> Error {
+    let text = format!("run {run} was stored, but its file is gone or damaged");
+    Error::new(ErrorKind::NotFound, text)
+}
+
+/// The files of a folder that end so, in the order of their names.
+fn files(folder: &Path, ends: &[&str]) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let paths = entries.filter_map(|entry| entry.ok().map(|e| e.path()));
+    let wanted = |path: &PathBuf| {
+        let end = path.extension().and_then(|e| e.to_str());
+        end.is_some_and(|e| ends.contains(&e))
+    };
+    let mut files: Vec<PathBuf> = paths.filter(wanted).collect();
+    files.sort();
+    files
+}
+
+/// Makes the folder if it is not there, and takes its lock.
+fn lock(folder: &Path) -> Result<File, StudyError> {
+    let failed = |what: &'static str, path: &Path| {
+        let path = path.to_owned();
+        move |source| StudyError::File { what, path, source }
+    };
+    let path = folder.join(LOCK);
+    let mut tries = 0;
+    loop {
+        tries += 1;
+        std::fs::create_dir_all(folder).map_err(failed("make the folder", folder))?;
+        let lock = match File::create(&path) {
+            // Another process has finished and removed the folder in between.
+            Err(e) if e.kind() == ErrorKind::NotFound && tries < TRIES => continue,
+            made => made.map_err(failed("write", &path))?,
+        };
+        match lock.try_lock() {
+            Err(std::fs::TryLockError::WouldBlock) => {
+                return Err(StudyError::Busy {
+                    folder: folder.to_owned(),
+                });
+            }
+            // A file system without locks: nothing to hold.
+            Ok(()) | Err(std::fs::TryLockError::Error(_)) => {}
+        }
+        // Held, but perhaps only what another process had held and has removed.
+        if is_at(&lock, &path) || tries == TRIES {
+            return Ok(lock);
+        }
+    }
+}
+
+/// Whether an open file is the one that its path names.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let number = |m: std::fs::Metadata| (m.dev(), m.ino());
+    match (file.metadata(), std::fs::metadata(path)) {
+        (Ok(a), Ok(b)) => number(a) == number(b),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
 }

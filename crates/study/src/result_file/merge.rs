@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_files::FileUse;
+
 use super::table::RunTable;
 use super::{Description, ResultReader, ResultWriter};
 use crate::error::StudyError;
@@ -21,14 +23,23 @@ pub struct MergeReport {
 /// a file. The result is that of one call for the whole study.
 ///
 /// # Errors
-/// [`StudyError::MergedOnto`] if the output is one of the files, [`StudyError::Merge`] if the files are not all shards of one study, or
+/// [`StudyError::FileUse`] if the output or the table is one of the files,
+/// [`StudyError::Merge`] if the files are not all shards of one study, or
 /// [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
     output: &Path,
     csv: Option<&Path>,
 ) -> Result<MergeReport, StudyError> {
-    apart(files, output, csv)?;
+    let mut used = FileUse::new();
+    for file in files {
+        used.reads("shard", file);
+    }
+    used.writes("output", output);
+    if let Some(path) = csv {
+        used.writes("table", path);
+    }
+    used.check()?;
     let readers = files
         .iter()
         .map(|f| ResultReader::open(f))
@@ -75,27 +86,6 @@ pub fn merge(
     }
     writer.finish()?;
     Ok(report)
-}
-
-/// Whether nothing is written over what is read, or over what is written.
-fn apart(files: &[PathBuf], output: &Path, csv: Option<&Path>) -> Result<(), StudyError> {
-    let mut taken: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
-    for path in [Some(output), csv].into_iter().flatten() {
-        // What is not there yet can clash by its name alone.
-        let real = |path: &Path| {
-            path.canonicalize()
-                .or_else(|_| std::path::absolute(path))
-                .ok()
-        };
-        let mine = real(path);
-        let same = |other: &&Path| mine.is_some() && real(other) == mine;
-        if taken.iter().any(same) {
-            let path = path.to_owned();
-            return Err(StudyError::MergedOnto { path });
-        }
-        taken.push(path);
-    }
-    Ok(())
 }
 
 /// The shards in order, if they are all there.

@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use pounding_files::PartFile;
+
 use super::Description;
 use super::parquet_table::{Cell, ParquetTable};
 use crate::case_text::hexadecimal;
@@ -15,8 +17,9 @@ use crate::study_file::Value;
 #[derive(Debug)]
 pub struct RunTable {
     path: PathBuf,
-    part: PathBuf,
     writer: Writer,
+    /// Dropped after `writer`, which writes into it.
+    part: PartFile,
     choices: Vec<Option<Vec<String>>>,
 }
 
@@ -32,24 +35,22 @@ impl RunTable {
     /// # Errors
     /// [`StudyError::File`].
     pub fn create(path: &Path, description: &Description) -> Result<Self, StudyError> {
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(".part");
-        let part = path.with_file_name(name);
-        let names = header(description);
         let refused = |e| failed(path, e);
+        let part = PartFile::beside(path).map_err(refused)?;
+        let names = header(description);
         let writer = if path.extension().is_some_and(|e| e == "parquet") {
             let kinds = kinds(description);
-            let table = ParquetTable::create(&part, &names, &kinds).map_err(refused)?;
+            let table = ParquetTable::create(part.path(), &names, &kinds).map_err(refused)?;
             Writer::Parquet(Box::new(table))
         } else {
-            let mut csv = csv::Writer::from_path(&part).map_err(|e| refused(e.into()))?;
+            let mut csv = csv::Writer::from_path(part.path()).map_err(|e| refused(e.into()))?;
             csv.write_record(&names).map_err(|e| refused(e.into()))?;
             Writer::Csv(Box::new(csv))
         };
         Ok(Self {
             path: path.to_owned(),
-            part,
             writer,
+            part,
             choices: description
                 .coordinates
                 .iter()
@@ -98,7 +99,7 @@ impl RunTable {
             Writer::Parquet(table) => table.finish(),
         };
         written
-            .and_then(|()| std::fs::rename(&self.part, &self.path))
+            .and_then(|()| self.part.finish())
             .map_err(|e| failed(&self.path, e))
     }
 }

@@ -1,76 +1,66 @@
 //! All cores on the runs of a study.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::sync_channel;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
 
 use super::runner::{Row, Runner};
 use crate::error::StudyError;
 
 /// Rows that may wait for the thread that stores them, for each thread that makes them.
 const WAITING: usize = 16;
+/// How long nothing may happen before `take` is called without a row.
+const PAUSE: Duration = Duration::from_millis(100);
 
-/// Makes the runs of some chunks on so many threads and hands every chunk, rows in order,
-/// to `store` when its last run is done. Chunks come in any order; each row is the same
-/// whatever the number of threads. `tick` is told of every row.
+/// Makes runs on so many threads, begun in their order, and hands every row to `take` when
+/// it is finished. Rows come in any order; each is the same whatever the number of threads.
+/// Between rows `take` is called with `None` from time to time. It may break off: then no
+/// more runs are begun, those in flight come to their end, and it is handed these, too.
 ///
 /// # Errors
-/// The first error of `store`, after which no more runs are begun.
+/// The first error of `take`, after which no more runs are begun.
 pub(crate) fn run_all(
     runner: &Runner<'_>,
-    chunks: &[Range<usize>],
+    runs: &[usize],
     threads: usize,
-    tick: &mut dyn FnMut(&Row),
-    store: &mut dyn FnMut(Range<usize>, Vec<Row>) -> Result<(), StudyError>,
+    take: &mut dyn FnMut(Option<Row>) -> Result<ControlFlow<()>, StudyError>,
 ) -> Result<(), StudyError> {
-    // Runs of all chunks as one sequence: `starts[c]` come before chunk c.
-    let mut starts = vec![0];
-    for chunk in chunks {
-        starts.push(starts.last().copied().unwrap_or(0) + chunk.len());
-    }
-    let total = starts.last().copied().unwrap_or(0);
-    let threads = threads.clamp(1, total.max(1));
+    let threads = threads.clamp(1, runs.len().max(1));
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let (sender, receiver) = sync_channel::<(usize, Row)>(WAITING * threads);
+    let (sender, receiver) = sync_channel::<Row>(WAITING * threads);
     std::thread::scope(|scope| {
         for _ in 0..threads {
             let sender = sender.clone();
-            let (next, stop, starts) = (&next, &stop, &starts);
+            let (next, stop) = (&next, &stop);
             scope.spawn(move || {
                 while !stop.load(Ordering::Relaxed) {
                     let at = next.fetch_add(1, Ordering::Relaxed);
-                    if at >= total {
+                    let Some(run) = runs.get(at) else {
                         return;
-                    }
-                    let chunk = starts.partition_point(|s| *s <= at) - 1;
-                    let row = runner.row(chunks[chunk].start + at - starts[chunk]);
+                    };
                     // The other end is gone only if the study has stopped.
-                    if sender.send((chunk, row)).is_err() {
+                    if sender.send(runner.row(*run)).is_err() {
                         return;
                     }
                 }
             });
         }
         drop(sender);
-        let mut open: BTreeMap<usize, Vec<Row>> = BTreeMap::new();
         let mut result = Ok(());
-        for (chunk, row) in receiver {
-            if result.is_err() {
-                continue;
-            }
-            tick(&row);
-            let rows = open.entry(chunk).or_default();
-            rows.push(row);
-            if rows.len() == chunks[chunk].len() {
-                let mut rows = open.remove(&chunk).unwrap_or_default();
-                rows.sort_unstable_by_key(|r| r.run);
-                result = store(chunks[chunk].clone(), rows);
-                if result.is_err() {
+        loop {
+            let row = match receiver.recv_timeout(PAUSE) {
+                Ok(row) => Some(row),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => return result,
+            };
+            if result.is_ok() {
+                let taken = take(row);
+                if !matches!(taken, Ok(ControlFlow::Continue(()))) {
                     stop.store(true, Ordering::Relaxed);
                 }
+                result = taken.map(|_| ());
             }
         }
-        result
     })
 }

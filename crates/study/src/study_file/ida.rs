@@ -1,6 +1,6 @@
 //! What an incremental dynamic analysis evaluates.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use pounding_case::{Case, Dimension};
 
@@ -93,6 +93,8 @@ pub struct IdaSettings {
     pub limits: Vec<Limit>,
     /// Hazard at the site.
     pub hazard: Option<HazardCurve>,
+    /// The file that it stands in, if it has one of its own.
+    pub hazard_file: Option<PathBuf>,
     /// Mean annual frequency of pounding that is aimed at (1/year).
     pub target_frequency: Option<f64>,
     /// Confidence of intervals (-).
@@ -121,6 +123,10 @@ pub(super) fn settings(
         .get("hazard")
         .map(|v| hazard(reader, v, &measure, folder));
     let hazard = reader.keep(hazard.transpose())?;
+    let hazard_file = table
+        .get("hazard")
+        .and_then(|v| v.get_ref().as_str())
+        .map(|name| folder.join(name));
     let per_year = |v: &Value<'_>| reader.positive(v, "target_frequency", Dimension::NUMBER);
     let target_frequency = table.get("target_frequency").map(per_year).transpose();
     let target_frequency = reader.keep(target_frequency)?;
@@ -159,6 +165,7 @@ pub(super) fn settings(
         gaps,
         limits,
         hazard,
+        hazard_file,
         target_frequency,
         confidence,
     })

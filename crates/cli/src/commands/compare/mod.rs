@@ -4,23 +4,31 @@ mod files;
 mod numbers;
 mod text;
 
+use pounding_files::FileUse;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
 use pounding_study::gap_check::under_records;
 
 use super::gap::failure;
-use super::progress::{bar, threads};
+use super::progress::{Progress, Unit, threads};
 use super::run::read_case;
-use super::{pretty, print};
+use super::{have_a_place, pretty, print, reads_too};
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
 use crate::failure::Failure;
 use crate::plot;
 
 /// Runs every model on every record. Models that fail are listed with their diagnosis;
 /// if none is left, the computation failed.
-pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
+pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case)?;
     let failed = |e| failure(e, &case);
-    let records = under_records(&case, &arguments.records).map_err(failed)?;
+    let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
+    reads_too(&mut files, case.files())?;
+    let records = under_records(&case, &given).map_err(failed)?;
+    reads_too(
+        &mut files,
+        records.iter().map(|r| ("record", r.file.clone())),
+    )?;
+    have_a_place([arguments.csv.as_deref(), arguments.plot.as_deref()])?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {
@@ -35,13 +43,10 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
         approach_velocity: arguments.approach_velocity,
         threads: threads(arguments.threads),
     };
-    let bar = bar();
-    let tell = |done: usize, total: usize| {
-        bar.set_length(total as u64);
-        bar.set_position(done as u64);
-    };
+    let progress = Progress::begin(Unit::Runs)?;
+    let tell = |done: usize, total: usize| progress.show(done, total, "");
     let comparison = compare(&case, &records, &options, &tell).map_err(failed)?;
-    bar.finish_and_clear();
+    drop(progress);
     if let Some(path) = &arguments.csv {
         plot::write(path, &files::table(&comparison)?)?;
     }

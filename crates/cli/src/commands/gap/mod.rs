@@ -11,19 +11,20 @@ pub use text::level_name;
 use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation, parse_quantity};
+use pounding_files::FileUse;
 use pounding_study::gap_check::{
     CheckError, GapCheck, GapCheckOptions, SweepOptions, gap_check, under_records,
 };
 
-use super::progress::{bar, threads};
+use super::progress::{Progress, Unit, threads};
 use super::run::read_case;
-use super::{pretty, print};
-use crate::arguments::GapArguments;
+use super::{have_a_place, pretty, print, reads_too};
+use crate::arguments::{GapArguments, OutputPath};
 use crate::failure::Failure;
 use crate::plot;
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
-pub fn gap(arguments: &GapArguments) -> Result<(), Failure> {
+pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
     let Some(path) = arguments.case.as_deref().filter(|_| !arguments.list) else {
         return provisions::list(arguments.json);
     };
@@ -31,14 +32,22 @@ pub fn gap(arguments: &GapArguments) -> Result<(), Failure> {
     let separation = separation(&case, arguments)?;
     let options = options(arguments)?;
     let failed = |e| failure(e, &case);
-    let records = under_records(&case, &arguments.records).map_err(failed)?;
-    let bar = bar();
-    let tell = |done: usize, total: usize| {
-        bar.set_length(total as u64);
-        bar.set_position(done as u64);
-    };
+    let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
+    reads_too(&mut files, case.files())?;
+    let records = under_records(&case, &given).map_err(failed)?;
+    reads_too(
+        &mut files,
+        records.iter().map(|r| ("record", r.file.clone())),
+    )?;
+    have_a_place([
+        arguments.csv.as_deref(),
+        arguments.codes_csv.as_deref(),
+        arguments.plot.as_deref(),
+    ])?;
+    let progress = Progress::begin(Unit::Runs)?;
+    let tell = |done: usize, total: usize| progress.show(done, total, "");
     let check = gap_check(&case, &separation, &records, &options, &tell).map_err(failed)?;
-    bar.finish_and_clear();
+    drop(progress);
     write_files(arguments, &check)?;
     if arguments.json {
         print(&pretty(&numbers::check(&check)))?;
@@ -127,7 +136,7 @@ fn length(text: &str, name: &str) -> Result<f64, Failure> {
 }
 
 fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure> {
-    let write = |path: &Option<std::path::PathBuf>, text: &dyn Fn() -> Result<String, Failure>| {
+    let write = |path: &Option<OutputPath>, text: &dyn Fn() -> Result<String, Failure>| {
         let write = |path: &Path| plot::write(path, &text()?);
         path.as_deref().map_or(Ok(()), write)
     };

@@ -75,12 +75,6 @@ fn list(as_json: bool) -> Result<(), Failure> {
 }
 
 fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> Result<(), Failure> {
-    if arguments.csv.is_some() && arguments.csv == arguments.svg {
-        return Err(Failure::input(
-            "--csv and --svg name the same file",
-            Some("give each a file of its own".to_owned()),
-        ));
-    }
     let (chosen, fitted) = match &arguments.fit {
         Some(path) => {
             let fitted = fit::fit(law, path, &arguments.set)?;

@@ -30,12 +30,6 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
             ),
         ));
     }
-    if arguments.csv.is_some() && arguments.csv == arguments.svg {
-        return Err(Failure::input(
-            "--csv and --svg name the same file".to_owned(),
-            Some("give each a file of its own".to_owned()),
-        ));
-    }
     let setting = setting::setting(arguments)?;
     let mut chosen = chosen::choose(arguments)?;
     if arguments.table {

@@ -1,7 +1,8 @@
 //! `pounding motion process`: steps in the order of the command line.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
 use pounding_time_history::processing_step;
 use serde_json::json;
@@ -9,10 +10,11 @@ use serde_json::json;
 use super::words::Words;
 use super::{reading, writing};
 use crate::arguments::ProcessArguments;
+use crate::commands::reads_too;
 use crate::failure::Failure;
 
 /// Does the steps and writes the motion with their numbers in its header.
-pub fn process(arguments: &ProcessArguments) -> Result<(), Failure> {
+pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), Failure> {
     if arguments.steps.0.is_empty() && arguments.rotate.is_none() {
         return Err(Failure::input(
             "no step is asked for",
@@ -22,10 +24,13 @@ pub fn process(arguments: &ProcessArguments) -> Result<(), Failure> {
             ),
         ));
     }
-    let mut steps = Vec::new();
+    let (mut steps, mut targets) = (Vec::new(), Vec::new());
     for (key, text) in &arguments.steps.0 {
-        steps.push((option(key), step(key, text)?));
+        let (step, target) = step(key, text)?;
+        steps.push((option(key), step));
+        targets.extend(target.map(|path| ("target spectrum", path)));
     }
+    reads_too(&mut files, targets)?;
     let mut record = reading::acceleration(&arguments.file, &arguments.read)?;
     if let (Some(angle), Some(second)) = (arguments.rotate, &arguments.second_component) {
         let mut read = arguments.read.clone();
@@ -47,8 +52,9 @@ fn option(key: &str) -> String {
     key.replace('_', "-")
 }
 
-/// A step from its words: those of the case file's `process` list.
-fn step(key: &str, text: &str) -> Result<ProcessingStep, Failure> {
+/// A step from its words, those of the case file's `process` list; and the file of a
+/// spectrum that it names.
+fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Failure> {
     let option = option(key);
     let words = Words::of(&option, text)?;
     let line = format!("process = [{{ {} }}]", words.as_toml(key));
@@ -61,6 +67,7 @@ fn step(key: &str, text: &str) -> Result<ProcessingStep, Failure> {
         ));
     };
     let path = |path: &Path| path.to_owned();
-    processing_step(&step.value, &path)
-        .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))
+    let made = processing_step(&step.value, &path)
+        .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))?;
+    Ok((made, step.value.target().cloned()))
 }

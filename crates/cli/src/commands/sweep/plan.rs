@@ -6,6 +6,7 @@ use serde_json::json;
 use super::super::{pretty, print};
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
+use crate::interruption::quoted;
 
 /// Prints the number of runs, and lines for HyperQueue and Slurm.
 pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {
@@ -46,13 +47,4 @@ pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {
         study.chunk
     ));
     print(&text)
-}
-
-/// A word that a shell takes as it is.
-fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        return text.to_owned();
-    }
-    format!("'{}'", text.replace('\'', "'\\''"))
 }

@@ -1,21 +1,20 @@
-//! The file of a chunk: a line of JSON, the rows, a hash of all before it.
+//! A piece: a line of JSON, the rows, a hash of all before it.
 
-use std::fs::File;
-use std::io::{Error, ErrorKind, Result, Write};
-use std::ops::Range;
+use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use crate::case_text::hexadecimal;
 use crate::runs::{Ending, Row};
 
 /// Bytes of a run's identity, and of the hash at the end.
 const ID: usize = 16;
 const HASH: usize = 32;
 
-/// Writes the rows of a chunk of a study beside its place and renames the file.
-pub(crate) fn write_chunk(path: &Path, study: &str, rows: &[Row]) -> Result<()> {
+/// The content of a piece: rows of a study, in the order of their runs.
+pub(super) fn encode(study: &str, rows: &[Row]) -> Vec<u8> {
     let mut endings = serde_json::Map::new();
     for row in rows {
         if let Some(reason) = row.ending.diagnosis() {
@@ -24,10 +23,9 @@ pub(crate) fn write_chunk(path: &Path, study: &str, rows: &[Row]) -> Result<()> 
         }
     }
     let columns = rows.first().map_or(0, |r| r.values.len());
-    let first = rows.first().map_or(0, |r| r.run);
+    let runs: Vec<usize> = rows.iter().map(|r| r.run).collect();
     let head = json!({
-        "study": study, "first": first, "runs": rows.len(), "columns": columns,
-        "endings": endings,
+        "study": study, "runs": runs, "columns": columns, "endings": endings,
     });
     let mut bytes = format!("{head}\n").into_bytes();
     bytes.reserve(rows.len() * (ID + 8 * columns) + HASH);
@@ -39,24 +37,22 @@ pub(crate) fn write_chunk(path: &Path, study: &str, rows: &[Row]) -> Result<()> 
     }
     let hash = Sha256::digest(&bytes);
     bytes.extend_from_slice(&hash);
-    let part = path.with_extension("writing");
-    let written = File::create(&part).and_then(|mut file| {
-        file.write_all(&bytes)?;
-        file.sync_all()
-    });
-    let done = written.and_then(|()| std::fs::rename(&part, path));
-    if done.is_err() {
-        // Half a file is worthless; if it cannot be removed, nobody reads it.
-        let _ = std::fs::remove_file(&part);
-    }
-    done
+    bytes
 }
 
-/// Reads the rows of a chunk.
+/// The name of a piece: its first run, and the beginning of its hash. Two pieces of one name
+/// hold the same rows, whoever wrote them.
+pub(super) fn name(content: &[u8], rows: &[Row]) -> String {
+    let hash = &content[content.len().saturating_sub(HASH)..];
+    let first = rows.first().map_or(0, |r| r.run);
+    format!("{first:012}-{}.runs", &hexadecimal(hash)[..16])
+}
+
+/// Reads the rows of a piece of a study.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidData`] if the file is not whole or not that of this chunk.
-pub(crate) fn read_chunk(path: &Path, study: &str, runs: &Range<usize>) -> Result<Vec<Row>> {
+/// [`ErrorKind::InvalidData`] if the file is not whole or not of this study.
+pub(super) fn read(path: &Path, study: &str) -> Result<Vec<Row>> {
     let damaged = || Error::new(ErrorKind::InvalidData, "the file is damaged");
     let bytes = std::fs::read(path)?;
     let body = bytes.len().checked_sub(HASH).ok_or_else(damaged)?;
@@ -69,39 +65,39 @@ pub(crate) fn read_chunk(path: &Path, study: &str, runs: &Range<usize>) -> Resul
         .position(|b| *b == b'\n')
         .ok_or_else(damaged)?;
     let head: Value = serde_json::from_slice(&content[..line]).map_err(|_| damaged())?;
-    let number = |key: &str| head[key].as_u64().and_then(|n| usize::try_from(n).ok());
-    let (Some(first), Some(count), Some(columns)) =
-        (number("first"), number("runs"), number("columns"))
-    else {
-        return Err(damaged());
-    };
-    if head["study"] != study || first != runs.start || count != runs.len() {
+    if head["study"] != study {
         return Err(Error::new(
             ErrorKind::InvalidData,
             "the file is of another study",
         ));
     }
+    let number = |value: &Value| value.as_u64().and_then(|n| usize::try_from(n).ok());
+    let runs: Option<Vec<usize>> = head["runs"]
+        .as_array()
+        .and_then(|runs| runs.iter().map(number).collect());
+    let (Some(runs), Some(columns)) = (runs, number(&head["columns"])) else {
+        return Err(damaged());
+    };
     let width = ID + 8 * columns;
     let rows = &content[line + 1..];
-    if rows.len() != count * width {
+    if rows.len() != runs.len() * width {
         return Err(damaged());
     }
-    let row = |(i, bytes): (usize, &[u8])| {
+    let row = |(run, bytes): (&usize, &[u8])| {
         let (id, values) = bytes.split_first_chunk::<ID>()?;
         let values = values.as_chunks::<8>().0;
-        let run = first + i;
         Some(Row {
-            run,
+            run: *run,
             id: *id,
             values: values.iter().map(|b| f64::from_le_bytes(*b)).collect(),
             ending: ending(&head["endings"][run.to_string()])?,
         })
     };
-    let rows = rows.chunks_exact(width).enumerate().map(row);
+    let rows = runs.iter().zip(rows.chunks_exact(width)).map(row);
     rows.collect::<Option<Vec<_>>>().ok_or_else(damaged)
 }
 
-/// How a run ended, from the head of its chunk; `None` if this cannot be.
+/// How a run ended, from the head of its piece; `None` if this cannot be.
 fn ending(value: &Value) -> Option<Ending> {
     if value.is_null() {
         return Some(Ending::Complete);
@@ -120,7 +116,8 @@ mod tests {
     use super::*;
 
     fn rows() -> Vec<Row> {
-        (7..10)
+        [7, 8, 31]
+            .into_iter()
             .map(|run| Row {
                 run,
                 id: [run as u8; ID],
@@ -131,7 +128,7 @@ mod tests {
                 },
                 ending: match run {
                     8 => Ending::Failed("it did not\nconverge".to_owned()),
-                    9 => Ending::Collapsed("storey 1".to_owned()),
+                    31 => Ending::Collapsed("storey 1".to_owned()),
                     _ => Ending::Complete,
                 },
             })
@@ -141,9 +138,11 @@ mod tests {
     #[test]
     fn rows_come_back_to_the_last_bit() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("chunk");
-        write_chunk(&path, "study", &rows()).unwrap();
-        let back = read_chunk(&path, "study", &(7..10)).unwrap();
+        let content = encode("study", &rows());
+        let path = folder.path().join(name(&content, &rows()));
+        std::fs::write(&path, content).unwrap();
+        let back = read(&path, "study").unwrap();
+        assert_eq!(back.len(), rows().len());
         for (a, b) in back.iter().zip(rows()) {
             let bits = |r: &Row| r.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(
@@ -151,32 +150,24 @@ mod tests {
                 (b.run, b.id, &b.ending, bits(&b))
             );
         }
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     /// Any cut, and any changed byte, is seen.
     #[test]
     fn damage_is_seen() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("chunk");
-        write_chunk(&path, "study", &rows()).unwrap();
-        let whole = std::fs::read(&path).unwrap();
+        let path = folder.path().join("piece");
+        let whole = encode("study", &rows());
         for cut in 0..whole.len() {
             std::fs::write(&path, &whole[..cut]).unwrap();
-            assert!(
-                read_chunk(&path, "study", &(7..10)).is_err(),
-                "cut at {cut}"
-            );
+            assert!(read(&path, "study").is_err(), "cut at {cut}");
             let mut bent = whole.clone();
             bent[cut] ^= 1;
             std::fs::write(&path, &bent).unwrap();
-            assert!(
-                read_chunk(&path, "study", &(7..10)).is_err(),
-                "bent at {cut}"
-            );
+            assert!(read(&path, "study").is_err(), "bent at {cut}");
         }
         std::fs::write(&path, &whole).unwrap();
-        assert!(read_chunk(&path, "other", &(7..10)).is_err());
-        assert!(read_chunk(&path, "study", &(6..9)).is_err());
+        assert!(read(&path, "study").is_ok());
+        assert!(read(&path, "other").is_err());
     }
 }

@@ -1,0 +1,129 @@
+//! What happens when a command is asked to end: by Ctrl-C (SIGINT), or by a batch system or
+//! a shutdown (SIGTERM).
+//!
+//! A sweep stores the runs that have finished first; everything else ends at once. Either
+//! way no file is left half-written, none that stood before is lost, and the exit code is
+//! [`EXIT_CODE`]. A second signal does not wait for anything.
+
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use crate::failure::Failure;
+
+/// Exit code of a command that was interrupted.
+pub const EXIT_CODE: u8 = 5;
+
+/// Whether a signal has come that waits for the runs to be stored.
+static ASKED: AtomicBool = AtomicBool::new(false);
+static STATE: Mutex<State> = Mutex::new(State {
+    waits: false,
+    resume: None,
+});
+
+struct State {
+    /// Whether somebody looks at [`asked`].
+    waits: bool,
+    /// The command that goes on where this one ends.
+    resume: Option<String>,
+}
+
+/// Listens for the signals from here on.
+///
+/// # Errors
+/// If the system does not let us.
+pub fn listen() -> Result<(), Failure> {
+    #[cfg(unix)]
+    {
+        use signal_hook::consts::{SIGINT, SIGTERM};
+        let failed = |e: std::io::Error| {
+            let help = "the system allows no more threads or files; end other programs";
+            Failure::computation(format!("cannot listen for signals: {e}"), Some(help.into()))
+        };
+        let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]).map_err(failed)?;
+        let thread = std::thread::Builder::new().name("signals".to_owned());
+        let listener = thread.spawn(move || {
+            for _ in signals.forever() {
+                received();
+            }
+        });
+        listener.map(drop).map_err(failed)
+    }
+    #[cfg(not(unix))]
+    Ok(())
+}
+
+/// Says which command goes on where this one ends; an interrupted command tells it.
+pub fn resume_with(command: String) {
+    state().resume = Some(command);
+}
+
+/// While `waits` is true, a signal is answered by whoever looks at [`asked`]; else the
+/// command ends at once. Returns whether one has come.
+pub fn wait(waits: bool) -> bool {
+    state().waits = waits;
+    asked()
+}
+
+/// Whether a signal has come that waits for the runs to be stored.
+pub fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
+fn state() -> std::sync::MutexGuard<'static, State> {
+    STATE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(unix)]
+fn received() {
+    if state().waits && !ASKED.swap(true, Ordering::Relaxed) {
+        return;
+    }
+    leave("");
+}
+
+/// Ends the process: removes part files, tells how to go on, exits.
+pub fn leave(done: &str) -> ! {
+    // Nobody finishes a file from here on.
+    pounding_files::remove_part_files();
+    let mut text = String::from("interrupted");
+    if done.is_empty() {
+        text.push_str("; every output is as it was before, or complete\n");
+    } else {
+        text.push_str(&format!("; {done}\n"));
+    }
+    if let Some(command) = &state().resume {
+        text.push_str(&format!("go on with\n  {command}\n"));
+    }
+    // A terminal that is gone changes nothing.
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    exit()
+}
+
+/// Ends the process without what libraries do at its end: other threads are still in them.
+fn exit() -> ! {
+    #[cfg(unix)]
+    signal_hook::low_level::exit(i32::from(EXIT_CODE));
+    #[cfg(not(unix))]
+    std::process::exit(i32::from(EXIT_CODE))
+}
+
+/// A word that a shell takes as it is.
+pub fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        return text.to_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
+}
+
+/// This command as it was given, with `--resume`.
+pub fn this_command_resumed() -> String {
+    let mut words: Vec<String> = std::env::args_os()
+        .map(|word| quoted(&word.to_string_lossy()))
+        .collect();
+    if !words.iter().any(|word| word == "--resume") {
+        words.push("--resume".to_owned());
+    }
+    words.join(" ")
+}

@@ -1,0 +1,149 @@
+//! A folder with one of every kind of file that commands read.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const BUILDINGS: &str = r#"
+[[building]]
+name = "a"
+storeys = 1
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 1
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+"#;
+
+/// A case whose record is scaled to a spectrum in a step and once more at the end.
+const MOTION: &str = r#"
+[ground_motion]
+file = "record.csv"
+process = [{ scale = { target = "step.csv", from = "0.2 s", to = "0.5 s" } }]
+scale = { target = "target.csv", from = "0.2 s", to = "0.5 s" }
+[analysis]
+duration = "2 s"
+"#;
+
+/// Records, a target spectrum as a value, intensities, a hazard curve.
+const STUDY: &str = r#"
+case = "case.toml"
+[[variable]]
+name = "record"
+records = ["record.csv", { name = "second", file = "second.csv", process = [{ scale = { target = "other_step.csv", from = "0.2 s", to = "0.5 s" } }] }]
+[[variable]]
+intensity = "peak_ground_acceleration"
+values = ["0.1 g", "0.2 g", "0.4 g", "0.8 g"]
+[ida]
+gaps = ["20 mm"]
+hazard = "hazard.csv"
+"#;
+
+/// The folder.
+pub struct Fixture {
+    folder: TempDir,
+}
+
+impl Fixture {
+    pub fn new() -> Self {
+        let fixture = Self {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        let record = |strength: f64| {
+            let mut text = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+            for i in 0..120 {
+                let t = f64::from(i) * 0.02;
+                text.push_str(&format!("{t:.2},{:.5}\n", strength * (7.0 * t).sin()));
+            }
+            text
+        };
+        let spectrum = "# 5 %\nperiod_s,psa_g\n0.1,0.8\n1,0.8\n3,0.2\n".to_owned();
+        let mut dissipation = "amplitude (mm); dissipation (mJ)\n".to_owned();
+        for i in 0..30 {
+            let amplitude = 5.0e-3 * 1.15_f64.powi(i);
+            dissipation.push_str(&format!("{amplitude:e}; {:e}\n", amplitude.powf(2.6)));
+        }
+        let files = [
+            ("case.toml", format!("{BUILDINGS}{MOTION}")),
+            ("study.toml", STUDY.to_owned()),
+            (
+                "targets.toml",
+                "case = \"case.toml\"\n[[variable]]\nname = \"target\"\npath = \"ground_motion.scale.target\"\nvalues = [\"target.csv\", \"other_target.csv\"]\n".to_owned(),
+            ),
+            ("record.csv", record(0.4)),
+            ("second.csv", record(0.3)),
+            ("step.csv", spectrum.clone()),
+            ("other_step.csv", spectrum.clone()),
+            ("target.csv", spectrum.clone()),
+            ("other_target.csv", spectrum),
+            (
+                "hazard.csv",
+                "intensity_g,mean_annual_frequency\n0.01,1\n4,1e-6\n".to_owned(),
+            ),
+            (
+                "measured.csv",
+                "time_ms,force_kN\n0,0\n5,100\n10,150\n15,80\n20,0\n".to_owned(),
+            ),
+            (
+                "history.csv",
+                "deformation_mm\n0\n5\n-5\n0\n".to_owned(),
+            ),
+            ("dissipation.csv", dissipation),
+        ];
+        for (name, text) in files {
+            std::fs::write(fixture.path(name), text).unwrap();
+        }
+        std::fs::create_dir(fixture.path("inside")).unwrap();
+        fixture
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn command(&self, words: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+        command
+            .env("NO_COLOR", "1")
+            .stdin(Stdio::null())
+            .current_dir(self.folder.path())
+            .args(words);
+        command
+    }
+
+    pub fn run(&self, words: &[&str]) -> Output {
+        self.command(words).output().unwrap()
+    }
+
+    /// Every file with its bytes.
+    pub fn content(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        let entries = std::fs::read_dir(self.folder.path()).unwrap();
+        let paths = entries.map(|e| e.unwrap().path()).filter(|p| p.is_file());
+        paths
+            .map(|path| {
+                let bytes = std::fs::read(&path).unwrap();
+                (path, bytes)
+            })
+            .collect()
+    }
+}
+
+/// What it complains of on one line.
+pub fn message(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,11 @@
+//! What commands write, and what they never write over.
+#![allow(clippy::unwrap_used)]
+
+mod fixture;
+mod inputs;
+#[path = "../support/part_files.rs"]
+mod part_files;
+mod progress;
+mod races;
+#[cfg(unix)]
+mod signals;

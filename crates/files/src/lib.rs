@@ -1,0 +1,11 @@
+//! Files that are written whole or not at all, and never in the place of an input.
+//!
+//! The crate knows nothing of what stands in a file. Everything that the program writes
+//! goes into a [`PartFile`] beside its place first; what a command reads and will write is
+//! held against one another by [`FileUse`] before it does any work.
+
+mod file_use;
+mod part_file;
+
+pub use file_use::{FileUse, FileUseError, same_file};
+pub use part_file::{PartFile, remove_part_files, write};

@@ -111,6 +111,16 @@ impl Fixture {
         fixture
     }
 
+    /// Adds a case that takes minutes, and studies of it.
+    pub fn with_long_case(&self) {
+        let case = std::fs::read_to_string(self.path("case.toml")).unwrap();
+        let long = "duration = \"5000 s\"\noutput_step = \"1 s\"\nmethod = \"runge_kutta_4\"\nstep = \"0.1 ms\"";
+        let case = case.replace("duration = \"2 s\"", long);
+        std::fs::write(self.path("long.toml"), case).unwrap();
+        let study = STUDY.replace("case.toml", "long.toml");
+        std::fs::write(self.path("long-study.toml"), study).unwrap();
+    }
+
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }

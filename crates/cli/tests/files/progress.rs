@@ -1,45 +1,76 @@
 //! How far a command is, where there is no terminal.
 
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+
 use super::fixture::{Fixture, message};
 
-/// A short command says nothing; with a short time between lines all that have progress
-/// say how far they are.
+/// A short command says nothing.
+#[test]
+fn short_commands_are_silent() {
+    let fixture = Fixture::new();
+    for words in [
+        "run case.toml -o a.h5",
+        "gap case.toml --points 3",
+        "compare case.toml --models anagnostopoulos_2004",
+        "sweep study.toml -o b.h5",
+        "ida study.toml -o c.h5",
+    ] {
+        let silent = fixture.run(&words.split_whitespace().collect::<Vec<_>>());
+        assert!(silent.stderr.is_empty(), "{words}: {}", message(&silent));
+    }
+}
+
+/// A long one says how far it is, line by line, on the stream of errors; here every
+/// hundredth of a second.
 #[test]
 fn lines_of_progress_come_where_there_is_no_terminal() {
     let fixture = Fixture::new();
-    for (words, line) in [
-        ("run case.toml -o a.h5", " %, "),
-        ("gap case.toml --points 400", " runs ("),
-        ("compare case.toml", " runs ("),
-        ("sweep study.toml -o b.h5 --threads 1", " runs ("),
-        ("ida study.toml -o c.h5 --threads 1", " runs ("),
+    fixture.with_long_case();
+    for (words, part) in [
+        ("run long.toml -o a.h5", " %, "),
+        ("gap long.toml", " runs ("),
+        ("compare long.toml", " runs ("),
+        (
+            "sweep long-study.toml -o b.h5 --threads 1",
+            "0 of 8 runs (0 %)",
+        ),
+        (
+            "ida long-study.toml -o c.h5 --threads 1",
+            "0 of 8 runs (0 %)",
+        ),
     ] {
-        let words: Vec<&str> = words.split_whitespace().collect();
-        let silent = fixture.run(&words);
-        assert!(silent.stderr.is_empty(), "{words:?}: {}", message(&silent));
-        let mut command = fixture.command(&words);
-        let talking = command
-            .env("POUNDING_PROGRESS_SECONDS", "1e-4")
+        let mut child = fixture
+            .command(&words.split_whitespace().collect::<Vec<_>>())
+            .env("POUNDING_PROGRESS_SECONDS", "0.01")
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        for _ in 0..3 {
+            let line = lines.next().unwrap().unwrap();
+            // Before it is known how many there are, there are none.
+            let begun = line.starts_with("0 of 0 runs") || line.contains(part);
+            assert!(begun && line.contains(" s elapsed"), "{words}: {line}");
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+}
+
+#[test]
+fn a_time_between_lines_is_a_time() {
+    let fixture = Fixture::new();
+    for text in ["soon", "0", "-1", "nan", "1e300"] {
+        let mut command = fixture.command(&["run", "case.toml", "-o", "a.h5"]);
+        let refused = command
+            .env("POUNDING_PROGRESS_SECONDS", text)
             .output()
             .unwrap();
-        let told = String::from_utf8(talking.stderr).unwrap();
-        assert!(told.lines().count() > 0, "{words:?}");
-        for one in told.lines() {
-            assert!(one.contains(line) && one.contains(" s elapsed"), "{one}");
-        }
-        // The answer is the same.
-        let lines = |bytes: &[u8]| String::from_utf8_lossy(bytes).lines().count();
-        assert_eq!(lines(&silent.stdout), lines(&talking.stdout), "{words:?}");
+        let told = message(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{told}");
+        let wanted = format!("POUNDING_PROGRESS_SECONDS={text} is no time");
+        assert!(told.contains(&wanted) && told.contains("300"), "{told}");
     }
-    let mut command = fixture.command(&["run", "case.toml", "-o", "a.h5"]);
-    let refused = command
-        .env("POUNDING_PROGRESS_SECONDS", "soon")
-        .output()
-        .unwrap();
-    let told = message(&refused);
-    assert_eq!(refused.status.code(), Some(2), "{told}");
-    assert!(
-        told.contains("POUNDING_PROGRESS_SECONDS=soon") && told.contains("300"),
-        "{told}"
-    );
 }

@@ -29,18 +29,10 @@ fn interrupted(fixture: &Fixture, words: &str, signal: &str) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// A case that takes minutes.
-fn long_case(fixture: &Fixture) {
-    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
-    let long = "duration = \"5000 s\"\noutput_step = \"1 s\"\nmethod = \"runge_kutta_4\"\nstep = \"0.1 ms\"";
-    let case = case.replace("duration = \"2 s\"", long);
-    std::fs::write(fixture.path("long.toml"), case).unwrap();
-}
-
 #[test]
 fn a_run_ends_at_once_and_loses_nothing() {
     let fixture = Fixture::new();
-    long_case(&fixture);
+    fixture.with_long_case();
     let folder = fixture.path("").canonicalize().unwrap();
     for (name, text) in [("old.h5", "old result"), ("old.svg", "old picture")] {
         std::fs::write(fixture.path(name), text).unwrap();

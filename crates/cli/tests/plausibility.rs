@@ -60,7 +60,10 @@ fn said(case: &str) -> Said {
     let mut record = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
     for i in 0..120 {
         let t = f64::from(i) * 0.02;
-        record.push_str(&format!("{t:.2},{:.5}\n", 0.1 * (7.0 * t).sin()));
+        record.push_str(&format!(
+            "{t:.2},{:.5}\n",
+            0.1 * (2.5 * std::f64::consts::PI * t).sin()
+        ));
     }
     std::fs::write(path.join("case.toml"), case).unwrap();
     std::fs::write(path.join("record.csv"), record).unwrap();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepLimit};
+use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepLimit, short};
 
 /// Failure of an assembly, a run, or a result file.
 #[derive(Debug, thiserror::Error)]
@@ -56,7 +56,7 @@ pub enum TimeHistoryError {
     },
     /// A run that would not end.
     #[error(
-        "the run would take {steps:.1e} steps over {duration} s, as {limit}; {:.0e} are the most",
+        "the run would take {steps:.1e} steps over {} s, as {limit}; {:.0e} are the most", short(*duration),
         MAXIMUM_STEPS
     )]
     TooManySteps {
@@ -69,8 +69,8 @@ pub enum TimeHistoryError {
     },
     /// Responses on the output grid that would fill the memory.
     #[error(
-        "{samples:.0} samples of the responses over {duration} s would take {:.1} GB of memory; {:.0} GB are the most",
-        bytes * 1e-9, MAXIMUM_RECORDING * 1e-9
+        "{} samples of the responses over {} s would take {} GB of memory; {:.0} GB are the most",
+        short(*samples), short(*duration), short(bytes * 1e-9), MAXIMUM_RECORDING * 1e-9
     )]
     RecordingTooLarge {
         /// Samples.

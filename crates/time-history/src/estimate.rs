@@ -22,10 +22,15 @@ pub(crate) const SERIES: f64 = 0.35;
 /// Product of rate and step up to which the pair of order 8 is stable, about.
 const STABLE: f64 = 6.0;
 
-/// What a step cannot be longer than.
+/// Duration (s) longer than that of any ground motion: eleven days.
+const LONGEST_DURATION: f64 = 1.0e6;
+
+/// What makes the steps of a run so many.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StepLimit {
+    /// The duration (s), longer than that of any ground motion.
+    Duration(f64),
     /// The time step of the ground motion (s).
     GroundMotion(f64),
     /// The step that was asked for (s).
@@ -42,8 +47,15 @@ pub enum StepLimit {
 impl fmt::Display for StepLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::GroundMotion(step) => write!(f, "the time step of the ground motion is {step} s"),
-            Self::Step(step) => write!(f, "`step` is {step} s"),
+            Self::Duration(duration) => write!(f, "`duration` is {} s", short(*duration)),
+            Self::GroundMotion(step) => {
+                write!(
+                    f,
+                    "the time step of the ground motion is {} s",
+                    short(*step)
+                )
+            }
+            Self::Step(step) => write!(f, "`step` is {} s", short(*step)),
             Self::Period { building, period } => {
                 write!(
                     f,
@@ -58,6 +70,7 @@ impl StepLimit {
     /// What makes steps longer, or fewer.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
+            Self::Duration(_) => "shorten `duration` in [analysis]",
             Self::GroundMotion(_) => "shorten `duration`, or correct the time step of the record",
             Self::Step(_) => "raise `step` or shorten `duration` in [analysis]",
             Self::Period { .. } => {
@@ -101,7 +114,9 @@ impl StepEstimate {
             | MethodChoice::RungeKutta4 { step }
             | MethodChoice::MoreauJean { step, .. } => (step, StepLimit::Step(step)),
         };
-        let (step, limit) = if step < ground {
+        let (step, limit) = if duration > LONGEST_DURATION {
+            (step.min(ground), StepLimit::Duration(duration))
+        } else if step < ground {
             (step, limit)
         } else {
             (ground, StepLimit::GroundMotion(ground))
@@ -124,6 +139,18 @@ impl StepEstimate {
             limit: self.limit,
         })
     }
+}
+
+/// Three significant digits, without zeros at the end.
+pub(crate) fn short(x: f64) -> String {
+    let text = format!("{x:.2e}");
+    text.parse::<f64>().map_or(text, |x| {
+        if x != 0.0 && !(1.0e-4..1.0e6).contains(&x.abs()) {
+            format!("{x:e}")
+        } else {
+            x.to_string()
+        }
+    })
 }
 
 impl Assembly {

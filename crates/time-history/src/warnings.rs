@@ -8,7 +8,7 @@ use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_shear_building::{Damping, DampingMatrix, ShearBuilding};
 
 use crate::assemble::Assembly;
-use crate::estimate::{StepEstimate, StepLimit};
+use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome};
 use crate::system::{ContactLevel, System};
@@ -198,18 +198,6 @@ fn period_text(f: &mut fmt::Formatter<'_>, building: &str, period: f64) -> fmt::
         short(period),
         short(other)
     )
-}
-
-/// Three significant digits, without zeros at the end.
-fn short(x: f64) -> String {
-    let text = format!("{x:.2e}");
-    text.parse::<f64>().map_or(text, |x| {
-        if x != 0.0 && !(1.0e-4..1.0e6).contains(&x.abs()) {
-            format!("{x:e}")
-        } else {
-            x.to_string()
-        }
-    })
 }
 
 /// One significant digit, not above the value.

@@ -21,7 +21,7 @@ pub struct CaseError {
     pub help: Option<String>,
     /// What else is wrong in the same file, in the order of the places; none of it follows
     /// from this.
-    pub others: Vec<CaseError>,
+    pub others: Box<[CaseError]>,
 }
 
 impl CaseError {
@@ -45,7 +45,7 @@ impl CaseError {
             span,
             message: message.into(),
             help,
-            others: Vec::new(),
+            others: Box::default(),
         }
     }
 
@@ -62,14 +62,14 @@ impl CaseError {
         }
         let mut distinct = distinct.into_iter();
         let mut first = distinct.next()?;
-        first.others.extend(distinct);
+        first.others = distinct.collect();
         Some(first)
     }
 
     /// This error and the others, each by itself.
     pub fn each(mut self) -> impl Iterator<Item = Self> {
         let others = std::mem::take(&mut self.others);
-        std::iter::once(self).chain(others)
+        std::iter::once(self).chain(others.into_vec())
     }
 }
 

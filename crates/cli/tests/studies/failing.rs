@@ -101,7 +101,7 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
     std::fs::write(bench.path("copy.csv"), "time_s,acceleration_g\n0.00,zero\n").unwrap();
     let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
     assert!(told.contains("1 of the 2 records cannot be read"), "{told}");
-    assert!(told.contains("copy.csv:1"), "{told}");
+    assert!(told.contains("copy.csv:2:6"), "{told}");
     // With the record back, nothing was lost.
     std::fs::write(bench.path("copy.csv"), good).unwrap();
     let told = bench.text("sweep study.toml -o a.h5 --resume");

@@ -1,8 +1,13 @@
 //! Bad input: exit code, place, remedy; and nothing half-written.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/part_files.rs"]
+mod part_files;
+
 use std::path::Path;
 use std::process::{Command, Output};
+
+use part_files::no_part_file;
 
 const CASE: &str = r#"
 title = "pair"
@@ -72,7 +77,7 @@ fn refused(case: &str, record: &str, wanted: &[&str]) {
         assert!(text.contains(part), "\"{part}\" is not in: {text}");
     }
     assert!(!folder.path().join("out.h5").exists());
-    assert!(!folder.path().join("out.h5.part").exists());
+    no_part_file(folder.path());
 }
 
 #[test]
@@ -86,7 +91,7 @@ fn the_case_itself_is_sound() {
     );
     assert!(output.status.success(), "{}", message(&output));
     assert!(folder.path().join("out.h5").exists());
-    assert!(!folder.path().join("out.h5.part").exists());
+    no_part_file(folder.path());
 }
 
 #[test]

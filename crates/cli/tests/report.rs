@@ -1,10 +1,13 @@
 //! The page of a result says what the run said.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/part_files.rs"]
+mod part_files;
 mod support;
 
 use std::path::{Path, PathBuf};
 
+use part_files::no_part_file;
 use serde_json::Value;
 use support::{run, text};
 
@@ -57,7 +60,7 @@ fn three_storey_pair() {
     let other = folder.path().join("other.html");
     text("report", &format!("{result} -o {}", other.display()));
     assert_eq!(std::fs::read_to_string(other).unwrap(), html);
-    assert!(!folder.path().join("pair.html.part").exists());
+    no_part_file(folder.path());
 }
 
 /// Yielding storeys, links, rows, a wall, velocity jumps: every kind of result has a page.

@@ -1,8 +1,7 @@
 //! The HDF5 result of a run, netCDF-4 style: dimension scales, units, long names.
 //!
-//! The layout is described in `docs/result-file.md`. The file is written beside
-//! its place as `<name>.part`, flushed to the disk, and renamed, so that a reader
-//! never sees half of one.
+//! The layout is described in `docs/result-file.md`. The file is written as a
+//! part file beside its place, so that a reader never sees half of one.
 
 mod buildings;
 mod datasets;
@@ -10,9 +9,10 @@ pub mod dimension_scales;
 mod elements;
 mod gaps;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hdf5::Dataset;
+use pounding_files::PartFile;
 use sha2::{Digest, Sha256};
 
 use crate::assemble::Assembly;
@@ -47,8 +47,8 @@ type Result<T> = hdf5::Result<T>;
 /// Writes the result of a run.
 ///
 /// # Errors
-/// [`TimeHistoryError::ResultFile`] if the file cannot be written; nothing is
-/// left under its name then.
+/// [`TimeHistoryError::ResultFile`] if the file cannot be written; what
+/// stood under its name before is untouched then.
 pub fn write_result(
     path: &Path,
     record: &RunRecord<'_>,
@@ -57,25 +57,9 @@ pub fn write_result(
         path: path.to_owned(),
         reason,
     };
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let written = write(&part, record)
-        .map_err(|e| e.to_string())
-        .and_then(|()| publish(&part, path).map_err(|e| e.to_string()));
-    written.map_err(|reason| {
-        // The part file is worthless; if it cannot be removed, that is all the same.
-        let _ = std::fs::remove_file(&part);
-        failed(reason)
-    })
-}
-
-fn publish(part: &PathBuf, path: &Path) -> std::io::Result<()> {
-    std::fs::OpenOptions::new()
-        .write(true)
-        .open(part)?
-        .sync_all()?;
-    std::fs::rename(part, path)
+    let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
+    write(part.path(), record).map_err(|e| failed(e.to_string()))?;
+    part.finish().map_err(|e| failed(e.to_string()))
 }
 
 fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {

@@ -98,9 +98,7 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
     let study = MIXED.replace("MOTIONS/kobe_1995_jma_ns.csv", "copy.csv");
     bench.study(&study);
     bench.text("sweep study.toml -o whole.h5");
-    std::fs::create_dir(bench.path("a.h5.part")).unwrap();
-    bench.complaint("sweep study.toml -o a.h5", 4);
-    std::fs::remove_dir(bench.path("a.h5.part")).unwrap();
+    bench.without_its_result("sweep study.toml -o a.h5");
     let good = bench.bytes("copy.csv");
     std::fs::write(bench.path("copy.csv"), "time_s,acceleration_g\n0.00,zero\n").unwrap();
     let told = bench.complaint("sweep study.toml -o a.h5 --resume", 2);
@@ -123,32 +121,12 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
     );
 }
 
-/// A limit of the size of files stands for a full disk; `trap` lets the write fail
-/// instead of the process.
-#[cfg(unix)]
-fn with_limit(bench: &Bench, kilobytes: usize, arguments: &str) -> (Option<i32>, String) {
-    let script = format!(
-        "trap '' XFSZ; ulimit -f {kilobytes}; exec {} {arguments}",
-        env!("CARGO_BIN_EXE_pounding")
-    );
-    let output = Command::new("bash")
-        .args(["-c", &script])
-        .env("NO_COLOR", "1")
-        .current_dir(bench.folder.path())
-        .output()
-        .unwrap();
-    let errors = String::from_utf8(output.stderr).unwrap();
-    let words: Vec<&str> = errors.split_whitespace().filter(|w| *w != "│").collect();
-    (output.status.code(), words.join(" "))
-}
-
-#[cfg(unix)]
 #[test]
 fn a_full_disk_loses_nothing_that_was_finished() {
     let bench = Bench::new(MIXED);
     bench.text("sweep study.toml -o whole.h5");
     // No room for a chunk.
-    let (code, told) = with_limit(&bench, 1, "sweep study.toml -o full.h5");
+    let (code, told) = bench.with_limit(1, "sweep study.toml -o full.h5");
     assert_eq!(code, Some(4), "{told}");
     assert!(
         told.contains("cannot store runs in full.h5.parts: File too large"),
@@ -156,10 +134,11 @@ fn a_full_disk_loses_nothing_that_was_finished() {
     );
     assert!(told.contains("0 of 60 runs are stored"), "{told}");
     // Room for all chunks, not for the result.
-    let (code, told) = with_limit(&bench, 20, "sweep study.toml -o full.h5 --resume");
+    let (code, told) = bench.with_limit(20, "sweep study.toml -o full.h5 --resume");
     assert_eq!(code, Some(4), "{told}");
     assert!(told.contains("cannot write the result full.h5"), "{told}");
-    assert!(!bench.path("full.h5").exists() && !bench.path("full.h5.part").exists());
+    assert!(!bench.path("full.h5").exists());
+    bench.no_part_file();
     let told = bench.text("sweep study.toml -o full.h5 --resume");
     assert!(
         told.contains("60 of them stored by an earlier call"),

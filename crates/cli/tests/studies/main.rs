@@ -7,6 +7,8 @@ mod examples;
 mod failing;
 mod interrupted;
 mod parquet;
+#[path = "../support/part_files.rs"]
+mod part_files;
 mod python;
 mod shards;
 mod shown;
@@ -86,6 +88,36 @@ impl Bench {
         assert_eq!(output.status.code(), Some(code), "{arguments}: {errors}");
         let words: Vec<&str> = errors.split_whitespace().filter(|w| *w != "│").collect();
         words.join(" ")
+    }
+
+    /// With no file larger than so many kilobytes, which stands for a full disk; `trap` lets
+    /// the write fail instead of the process.
+    fn with_limit(&self, kilobytes: usize, arguments: &str) -> (Option<i32>, String) {
+        let script = format!(
+            "trap '' XFSZ; ulimit -f {kilobytes}; exec {} {arguments}",
+            env!("CARGO_BIN_EXE_pounding")
+        );
+        let output = Command::new("bash")
+            .args(["-c", &script])
+            .env("NO_COLOR", "1")
+            .current_dir(self.folder.path())
+            .output()
+            .unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        let words: Vec<&str> = errors.split_whitespace().filter(|w| *w != "│").collect();
+        (output.status.code(), words.join(" "))
+    }
+
+    /// There is room for the finished chunks but not for the result: the chunks stay.
+    fn without_its_result(&self, arguments: &str) {
+        let (code, told) = self.with_limit(20, arguments);
+        assert_eq!(code, Some(4), "{told}");
+        assert!(told.contains("cannot write the result"), "{told}");
+    }
+
+    /// Nobody's part file stands in the folder.
+    fn no_part_file(&self) {
+        part_files::no_part_file(self.folder.path());
     }
 
     fn bytes(&self, name: &str) -> Vec<u8> {

@@ -44,5 +44,5 @@ fn parquet_says_what_csv_says() {
             "{line:?}"
         );
     }
-    assert!(!bench.path("runs.parquet.part").exists());
+    bench.no_part_file();
 }

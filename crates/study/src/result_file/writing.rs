@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
+use pounding_files::PartFile;
 use pounding_time_history::dimension_scales::make_scale;
 
 use super::Description;
@@ -27,8 +28,9 @@ type Result<T> = hdf5::Result<T>;
 /// Writes a result beside its place; `finish` puts it there.
 pub(crate) struct ResultWriter {
     path: PathBuf,
-    part: PathBuf,
     open: Option<Open>,
+    /// Dropped after `open`, which writes into it.
+    part: Option<PartFile>,
 }
 
 struct Open {
@@ -53,15 +55,14 @@ impl ResultWriter {
         description: &Description,
         rows: usize,
     ) -> std::result::Result<Self, StudyError> {
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(".part");
-        let part = path.with_file_name(name);
         let mut writer = Self {
             path: path.to_owned(),
-            part,
             open: None,
+            part: None,
         };
-        let open = Open::create(&writer.part, description, rows);
+        let part = PartFile::beside(path).map_err(|e| writer.failed(&e))?;
+        let open = Open::create(part.path(), description, rows);
+        writer.part = Some(part);
         writer.open = Some(open.map_err(|e| writer.failed(&e))?);
         Ok(writer)
     }
@@ -98,24 +99,13 @@ impl ResultWriter {
     /// # Errors
     /// [`StudyError::ResultFile`]; nothing new stands under its name then.
     pub(crate) fn finish(mut self) -> std::result::Result<(), StudyError> {
-        let Some(mut open) = self.open.take() else {
+        let (Some(mut open), Some(part)) = (self.open.take(), self.part.take()) else {
             return Ok(());
         };
         let written = open.flush().and_then(|()| open.file.flush());
         drop(open);
         written.map_err(|e| self.failed(&e))?;
-        let file = std::fs::OpenOptions::new().write(true).open(&self.part);
-        file.and_then(|f| f.sync_all())
-            .and_then(|()| std::fs::rename(&self.part, &self.path))
-            .map_err(|e| self.failed(&e))
-    }
-}
-
-impl Drop for ResultWriter {
-    fn drop(&mut self) {
-        self.open = None;
-        // After a success there is none; half a file is worthless.
-        let _ = std::fs::remove_file(&self.part);
+        part.finish().map_err(|e| self.failed(&e))
     }
 }
 

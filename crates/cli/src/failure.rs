@@ -21,6 +21,8 @@ pub enum Failure {
     Computation(Report),
     /// Output could not be written: exit code 4.
     Output(Report),
+    /// A child process has said why, and ended with this code.
+    Told(u8),
 }
 
 impl Failure {
@@ -28,6 +30,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         let (report, code) = match self {
             Self::No => return ExitCode::from(1),
+            Self::Told(code) => return ExitCode::from(code),
             Self::Input(report) => (report, 2),
             Self::Computation(report) => (report, 3),
             Self::Output(report) => (report, 4),

@@ -4,9 +4,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::BUILD;
 use crate::error::StudyError;
 use crate::parts::Parts;
 use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
+use pounding_files::checksum::WithoutChecksum;
+
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value};
 
@@ -164,9 +167,12 @@ fn chunks(runs: usize, chunk: usize, shard: Shard) -> Vec<Range<usize>> {
     all.skip(shard.index - 1).step_by(shard.count).collect()
 }
 
-/// What chunks of a result must share.
+/// What chunks of a result must share: study, shard, and on a line of its own the build.
 fn signature(d: &Description) -> String {
-    format!("{} {}/{}", d.study_sha256, d.shard.0, d.shard.1)
+    format!(
+        "{} {}/{}\n{}",
+        d.study_sha256, d.shard.0, d.shard.1, d.build
+    )
 }
 
 fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
@@ -188,6 +194,7 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         case: study.base.source.clone(),
         records: lines.join("\n"),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        build: BUILD.to_owned(),
         runs: study.runs(),
         chunk: study.chunk,
         shard: (shard.index, shard.count),
@@ -234,7 +241,8 @@ impl SweepReport {
 }
 
 /// When going on finds the result of this very study, there is nothing left to do but the
-/// table.
+/// table. Any other file in its place is not ours to replace: it may be the finished result
+/// of another shard.
 fn complete(
     runner: &Runner<'_>,
     description: &Description,
@@ -243,10 +251,15 @@ fn complete(
     if !options.resume || !options.output.is_file() {
         return Ok(None);
     }
-    let reader = match ResultReader::open(&options.output) {
-        Ok(reader) if signature(&reader.description) == signature(description) => reader,
-        _ => return Ok(None),
+    let standing = |reason: String| StudyError::Standing {
+        path: options.output.clone(),
+        reason,
     };
+    let reader = ResultReader::open(&options.output, WithoutChecksum::Refuse)
+        .map_err(|e| standing(e.reason()))?;
+    if let Some(other) = other(&reader.description, description) {
+        return Err(standing(other));
+    }
     let mut report = empty_report(runner, description);
     let mut table = table(options, description)?;
     for start in (0..reader.rows).step_by(READ_AT_ONCE) {
@@ -259,6 +272,25 @@ fn complete(
     }
     table.map_or(Ok(()), RunTable::finish)?;
     Ok(Some(report))
+}
+
+/// What a result is that is not this one.
+fn other(found: &Description, wanted: &Description) -> Option<String> {
+    if found.study_sha256 != wanted.study_sha256 {
+        Some("it is the result of another study, or of another version of this one".to_owned())
+    } else if found.shard != wanted.shard {
+        Some(match found.shard {
+            (_, 1) => "it is the result of the whole study".to_owned(),
+            (index, count) => format!("it is shard {index}/{count} of this study"),
+        })
+    } else if found.build != wanted.build {
+        Some(format!(
+            "it was made by another build of the program ({}; this one is {})",
+            found.build, wanted.build
+        ))
+    } else {
+        None
+    }
 }
 
 /// Rows of a result that are held at once.

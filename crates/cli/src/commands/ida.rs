@@ -5,6 +5,7 @@ mod tables;
 
 use std::path::Path;
 
+use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, evaluate};
 use serde_json::{Value, json};
 
@@ -26,7 +27,10 @@ pub fn ida(arguments: &IdaArguments) -> Result<(), Failure> {
     let options = options(&arguments.study, &arguments.running, Shard::WHOLE)?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
-    let report = evaluate(&study, &ResultReader::open(&options.output)?)?;
+    let report = evaluate(
+        &study,
+        &ResultReader::open(&options.output, WithoutChecksum::Refuse)?,
+    )?;
     if let Some(path) = &arguments.plot {
         plot::write(path, &picture::curves(&report)?)?;
     }

@@ -12,6 +12,7 @@ mod motion;
 mod progress;
 mod report;
 mod run;
+mod separate;
 mod stiffness;
 mod sweep;
 mod verify;
@@ -44,7 +45,11 @@ pub fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Merge(arguments) => sweep::merge(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments),
-        Command::Report { result, output } => report::report(&result, output.as_deref()),
+        Command::Report {
+            result,
+            output,
+            accept_without_checksum,
+        } => report::report(&result, output.as_deref(), accept_without_checksum),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

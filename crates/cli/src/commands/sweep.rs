@@ -6,10 +6,12 @@ mod progress;
 use std::path::{Path, PathBuf};
 
 use pounding_study::{
-    Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run, sweep as make, writable,
+    MergeOptions, Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run, sweep as make,
+    writable,
 };
 use serde_json::{Value, json};
 
+use super::separate::{Reading, reading, warn, warnings};
 use super::{pretty, print};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
@@ -40,16 +42,34 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 /// Merges the results of all shards.
 pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     writable(&arguments.output)?;
+    let without_checksum = match reading(&arguments.shards, arguments.accept_without_checksum)? {
+        Reading::Here(without) => without,
+        Reading::Done => return Ok(()),
+    };
     let merged = pounding_study::merge(
         &arguments.shards,
         &arguments.output,
         arguments.csv.as_deref(),
+        MergeOptions {
+            mixed_builds: arguments.allow_mixed_builds,
+            without_checksum,
+        },
     )?;
+    let mut told = warnings(&merged.unchecked);
+    if !merged.builds.is_empty() {
+        told.push(format!(
+            "different builds of the program made the shards:\n{}",
+            merged.builds.join("\n")
+        ));
+    }
+    for text in &told {
+        warn(text);
+    }
     if arguments.json {
         let output = arguments.output.display().to_string();
         return print(&pretty(&json!({
             "runs": merged.runs, "failed": merged.failed, "collapsed": merged.collapsed,
-            "output": output,
+            "output": output, "warnings": told,
         })));
     }
     print(&format!(

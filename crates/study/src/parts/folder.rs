@@ -71,7 +71,7 @@ impl Parts {
             move |source| StudyError::File { what, path, source }
         };
         match std::fs::read_to_string(&path) {
-            Ok(text) if text != self.study => Err(StudyError::OtherStudy { folder: folder() }),
+            Ok(text) if text != self.study => Err(self.other(&text)),
             Ok(_) => {
                 let all: usize = self.chunks.iter().map(Range::len).sum();
                 let stored = all - self.left().iter().map(Range::len).sum::<usize>();
@@ -90,6 +90,19 @@ impl Parts {
                     .map_err(failed("write"))
             }
             Err(e) => Err(failed("read")(e)),
+        }
+    }
+
+    /// Whose runs they are that are not ours.
+    fn other(&self, theirs: &str) -> StudyError {
+        let folder = self.folder.clone();
+        match (theirs.split_once('\n'), self.study.split_once('\n')) {
+            (Some((study, build)), Some((ours, this))) if study == ours => StudyError::OtherBuild {
+                folder,
+                build: build.to_owned(),
+                this: this.to_owned(),
+            },
+            _ => StudyError::OtherStudy { folder },
         }
     }
 

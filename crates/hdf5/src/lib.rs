@@ -5,13 +5,14 @@
 //! written and a size that is stored, or is an error: of a file without checksum, a
 //! damaged type or a lost piece would otherwise be read as zeros.
 
+mod chunks;
 mod values;
 
 use std::path::Path;
 
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 
-pub use values::{dataset, number, text, texts, values};
+pub use values::{dataset, number, read_all, text, texts, values};
 
 /// Name of the root attribute of a file that was written with a checksum.
 pub const CHECKSUM: &str = "checksum";

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Group, H5Type, Location};
 use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
-use pounding_hdf5::{ResultFile, number, text, values};
+use pounding_hdf5::{ResultFile, number, read_all, text, values};
 
 use crate::error::ReportError;
 use crate::result::{
@@ -27,6 +27,13 @@ impl RunResult {
             source,
         })?;
         let file = opened.file();
+        if opened.checksum() == Checksum::Absent {
+            read_all(file).map_err(|e| ReportError::Damaged {
+                path: path.to_owned(),
+                object: "a part of it".to_owned(),
+                reason: e.to_string(),
+            })?;
+        }
         let reader = Reader {
             path: path.to_owned(),
         };

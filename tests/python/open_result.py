@@ -1,8 +1,11 @@
 """Opens a result file as a user would: h5py, then xarray with named dimensions."""
 
+import shutil
+import subprocess
 import sys
 
 import h5py
+import netCDF4
 import numpy as np
 import xarray as xr
 
@@ -17,6 +20,7 @@ with h5py.File(path) as f:
     u = light["displacement"]
     assert u.attrs["units"] == "m" and u.attrs["long_name"]
     assert u.shape == (len(time), 3)
+    u_values = u[:]
     assert [u.dims[i][0].name for i in (0, 1)] == ["/time", "/building/light/storey"]
     # Peaks come from inside the steps: never below the output grid's.
     grid = np.abs(u[:]).max(axis=0)
@@ -42,6 +46,24 @@ with xr.open_dataset(path, engine="h5netcdf") as root:
     assert root.time.dims == ("time",) and root.time.attrs["units"] == "s"
     assert abs(float(root.time[1]) - 0.01) < 1e-12
 
-tree = xr.open_datatree(path, engine="h5netcdf")
-assert "time" in tree["building/light"].coords or "time" in tree["/"].coords
+# What follows the content is in nobody's way: the engines, the choice of one, ncdump.
+for engine in ("h5netcdf", "netcdf4", None):
+    tree = xr.open_datatree(path, engine=engine)
+    assert "time" in tree["building/light"].coords or "time" in tree["/"].coords
+    np.testing.assert_array_equal(tree["building/light"].displacement.values, u_values)
+with netCDF4.Dataset(path) as data:
+    np.testing.assert_array_equal(data["building/light/displacement"][:], u_values)
+    # Every dataset that has chunks carries Fletcher-32 checksums.
+    assert data["building/light/displacement"].filters()["fletcher32"]
+with h5py.File(path) as f:
+    def checked(name, item):
+        if isinstance(item, h5py.Dataset) and item.size > 0:
+            assert item.fletcher32, name
+    f.visititems(checked)
+    assert f.attrs["checksum"].startswith("pounding-sha256:1") and f.attrs["build"]
+for program in ("ncdump", "h5dump"):
+    if shutil.which(program):
+        header = {"ncdump": "-h", "h5dump": "-H"}[program]
+        told = subprocess.run([program, header, path], capture_output=True, text=True, check=True).stdout
+        assert "displacement" in told
 print("opened in h5py", h5py.__version__, "and xarray", xr.__version__)

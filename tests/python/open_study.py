@@ -1,6 +1,8 @@
 """Opens the result of a study as a user would: one dataset with its coordinates."""
 
 import csv
+import shutil
+import subprocess
 import sys
 
 import h5py
@@ -37,6 +39,13 @@ with xr.open_dataset(path, engine="h5netcdf") as ds:
             assert int(row["run"]) == run
             assert float(row["peak_displacement: light 3 [m]"]) == float(roof[run])
             assert row["model"] == ds.model.values[run]
+
+for engine in ("netcdf4", None):
+    with xr.open_dataset(path, engine=engine) as other, xr.open_dataset(path, engine="h5netcdf") as ds:
+        xr.testing.assert_identical(other.load(), ds.load())
+if shutil.which("ncdump"):
+    told = subprocess.run(["ncdump", path], capture_output=True, text=True, check=True).stdout
+    assert "jankowski_2005" in told and "peak_displacement" in told
 
 with h5py.File(path) as f:
     assert f.attrs["program"] == "pounding" and len(f.attrs["study_sha256"]) == 64

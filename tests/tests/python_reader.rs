@@ -2,6 +2,7 @@
 //! and units.
 #![allow(clippy::unwrap_used)]
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
@@ -28,6 +29,7 @@ fn a_result_opens_in_python() {
             title: &case.title,
             case: &case.source,
             version: "test",
+            build: "test",
             assembly: &assembly,
             outcome: &outcome,
             isolated: &isolated,
@@ -67,7 +69,8 @@ fn a_result_opens_in_python() {
     let Some(python) = std::env::var_os("POUNDING_PYTHON") else {
         return;
     };
-    let output = Command::new(python)
+    the_documented_check(&python, root, &path);
+    let output = Command::new(&python)
         .arg(root.join("python/open_result.py"))
         .arg(&path)
         .output()
@@ -77,4 +80,32 @@ fn a_result_opens_in_python() {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
+}
+
+/// Runs the lines of `docs/result-file.md` that check a file without the program: they take
+/// the file as it is, and none in which a bit was changed.
+fn the_documented_check(python: &OsStr, root: &Path, result: &Path) {
+    let page = std::fs::read_to_string(root.join("../docs/result-file.md")).unwrap();
+    let blocks = page.split("```python\n").skip(1);
+    let mut blocks = blocks.map(|b| b.split("```").next().unwrap());
+    let lines = blocks.find(|b| b.contains("hashlib")).unwrap();
+    assert!(lines.contains("three_storey_pair.h5"), "{lines}");
+    let folder = tempfile::tempdir().unwrap();
+    let whole = std::fs::read(result).unwrap();
+    for changed in [None, Some(0), Some(whole.len() / 2), Some(whole.len() - 2)] {
+        let mut bytes = whole.clone();
+        if let Some(at) = changed {
+            bytes[at] ^= 1;
+        }
+        std::fs::write(folder.path().join("three_storey_pair.h5"), bytes).unwrap();
+        let check = Command::new(python)
+            .args(["-c", lines])
+            .current_dir(folder.path())
+            .output();
+        assert_eq!(
+            check.unwrap().status.success(),
+            changed.is_none(),
+            "{changed:?}"
+        );
+    }
 }

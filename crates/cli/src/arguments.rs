@@ -86,6 +86,9 @@ pub enum Command {
         /// Page; by default the result's name with .html beside it
         #[arg(short, long)]
         output: Option<OutputPath>,
+        /// Read a result without checksum here, not in a process of its own
+        #[arg(long, hide = true)]
+        accept_without_checksum: bool,
     },
     /// Print the JSON Schema of the case file
     Schema,

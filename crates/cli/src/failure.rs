@@ -32,6 +32,8 @@ pub enum Failure {
     Output(Report),
     /// Interrupted by a signal: exit code 5.
     Interrupted(Report),
+    /// A child process has said why, and ended with this code.
+    Told(u8),
 }
 
 impl Failure {
@@ -39,6 +41,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         let (reports, code) = match self {
             Self::No => return ExitCode::from(1),
+            Self::Told(code) => return ExitCode::from(code),
             Self::Input(report) => (vec![report], 2),
             Self::Inputs(reports) => (reports, 2),
             Self::Computation(report) => (vec![report], 3),

@@ -1,9 +1,12 @@
-//! Files that are written whole or not at all, and never in the place of an input.
+//! Files that are written whole or not at all, never in the place of an input, and checked
+//! when they are read back.
 //!
 //! The crate knows nothing of what stands in a file. Everything that the program writes
 //! goes into a [`PartFile`] beside its place first; what a command reads and will write is
-//! held against one another by [`FileUse`] before it does any work.
+//! held against one another by [`FileUse`] before it does any work; [`checksum`] tells of
+//! what is read back whether it is as it was written.
 
+pub mod checksum;
 mod file_use;
 mod part_file;
 

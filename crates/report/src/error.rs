@@ -2,18 +2,19 @@
 
 use std::path::PathBuf;
 
+use pounding_hdf5::OpenError;
 use thiserror::Error;
 
 /// Why a page could not be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
-    /// The file cannot be opened as HDF5.
-    #[error("{} cannot be read: {reason}", path.display())]
+    /// The file cannot be opened, or is not as it was written.
+    #[error("{} cannot be read: {source}", path.display())]
     Unreadable {
         /// File.
         path: PathBuf,
-        /// What the operating system or HDF5 says.
-        reason: String,
+        /// What the operating system, the checksum or HDF5 says.
+        source: OpenError,
     },
     /// The file is HDF5, but not the result of a run.
     #[error("{} is not the result of a run: {found}", path.display())]
@@ -46,8 +47,9 @@ impl ReportError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Unreadable { .. } => {
-                Some("give the .h5 file that `pounding run` has written".to_owned())
+            Self::Unreadable { source, .. } => {
+                let help = source.help();
+                Some(help.unwrap_or("give the .h5 file that `pounding run` has written").to_owned())
             }
             Self::NotAResult { .. } => Some(
                 "results of `pounding run` have a page; those of sweep and ida are tables: read them with `--csv` or in Python".to_owned(),

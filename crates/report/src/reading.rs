@@ -1,10 +1,10 @@
 //! The result of a run, read back.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use hdf5::types::VarLenUnicode;
 use hdf5::{Group, H5Type, Location};
+use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
+use pounding_hdf5::{ResultFile, number, read_all, text, values};
 
 use crate::error::ReportError;
 use crate::result::{
@@ -15,53 +15,54 @@ use crate::result::{
 type Outcome<T> = Result<T, ReportError>;
 
 impl RunResult {
-    /// Reads a result file.
+    /// Reads a result file whose checksum matches; one without a checksum only if that is
+    /// accepted, and then with a warning among those of the run.
     ///
     /// # Errors
-    /// A file that is no HDF5 or no result of a run, and parts of it that are missing or
-    /// have another shape.
-    pub fn read(path: &Path) -> Outcome<Self> {
-        let unreadable = |reason: String| ReportError::Unreadable {
+    /// A file that is not as it was written, that is no HDF5 or no result of a run, and
+    /// parts of it that are missing or have another shape.
+    pub fn read(path: &Path, without: WithoutChecksum) -> Outcome<Self> {
+        let opened = ResultFile::open(path, without).map_err(|source| ReportError::Unreadable {
             path: path.to_owned(),
-            reason,
-        };
-        // HDF5 says at length what the operating system says in a word.
-        let mut start = [0; SIGNATURE.len()];
-        std::fs::File::open(path)
-            .and_then(|mut f| f.read(&mut start))
-            .map_err(|e| unreadable(e.to_string()))?;
-        if start != SIGNATURE {
-            return Err(unreadable("it is not HDF5".to_owned()));
-        }
-        let file = hdf5::File::open(path).map_err(|e| {
-            let reason = e.to_string();
-            let reason = reason.lines().next().unwrap_or_default();
-            unreadable(format!("HDF5 cannot open it: {reason}"))
+            source,
         })?;
+        let file = opened.file();
+        if opened.checksum() == Checksum::Absent {
+            read_all(file).map_err(|e| ReportError::Damaged {
+                path: path.to_owned(),
+                object: "a part of it".to_owned(),
+                reason: e.to_string(),
+            })?;
+        }
         let reader = Reader {
             path: path.to_owned(),
         };
-        reader.is_a_result(&file)?;
-        let [energy, run, ground] = ["energy", "run", "ground"].map(|g| reader.group(&file, g));
+        reader.is_a_result(file)?;
+        let [energy, run, ground] = ["energy", "run", "ground"].map(|g| reader.group(file, g));
         let (energy, run, ground) = (energy?, run?, ground?);
         let warnings = reader.text(&run, "warnings")?;
-        let time = reader.column(&file, "time")?;
+        let mut warnings: Vec<String> = warnings.lines().map(str::to_owned).collect();
+        if opened.checksum() == Checksum::Absent {
+            warnings.push(format!("the result file {ABSENT}"));
+        }
+        let time = reader.column(file, "time")?;
         Ok(Self {
-            title: reader.text(&file, "title")?,
-            version: reader.text(&file, "version")?,
-            case: reader.text(&file, "case")?,
-            case_sha256: reader.text(&file, "case_sha256")?,
-            record_sha256: reader.text(&file, "record_sha256")?,
+            title: reader.text(file, "title")?,
+            version: reader.text(file, "version")?,
+            case: reader.text(file, "case")?,
+            case_sha256: reader.text(file, "case_sha256")?,
+            record_sha256: reader.text(file, "record_sha256")?,
             record: reader.text(&ground, "record")?,
             method: reader.text(&run, "method")?,
-            warnings: warnings.lines().map(str::to_owned).collect(),
+            warnings,
+            checksum: opened.checksum(),
             steps: reader.scalar(&run, "steps")?,
             wall_time: reader.scalar(&run, "wall_time")?,
             residual_ratio: reader.scalar(&energy, "residual_ratio")?,
             ground_acceleration: reader.column(&ground, "acceleration")?,
-            buildings: reader.members(&file, "building", |g, name| reader.building(g, name))?,
-            gaps: reader.members(&file, "gap", |g, name| reader.gap(g, name))?,
-            links: reader.members(&file, "link", |g, name| reader.link(g, name))?,
+            buildings: reader.members(file, "building", |g, name| reader.building(g, name))?,
+            gaps: reader.members(file, "gap", |g, name| reader.gap(g, name))?,
+            links: reader.members(file, "link", |g, name| reader.link(g, name))?,
             energy: EnergyHistory {
                 input: reader.column(&energy, "input")?,
                 kinetic: reader.column(&energy, "kinetic")?,
@@ -72,25 +73,6 @@ impl RunResult {
             },
             time,
         })
-    }
-}
-
-/// First bytes of every HDF5 file.
-const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
-/// More values than a run can record.
-const MOST_VALUES: usize = 300_000_000;
-
-/// A dataset of a size that fits into memory: a damaged file may ask for any.
-fn moderate(data: hdf5::Dataset) -> hdf5::Result<hdf5::Dataset> {
-    let values = data
-        .shape()
-        .iter()
-        .try_fold(1_usize, |n, m| n.checked_mul(*m));
-    match values {
-        Some(values) if values <= MOST_VALUES => Ok(data),
-        _ => Err(hdf5::Error::from(
-            "it claims more values than a run records",
-        )),
     }
 }
 
@@ -128,24 +110,13 @@ impl Reader {
     }
 
     fn text(&self, place: &Location, name: &str) -> Outcome<String> {
-        let read = || {
-            let attribute = place.attr(name)?;
-            if !attribute.is_scalar() || attribute.space()?.extents()?.is_null() {
-                return Err(hdf5::Error::from("it is no single text"));
-            }
-            let text = attribute.read_scalar::<VarLenUnicode>()?;
-            // Whatever HDF5 calls UTF-8 need not be.
-            String::from_utf8(text.as_bytes().to_vec())
-                .map_err(|_| hdf5::Error::from("it is not UTF-8"))
-        };
         let object = format!("attribute {name} of {}", place.name());
-        read().map_err(self.failed(&object))
+        text(place, name).map_err(self.failed(&object))
     }
 
-    fn scalar<T: H5Type>(&self, place: &Location, name: &str) -> Outcome<T> {
+    fn scalar<T: H5Type + Copy>(&self, place: &Location, name: &str) -> Outcome<T> {
         let object = format!("attribute {name} of {}", place.name());
-        let read = || place.attr(name)?.read_scalar::<T>();
-        read().map_err(self.failed(&object))
+        number(place, name).map_err(self.failed(&object))
     }
 
     fn group(&self, parent: &Group, name: &str) -> Outcome<Group> {
@@ -155,19 +126,17 @@ impl Reader {
     }
 
     fn column(&self, parent: &Group, name: &str) -> Outcome<Vec<f64>> {
-        let read = || moderate(parent.dataset(name)?)?.read_raw::<f64>();
-        read().map_err(self.failed(&format!("{}/{name}", parent.name())))
+        values(parent, name).map_err(self.failed(&format!("{}/{name}", parent.name())))
     }
 
     fn table(&self, parent: &Group, name: &str) -> Outcome<Table> {
         let read = || {
-            let data = moderate(parent.dataset(name)?)?;
-            let shape = data.shape();
+            let shape = parent.dataset(name)?.shape();
             let [_, columns] = shape[..] else {
                 return Err(hdf5::Error::from(format!("{} dimensions", shape.len())));
             };
             Ok(Table {
-                values: data.read_raw::<f64>()?,
+                values: values(parent, name)?,
                 columns,
             })
         };
@@ -238,7 +207,7 @@ impl Reader {
             true => Ok(String::new()),
             false => self.text(group, name),
         };
-        let impacts = || moderate(group.dataset("impacts")?)?.read_raw::<ImpactResult>();
+        let impacts = || values::<ImpactResult>(group, "impacts");
         let object = format!("{}/impacts", group.name());
         let gap = GapResult {
             name,

@@ -1,6 +1,7 @@
 //! What a page shows of the result of a run.
 
 use hdf5::H5Type;
+use pounding_files::checksum::Checksum;
 
 /// Rows of a quantity over time: one column a storey or level.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -192,8 +193,10 @@ pub struct RunResult {
     pub record: String,
     /// Method of integration.
     pub method: String,
-    /// Warnings.
+    /// Warnings of the run, and one if the file has no checksum.
     pub warnings: Vec<String>,
+    /// What the checksum of the file says.
+    pub checksum: Checksum,
     /// Steps taken.
     pub steps: u64,
     /// Time that the run took (s).

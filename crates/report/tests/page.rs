@@ -1,6 +1,7 @@
 //! Pages of results that are made by hand: nothing that a result can hold breaks one.
 #![allow(clippy::unwrap_used)]
 
+use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
     BuildingResult, EnergyHistory, GapResult, ImpactResult, ReportError, RunResult, StoreyPeaks,
     Table, page,
@@ -54,6 +55,7 @@ fn result() -> RunResult {
     };
     let energy: Vec<f64> = time.iter().map(|t| 1.0e3 * t).collect();
     RunResult {
+        checksum: Checksum::Matches,
         title: "A pair".to_owned(),
         version: "0.1.0".to_owned(),
         case: "[case]\ntitle = \"A pair\"\n".to_owned(),
@@ -223,13 +225,16 @@ fn what_is_not_known_is_a_dash() {
 fn files_that_are_no_results() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.h5");
-    let error = |path: &std::path::Path| RunResult::read(path).unwrap_err();
+    let error =
+        |path: &std::path::Path| RunResult::read(path, WithoutChecksum::Refuse).unwrap_err();
     assert!(matches!(error(&path), ReportError::Unreadable { .. }));
     std::fs::write(&path, "no HDF5").unwrap();
     let found = error(&path);
     assert!(found.to_string().contains("it is not HDF5"), "{found}");
     assert!(found.help().is_some());
     drop(hdf5::File::create(&path).unwrap());
+    assert!(error(&path).to_string().contains("no checksum"));
+    append(&path).unwrap();
     let found = error(&path);
     assert!(matches!(found, ReportError::NotAResult { .. }), "{found}");
     assert!(matches!(

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use pounding_case::CaseError;
 use pounding_ground_motion::GroundMotionError;
+use pounding_hdf5::OpenError;
 use pounding_time_history::TimeHistoryError;
 
 /// A study that cannot be read, run, written or evaluated. A run that fails is none: it
@@ -73,6 +74,38 @@ pub enum StudyError {
         /// Folder of the finished chunks.
         folder: PathBuf,
     },
+    /// Finished runs of this study that another build of the program made.
+    #[error("{folder} holds runs of another build of the program ({build}); this one is {this}")]
+    OtherBuild {
+        /// Folder of the finished chunks.
+        folder: PathBuf,
+        /// Build that made them.
+        build: String,
+        /// Build that is running.
+        this: String,
+    },
+    /// A file in the place of a result that is to go on, which is not that result.
+    #[error("{path} is not the result that --resume goes on with: {reason}")]
+    Standing {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        reason: String,
+    },
+    /// A result that may not be parsed: see its reason.
+    #[error("cannot read the result {path}: {source}")]
+    Checksum {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: OpenError,
+    },
+    /// Shards that different builds of the program made.
+    #[error("cannot merge what different builds of the program made:\n{list}")]
+    MixedBuilds {
+        /// Each build with its files, a line each.
+        list: String,
+    },
     /// Another process works on the same runs.
     #[error("another process is working in {folder}")]
     Busy {
@@ -98,16 +131,6 @@ pub enum StudyError {
     /// An output that is an input, or another output.
     #[error(transparent)]
     FileUse(#[from] pounding_files::FileUseError),
-    /// A finished result of something else, where one was to be resumed.
-    #[error("{path} holds {found}, not {wanted} that is to be resumed")]
-    OtherResult {
-        /// The output.
-        path: PathBuf,
-        /// What it holds.
-        found: String,
-        /// What it would hold.
-        wanted: String,
-    },
     /// The study was stopped; what had finished is stored.
     #[error("interrupted: {stored} of {of} runs are stored")]
     Interrupted {
@@ -149,6 +172,15 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// Why a result could not be read, without its path.
+    pub(crate) fn reason(&self) -> String {
+        match self {
+            Self::Checksum { source, .. } => source.to_string(),
+            Self::ResultFile { reason, .. } => reason.clone(),
+            other => other.to_string(),
+        }
+    }
+
     /// What to try.
     #[must_use]
     pub fn help(&self) -> Option<String> {
@@ -173,11 +205,20 @@ impl StudyError {
             Self::OtherStudy { .. } => {
                 "name another result with -o, or remove the folder if its runs are of no use"
             }
+            Self::OtherBuild { .. } => {
+                "go on with the build that began, name another result with -o, or remove the folder to make all runs anew"
+            }
+            Self::Standing { .. } => {
+                "name another result with -o; move the file away if it is of no use; without --resume it is replaced"
+            }
+            Self::Checksum { source, .. } => source
+                .help()
+                .unwrap_or("check that it is the HDF5 file of a sweep"),
+            Self::MixedBuilds { .. } => {
+                "make all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
+            }
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::FileUse(error) => return Some(error.help()),
-            Self::OtherResult { .. } => {
-                "name another result with -o; without --resume this one is replaced when the new one is complete"
-            }
             Self::Interrupted { .. } => "go on with --resume",
             Self::Merge { .. } => {
                 "merge all shards i/n of one study for one n, made by one version of the program"

@@ -20,10 +20,18 @@ mod shown;
 mod study_file;
 mod sweep;
 
+/// What this program was built of and for, as far as the results of runs may hang on it:
+/// version, hash of the sources of the crates that compute and of the versions of their
+/// dependencies, target, instructions that the compiler may use anywhere, and features. Runs
+/// of two builds are not mixed in a result unless that is asked for.
+pub const BUILD: &str = env!("POUNDING_BUILD");
+
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
 pub use ida::*;
-pub use result_file::{Coordinate, Description, MergeReport, ResultReader, RunTable, merge};
+pub use result_file::{
+    Coordinate, Description, MergeOptions, MergeReport, ResultReader, RunTable, merge,
+};
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use shown::case_of_run;
 pub use study_file::{

@@ -7,9 +7,12 @@ use std::time::Duration;
 
 use pounding_files::PartFile;
 
+use crate::BUILD;
 use crate::error::StudyError;
 use crate::parts::{Parts, Store};
 use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
+use pounding_files::checksum::WithoutChecksum;
+
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value};
 
@@ -224,9 +227,12 @@ fn chunks(runs: usize, chunk: usize, shard: Shard) -> Vec<Range<usize>> {
     all.skip(shard.index - 1).step_by(shard.count).collect()
 }
 
-/// What chunks of a result must share.
+/// What chunks of a result must share: study, shard, and on a line of its own the build.
 fn signature(d: &Description) -> String {
-    format!("{} {}/{}", d.study_sha256, d.shard.0, d.shard.1)
+    format!(
+        "{} {}/{}\n{}",
+        d.study_sha256, d.shard.0, d.shard.1, d.build
+    )
 }
 
 fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
@@ -248,6 +254,7 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         case: study.base.source.clone(),
         records: lines.join("\n"),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        build: BUILD.to_owned(),
         runs: study.runs(),
         chunk: study.chunk,
         shard: (shard.index, shard.count),
@@ -294,7 +301,8 @@ impl SweepReport {
 }
 
 /// When going on finds the result of this very study, there is nothing left to do but the
-/// table.
+/// table. Any other file in its place is not ours to replace: it may be the finished result
+/// of another shard.
 fn complete(
     runner: &Runner<'_>,
     description: &Description,
@@ -303,16 +311,14 @@ fn complete(
     if !options.resume || !options.output.is_file() {
         return Ok(None);
     }
-    // What is no result is replaced as by any other command.
-    let Ok(reader) = ResultReader::open(&options.output) else {
-        return Ok(None);
+    let standing = |reason: String| StudyError::Standing {
+        path: options.output.clone(),
+        reason,
     };
-    if signature(&reader.description) != signature(description) {
-        return Err(other_result(
-            &options.output,
-            &reader.description,
-            description,
-        ));
+    let reader = ResultReader::open(&options.output, WithoutChecksum::Refuse)
+        .map_err(|e| standing(e.reason()))?;
+    if let Some(other) = other(&reader.description, description) {
+        return Err(standing(other));
     }
     let mut report = empty_report(runner, description);
     let mut table = table(options, description)?;
@@ -328,21 +334,22 @@ fn complete(
     Ok(Some(report))
 }
 
-/// A finished result that is not the one which `--resume` is to complete.
-fn other_result(path: &Path, found: &Description, wanted: &Description) -> StudyError {
-    let part = |(index, count): (usize, usize)| match count {
-        1 => "the whole".to_owned(),
-        _ => format!("shard {index}/{count}"),
-    };
-    let found = if found.study_sha256 == wanted.study_sha256 {
-        format!("{} of this study", part(found.shard))
+/// What a result is that is not this one.
+fn other(found: &Description, wanted: &Description) -> Option<String> {
+    if found.study_sha256 != wanted.study_sha256 {
+        Some("it is the result of another study, or of another version of this one".to_owned())
+    } else if found.shard != wanted.shard {
+        Some(match found.shard {
+            (_, 1) => "it is the result of the whole study".to_owned(),
+            (index, count) => format!("it is shard {index}/{count} of this study"),
+        })
+    } else if found.build != wanted.build {
+        Some(format!(
+            "it was made by another build of the program ({}; this one is {})",
+            found.build, wanted.build
+        ))
     } else {
-        "another study, or another version of this one".to_owned()
-    };
-    StudyError::OtherResult {
-        path: path.to_owned(),
-        found,
-        wanted: part(wanted.shard),
+        None
     }
 }
 

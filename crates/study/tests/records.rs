@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
+use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{
     ResultReader, Row, Shard, Study, StudyError, SweepOptions, case_of_run, sweep,
 };
@@ -54,7 +55,7 @@ fn rows(study: &Study, folder: &Path, keep_going: bool) -> (Vec<Row>, ResultRead
         &mut |_| std::ops::ControlFlow::Continue(()),
     )
     .unwrap();
-    let reader = ResultReader::open(&output).unwrap();
+    let reader = ResultReader::open(&output, WithoutChecksum::Refuse).unwrap();
     let rows = reader.block(0..reader.rows).unwrap();
     (rows.into_iter().map(|(row, _)| row).collect(), reader)
 }

@@ -5,6 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
+use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{
     Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
     Value, case_of_run, sweep,
@@ -49,7 +50,7 @@ fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
         &mut |_| std::ops::ControlFlow::Continue(()),
     )
     .unwrap();
-    let reader = ResultReader::open(&output).unwrap();
+    let reader = ResultReader::open(&output, WithoutChecksum::Refuse).unwrap();
     reader.block(0..reader.rows).unwrap()
 }
 
@@ -105,7 +106,8 @@ values = ["event_driven", "adaptive"]
             .iter()
             .flat_map(|g| &g.levels)
             .map(|l| l.peak_force.value);
-        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let reader =
+            ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
         let layout = &reader.description.layout;
         assert_eq!(layout.width(Axis::Storey), 6);
         assert_eq!(
@@ -196,7 +198,8 @@ fn intensities_are_reached() {
         let study = study(folder.path(), &text).unwrap();
         assert_eq!(study.variables[1].unit, unit);
         let rows = rows(&study, folder.path());
-        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let reader =
+            ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
         let demand = reader.description.layout.range("isolated_demand");
         for pair in rows.chunks(2) {
             for column in demand.clone() {
@@ -246,7 +249,8 @@ fn the_isolated_demand_just_keeps_the_buildings_apart() {
     let of = |text: &str| {
         let study = study(folder.path(), text).unwrap();
         let rows = rows(&study, folder.path());
-        let reader = ResultReader::open(&folder.path().join("out.h5")).unwrap();
+        let reader =
+            ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
         let layout = reader.description.layout.clone();
         drop(reader);
         std::fs::remove_file(folder.path().join("out.h5")).unwrap();

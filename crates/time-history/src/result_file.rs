@@ -12,7 +12,8 @@ mod gaps;
 use std::path::Path;
 
 use hdf5::Dataset;
-use pounding_files::PartFile;
+use pounding_files::{PartFile, checksum};
+use pounding_hdf5::{CHECKSUM, CHECKSUM_FORM};
 use sha2::{Digest, Sha256};
 
 use crate::assemble::Assembly;
@@ -30,6 +31,8 @@ pub struct RunRecord<'a> {
     pub case: &'a str,
     /// Program version.
     pub version: &'a str,
+    /// What the program was built of and for.
+    pub build: &'a str,
     /// System, options, record.
     pub assembly: &'a Assembly,
     /// Result of the run.
@@ -68,6 +71,7 @@ pub fn write_result(
     };
     let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
     write(part.path(), record).map_err(|e| failed(e.to_string()))?;
+    checksum::append(part.path()).map_err(|e| failed(e.to_string()))?;
     part.finish().map_err(|e| failed(e.to_string()))
 }
 
@@ -77,6 +81,8 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     text(&file, "title", record.title)?;
     text(&file, "program", "pounding")?;
     text(&file, "version", record.version)?;
+    text(&file, "build", record.build)?;
+    text(&file, CHECKSUM, CHECKSUM_FORM)?;
     text(&file, "case", record.case)?;
     text(&file, "case_sha256", &sha256(record.case))?;
     let origin = record.assembly.accelerogram.origin();

@@ -107,6 +107,7 @@ fn the_result_tells_the_steps() {
         title: "",
         case: "",
         version: "0",
+        build: "test",
         assembly: &assembly,
         outcome: &outcome,
         isolated: &outcome,

@@ -65,9 +65,15 @@ pub struct MergeArguments {
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
     #[arg(long, visible_alias = "export", value_name = "FILE")]
     pub csv: Option<OutputPath>,
+    /// Merge shards that different builds of the program made; the result says which
+    #[arg(long)]
+    pub allow_mixed_builds: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+    /// Read shards without checksum here, not in a process of their own
+    #[arg(long, hide = true)]
+    pub accept_without_checksum: bool,
 }
 
 /// Arguments of `ida`.

@@ -6,6 +6,7 @@ mod tables;
 use std::path::Path;
 
 use pounding_files::FileUse;
+use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, evaluate};
 use serde_json::{Value, json};
 
@@ -28,7 +29,10 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     have_a_place([arguments.plot.as_deref(), arguments.table.as_deref()])?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
-    let report = evaluate(&study, &ResultReader::open(&options.output)?)?;
+    let report = evaluate(
+        &study,
+        &ResultReader::open(&options.output, WithoutChecksum::Refuse)?,
+    )?;
     if let Some(path) = &arguments.plot {
         plot::write(path, &picture::curves(&report)?)?;
     }

@@ -12,6 +12,7 @@ mod motion;
 mod progress;
 mod report;
 mod run;
+mod separate;
 mod stiffness;
 mod sweep;
 mod verify;
@@ -47,7 +48,11 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::sweep(&arguments, files),
         Command::Merge(arguments) => sweep::merge(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments, files),
-        Command::Report { result, output } => report::report(&result, output.as_deref(), files),
+        Command::Report {
+            result,
+            output,
+            accept_without_checksum,
+        } => report::report(&result, output.as_deref(), accept_without_checksum, files),
         Command::Schema => print(&pretty(&pounding_case::schema())),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();

@@ -3,14 +3,21 @@
 use std::path::Path;
 
 use pounding_files::FileUse;
+use pounding_files::checksum::Checksum;
 use pounding_report::{ReportError, RunResult, page};
 
 use super::print;
+use super::separate::{Reading, reading, warn, warnings};
 use crate::failure::Failure;
 use crate::plot;
 
 /// Reads a result, writes its page, says where.
-pub fn report(path: &Path, output: Option<&Path>, mut files: FileUse) -> Result<(), Failure> {
+pub fn report(
+    path: &Path,
+    output: Option<&Path>,
+    child: bool,
+    mut files: FileUse,
+) -> Result<(), Failure> {
     let output = match output {
         Some(output) => output.to_owned(),
         None => {
@@ -20,9 +27,17 @@ pub fn report(path: &Path, output: Option<&Path>, mut files: FileUse) -> Result<
             beside
         }
     };
-    let result = RunResult::read(path).map_err(failed)?;
+    let files = [path.to_owned()];
+    let without = match reading(&files, child)? {
+        Reading::Here(without) => without,
+        Reading::Done => return Ok(()),
+    };
+    let result = RunResult::read(path, without).map_err(failed)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     plot::write(&output, &page(&result, &name).map_err(failed)?)?;
+    if result.checksum == Checksum::Absent {
+        warnings(&files).iter().for_each(|text| warn(text));
+    }
     let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
     print(&format!(
         "{} buildings, {} gaps, {impacts} impacts: page written to {}",

@@ -37,6 +37,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         title: &case.title,
         case: &case.source,
         version: env!("CARGO_PKG_VERSION"),
+        build: pounding_study::BUILD,
         assembly: &assembly,
         outcome: &outcome,
         isolated: &isolated,

@@ -9,12 +9,13 @@ use std::time::Duration;
 use pounding_case::Dimension;
 use pounding_files::FileUse;
 use pounding_study::{
-    Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport, case_of_run,
-    parts_folder, sweep as make, writable,
+    MergeOptions, Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport,
+    case_of_run, parts_folder, sweep as make, writable,
 };
 use serde_json::{Value, json};
 
 use super::progress::{Progress, Unit};
+use super::separate::{Reading, reading, warn, warnings};
 use super::stiffness::value;
 use super::{pretty, print, reads_too};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
@@ -48,12 +49,34 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
 pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     writable(&arguments.output)?;
     let shards: Vec<_> = arguments.shards.iter().map(|p| p.to_path_buf()).collect();
-    let merged = pounding_study::merge(&shards, &arguments.output, arguments.csv.as_deref())?;
+    let without_checksum = match reading(&shards, arguments.accept_without_checksum)? {
+        Reading::Here(without) => without,
+        Reading::Done => return Ok(()),
+    };
+    let merged = pounding_study::merge(
+        &shards,
+        &arguments.output,
+        arguments.csv.as_deref(),
+        MergeOptions {
+            mixed_builds: arguments.allow_mixed_builds,
+            without_checksum,
+        },
+    )?;
+    let mut told = warnings(&merged.unchecked);
+    if !merged.builds.is_empty() {
+        told.push(format!(
+            "different builds of the program made the shards:\n{}",
+            merged.builds.join("\n")
+        ));
+    }
+    for text in &told {
+        warn(text);
+    }
     if arguments.json {
         let output = arguments.output.display().to_string();
         return print(&pretty(&json!({
             "runs": merged.runs, "failed": merged.failed, "collapsed": merged.collapsed,
-            "output": output,
+            "output": output, "warnings": told,
         })));
     }
     print(&format!(

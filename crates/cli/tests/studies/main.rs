@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod collapsing;
+mod damaged;
 mod errors;
 mod examples;
 mod failing;

@@ -71,7 +71,7 @@ impl Parts {
             move |source| StudyError::File { what, path, source }
         };
         match std::fs::read_to_string(&path) {
-            Ok(text) if text != self.study => Err(StudyError::OtherStudy { folder }),
+            Ok(text) if text != self.study => Err(self.other(&text)),
             Ok(_) => {
                 self.look();
                 let stored = self.stored.len();
@@ -84,6 +84,19 @@ impl Parts {
                 pounding_files::write(&path, self.study.as_bytes()).map_err(failed("write"))
             }
             Err(e) => Err(failed("read")(e)),
+        }
+    }
+
+    /// Whose runs they are that are not ours.
+    fn other(&self, theirs: &str) -> StudyError {
+        let folder = self.folder.clone();
+        match (theirs.split_once('\n'), self.study.split_once('\n')) {
+            (Some((study, build)), Some((ours, this))) if study == ours => StudyError::OtherBuild {
+                folder,
+                build: build.to_owned(),
+                this: this.to_owned(),
+            },
+            _ => StudyError::OtherStudy { folder },
         }
     }
 

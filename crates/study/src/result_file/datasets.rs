@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use hdf5::types::VarLenUnicode;
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, File, Group, H5Type, Location};
+use pounding_hdf5::{CHECKSUM, CHECKSUM_FORM};
 use pounding_time_history::dimension_scales::attach;
 use serde_json::json;
 
@@ -108,6 +109,8 @@ pub(super) fn attributes(file: &File, d: &Description) -> Result<()> {
         ("title", &d.title),
         ("program", "pounding"),
         ("version", &d.version),
+        ("build", &d.build),
+        (CHECKSUM, CHECKSUM_FORM),
         ("study", &d.study),
         ("study_sha256", &d.study_sha256),
         ("case", &d.case),
@@ -197,6 +200,7 @@ pub(super) fn failures(file: &File) -> Result<(Dataset, Dataset)> {
         .new_dataset::<i64>()
         .obj_track_times(false)
         .chunk(256)
+        .fletcher32()
         .shape(0..)
         .create("run")?;
     describe(&run, "", "number of the run")?;
@@ -233,6 +237,11 @@ pub(super) fn dataset<T: H5Type>(
         .obj_track_times(false)
         .shuffle()
         .deflate(1);
+    // HDF5 filters no texts of variable length, and refuses to where it must.
+    let builder = match T::type_descriptor() {
+        TypeDescriptor::VarLenUnicode => builder,
+        _ => builder.fletcher32(),
+    };
     match columns {
         Some(columns) => builder
             .chunk((chunk, columns))

@@ -3,13 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use pounding_files::FileUse;
+use pounding_files::checksum::{Checksum, WithoutChecksum};
 
 use super::table::RunTable;
 use super::{Description, ResultReader, ResultWriter};
 use crate::error::StudyError;
 
-/// What a merged result holds.
+/// How shards are merged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MergeOptions {
+    /// Shards that different builds of the program made may be mixed; the result says which
+    /// build made which.
+    pub mixed_builds: bool,
+    /// What to do with shards that have no checksum.
+    pub without_checksum: WithoutChecksum,
+}
+
+/// What a merged result holds.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MergeReport {
     /// Its runs.
     pub runs: usize,
@@ -17,6 +28,10 @@ pub struct MergeReport {
     pub failed: usize,
     /// Those in which a building collapsed.
     pub collapsed: usize,
+    /// Shards without a checksum: damage that does not show in their form was not seen.
+    pub unchecked: Vec<PathBuf>,
+    /// Builds that made the shards, each with them, if there are several.
+    pub builds: Vec<String>,
 }
 
 /// Merges the results of all shards of a study into one, and into a table if `csv` names
@@ -24,12 +39,14 @@ pub struct MergeReport {
 ///
 /// # Errors
 /// [`StudyError::FileUse`] if the output or the table is one of the files,
-/// [`StudyError::Merge`] if the files are not all shards of one study, or
+/// [`StudyError::Checksum`] if a file is not as it was written, [`StudyError::Merge`] if the
+/// files are not all shards of one study, [`StudyError::MixedBuilds`], or
 /// [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
     output: &Path,
     csv: Option<&Path>,
+    options: MergeOptions,
 ) -> Result<MergeReport, StudyError> {
     let mut used = FileUse::new();
     for file in files {
@@ -42,17 +59,29 @@ pub fn merge(
     used.check()?;
     let readers = files
         .iter()
-        .map(|f| ResultReader::open(f))
+        .map(|f| ResultReader::open(f, options.without_checksum))
         .collect::<Result<Vec<_>, _>>()?;
     let ordered = ordered(files, &readers)?;
-    let whole = Description {
+    let builds = builds(&ordered);
+    if builds.len() > 1 && !options.mixed_builds {
+        return Err(mixed(files, &readers, &builds));
+    }
+    let mut report = MergeReport {
+        unchecked: unchecked(files, &readers)?,
+        ..MergeReport::default()
+    };
+    let mut whole = Description {
         shard: (1, 1),
         ..ordered[0].description.clone()
     };
+    if builds.len() > 1 {
+        report.builds = with_shards(&ordered, &builds);
+        whole.build = report.builds.join("\n");
+        whole.version = versions(&ordered);
+    }
     let (runs, chunk) = (whole.runs, whole.chunk);
     let mut writer = ResultWriter::create(output, &whole, runs)?;
     let mut table = csv.map(|path| RunTable::create(path, &whole)).transpose()?;
-    let mut report = MergeReport::default();
     for (number, start) in (0..runs).step_by(chunk).enumerate() {
         let reader = ordered[number % ordered.len()];
         let from = number / ordered.len() * chunk;
@@ -88,6 +117,87 @@ pub fn merge(
     Ok(report)
 }
 
+/// Files without a checksum, each of them read to its end: if that fails, or brings the
+/// HDF5 library down, nothing is written yet.
+fn unchecked(files: &[PathBuf], readers: &[ResultReader]) -> Result<Vec<PathBuf>, StudyError> {
+    let mut unchecked = Vec::new();
+    for (file, reader) in files.iter().zip(readers) {
+        if reader.checksum == Checksum::Absent {
+            for start in (0..reader.rows).step_by(READ_AT_ONCE) {
+                reader.block(start..(start + READ_AT_ONCE).min(reader.rows))?;
+            }
+            unchecked.push(file.clone());
+        }
+    }
+    Ok(unchecked)
+}
+
+/// Missing shards that are named.
+const MOST_NAMED: usize = 1000;
+
+/// Rows that are read at once to see whether they can be read.
+const READ_AT_ONCE: usize = 1024;
+
+/// The builds that made the shards, in order of their first shards.
+fn builds<'r>(ordered: &[&'r ResultReader]) -> Vec<&'r str> {
+    let mut builds: Vec<&str> = Vec::new();
+    for reader in ordered {
+        let build = reader.description.build.as_str();
+        if !builds.contains(&build) {
+            builds.push(build);
+        }
+    }
+    builds
+}
+
+/// A build as people read it.
+fn named(build: &str) -> &str {
+    match build {
+        "" => "a version that did not record its build",
+        build => build,
+    }
+}
+
+/// Refuses builds that differ, with the files of each.
+fn mixed(files: &[PathBuf], readers: &[ResultReader], builds: &[&str]) -> StudyError {
+    let line = |build: &&str| {
+        let its = files.iter().zip(readers);
+        let its = its.filter(|(_, r)| r.description.build == *build);
+        let its: Vec<String> = its.map(|(f, _)| f.display().to_string()).collect();
+        format!("{}: {}", named(build), its.join(", "))
+    };
+    StudyError::MixedBuilds {
+        list: builds.iter().map(line).collect::<Vec<_>>().join("\n"),
+    }
+}
+
+/// Each build with its shards, as the result says it.
+fn with_shards(ordered: &[&ResultReader], builds: &[&str]) -> Vec<String> {
+    let line = |build: &&str| {
+        let its = ordered.iter().filter(|r| r.description.build == *build);
+        let its: Vec<String> = its.map(|r| r.description.shard.0.to_string()).collect();
+        format!(
+            "shards {} of {}: {}",
+            its.join(", "),
+            ordered.len(),
+            named(build)
+        )
+    };
+    builds.iter().map(line).collect()
+}
+
+/// The versions that made the shards.
+fn versions(ordered: &[&ResultReader]) -> String {
+    let mut versions: Vec<&str> = Vec::new();
+    for reader in ordered {
+        let version = reader.description.version.as_str();
+        if !versions.contains(&version) {
+            versions.push(version);
+        }
+    }
+    versions.join(", ")
+}
+
 /// The shards in order, if they are all there.
 fn ordered<'r>(
     files: &[PathBuf],
@@ -98,6 +208,11 @@ fn ordered<'r>(
         .first()
         .ok_or_else(|| wrong("no files are given".to_owned()))?;
     let count = first.description.shard.1;
+    // A list of thousands would help nobody.
+    let missing = count.saturating_sub(files.len());
+    if missing > MOST_NAMED {
+        return Err(wrong(format!("{missing} of {count} shards are missing")));
+    }
     let mut ordered: Vec<Option<&ResultReader>> = vec![None; count];
     for (reader, file) in readers.iter().zip(files) {
         let shown = file.display();
@@ -105,6 +220,14 @@ fn ordered<'r>(
         if its.study_sha256 != mine.study_sha256 {
             return Err(wrong(format!(
                 "{shown} is of another study, or of another version of it, than {}",
+                files[0].display()
+            )));
+        }
+        if [its.runs, its.chunk] != [mine.runs, mine.chunk]
+            || (&its.layout, &its.coordinates) != (&mine.layout, &mine.coordinates)
+        {
+            return Err(wrong(format!(
+                "{shown} does not have the runs, variables, storeys and levels of {}",
                 files[0].display()
             )));
         }

@@ -8,7 +8,7 @@ mod reading;
 mod table;
 mod writing;
 
-pub use merge::{MergeReport, merge};
+pub use merge::{MergeOptions, MergeReport, merge};
 pub use reading::ResultReader;
 pub use table::RunTable;
 pub(crate) use writing::ResultWriter;
@@ -44,6 +44,9 @@ pub struct Description {
     pub records: String,
     /// Version of the program.
     pub version: String,
+    /// What the program was built of and for, see [`crate::BUILD`]; a line for each build if
+    /// a merged result has several. Empty in files of versions that did not record it.
+    pub build: String,
     /// Number of runs of the whole study.
     pub runs: usize,
     /// Runs that are stored at once.

@@ -5,59 +5,116 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{File, H5Type};
+use hdf5::{Dataset, File, H5Type};
+use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
+use pounding_hdf5::{OpenError, ResultFile, dataset, number, text, texts, values};
 
 use super::writing::Id;
 use super::{Coordinate, Description};
 use crate::error::StudyError;
-use crate::runs::{Ending, Layout, Place, Row};
+use crate::runs::{Axis, Ending, Layout, Place, Row};
 use crate::study_file::Value;
 
 /// A result that is read.
 #[derive(Debug)]
 pub struct ResultReader {
-    file: File,
     path: PathBuf,
     /// What the result says beside its rows.
     pub description: Description,
     /// Number of its rows.
     pub rows: usize,
+    /// What its checksum says.
+    pub checksum: Checksum,
+    run: Dataset,
+    id: Dataset,
+    status: Dataset,
+    coordinates: Vec<Dataset>,
+    /// With the number of columns, `None` for a quantity of the whole run.
+    quantities: Vec<(Dataset, Option<usize>)>,
     failures: HashMap<i64, String>,
 }
 
 impl ResultReader {
-    /// Opens a result.
+    /// Opens a result whose checksum matches; one without a checksum only if that is
+    /// accepted.
     ///
     /// # Errors
-    /// [`StudyError::ResultFile`] if it is not the result of a study.
-    pub fn open(path: &Path) -> Result<Self, StudyError> {
+    /// [`StudyError::Checksum`], or [`StudyError::ResultFile`] if it is not the result of a
+    /// study or its parts do not fit one another.
+    pub fn open(path: &Path, without: WithoutChecksum) -> Result<Self, StudyError> {
         let failed = |reason: String| StudyError::ResultFile {
             what: "read",
             path: path.to_owned(),
             reason,
         };
-        // The library's own message for a file that is not there is a page long.
-        std::fs::metadata(path).map_err(|e| failed(e.to_string()))?;
-        let open = || -> hdf5::Result<Self> {
-            let file = File::open(path)?;
-            let description = description(&file)?;
-            let run = file.dataset("failures/run")?.read_raw::<i64>()?;
-            let why = file
-                .dataset("failures/diagnosis")?
-                .read_raw::<VarLenUnicode>()?;
-            let failures = run
-                .into_iter()
-                .zip(why.iter().map(|w| w.to_string()))
-                .collect();
-            Ok(Self {
-                rows: file.dataset("run")?.size(),
-                file,
+        let opened = ResultFile::open(path, without).map_err(|source| match source {
+            OpenError::Checksum(ChecksumError::NotHdf5) => {
+                failed("it is not the result of a study (it is not HDF5)".to_owned())
+            }
+            source => StudyError::Checksum {
                 path: path.to_owned(),
-                description,
-                failures,
-            })
+                source,
+            },
+        })?;
+        Self::with_parts(path, &opened).map_err(|e| {
+            let reason = e.to_string();
+            let reason = reason.lines().next().unwrap_or_default();
+            failed(format!("it is not the result of a study ({reason})"))
+        })
+    }
+
+    fn with_parts(path: &Path, opened: &ResultFile) -> hdf5::Result<Self> {
+        let file = opened.file();
+        let description = description(file)?;
+        let run = part::<i64>(file, "run")?;
+        let rows = run.size();
+        if Some(rows) != description.rows_of_shard() {
+            return Err(hdf5::Error::from(
+                "its rows are not those of its part of the study",
+            ));
+        }
+        let fits = |data: Dataset, name: &str, columns: Option<usize>| {
+            let shape: Vec<usize> = [Some(rows), columns].into_iter().flatten().collect();
+            match data.shape() == shape {
+                true => Ok(data),
+                false => Err(hdf5::Error::from(format!(
+                    "{name} does not have the rows and columns of the result"
+                ))),
+            }
         };
-        open().map_err(|e| failed(format!("it is not the result of a study ({e})")))
+        let (id, status) = (part::<Id>(file, "run_id")?, part::<i8>(file, "status")?);
+        let mut coordinates = Vec::new();
+        for c in &description.coordinates {
+            let data = match &c.choices {
+                Some(_) => part::<VarLenUnicode>(file, &c.name),
+                None => part::<f64>(file, &c.name),
+            };
+            coordinates.push(fits(data?, &c.name, None)?);
+        }
+        let layout = &description.layout;
+        let mut quantities = Vec::new();
+        for q in &layout.quantities {
+            let columns = match q.axis {
+                Axis::Run => None,
+                axis => Some(layout.width(axis)),
+            };
+            if columns != Some(0) {
+                let data = fits(part::<f64>(file, q.name)?, q.name, columns)?;
+                quantities.push((data, columns));
+            }
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            rows,
+            checksum: opened.checksum(),
+            id: fits(id, "run_id", None)?,
+            status: fits(status, "status", None)?,
+            run,
+            coordinates,
+            quantities,
+            failures: failures(file)?,
+            description,
+        })
     }
 
     /// Rows at these places of the file, with the values of the variables.
@@ -73,53 +130,55 @@ impl ResultReader {
     }
 
     fn read(&self, places: Range<usize>) -> hdf5::Result<Vec<(Row, Vec<Value>)>> {
-        let layout = &self.description.layout;
-        let runs = self.column::<i64>("run", &places)?;
-        let ids = self.column::<Id>("run_id", &places)?;
-        let status = self.column::<i8>("status", &places)?;
-        let mut rows: Vec<(Row, Vec<Value>)> = runs
-            .iter()
-            .zip(&ids)
-            .zip(&status)
-            .map(|((run, id), status)| {
-                let diagnosis = || self.failures.get(run).cloned().unwrap_or_default();
-                let row = Row {
-                    run: *run as usize,
-                    id: bytes(id.as_str()),
-                    values: Vec::with_capacity(layout.columns()),
-                    ending: match status {
-                        0 => Ending::Complete,
-                        2 => Ending::Collapsed(diagnosis()),
-                        _ => Ending::Failed(diagnosis()),
-                    },
-                };
-                (row, Vec::new())
-            })
-            .collect();
-        for c in &self.description.coordinates {
+        let columns = self.description.layout.columns();
+        let runs = column::<i64>(&self.run, &places)?;
+        let ids = column::<Id>(&self.id, &places)?;
+        let status = column::<i8>(&self.status, &places)?;
+        let mut rows = Vec::with_capacity(runs.len());
+        for ((run, id), status) in runs.iter().zip(&ids).zip(&status) {
+            let damaged = |what: &str| hdf5::Error::from(format!("run {run} has {what}"));
+            let diagnosis = || {
+                let diagnosis = self.failures.get(run).cloned();
+                diagnosis.ok_or_else(|| damaged("no diagnosis"))
+            };
+            let row = Row {
+                run: usize::try_from(*run).map_err(|_| damaged("no number that can be"))?,
+                id: bytes(id.as_str()).ok_or_else(|| damaged("no identity"))?,
+                values: Vec::with_capacity(columns),
+                ending: match status {
+                    0 => Ending::Complete,
+                    1 => Ending::Failed(diagnosis()?),
+                    2 => Ending::Collapsed(diagnosis()?),
+                    _ => return Err(damaged("no status that we know")),
+                },
+            };
+            rows.push((row, Vec::new()));
+        }
+        for (data, c) in self.coordinates.iter().zip(&self.description.coordinates) {
             match &c.choices {
                 Some(names) => {
-                    let values = self.column::<VarLenUnicode>(&c.name, &places)?;
+                    let values = column::<VarLenUnicode>(data, &places)?;
                     for (row, value) in rows.iter_mut().zip(&values) {
-                        let at = names.iter().position(|n| n == value.as_str());
-                        row.1.push(Value::Choice(at.unwrap_or(0)));
+                        let at = names
+                            .iter()
+                            .position(|n| n.as_bytes() == value.as_bytes())
+                            .ok_or_else(|| {
+                                hdf5::Error::from(format!("a value of {} is no choice", c.name))
+                            })?;
+                        row.1.push(Value::Choice(at));
                     }
                 }
                 None => {
-                    let values = self.column::<f64>(&c.name, &places)?;
+                    let values = column::<f64>(data, &places)?;
                     for (row, value) in rows.iter_mut().zip(values) {
                         row.1.push(Value::Number(value));
                     }
                 }
             }
         }
-        for q in &layout.quantities {
-            if layout.width(q.axis) == 0 {
-                continue;
-            }
-            let data = self.file.dataset(q.name)?;
-            if data.ndim() == 1 {
-                for (row, value) in rows.iter_mut().zip(self.column::<f64>(q.name, &places)?) {
+        for (data, columns) in &self.quantities {
+            if columns.is_none() {
+                for (row, value) in rows.iter_mut().zip(column::<f64>(data, &places)?) {
                     row.0.values.push(value);
                 }
             } else {
@@ -131,31 +190,70 @@ impl ResultReader {
         }
         Ok(rows)
     }
-
-    fn column<T: H5Type>(&self, name: &str, places: &Range<usize>) -> hdf5::Result<Vec<T>> {
-        let data = self.file.dataset(name)?;
-        Ok(data
-            .read_slice_1d::<T, _>(places.clone())?
-            .into_raw_vec_and_offset()
-            .0)
-    }
 }
 
-fn bytes(text: &str) -> [u8; 16] {
+/// A dataset of this type, or which one is damaged and how.
+fn part<T: H5Type>(file: &File, name: &str) -> hdf5::Result<Dataset> {
+    dataset::<T>(file, name).map_err(|e| of(name, &e))
+}
+
+/// An error with the name of what it is of.
+fn of(name: &str, error: &hdf5::Error) -> hdf5::Error {
+    hdf5::Error::from(format!("{name}: {error}"))
+}
+
+fn column<T: H5Type>(data: &Dataset, places: &Range<usize>) -> hdf5::Result<Vec<T>> {
+    let column = data.read_slice_1d::<T, _>(places.clone())?;
+    Ok(column.into_raw_vec_and_offset().0)
+}
+
+fn failures(file: &File) -> hdf5::Result<HashMap<i64, String>> {
+    let group = file.group("failures")?;
+    let run = values::<i64>(&group, "run").map_err(|e| of("failures/run", &e))?;
+    let why = texts(&group, "diagnosis").map_err(|e| of("failures/diagnosis", &e))?;
+    if run.len() != why.len() {
+        return Err(hdf5::Error::from("failures and diagnoses differ in number"));
+    }
+    Ok(run.into_iter().zip(why).collect())
+}
+
+fn bytes(text: &str) -> Option<[u8; 16]> {
     let mut id = [0; 16];
     for (i, b) in id.iter_mut().enumerate() {
-        let two = text.get(2 * i..2 * i + 2).unwrap_or("00");
-        *b = u8::from_str_radix(two, 16).unwrap_or(0);
+        *b = u8::from_str_radix(text.get(2 * i..2 * i + 2)?, 16).ok()?;
     }
-    id
+    Some(id)
+}
+
+impl Description {
+    /// Rows of this shard; `None` if its numbers cannot be.
+    fn rows_of_shard(&self) -> Option<usize> {
+        let (index, count) = self.shard;
+        if self.chunk == 0 || index == 0 || index > count {
+            return None;
+        }
+        let all = self.runs.div_ceil(self.chunk);
+        let ours = all.saturating_sub(index - 1).div_ceil(count);
+        let short = match ours > 0 && (all - index) % count == 0 {
+            // The last chunk of the study is ours: it may be shorter.
+            true => all.checked_mul(self.chunk)? - self.runs,
+            false => 0,
+        };
+        Some(ours.checked_mul(self.chunk)? - short)
+    }
 }
 
 fn description(file: &File) -> hdf5::Result<Description> {
     let text = |name: &str| -> hdf5::Result<String> {
-        Ok(file.attr(name)?.read_scalar::<VarLenUnicode>()?.to_string())
+        text(file, name).map_err(|e| of(&format!("attribute {name}"), &e))
     };
-    let number =
-        |name: &str| -> hdf5::Result<usize> { Ok(file.attr(name)?.read_scalar::<u64>()? as usize) };
+    let number = |name: &str| -> hdf5::Result<usize> {
+        let number = number::<u64>(file, name)?;
+        // More would be no number of anything.
+        let number = u32::try_from(number).ok().map(|n| n as usize);
+        number
+            .ok_or_else(|| hdf5::Error::from(format!("attribute {name} is no number that can be")))
+    };
     let variables: serde_json::Value =
         serde_json::from_str(&text("variables")?).map_err(|e| hdf5::Error::from(e.to_string()))?;
     let coordinate = |v: &serde_json::Value| {
@@ -178,6 +276,10 @@ fn description(file: &File) -> hdf5::Result<Description> {
         case: text("case")?,
         records: text("record_sha256")?,
         version: text("version")?,
+        build: match file.attr_names()?.iter().any(|name| name == "build") {
+            true => text("build")?,
+            false => String::new(),
+        },
         runs: number("runs")?,
         chunk: number("chunk")?,
         shard: (number("shard")?, number("shards")?),
@@ -192,30 +294,41 @@ fn description(file: &File) -> hdf5::Result<Description> {
 }
 
 fn layout(file: &File) -> hdf5::Result<Layout> {
-    let texts = |name: &str| -> hdf5::Result<Vec<String>> {
-        if !file.link_exists(name) {
-            return Ok(Vec::new());
-        }
-        let values = file.dataset(name)?.read_raw::<VarLenUnicode>()?;
-        Ok(values.iter().map(|v| v.to_string()).collect())
+    let labels = |name: &str| match file.link_exists(name) {
+        true => texts(file, name).map_err(|e| of(name, &e)),
+        false => Ok(Vec::new()),
     };
     let numbers = |name: &str| -> hdf5::Result<Vec<usize>> {
         if !file.link_exists(name) {
             return Ok(Vec::new());
         }
-        let values = file.dataset(name)?.read_raw::<i32>()?;
-        Ok(values.into_iter().map(|n| n as usize).collect())
+        let numbers = values::<i32>(file, name)
+            .map_err(|e| of(name, &e))?
+            .into_iter()
+            .map(usize::try_from);
+        let numbers = numbers.collect::<Result<Vec<_>, _>>();
+        numbers.map_err(|_| hdf5::Error::from(format!("{name} has a number that cannot be")))
     };
     let place = |(label, of): (String, String), storeys: Vec<usize>| Place { label, of, storeys };
-    let storeys = texts("storey")?.into_iter().zip(texts("storey_building")?);
-    let storeys = storeys
-        .zip(numbers("storey_number")?)
-        .map(|(p, n)| place(p, vec![n]));
-    let pairs = numbers("level_left_storey")?
-        .into_iter()
-        .zip(numbers("level_right_storey")?);
-    let levels = texts("level")?.into_iter().zip(texts("level_gap")?);
-    let levels = levels.zip(pairs).map(|(p, (l, r))| place(p, vec![l, r]));
+    let (storey, building, number) = (
+        labels("storey")?,
+        labels("storey_building")?,
+        numbers("storey_number")?,
+    );
+    let (level, gap) = (labels("level")?, labels("level_gap")?);
+    let (left, right) = (
+        numbers("level_left_storey")?,
+        numbers("level_right_storey")?,
+    );
+    let fits = [building.len(), number.len()] == [storey.len(); 2]
+        && [gap.len(), left.len(), right.len()] == [level.len(); 3];
+    if !fits {
+        return Err(hdf5::Error::from("storeys or levels are not all described"));
+    }
+    let storeys = storey.into_iter().zip(building).zip(number);
+    let storeys = storeys.map(|(p, n)| place(p, vec![n]));
+    let levels = level.into_iter().zip(gap).zip(left.into_iter().zip(right));
+    let levels = levels.map(|(p, (l, r))| place(p, vec![l, r]));
     Ok(Layout::from_places(
         storeys.collect(),
         levels.collect(),

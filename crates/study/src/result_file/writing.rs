@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
-use pounding_files::PartFile;
+use pounding_files::{PartFile, checksum};
 use pounding_time_history::dimension_scales::make_scale;
 
 use super::Description;
@@ -105,7 +105,9 @@ impl ResultWriter {
         let written = open.flush().and_then(|()| open.file.flush());
         drop(open);
         written.map_err(|e| self.failed(&e))?;
-        part.finish().map_err(|e| self.failed(&e))
+        checksum::append(part.path())
+            .and_then(|()| part.finish())
+            .map_err(|e| self.failed(&e))
     }
 }
 

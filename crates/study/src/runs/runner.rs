@@ -258,7 +258,7 @@ impl<'s> Runner<'s> {
     }
 
     /// Identity of the whole study: all that decides what its runs are and in which
-    /// columns their results stand.
+    /// columns their results stand. What computes them is told apart by [`crate::BUILD`].
     pub(crate) fn study_identity(&self) -> String {
         let mut hash = Sha256::new();
         hash.update(canonical(&self.study.base.source));
@@ -275,7 +275,6 @@ impl<'s> Runner<'s> {
             hash.update(motion.as_ref().map_or("unreadable", |m| m.sha256.as_str()));
         }
         hash.update(self.layout.signature());
-        hash.update(self.version);
         hexadecimal(&hash.finalize())
     }
 }

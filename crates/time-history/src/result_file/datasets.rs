@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Group, Location};
+use hdf5::{Dataset, Group, H5Type, Location};
 
 use super::Result;
 use crate::recorder::Sample;
@@ -33,6 +33,7 @@ pub(super) fn series(
             .chunk(rows)
             .shuffle()
             .deflate(1)
+            .fletcher32()
             .shape(values.len())
             .create(name)?
     };
@@ -58,10 +59,28 @@ pub(super) fn matrix(
         .chunk((CHUNK_ROWS.min(rows).max(1), columns.max(1)))
         .shuffle()
         .deflate(1)
+        .fletcher32()
         .shape((rows, columns))
         .create(name)?;
     data.write_raw(values)?;
     describe(&data, units, long_name)?;
+    Ok(data)
+}
+
+/// A dataset of rows of several columns, one after another.
+pub(super) fn table<T: H5Type>(group: &Group, name: &str, rows: &[T]) -> Result<Dataset> {
+    let builder = group.new_dataset::<T>();
+    if rows.is_empty() {
+        return builder.shape(0).create(name);
+    }
+    let data = builder
+        .chunk(CHUNK_ROWS.min(rows.len()))
+        .shuffle()
+        .deflate(1)
+        .fletcher32()
+        .shape(rows.len())
+        .create(name)?;
+    data.write_raw(rows)?;
     Ok(data)
 }
 

@@ -2,7 +2,7 @@
 
 use hdf5::{Dataset, H5Type};
 
-use super::datasets::{matrix, series, text};
+use super::datasets::{matrix, series, table as rows_of, text};
 use super::{Result, RunRecord, dimension_scales};
 use crate::outcome::Impact;
 use crate::recorder::Sample;
@@ -97,12 +97,8 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
             .filter(|i| i.gap == index)
             .map(ImpactRow::new)
             .collect();
-        let impacts = group
-            .new_dataset::<ImpactRow>()
-            .shape(rows.len())
-            .create("impacts")?;
+        let impacts = rows_of(&group, "impacts", &rows)?;
         if !rows.is_empty() {
-            impacts.write_raw(&rows)?;
             let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
             let number = series(&group, "impact", "1", "number of the impact", &numbers)?;
             dimension_scales::make_scale(&number, "impact")?;

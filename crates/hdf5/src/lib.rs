@@ -1,0 +1,120 @@
+//! Reading of result files in HDF5, of runs and of studies: layer 1.
+//!
+//! [`ResultFile::open`] is the only way to a result file: the checksum at its end is
+//! compared before the HDF5 library sees the file. What is then read has the type that was
+//! written and a size that is stored, or is an error: of a file without checksum, a
+//! damaged type or a lost piece would otherwise be read as zeros.
+
+mod chunks;
+mod values;
+
+use std::path::Path;
+
+use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
+
+pub use values::{dataset, number, read_all, text, texts, values};
+
+/// Name of the root attribute of a file that was written with a checksum.
+pub const CHECKSUM: &str = "checksum";
+/// Its value: what the last line of the file is.
+pub const CHECKSUM_FORM: &str = "pounding-sha256:1, SHA-256 of all bytes before the last line";
+
+/// A result file that was whole when it was opened, or has no checksum.
+#[derive(Debug)]
+pub struct ResultFile {
+    file: hdf5::File,
+    checksum: Checksum,
+}
+
+/// Why a result file cannot be opened.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpenError {
+    /// The operating system, or the checksum.
+    #[error(transparent)]
+    Checksum(#[from] ChecksumError),
+    /// HDF5.
+    #[error("HDF5 cannot open it: {0}")]
+    Hdf5(String),
+}
+
+impl OpenError {
+    /// What to do about it; `None` where that hangs on what the file was to be.
+    #[must_use]
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Checksum(error) => error.help(),
+            Self::Hdf5(_) => None,
+        }
+    }
+}
+
+impl ResultFile {
+    /// Opens a file after its checksum was compared. A file of a version of the program
+    /// that wrote none is opened only if that is accepted.
+    ///
+    /// # Errors
+    /// [`OpenError`].
+    pub fn open(path: &Path, without: WithoutChecksum) -> Result<Self, OpenError> {
+        let checksum = check(path, without)?;
+        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(first_line(&e)))?;
+        // Cut off right where its content ends, a file looks as if it never had one.
+        if checksum == Checksum::Absent && file.attr_names().is_ok_and(|all| has_one(&all)) {
+            return Err(ChecksumError::Removed.into());
+        }
+        Ok(Self { file, checksum })
+    }
+
+    /// What the checksum said.
+    #[must_use]
+    pub fn checksum(&self) -> Checksum {
+        self.checksum
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn file(&self) -> &hdf5::File {
+        &self.file
+    }
+}
+
+fn has_one(names: &[String]) -> bool {
+    names.iter().any(|name| name == CHECKSUM)
+}
+
+/// What HDF5 says without its call stack.
+fn first_line(error: &hdf5::Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use pounding_files::checksum::append;
+
+    use super::*;
+
+    #[test]
+    fn a_checksum_that_was_removed_is_missed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.h5");
+        let file = hdf5::File::create(&path).unwrap();
+        let attribute = file.new_attr::<u8>().create(CHECKSUM).unwrap();
+        attribute.write_scalar(&1).unwrap();
+        drop((file, attribute));
+        append(&path).unwrap();
+        let opened = ResultFile::open(&path, WithoutChecksum::Refuse).unwrap();
+        assert_eq!(opened.checksum(), Checksum::Matches);
+        drop(opened);
+        let bytes = std::fs::read(&path).unwrap();
+        let cut = &bytes[..bytes.len() - pounding_files::checksum::LENGTH];
+        std::fs::write(&path, cut).unwrap();
+        let refused = ResultFile::open(&path, WithoutChecksum::Accept).unwrap_err();
+        assert!(refused.to_string().contains("checksum is missing"));
+        // HDF5 cuts what follows the content when it opens a file for writing.
+        std::fs::write(&path, &bytes).unwrap();
+        drop(hdf5::File::open_rw(&path).unwrap());
+        assert_eq!(std::fs::read(&path).unwrap(), cut);
+    }
+}

@@ -6,12 +6,14 @@
 
 mod building;
 mod damping;
+mod elevation;
 mod error;
 mod modes;
 mod tridiagonal;
 
 pub use building::{ShearBuilding, StoreyLaw};
 pub use damping::{Damping, DampingMatrix};
+pub use elevation::{ELEVATION_TOLERANCE, are_level, decimal, elevations};
 pub use error::ShearBuildingError;
 pub use modes::Modes;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

@@ -8,8 +8,8 @@ use hdf5::{Group, H5Type, Location};
 
 use crate::error::ReportError;
 use crate::result::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks,
-    Table,
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,
+    StoreyPeaks, Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
@@ -94,6 +94,11 @@ fn moderate(data: hdf5::Dataset) -> hdf5::Result<hdf5::Dataset> {
     }
 }
 
+/// A text: whatever HDF5 calls UTF-8 need not be.
+fn utf8(text: &VarLenUnicode) -> hdf5::Result<String> {
+    String::from_utf8(text.as_bytes().to_vec()).map_err(|_| hdf5::Error::from("it is not UTF-8"))
+}
+
 /// Reads, and says what could not be read.
 struct Reader {
     path: PathBuf,
@@ -133,10 +138,7 @@ impl Reader {
             if !attribute.is_scalar() || attribute.space()?.extents()?.is_null() {
                 return Err(hdf5::Error::from("it is no single text"));
             }
-            let text = attribute.read_scalar::<VarLenUnicode>()?;
-            // Whatever HDF5 calls UTF-8 need not be.
-            String::from_utf8(text.as_bytes().to_vec())
-                .map_err(|_| hdf5::Error::from("it is not UTF-8"))
+            utf8(&attribute.read_scalar::<VarLenUnicode>()?)
         };
         let object = format!("attribute {name} of {}", place.name());
         read().map_err(self.failed(&object))
@@ -231,10 +233,45 @@ impl Reader {
         Ok(building)
     }
 
+    /// Levels of a gap or a link.
+    fn levels(&self, group: &Group) -> Outcome<Vec<LevelResult>> {
+        let object = format!("{}/level", group.name());
+        if !group.link_exists("left_elevation") {
+            // Versions before knew the elevation of the left floor alone, and levels by
+            // their number.
+            let elevations = self.column(group, "level")?.into_iter().enumerate();
+            return Ok(elevations
+                .map(|(l, elevation)| LevelResult {
+                    label: (l + 1).to_string(),
+                    elevations: [elevation, f64::NAN],
+                })
+                .collect());
+        }
+        let labels = || moderate(group.dataset("level")?)?.read_raw::<VarLenUnicode>();
+        let labels = labels().map_err(self.failed(&object))?;
+        let left = self.column(group, "left_elevation")?;
+        let right = self.column(group, "right_elevation")?;
+        self.fits(
+            group,
+            left.len() == labels.len() && right.len() == labels.len(),
+        )?;
+        let sides = left.into_iter().zip(right);
+        labels
+            .iter()
+            .zip(sides)
+            .map(|(label, (left, right))| {
+                Ok(LevelResult {
+                    label: utf8(label).map_err(self.failed(&object))?,
+                    elevations: [left, right],
+                })
+            })
+            .collect()
+    }
+
     fn gap(&self, group: &Group, name: String) -> Outcome<GapResult> {
-        let elevation = self.column(group, "level")?;
+        let levels = self.levels(group)?;
         // A gap without levels has no model.
-        let word = |name: &str| match elevation.is_empty() {
+        let word = |name: &str| match levels.is_empty() {
             true => Ok(String::new()),
             false => self.text(group, name),
         };
@@ -248,9 +285,9 @@ impl Reader {
             width: self.column(group, "width")?,
             penetration: self.table(group, "penetration")?,
             impacts: impacts().map_err(self.failed(&object))?,
-            elevation,
+            levels,
         };
-        let levels = gap.elevation.len();
+        let levels = gap.levels.len();
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
         let fits = gap.width.len() == levels
             && gap.penetration.columns == levels
@@ -276,7 +313,7 @@ impl Reader {
         Ok(LinkResult {
             name,
             law: self.text(group, "law")?,
-            elevation: self.column(group, "level")?,
+            levels: self.levels(group)?,
             deformation: self.column(group, "peak/deformation")?,
             force: self.column(group, "peak/force")?,
             energy_dissipated: columns.map(last).collect(),

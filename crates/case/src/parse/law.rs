@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::gap::{between, levels};
+use super::gap::{Faced, between, levels, useless_tolerance};
 use super::{check_name, one_each};
 use crate::error::CaseError;
 use crate::reader::{Reader, Table, Value, distance};
@@ -109,7 +109,16 @@ pub(super) fn link(
         Some(name) => check_name(reader, name, "link")?.value,
         None => names.join("-"),
     };
-    let mut levels = levels(&table, between, buildings, place.span())?;
+    let Faced { pairs, listed, .. } = levels(&table, between, buildings, place.span())?;
+    // A link may join floors at any elevations.
+    if let (Some(value), true) = (table.get("elevation_tolerance"), listed) {
+        return Err(useless_tolerance(
+            reader,
+            value,
+            "listed `levels` of a link",
+        ));
+    }
+    let mut levels: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
     levels.sort_unstable();
     let link = Link {
         name,

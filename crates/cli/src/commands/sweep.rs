@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use super::{pretty, print};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
+use crate::tables::warning_lines;
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -146,6 +147,7 @@ pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
         "collapsed": report.collapsed,
         "first_collapses": told(&report.collapses),
         "study_sha256": report.study_sha256,
+        "warnings": report.warnings,
         "records": records.collect::<Vec<_>>(),
         "output": options.output.display().to_string(),
         "csv": options.csv.as_ref().map(|p| p.display().to_string()),
@@ -158,6 +160,7 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
     if !study.title.is_empty() {
         text.push_str(&format!("{}\n", study.title));
     }
+    text.push_str(&warning_lines(&report.warnings));
     let before = report.runs - report.made;
     text.push_str(&format!(
         "{} runs in {}",

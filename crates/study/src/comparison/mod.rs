@@ -90,6 +90,8 @@ pub struct Comparison {
     pub rankings: Vec<Ranking>,
     /// What holds for all these models, and what does not.
     pub conclusions: Vec<Conclusion>,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
 }
 
 /// Compares models on a case under records, made by
@@ -148,6 +150,7 @@ pub fn compare(
         spreads: Vec::new(),
         rankings: Vec::new(),
         conclusions: Vec::new(),
+        warnings: system.warnings(),
     };
     comparison.sum_up();
     Ok(comparison)

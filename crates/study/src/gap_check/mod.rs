@@ -82,6 +82,8 @@ pub struct GapCheck {
     pub gaps: Vec<GapReport>,
     /// Sweep over widths.
     pub sweep: Option<GapSweep>,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
 }
 
 /// Part by which a width may fall short of a demand and still be the same: peaks of two
@@ -160,6 +162,7 @@ pub fn gap_check(
         records: demands,
         gaps,
         sweep: sweep.transpose()?,
+        warnings: first.assembly.system.warnings(),
     })
 }
 

@@ -181,6 +181,11 @@ fn description(file: &File) -> hdf5::Result<Description> {
         runs: number("runs")?,
         chunk: number("chunk")?,
         shard: (number("shard")?, number("shards")?),
+        // Versions before had none.
+        warnings: match file.attr_names()?.iter().any(|n| n == "warnings") {
+            true => text("warnings")?.lines().map(str::to_owned).collect(),
+            false => Vec::new(),
+        },
         layout: layout(file)?,
         coordinates: variables
             .as_array()
@@ -206,16 +211,50 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
         let values = file.dataset(name)?.read_raw::<i32>()?;
         Ok(values.into_iter().map(|n| n as usize).collect())
     };
-    let place = |(label, of): (String, String), storeys: Vec<usize>| Place { label, of, storeys };
-    let storeys = texts("storey")?.into_iter().zip(texts("storey_building")?);
-    let storeys = storeys
+    // Versions before had no elevations and widths.
+    let known = |name: &str, count: usize| -> hdf5::Result<Vec<Option<f64>>> {
+        if !file.link_exists(name) {
+            return Ok(vec![None; count]);
+        }
+        let values = file.dataset(name)?.read_raw::<f64>()?;
+        Ok(values
+            .into_iter()
+            .map(|x| (!x.is_nan()).then_some(x))
+            .collect())
+    };
+    let names = texts("storey")?.into_iter().zip(texts("storey_building")?);
+    let count = names.len();
+    let storeys = names
         .zip(numbers("storey_number")?)
-        .map(|(p, n)| place(p, vec![n]));
+        .zip(known("storey_elevation", count)?)
+        .map(|(((label, of), n), z)| Place {
+            label,
+            of,
+            storeys: vec![n],
+            elevations: vec![z],
+            width: None,
+        });
+    let names = texts("level")?.into_iter().zip(texts("level_gap")?);
+    let count = names.len();
     let pairs = numbers("level_left_storey")?
         .into_iter()
         .zip(numbers("level_right_storey")?);
-    let levels = texts("level")?.into_iter().zip(texts("level_gap")?);
-    let levels = levels.zip(pairs).map(|(p, (l, r))| place(p, vec![l, r]));
+    let elevations = known("level_left_elevation", count)?
+        .into_iter()
+        .zip(known("level_right_elevation", count)?);
+    let levels = names
+        .zip(pairs)
+        .zip(elevations)
+        .zip(known("level_width", count)?)
+        .map(
+            |((((label, of), (l, r)), (z_left, z_right)), width)| Place {
+                label,
+                of,
+                storeys: vec![l, r],
+                elevations: vec![z_left, z_right],
+                width,
+            },
+        );
     Ok(Layout::from_places(
         storeys.collect(),
         levels.collect(),

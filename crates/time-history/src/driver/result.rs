@@ -130,7 +130,7 @@ impl Driver<'_> {
 
     /// What the user should know of how the run was made.
     fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let mut warnings = self.system.warnings();
         let elements = self.system.elements();
         if self.method.information().name == "event_driven" && !elements.is_empty() {
             warnings.push(format!(

@@ -67,14 +67,7 @@ impl Driver<'_> {
     }
 
     pub(super) fn place(&self, level: usize) -> String {
-        let gap = self
-            .system
-            .gaps()
-            .iter()
-            .find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
-        gap.map_or_else(String::new, |g| {
-            format!("{} level {}", g.name, level - g.first_level + 1)
-        })
+        self.system.name_of_level(level)
     }
 
     pub(super) fn places_in_touch(&self) -> String {

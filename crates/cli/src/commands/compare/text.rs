@@ -4,7 +4,7 @@ use pounding_case::Case;
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Quantity, QuantityKind};
 
-use crate::tables::new_table;
+use crate::tables::{new_table, warning_lines};
 
 const G: f64 = 9.80665;
 /// More records than this have no tables of their own.
@@ -43,6 +43,7 @@ pub fn report(case: &Case, c: &Comparison) -> String {
     if !case.title.is_empty() {
         text.push_str(&format!("{}\n", case.title));
     }
+    text.push_str(&warning_lines(&c.warnings));
     text.push_str(&calibration(c));
     if c.records.len() <= LISTED {
         for record in 0..c.records.len() {

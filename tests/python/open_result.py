@@ -21,7 +21,9 @@ with h5py.File(path) as f:
     assert u.attrs["units"] == "m" and u.attrs["long_name"]
     assert u.shape == (len(time), 3)
     u_values = u[:]
-    assert [u.dims[i][0].name for i in (0, 1)] == ["/time", "/building/light/storey"]
+    assert u.dims[0][0] == time and u.dims[1][0] == light["storey"]
+    for group in ("ground", "building/heavy", "gap/light-heavy", "energy"):
+        assert f[group]["time"] == time, group
     # Peaks come from inside the steps: never below the output grid's.
     grid = np.abs(u[:]).max(axis=0)
     peak = light["peak/displacement"][:]
@@ -36,15 +38,37 @@ with h5py.File(path) as f:
     assert abs(total - energy["input"][-1]) < 1e-8 * energy["input"][:].max()
     assert abs(impacts["energy_dissipated"].sum() - energy["impact"][-1]) < 1e-6 * energy["impact"][-1]
 
-with xr.open_dataset(path, engine="h5netcdf", group="/building/light") as ds:
-    # Coordinates of the root group have to be merged by hand in xarray.
-    assert ds.displacement.dims == ("time", "storey"), ds.displacement.dims
-    np.testing.assert_allclose(ds.storey.values, [3.0, 6.0, 9.0])
-    assert ds.displacement.attrs["units"] == "m"
-    assert ds.storey.attrs["units"] == "m"
-with xr.open_dataset(path, engine="h5netcdf") as root:
-    assert root.time.dims == ("time",) and root.time.attrs["units"] == "s"
-    assert abs(float(root.time[1]) - 0.01) < 1e-12
+for engine in ("h5netcdf", "netcdf4"):
+    # Every group by itself has the coordinates of its dimensions.
+    with xr.open_dataset(path, engine=engine, group="/building/light") as ds:
+        assert ds.displacement.dims == ("time", "storey"), ds.displacement.dims
+        assert {"time", "storey"} <= set(ds.coords), ds.coords
+        # The decimal elevations, not the plain sums of the heights.
+        assert list(ds.storey.values) == [3.3, 6.6, 9.9]
+        roof = ds.displacement.sel(storey=9.9)
+        assert roof.dims == ("time",) and roof.attrs["units"] == "m"
+        assert ds.storey.attrs["units"] == "m" and ds.time.attrs["units"] == "s"
+        at = roof.sel(time=2.5, method="nearest")
+        assert float(at) == float(ds.displacement[250, 2])
+    with xr.open_dataset(path, engine=engine, group="/building/light/peak") as ds:
+        assert ds.displacement.sel(storey=9.9) > 0
+    with xr.open_dataset(path, engine=engine, group="/gap/light-heavy") as ds:
+        assert ds.force.dims == ("time", "level") and "time" in ds.coords
+        for name in ("left_storey", "right_storey", "left_elevation", "right_elevation", "width"):
+            assert name in ds.coords and ds[name].attrs["long_name"], name
+        top = ds.force.sel(level="3-3")
+        assert (int(top.left_storey), float(top.right_elevation)) == (3, 9.9)
+        assert ds.left_elevation.attrs["units"] == "m" and float(top.width) == 0.02
+    for group in ("/ground", "/energy"):
+        with xr.open_dataset(path, engine=engine, group=group) as ds:
+            assert "time" in ds.coords, group
+    with xr.open_dataset(path, engine=engine) as root:
+        assert root.time.dims == ("time",) and root.time.attrs["units"] == "s"
+        assert abs(float(root.time[1]) - 0.01) < 1e-12
+    with xr.open_datatree(path, engine=engine) as tree:
+        for name in ("building/light", "gap/light-heavy", "energy", "ground"):
+            assert tree[name].time.equals(tree["/"].time), name
+        assert tree["building/light/displacement"].sel(storey=9.9).sizes == {"time": 3101}
 
 # What follows the content is in nobody's way: the engines, the choice of one, ncdump.
 for engine in ("h5netcdf", "netcdf4", None):

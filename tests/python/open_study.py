@@ -26,6 +26,12 @@ with xr.open_dataset(path, engine="h5netcdf") as ds:
     assert roof.dims == ("run",) and np.all(roof > 0) and roof.attrs["units"] == "m"
     assert list(ds.storey_building.values) == ["light"] * 3 + ["heavy"] * 3
     assert list(ds.level_left_storey.values) == [1, 2, 3]
+    # Elevations and storeys come with what is selected; widths are a variable here.
+    force = ds.peak_force.sel(level="light-heavy 3-3")
+    assert float(force.level_left_elevation) == float(force.level_right_elevation) == 9.0
+    assert int(force.level_right_storey) == 3 and np.isnan(force.level_width)
+    assert list(ds.storey_elevation.values) == [3, 6, 9, 3, 6, 9]
+    assert ds.storey_elevation.attrs["units"] == "m" and "storey_elevation" in roof.coords
     assert np.all(ds.status == 0)
     # The gap that just keeps the buildings apart decides whether they touch at all.
     touched = ds.impacts.sum("level") > 0

@@ -2,7 +2,8 @@
 //!
 //! The crate knows words, not physics: it turns a TOML text into plain SI values
 //! and keeps where each stood, so that an error anywhere above can point at file,
-//! line and column.
+//! line and column. Which floors are level it asks `pounding-shear-building`, which knows
+//! where floors lie.
 
 mod error;
 mod files;

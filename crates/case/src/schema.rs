@@ -274,7 +274,12 @@ pub(crate) const GAP: &[Key] = &[
     key(
         "elevation_tolerance",
         Kind::Quantity,
-        "Floors this close in elevation are level (m), by default 0.01",
+        "Floors this close in elevation are level (m), by default 0.01; named pairs that are not level are refused",
+    ),
+    key(
+        "floor_to_floor",
+        Kind::Flag,
+        "Lets named pairs of floors at different elevations act on each other as if they were level, with a warning; by default false",
     ),
     needed("model", Kind::Text, "Impact model, author_year"),
     key(

@@ -115,8 +115,17 @@ pub enum Side {
     Wall,
 }
 
+impl Building {
+    /// Elevations of the floors (m), bottom first, as
+    /// [`pounding_shear_building::elevations`] has them.
+    #[must_use]
+    pub fn elevations(&self) -> Vec<f64> {
+        pounding_shear_building::elevations(&self.height)
+    }
+}
+
 /// A pair of floors that may touch.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ContactLevel {
     /// Storey of the left building, from zero; `None` for a wall.
     pub left: Option<usize>,
@@ -124,6 +133,8 @@ pub struct ContactLevel {
     pub right: Option<usize>,
     /// Width (m).
     pub width: f64,
+    /// Where it is named in `levels`, else the `between` of its gap.
+    pub place: Range<usize>,
 }
 
 /// A gap between neighbours, or to a wall.
@@ -135,6 +146,10 @@ pub struct Gap {
     pub between: [Side; 2],
     /// Contact levels, from the bottom.
     pub levels: Vec<ContactLevel>,
+    /// Floors whose elevations differ by no more than this are level (m).
+    pub elevation_tolerance: f64,
+    /// Whether floors that are not level act on each other as if they were.
+    pub floor_to_floor: bool,
     /// Impact model.
     pub model: Located<String>,
     /// Separation rule.

@@ -2,7 +2,8 @@
 
 use pounding_gap_element::Verification;
 use pounding_time_history::{
-    LevelOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, StoreyPeaks, System, YieldingStorey,
+    LevelOutcome, LevelPlace, LinkLevelOutcome, LinkOutcome, Outcome, Peak, StoreyPeaks, System,
+    YieldingStorey,
 };
 use serde_json::{Value, json};
 
@@ -17,9 +18,11 @@ pub fn outcome(
         .buildings
         .iter()
         .zip(&isolated.buildings)
-        .map(|(b, alone)| {
+        .zip(system.buildings())
+        .map(|((b, alone), building)| {
             json!({
                 "name": b.name,
+                "elevation": building.elevations(),
                 "storeys": b.storeys.iter().map(storey).collect::<Vec<_>>(),
                 "yielding": b.yielding.iter().map(yielding).collect::<Vec<_>>(),
                 "isolated": alone.storeys.iter().map(storey).collect::<Vec<_>>(),
@@ -41,7 +44,13 @@ pub fn outcome(
                 "name": g.name,
                 "model": card.map(|d| d.name),
                 "from_secondary_sources": secondary,
-                "levels": g.levels.iter().map(level).collect::<Vec<_>>(),
+                "between": place.between,
+                "levels": g.levels.iter().zip(system.levels_of(place)).map(|(l, at)| {
+                    let mut value = level(l);
+                    add_place(&mut value, &at.place);
+                    value["width"] = json!(at.width);
+                    value
+                }).collect::<Vec<_>>(),
             })
         })
         .collect();
@@ -52,7 +61,7 @@ pub fn outcome(
         "end_time": outcome.end_time,
         "buildings": buildings,
         "gaps": gaps,
-        "links": links(outcome),
+        "links": links(system, outcome),
         "energy": {
             "input": end.input, "kinetic": end.kinetic, "strain": end.strain, "viscous": end.viscous,
             "hysteretic": end.hysteretic, "impact": end.impact, "residual": end.residual,
@@ -78,7 +87,16 @@ fn yielding(storey: &Option<YieldingStorey>) -> Value {
     })
 }
 
-fn links(outcome: &Outcome) -> Vec<Value> {
+/// Adds label, storeys and elevations of a level; a wall has neither storey nor elevation.
+pub fn add_place(value: &mut Value, place: &LevelPlace) {
+    value["level"] = json!(place.label());
+    value["left_storey"] = json!(place.storeys[0]);
+    value["right_storey"] = json!(place.storeys[1]);
+    value["left_elevation"] = json!(place.elevations[0]);
+    value["right_elevation"] = json!(place.elevations[1]);
+}
+
+fn links(system: &System, outcome: &Outcome) -> Vec<Value> {
     let level = |l: &LinkLevelOutcome| {
         json!({
             "deformation": peak(l.deformation),
@@ -88,11 +106,17 @@ fn links(outcome: &Outcome) -> Vec<Value> {
             "energy_dissipated": l.energy_dissipated,
         })
     };
-    let link = |l: &LinkOutcome| {
-        let levels: Vec<Value> = l.levels.iter().map(level).collect();
+    let link = |(index, l): (usize, &LinkOutcome)| {
+        let places = system.link_levels(index);
+        let levels = l.levels.iter().zip(&places).map(|(l, place)| {
+            let mut value = level(l);
+            add_place(&mut value, place);
+            value
+        });
+        let levels: Vec<Value> = levels.collect();
         json!({"name": l.name, "law": l.law, "levels": levels})
     };
-    outcome.links.iter().map(link).collect()
+    outcome.links.iter().enumerate().map(link).collect()
 }
 
 fn peak(p: Peak) -> Value {

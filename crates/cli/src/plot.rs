@@ -49,7 +49,10 @@ pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
         .gaps()
         .iter()
         .filter(|g| g.levels > 0)
-        .map(|g| curve(&g.name, &|s| s.force[g.first_level + g.levels - 1] * 1e-3))
+        .map(|g| {
+            let level = g.first_level + g.levels - 1;
+            curve(&system.name_of_level(level), &|s| s.force[level] * 1e-3)
+        })
         .collect();
     let panel = |caption: &str, curves| Panel {
         caption: caption.to_owned(),

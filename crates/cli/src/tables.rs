@@ -21,9 +21,7 @@ pub fn report(record: &RunRecord<'_>) -> String {
     for line in record.assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    for warning in record.warnings() {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
+    text.push_str(&warning_lines(&record.warnings()));
     for index in 0..record.outcome.buildings.len() {
         text.push_str(&building(record, index));
         text.push_str(&elements::storeys(record, index));
@@ -36,6 +34,11 @@ pub fn report(record: &RunRecord<'_>) -> String {
     }
     text.push_str(&energy(record));
     text
+}
+
+/// Warnings, a line each.
+pub fn warning_lines(warnings: &[impl std::fmt::Display]) -> String {
+    warnings.iter().map(|w| format!("warning: {w}\n")).collect()
 }
 
 /// A table whose columns stand at the right.
@@ -96,7 +99,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     let outcome = &record.outcome.gaps[index];
     let system = &record.assembly.system;
     let gap = &system.gaps()[index];
-    let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+    let levels = system.levels_of(gap);
     let model = levels.first().map_or("", |l| l.model.descriptor().name);
     let total: usize = outcome.levels.iter().map(|l| l.impacts).sum();
     if total == 0 {
@@ -105,6 +108,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
     let mut table = new_table(&[
         "level",
+        "elevations (m)",
         "gap (mm)",
         "impacts",
         "first contact (s)",
@@ -117,16 +121,12 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
         "energy lost (kJ)",
         "restitution",
     ]);
-    let storey = |s: Option<usize>| s.map_or("wall".to_owned(), |s| s.to_string());
-    for (l, place) in outcome.levels.iter().zip(levels).rev() {
+    for (l, at) in outcome.levels.iter().zip(levels).rev() {
         let or_dash = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
         table.add_row([
-            format!(
-                "{}-{}",
-                storey(place.left_storey),
-                storey(place.right_storey)
-            ),
-            format!("{:.1}", place.width * 1e3),
+            at.place.label(),
+            at.place.elevations_label(),
+            format!("{:.1}", at.width * 1e3),
             l.impacts.to_string(),
             or_dash(l.first_contact.map(|t| format!("{t:.4}"))),
             format!("{:.3}", l.approach_velocity_max),
@@ -144,7 +144,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     if rigid {
         text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
     }
-    text.push_str(&held_and_widened(&outcome.levels));
+    text.push_str(&held_and_widened(&outcome.levels, levels));
     text
 }
 
@@ -160,10 +160,10 @@ fn secondary_sources(levels: &[ContactLevel]) -> String {
 }
 
 /// Lasting contacts with the greatest force that they held, and widened gaps.
-fn held_and_widened(levels: &[LevelOutcome]) -> String {
+fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String {
     let mut text = String::new();
-    for (index, l) in levels.iter().enumerate() {
-        let level = index + 1;
+    for (l, at) in levels.iter().zip(places) {
+        let level = at.place;
         if l.sticks > 0 {
             text.push_str(&format!(
                 "Level {level}: floors held together {} times, greatest contact force {:.1} kN at {:.2} s\n",
@@ -223,9 +223,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     for line in assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    for warning in assembly.warnings() {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
+    text.push_str(&warning_lines(&assembly.warnings()));
     for b in assembly.system.buildings() {
         let mut table = new_table(&[
             "storey",
@@ -256,19 +254,16 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     }
     for gap in assembly.system.gaps() {
         let mut table = new_table(&[
-            "left storey",
-            "right storey",
-            "elevation (m)",
+            "level",
+            "elevations (m)",
             "width (m)",
             "effective mass (kg)",
         ]);
-        let levels = &assembly.system.levels()[gap.first_level..gap.first_level + gap.levels];
-        let storey = |s: Option<usize>| s.map_or("wall".to_owned(), |s| s.to_string());
+        let levels = assembly.system.levels_of(gap);
         for l in levels {
             table.add_row([
-                storey(l.left_storey),
-                storey(l.right_storey),
-                format!("{}", l.elevation),
+                l.place.label(),
+                l.place.elevations_label(),
                 format!("{}", l.width),
                 format!("{:.3}", l.effective_mass),
             ]);

@@ -233,7 +233,10 @@ fn floors_at_unequal_elevation() {
         ],
     );
     let folder = tempfile::tempdir().unwrap();
-    let said = case.replace("width = ", "levels = [[1, 1], [2, 2]]\nwidth = ");
+    let said = case.replace(
+        "width = ",
+        "levels = [[1, 1], [2, 2]]\nfloor_to_floor = true\nwidth = ",
+    );
     let output = run_in(folder.path(), &said, &record(), &["check", "case.toml"]);
     assert!(output.status.success(), "{}", message(&output));
 }

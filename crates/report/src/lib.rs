@@ -16,6 +16,6 @@ pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
 pub use page::page;
 pub use result::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks,
-    Table,
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,
+    StoreyPeaks, Table,
 };

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Group, H5Type, Location};
 use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
-use pounding_hdf5::{ResultFile, number, read_all, text, values};
+use pounding_hdf5::{ResultFile, number, read_all, text, texts, values};
 
 use crate::error::ReportError;
 use crate::result::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks,
-    Table,
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,
+    StoreyPeaks, Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
@@ -200,10 +200,39 @@ impl Reader {
         Ok(building)
     }
 
+    /// Levels of a gap or a link.
+    fn levels(&self, group: &Group) -> Outcome<Vec<LevelResult>> {
+        let object = format!("{}/level", group.name());
+        if !group.link_exists("left_elevation") {
+            // Versions before knew the elevation of the left floor alone, and levels by
+            // their number.
+            let elevations = self.column(group, "level")?.into_iter().enumerate();
+            return Ok(elevations
+                .map(|(l, elevation)| LevelResult {
+                    label: (l + 1).to_string(),
+                    elevations: [elevation, f64::NAN],
+                })
+                .collect());
+        }
+        let labels = texts(group, "level").map_err(self.failed(&object))?;
+        let left = self.column(group, "left_elevation")?;
+        let right = self.column(group, "right_elevation")?;
+        self.fits(
+            group,
+            left.len() == labels.len() && right.len() == labels.len(),
+        )?;
+        let sides = left.into_iter().zip(right);
+        let level = |(label, (left, right))| LevelResult {
+            label,
+            elevations: [left, right],
+        };
+        Ok(labels.into_iter().zip(sides).map(level).collect())
+    }
+
     fn gap(&self, group: &Group, name: String) -> Outcome<GapResult> {
-        let elevation = self.column(group, "level")?;
+        let levels = self.levels(group)?;
         // A gap without levels has no model.
-        let word = |name: &str| match elevation.is_empty() {
+        let word = |name: &str| match levels.is_empty() {
             true => Ok(String::new()),
             false => self.text(group, name),
         };
@@ -217,9 +246,9 @@ impl Reader {
             width: self.column(group, "width")?,
             penetration: self.table(group, "penetration")?,
             impacts: impacts().map_err(self.failed(&object))?,
-            elevation,
+            levels,
         };
-        let levels = gap.elevation.len();
+        let levels = gap.levels.len();
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
         let fits = gap.width.len() == levels
             && gap.penetration.columns == levels
@@ -245,7 +274,7 @@ impl Reader {
         Ok(LinkResult {
             name,
             law: self.text(group, "law")?,
-            elevation: self.column(group, "level")?,
+            levels: self.levels(group)?,
             deformation: self.column(group, "peak/deformation")?,
             force: self.column(group, "peak/force")?,
             energy_dissipated: columns.map(last).collect(),

@@ -98,6 +98,15 @@ impl ImpactResult {
     }
 }
 
+/// A level of a gap or a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LevelResult {
+    /// Storeys of the left and the right building, such as `3-3`.
+    pub label: String,
+    /// Elevations of the left and the right floor (m); NaN for a wall.
+    pub elevations: [f64; 2],
+}
+
 /// One gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapResult {
@@ -109,8 +118,8 @@ pub struct GapResult {
     pub model: String,
     /// Rule of separation.
     pub separation: String,
-    /// Elevation of every level (m), bottom first.
-    pub elevation: Vec<f64>,
+    /// Its levels, bottom first.
+    pub levels: Vec<LevelResult>,
     /// Width at rest (m).
     pub width: Vec<f64>,
     /// Penetration (m), negative while the gap is open.
@@ -149,8 +158,8 @@ pub struct LinkResult {
     pub name: String,
     /// Law.
     pub law: String,
-    /// Elevation of every level (m).
-    pub elevation: Vec<f64>,
+    /// Its levels, bottom first.
+    pub levels: Vec<LevelResult>,
     /// Peak deformation (m).
     pub deformation: Vec<f64>,
     /// Peak force (N).

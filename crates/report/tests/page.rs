@@ -3,8 +3,8 @@
 
 use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, ReportError, RunResult, StoreyPeaks,
-    Table, page,
+    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, ReportError, RunResult,
+    StoreyPeaks, Table, page,
 };
 
 fn peaks(value: [f64; 2], isolated: [f64; 2]) -> StoreyPeaks {
@@ -35,6 +35,13 @@ fn impact(level: u64, peak_force: f64) -> ImpactResult {
         impulse: 4.0e3,
         energy_dissipated: 6.0e2,
         constants: [0.0; 4],
+    }
+}
+
+fn level(label: &str, elevation: f64) -> LevelResult {
+    LevelResult {
+        label: label.to_owned(),
+        elevations: [elevation, elevation],
     }
 }
 
@@ -74,7 +81,7 @@ fn result() -> RunResult {
             between: "light | heavy".to_owned(),
             model: "jankowski_2005".to_owned(),
             separation: "zero_penetration".to_owned(),
-            elevation: vec![3.0, 6.0],
+            levels: vec![level("1-1", 3.0), level("2-2", 6.0)],
             width: vec![0.02, 0.02],
             penetration: table(&wave),
             impacts: vec![impact(2, 1.271e6), impact(1, 3.0e5), impact(2, 8.0e5)],
@@ -121,7 +128,7 @@ fn the_answers_stand_in_the_page() {
     is_whole(&html);
     for answer in [
         "Gap light-heavy closes 3 times</strong> at 2 of 2 levels",
-        "1271 kN at level 2 (6.000 m), 1.250 s into the motion, approaching with 0.3210 m/s",
+        "1271 kN at level 2-2 (6.000 m | 6.000 m), 1.250 s into the motion, approaching with 0.3210 m/s",
         "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, alone 3.000 m/s\u{b2})",
         "viscous damping 75.0 %, impacts 25.0 %",
         "closes to 1.2e-13",
@@ -187,13 +194,13 @@ fn what_is_not_known_is_a_dash() {
     let html = page(&mixed, "a.h5").unwrap();
     is_whole(&html);
     assert!(
-        html.contains("with an impulse of 9.000 kN s at level 2"),
+        html.contains("with an impulse of 9.000 kN s at level 2-2"),
         "{html}"
     );
     assert!(html.contains("Velocities jump at impacts"));
 
     let mut empty = result();
-    empty.gaps[0].elevation.clear();
+    empty.gaps[0].levels.clear();
     empty.gaps[0].width.clear();
     empty.gaps[0].impacts.clear();
     empty.gaps[0].model.clear();

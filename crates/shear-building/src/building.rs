@@ -5,6 +5,7 @@ use std::sync::Arc;
 use pounding_hysteresis::HysteresisLaw;
 
 use crate::damping::{Damping, DampingMatrix};
+use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
 use crate::modes::{Modes, undamped};
 use crate::tridiagonal::SymmetricTridiagonal;
@@ -117,13 +118,7 @@ impl ShearBuilding {
                 reason,
             })?;
         let modes = Modes::new(undamped, &mass, (&damping, &damping_matrix));
-        let elevations = height
-            .iter()
-            .scan(0.0, |sum, h| {
-                *sum += h;
-                Some(*sum)
-            })
-            .collect();
+        let elevations = elevations(&height);
         Ok(Self {
             laws: vec![None; mass.len()],
             geometric,
@@ -225,7 +220,7 @@ impl ShearBuilding {
         &self.height
     }
 
-    /// Floor elevations above the ground (m), bottom first.
+    /// Floor elevations above the ground (m), bottom first, as [`elevations`] has them.
     #[must_use]
     pub fn elevations(&self) -> &[f64] {
         &self.elevations

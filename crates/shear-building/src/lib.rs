@@ -6,6 +6,7 @@
 
 mod building;
 mod damping;
+mod elevation;
 mod error;
 mod modes;
 mod tridiagonal;
@@ -13,6 +14,7 @@ mod tridiagonal_eigen;
 
 pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
 pub use damping::{Damping, DampingMatrix};
+pub use elevation::{ELEVATION_TOLERANCE, are_level, decimal, elevations};
 pub use error::ShearBuildingError;
 pub use modes::Modes;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

@@ -111,6 +111,8 @@ pub struct SweepReport {
     pub study_sha256: String,
     /// Its motions; those that could be read.
     pub records: Vec<RecordReport>,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
 }
 
 /// Failures that are shown.
@@ -258,6 +260,7 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         runs: study.runs(),
         chunk: study.chunk,
         shard: (shard.index, shard.count),
+        warnings: runner.warnings.clone(),
         layout: runner.layout.clone(),
         coordinates: coordinates(study),
     }
@@ -282,6 +285,7 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
         collapses: Vec::new(),
         study_sha256: description.study_sha256.clone(),
         records: records.collect(),
+        warnings: description.warnings.clone(),
     }
 }
 

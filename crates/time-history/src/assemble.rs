@@ -18,7 +18,7 @@ use crate::dimension::parameter_dimension;
 use crate::error::TimeHistoryError;
 use crate::excitation::accelerogram;
 use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
-use crate::system::{Floor, GroundAcceleration, System};
+use crate::system::{Floor, GroundAcceleration, System, first_of};
 
 /// All that a run needs, made from a case.
 #[derive(Debug, Clone)]
@@ -122,12 +122,41 @@ fn with_gaps(
             Side::Building(b) => case.buildings[b].name.value.clone(),
             Side::Wall => "wall".to_owned(),
         });
-        system.add_gap(&gap.name, names, pairs)?;
+        system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance)?;
+        if !gap.floor_to_floor {
+            refuse_unequal_floors(case, gap, &system)?;
+        }
     }
     for link in &case.links {
         laws::add_link(case, link, &mut system)?;
     }
     Ok(released(case, system)?)
+}
+
+/// Refuses a gap, the last of the system, whose floors are not level where the case does
+/// not say that this is meant.
+fn refuse_unequal_floors(case: &Case, gap: &Gap, system: &System) -> Result<(), CaseError> {
+    let unequal = system.gaps().last().map(|g| system.unequal_floors(g));
+    let unequal = unequal.unwrap_or_default();
+    let Some(first) = unequal.first() else {
+        return Ok(());
+    };
+    let same = |l: &&pounding_case::ContactLevel| {
+        [l.left, l.right].map(|s| s.map(|s| s + 1)) == first.place.storeys
+    };
+    let place = gap.levels.iter().find(same);
+    let place = place.map_or(gap.model.span.clone(), |l| l.place.clone());
+    Err(case.error(
+        place,
+        format!(
+            "{} differ in elevation by {} m, more than the tolerance of {} m{}",
+            first.floors(),
+            first.difference,
+            gap.elevation_tolerance,
+            first_of(unequal.len())
+        ),
+        Some("name floors at equal elevation, or correct the storey heights; `floor_to_floor = true` in this gap lets these floors act on each other as if they were level, a simplification that leaves out the columns which they hit".to_owned()),
+    ))
 }
 
 /// Puts the buildings where the case lets them go.

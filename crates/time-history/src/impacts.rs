@@ -87,7 +87,9 @@ pub(crate) struct ImpactLog {
 impl ImpactLog {
     pub(crate) fn new(system: &System) -> Self {
         let count = system.levels().len();
-        let (u, v) = system.initial_state().split_at(system.initial_state().len() / 2);
+        let (u, v) = system
+            .initial_state()
+            .split_at(system.initial_state().len() / 2);
         let begins = begins_to_move(system);
         let mut tracks = Vec::with_capacity(count);
         for (g, gap) in system.gaps().iter().enumerate() {
@@ -240,9 +242,7 @@ impl ImpactLog {
         outcome.impacts += 1;
         outcome.sticks += episode.sticks;
         outcome.first_contact.get_or_insert(episode.first_contact);
-        outcome.approach_velocity_max = outcome
-            .approach_velocity_max
-            .max(impact.approach_velocity);
+        outcome.approach_velocity_max = outcome.approach_velocity_max.max(impact.approach_velocity);
         let separation = impact.separation_velocity;
         if separation.is_finite() {
             if impact.approach_velocity > 0.0 {

@@ -45,5 +45,8 @@ pub use outcome::*;
 pub use recorder::{GridRecorder, Recorder, Sample, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 pub use result_file::{RunRecord, dimension_scales, write_result};
-pub use system::{ContactLevel, Floor, Gap, GroundAcceleration, Link, LinkedPair, System};
+pub use system::{
+    ContactLevel, Floor, Gap, GroundAcceleration, LevelPlace, Link, LinkedPair, System,
+    UnequalFloors,
+};
 pub use warnings::Warning;

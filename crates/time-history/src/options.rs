@@ -233,7 +233,7 @@ fn rigid_rows_have_clearance(system: &System) -> Result<(), TimeHistoryError> {
         let clearance: f64 = row().map(|l| levels[l].width).sum();
         let reaches_a_wall = row().last().is_some_and(|l| levels[l].right.is_none());
         if reaches_a_wall && clearance <= LEAST_CLEARANCE {
-            let places: Vec<_> = row().map(|l| system.place_of_level(l)).collect();
+            let places: Vec<_> = row().map(|l| system.name_of_level(l)).collect();
             return Err(TimeHistoryError::NoClearance {
                 place: places.join(", "),
                 clearance,

@@ -8,10 +8,11 @@ mod datasets;
 pub mod dimension_scales;
 mod elements;
 mod gaps;
+mod levels;
 
 use std::path::Path;
 
-use hdf5::Dataset;
+use hdf5::{Dataset, Group};
 use pounding_files::{PartFile, checksum};
 use pounding_hdf5::{CHECKSUM, CHECKSUM_FORM};
 use sha2::{Digest, Sha256};
@@ -96,6 +97,7 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     let time = series(&file, "time", "s", "time", &column(samples, |s| s.time))?;
     dimension_scales::make_scale(&time, "time")?;
     let ground = file.create_group("ground")?;
+    share_time(&ground)?;
     let a = series(
         &ground,
         "acceleration",
@@ -115,8 +117,15 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     file.flush()
 }
 
+/// Puts the output times into a group, by a second name of the dataset `/time`: readers that
+/// open one group, as xarray does, look for the coordinates of its dimensions in it alone.
+fn share_time(group: &Group) -> Result<()> {
+    group.link_hard("/time", "time")
+}
+
 fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
     let group = file.create_group("energy")?;
+    share_time(&group)?;
     type Pick = fn(&Sample) -> f64;
     let entries: [(&str, &str, Pick); 7] = [
         (

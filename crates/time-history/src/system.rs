@@ -1,14 +1,21 @@
 //! What is integrated: buildings in a row, contact levels between them, ground motion.
 
+mod level_place;
 mod links;
 mod under;
+mod unequal_floors;
 
 use pounding_gap_element::ImpactModel;
-use pounding_shear_building::{DampingMatrix, ShearBuilding, SymmetricTridiagonal};
+use pounding_shear_building::{
+    DampingMatrix, ELEVATION_TOLERANCE, ShearBuilding, SymmetricTridiagonal,
+};
 use std::sync::{Arc, OnceLock};
 
+pub use level_place::LevelPlace;
 use links::storeys;
 pub use links::{Link, LinkedPair};
+pub use unequal_floors::UnequalFloors;
+pub(crate) use unequal_floors::first_of;
 
 use crate::bands::Bands;
 use crate::elements::Element;
@@ -23,14 +30,10 @@ pub struct ContactLevel {
     pub left: Option<usize>,
     /// Degree of freedom of the right floor; `None` is a rigid wall.
     pub right: Option<usize>,
-    /// Storey number of the left floor, from 1; `None` for a wall.
-    pub left_storey: Option<usize>,
-    /// Storey number of the right floor, from 1; `None` for a wall.
-    pub right_storey: Option<usize>,
+    /// Storeys and elevations of both floors.
+    pub place: LevelPlace,
     /// Width of the gap at rest (m).
     pub width: f64,
-    /// Elevation of the left floor, or of the right one beside a wall (m).
-    pub elevation: f64,
     /// `m1 m2 / (m1 + m2)`, the floor's mass against a wall (kg).
     pub effective_mass: f64,
     /// The impact model that acts here.
@@ -48,6 +51,8 @@ pub struct Gap {
     pub first_level: usize,
     /// Number of levels.
     pub levels: usize,
+    /// Floors whose elevations differ by no more than this are level (m).
+    pub elevation_tolerance: f64,
 }
 
 /// A ground acceleration, linear between equally spaced samples and zero after
@@ -139,21 +144,12 @@ impl System {
                 reason: format!("it takes {n} finite displacements and as many velocities"),
             });
         }
-        for gap in &self.gaps {
-            for (k, level) in self.levels[gap.first_level..gap.first_level + gap.levels]
-                .iter()
-                .enumerate()
-            {
-                let overlap = level.relative(displacement) - level.width;
-                if overlap > 0.0 {
-                    return Err(TimeHistoryError::InitialState {
-                        reason: format!(
-                            "gap {} overlaps by {overlap} m at its level {}",
-                            gap.name,
-                            k + 1
-                        ),
-                    });
-                }
+        for (l, level) in self.levels.iter().enumerate() {
+            let overlap = level.relative(displacement) - level.width;
+            if overlap > 0.0 {
+                return Err(TimeHistoryError::InitialState {
+                    reason: format!("gap {} overlaps by {overlap} m", self.name_of_level(l)),
+                });
             }
         }
         self.initial = initial;
@@ -167,7 +163,8 @@ impl System {
     }
 
     /// Adds a gap. `pairs` holds left floor, right floor, width (m) and model of
-    /// each contact level.
+    /// each contact level. Floors are level within [`ELEVATION_TOLERANCE`]; those that are
+    /// not act on each other as if they were, with a warning ([`System::warnings`]).
     ///
     /// # Errors
     /// A floor that does not exist, a level between two walls, a width that is negative or
@@ -177,6 +174,20 @@ impl System {
         name: &str,
         between: [String; 2],
         pairs: Vec<(Floor, Floor, f64, Arc<dyn ImpactModel>)>,
+    ) -> Result<(), TimeHistoryError> {
+        self.add_gap_with_tolerance(name, between, pairs, ELEVATION_TOLERANCE)
+    }
+
+    /// The same with an elevation tolerance (m).
+    ///
+    /// # Errors
+    /// As [`System::add_gap`].
+    pub fn add_gap_with_tolerance(
+        &mut self,
+        name: &str,
+        between: [String; 2],
+        pairs: Vec<(Floor, Floor, f64, Arc<dyn ImpactModel>)>,
+        elevation_tolerance: f64,
     ) -> Result<(), TimeHistoryError> {
         let first_level = self.levels.len();
         let count = pairs.len();
@@ -195,6 +206,7 @@ impl System {
             between,
             first_level,
             levels: count,
+            elevation_tolerance,
         });
         Ok(())
     }
@@ -231,18 +243,19 @@ impl System {
             )))
         };
         let (l, r) = (place(left)?, place(right)?);
-        let (effective_mass, elevation) = match (l, r) {
-            (Some(a), Some(b)) => (a.2 * b.2 / (a.2 + b.2), a.3),
-            (Some(a), None) | (None, Some(a)) => (a.2, a.3),
+        let effective_mass = match (l, r) {
+            (Some(a), Some(b)) => a.2 * b.2 / (a.2 + b.2),
+            (Some(a), None) | (None, Some(a)) => a.2,
             (None, None) => return Err(wrong("a level lies between two walls".to_owned())),
         };
         Ok(ContactLevel {
             left: l.map(|x| x.0),
             right: r.map(|x| x.0),
-            left_storey: l.map(|x| x.1),
-            right_storey: r.map(|x| x.1),
+            place: LevelPlace {
+                storeys: [l, r].map(|x| x.map(|x| x.1)),
+                elevations: [l, r].map(|x| x.map(|x| x.3)),
+            },
             width,
-            elevation,
             effective_mass,
             model,
         })
@@ -308,14 +321,20 @@ impl System {
         &self.levels
     }
 
-    /// Where a contact level sits, in words.
+    /// Contact levels of one gap, from the bottom.
     #[must_use]
-    pub fn place_of_level(&self, level: usize) -> String {
+    pub fn levels_of(&self, gap: &Gap) -> &[ContactLevel] {
+        &self.levels[gap.first_level..gap.first_level + gap.levels]
+    }
+
+    /// Gap, storeys and elevations of a contact level, in words: the level of that number
+    /// in [`System::levels`].
+    #[must_use]
+    pub fn name_of_level(&self, level: usize) -> String {
         let mut gaps = self.gaps.iter();
         let gap = gaps.find(|g| (g.first_level..g.first_level + g.levels).contains(&level));
-        gap.map_or_else(String::new, |g| {
-            format!("{} level {}", g.name, level - g.first_level + 1)
-        })
+        let gap = gap.map_or("", |g| g.name.as_str());
+        format!("{gap} level {}", self.levels[level].place)
     }
 
     /// Ground acceleration.

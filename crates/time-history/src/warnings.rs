@@ -11,7 +11,7 @@ use crate::assemble::Assembly;
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome};
-use crate::system::{ContactLevel, System};
+use crate::system::{ContactLevel, System, first_of};
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
@@ -49,6 +49,17 @@ pub enum Warning {
         width: f64,
         /// Storey height (m).
         height: f64,
+    },
+    /// Floors at different elevations that act on each other, as the case asks for.
+    UnequalFloors {
+        /// Name of the gap.
+        gap: String,
+        /// The first pair of them: storeys, buildings and elevations.
+        floors: String,
+        /// Difference of its elevations (m).
+        difference: f64,
+        /// Number of such pairs in the gap.
+        pairs: usize,
     },
     /// A ground acceleration that hardly any record has.
     GroundAcceleration {
@@ -111,6 +122,16 @@ impl fmt::Display for Warning {
                 "gap {gap}: a width of {} m is more than the {} m of a storey beside it: is its unit right (mm, not m)?",
                 short(*width),
                 short(*height)
+            ),
+            Self::UnequalFloors {
+                gap,
+                floors,
+                difference,
+                pairs,
+            } => write!(
+                f,
+                "gap {gap}: floors at different elevations act on each other as if they were level (floor_to_floor): {floors}, {difference} m apart{}; the columns that such floors hit are not modelled",
+                first_of(*pairs)
             ),
             Self::GroundAcceleration { peak } => write!(
                 f,
@@ -301,6 +322,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
             });
         }
     }
+    warnings.extend(system.unequal_floor_warnings());
     let samples = system.ground().samples.iter();
     let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
     if peak > GROUND_ACCELERATION * GRAVITY {

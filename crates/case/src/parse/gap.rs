@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use pounding_shear_building::{ELEVATION_TOLERANCE, are_level};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -35,7 +36,12 @@ pub(super) fn gap(
     let place = table.required("between")?;
     let (between, names) = between(reader, place, row)?;
     let buildings = row.buildings(reader)?;
-    let pairs = levels(&table, between, buildings, place.span())?;
+    let Faced {
+        pairs,
+        listed,
+        tolerance,
+    } = levels(&table, between, buildings, place.span())?;
+    let floor_to_floor = floor_to_floor(&table, between, listed)?;
     let (Some(width), Some(model)) = (width, model) else {
         return Err(reader.lost());
     };
@@ -43,13 +49,20 @@ pub(super) fn gap(
     let mut levels: Vec<ContactLevel> = pairs
         .into_iter()
         .zip(widths)
-        .map(|((left, right), width)| ContactLevel { left, right, width })
+        .map(|(((left, right), place), width)| ContactLevel {
+            left,
+            right,
+            width,
+            place,
+        })
         .collect();
     levels.sort_by_key(|level| (level.left, level.right));
     let gap = Gap {
         name: name.unwrap_or_else(|| names.join("-")),
         between,
         levels,
+        elevation_tolerance: tolerance,
+        floor_to_floor,
         model,
         separation,
         parameters,
@@ -172,11 +185,18 @@ fn unknown_building(reader: &Reader<'_>, name: &Located<String>, names: &[String
     )
 }
 
-/// Floors this close in elevation are level unless the case says otherwise (m).
-const ELEVATION_TOLERANCE: f64 = 0.01;
-
 /// Storeys from zero of the left and the right building, `None` for a wall.
 pub(super) type Pair = (Option<usize>, Option<usize>);
+
+/// The floors that face one another across a gap or a link.
+pub(super) struct Faced {
+    /// Pairs, each with its place in the source.
+    pub pairs: Vec<(Pair, Range<usize>)>,
+    /// Whether `levels` names them.
+    pub listed: bool,
+    /// Elevation tolerance (m).
+    pub tolerance: f64,
+}
 
 /// The pairs of floors that may touch; `place` is where an error of the default
 /// rule points.
@@ -185,7 +205,7 @@ pub(super) fn levels(
     between: [Side; 2],
     buildings: &[Building],
     place: Range<usize>,
-) -> Result<Vec<Pair>, CaseError> {
+) -> Result<Faced, CaseError> {
     let reader = &table.reader;
     for key in ["levels", "elevation_tolerance"] {
         table.misspelt(key).map_or(Ok(()), Err)?;
@@ -206,27 +226,105 @@ pub(super) fn levels(
     }
     if let (Some(value), true) = (
         table.get("elevation_tolerance"),
-        listed.is_some() || between.contains(&Side::Wall),
+        between.contains(&Side::Wall),
     ) {
-        return Err(reader.error(
-            value.span(),
-            "`elevation_tolerance` has no meaning beside a wall or listed `levels`",
-            "remove it",
+        return Err(useless_tolerance(reader, value, "a wall"));
+    }
+    // The rule stands in `levels` where it is given.
+    let place = match table.get("levels") {
+        Some(value) if matching_only => value.span(),
+        _ => place,
+    };
+    let facing = match between {
+        [Side::Building(i), Side::Building(j)] => Some([&buildings[i], &buildings[j]]),
+        _ => None,
+    };
+    let named = listed.is_some();
+    let tolerance = match facing {
+        Some(pair) => elevation_tolerance(table, pair, &place)?,
+        None => ELEVATION_TOLERANCE,
+    };
+    let by_rule = |pairs: Vec<Pair>| pairs.into_iter().map(|p| (p, place.clone())).collect();
+    let pairs = match (listed, between, facing) {
+        (Some(pairs), ..) => pairs,
+        (None, _, Some(pair)) => {
+            let place = place.clone();
+            by_rule(levels_at_equal_elevation(
+                reader,
+                pair,
+                tolerance,
+                matching_only,
+                place,
+            )?)
+        }
+        (None, [Side::Building(i), _], None) => {
+            let storeys = 0..buildings[i].mass.len();
+            by_rule(storeys.map(|s| (Some(s), None)).collect())
+        }
+        (None, [_, Side::Building(j)], None) => {
+            let storeys = 0..buildings[j].mass.len();
+            by_rule(storeys.map(|s| (None, Some(s))).collect())
+        }
+        (None, [Side::Wall, Side::Wall], None) => Vec::new(),
+    };
+    Ok(Faced {
+        pairs,
+        listed: named,
+        tolerance,
+    })
+}
+
+/// An elevation tolerance where nothing asks for one.
+pub(super) fn useless_tolerance(reader: &Reader<'_>, value: &Value<'_>, beside: &str) -> CaseError {
+    reader.error(
+        value.span(),
+        format!("`elevation_tolerance` has no meaning beside {beside}"),
+        "remove it",
+    )
+}
+
+/// The tolerance within which floors of two neighbours are level (m).
+fn elevation_tolerance(
+    table: &Table<'_, '_>,
+    buildings: [&Building; 2],
+    place: &Range<usize>,
+) -> Result<f64, CaseError> {
+    let stated = table.get("elevation_tolerance");
+    let tolerance = table
+        .optional_positive("elevation_tolerance", Dimension::LENGTH)?
+        .unwrap_or(ELEVATION_TOLERANCE);
+    let lowest = buildings
+        .iter()
+        .flat_map(|b| &b.height)
+        .fold(f64::INFINITY, |least, h| least.min(*h));
+    // With less than half a storey, no floor can have two partners.
+    if tolerance >= 0.5 * lowest {
+        return Err(table.reader.error(
+            stated.map_or(place.clone(), Spanned::span),
+            format!("the elevation tolerance {tolerance} m is not less than half of the lowest storey, {lowest} m"),
+            "state a smaller `elevation_tolerance`",
         ));
     }
-    match (listed, between) {
-        (Some(pairs), _) => Ok(pairs),
-        (None, [Side::Building(i), Side::Building(j)]) => {
-            let pair = [&buildings[i], &buildings[j]];
-            levels_at_equal_elevation(table, pair, matching_only, place)
+    Ok(tolerance)
+}
+
+/// Whether floors that are not level act on each other as if they were. The key must not
+/// look as if it paired floors by their numbers.
+fn floor_to_floor(
+    table: &Table<'_, '_>,
+    between: [Side; 2],
+    listed: bool,
+) -> Result<bool, CaseError> {
+    let stated = table.flag("floor_to_floor")?;
+    match table.get("floor_to_floor") {
+        Some(value) if stated && (!listed || between.contains(&Side::Wall)) => {
+            Err(table.reader.error(
+                value.span(),
+                "`floor_to_floor` has no meaning without pairs of floors in `levels`",
+                "name the pairs of storeys that may touch with `levels = [[1, 1], ...]`, or remove it",
+            ))
         }
-        (None, [Side::Building(i), Side::Wall]) => Ok((0..buildings[i].mass.len())
-            .map(|s| (Some(s), None))
-            .collect()),
-        (None, [Side::Wall, Side::Building(j)]) => Ok((0..buildings[j].mass.len())
-            .map(|s| (None, Some(s)))
-            .collect()),
-        (None, [Side::Wall, Side::Wall]) => Ok(Vec::new()),
+        _ => Ok(stated),
     }
 }
 
@@ -236,7 +334,7 @@ fn listed_levels(
     value: &Value<'_>,
     between: [Side; 2],
     buildings: &[Building],
-) -> Result<Vec<Pair>, CaseError> {
+) -> Result<Vec<(Pair, Range<usize>)>, CaseError> {
     let mut seen = HashSet::new();
     let mut pairs = Vec::new();
     for item in value.get_ref().as_array().into_iter().flatten() {
@@ -244,7 +342,7 @@ fn listed_levels(
         if !seen.insert(pair) {
             return Err(reader.error(item.span(), "this level is given twice", "remove one"));
         }
-        pairs.push(pair);
+        pairs.push((pair, item.span()));
     }
     if pairs.is_empty() {
         return Err(reader.error(
@@ -257,40 +355,63 @@ fn listed_levels(
 }
 
 fn levels_at_equal_elevation(
-    table: &Table<'_, '_>,
+    reader: &Reader<'_>,
     buildings: [&Building; 2],
+    tolerance: f64,
     matching_only: bool,
     place: Range<usize>,
 ) -> Result<Vec<Pair>, CaseError> {
-    let reader = &table.reader;
-    let stated = table.get("elevation_tolerance");
-    let tolerance = table
-        .optional_positive("elevation_tolerance", Dimension::LENGTH)?
-        .unwrap_or(ELEVATION_TOLERANCE);
-    let lowest = buildings
-        .iter()
-        .flat_map(|b| &b.height)
-        .fold(f64::INFINITY, |least, h| least.min(*h));
-    // With less than half a storey, no floor can have two partners.
-    if tolerance >= 0.5 * lowest {
+    let [a, b] = buildings.map(Building::elevations);
+    let pairs = equal_elevation(&a, &b, tolerance);
+    if pairs.is_empty() && matching_only {
+        let [left, right] = buildings.map(|b| &b.name.value);
+        let (a, b) = (shown(&a), shown(&b));
         return Err(reader.error(
-            stated.map_or(place, Spanned::span),
-            format!("the elevation tolerance {tolerance} m is not less than half of the lowest storey, {lowest} m"),
-            "state a smaller `elevation_tolerance`",
+            place,
+            format!("no floor of \"{left}\" ({a}) is level with a floor of \"{right}\" ({b}; tolerance {tolerance} m)"),
+            AT_DIFFERENT_ELEVATIONS,
         ));
     }
-    let [a, b] = buildings.map(elevations);
-    equal_elevation(&a, &b, tolerance, matching_only).map_err(|unmatched| {
-        let (building, storey, elevation) = match unmatched {
-            Unmatched::Left(s) => (buildings[0], s, a[s]),
-            Unmatched::Right(s) => (buildings[1], s, b[s]),
-        };
-        reader.error(
-            place,
-            format!("floor {} of \"{}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1, building.name.value),
-            "name the pairs of storeys that may touch with `levels = [[1, 1], ...]`, or write `levels = \"matching\"` to let only floors at equal elevation touch",
-        )
-    })
+    let faced = |pairs: &[(usize, usize)]| pairs.iter().map(|p| (Some(p.0), Some(p.1))).collect();
+    if matching_only {
+        return Ok(faced(&pairs));
+    }
+    // Below the roof of the lower building every floor must have a partner.
+    let roof = |x: &[f64]| x.last().copied().unwrap_or(0.0);
+    let top = roof(&a).min(roof(&b)) + tolerance;
+    let (mut left, mut right) = (vec![false; a.len()], vec![false; b.len()]);
+    for (i, j) in &pairs {
+        left[*i] = true;
+        right[*j] = true;
+    }
+    let unpaired = |elevations: &[f64], paired: &[bool]| {
+        let mut floors = elevations.iter().zip(paired);
+        floors.position(|(z, paired)| *z <= top && !paired)
+    };
+    let of_left = unpaired(&a, &left).map(|i| (buildings[0], i, a[i]));
+    let of_right = || unpaired(&b, &right).map(|j| (buildings[1], j, b[j]));
+    let Some((building, storey, elevation)) = of_left.or_else(of_right) else {
+        return Ok(faced(&pairs));
+    };
+    Err(reader.error(
+        place,
+        format!("floor {} of \"{}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1, building.name.value),
+        match pairs.is_empty() {
+            true => AT_DIFFERENT_ELEVATIONS.to_owned(),
+            false => format!("write `levels = \"matching\"` to let only floors at equal elevation touch; otherwise {AT_DIFFERENT_ELEVATIONS}"),
+        },
+    ))
+}
+
+/// What to do where floors are not level.
+const AT_DIFFERENT_ELEVATIONS: &str = "correct the storey heights, or name the pairs of storeys that may touch with `levels = [[1, 1], ...]`; pairs at different elevations also need `floor_to_floor = true`, since a floor that hits a column is not modelled";
+
+/// Some elevations, for a message.
+fn shown(elevations: &[f64]) -> String {
+    const MOST: usize = 4;
+    let first: Vec<String> = elevations.iter().take(MOST).map(f64::to_string).collect();
+    let more = if elevations.len() > MOST { ", ..." } else { "" };
+    format!("{}{more} m", first.join(", "))
 }
 
 /// One entry of `levels`: a pair, or a storey beside a wall.
@@ -330,55 +451,17 @@ fn pair(
     }
 }
 
-fn elevations(building: &Building) -> Vec<f64> {
-    building
-        .height
-        .iter()
-        .scan(0.0, |sum, h| {
-            *sum += h;
-            Some(*sum)
-        })
-        .collect()
-}
-
-enum Unmatched {
-    Left(usize),
-    Right(usize),
-}
-
-/// Floors at equal elevation. Below the roof of the lower building every floor
-/// must have a partner, unless only matching floors are asked for.
-fn equal_elevation(
-    a: &[f64],
-    b: &[f64],
-    tolerance: f64,
-    matching_only: bool,
-) -> Result<Vec<Pair>, Unmatched> {
+/// Floors at equal elevation, from zero.
+fn equal_elevation(a: &[f64], b: &[f64], tolerance: f64) -> Vec<(usize, usize)> {
     // Elevations rise, so the first that is not below the band is the only candidate.
-    let near = |x: f64, others: &[f64]| {
-        let at = others.partition_point(|y| *y < x - tolerance);
-        others
-            .get(at)
-            .is_some_and(|y| *y <= x + tolerance)
+    let near = |x: f64| {
+        let at = b.partition_point(|y| *y < x && !are_level(*y, x, tolerance));
+        b.get(at)
+            .is_some_and(|y| are_level(*y, x, tolerance))
             .then_some(at)
     };
-    let roof = |x: &[f64]| x.last().copied().unwrap_or(0.0);
-    let top = roof(a).min(roof(b)) + tolerance;
-    let pairs: Vec<Pair> = a
-        .iter()
+    a.iter()
         .enumerate()
-        .filter_map(|(i, x)| near(*x, b).map(|j| (Some(i), Some(j))))
-        .collect();
-    if !matching_only {
-        if let Some(i) = a.iter().position(|x| *x <= top && near(*x, b).is_none()) {
-            return Err(Unmatched::Left(i));
-        }
-        if let Some(j) = b.iter().position(|x| *x <= top && near(*x, a).is_none()) {
-            return Err(Unmatched::Right(j));
-        }
-    }
-    if pairs.is_empty() {
-        return Err(Unmatched::Left(0));
-    }
-    Ok(pairs)
+        .filter_map(|(i, x)| near(*x).map(|j| (i, j)))
+        .collect()
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::gap::{between, levels, name};
+use super::gap::{Faced, between, levels, name, useless_tolerance};
 use super::{Row, one_each};
 use crate::error::CaseError;
 use crate::reader::{Reader, Table, Value};
@@ -115,7 +115,17 @@ pub(super) fn link(
     let name = keep.or_default(name(&table, "link"));
     let place = table.required("between")?;
     let (between, names) = between(reader, place, row)?;
-    let mut levels = levels(&table, between, row.buildings(reader)?, place.span())?;
+    let Faced { pairs, listed, .. } =
+        levels(&table, between, row.buildings(reader)?, place.span())?;
+    // A link may join floors at any elevations.
+    if let (Some(value), true) = (table.get("elevation_tolerance"), listed) {
+        return Err(useless_tolerance(
+            reader,
+            value,
+            "listed `levels` of a link",
+        ));
+    }
+    let mut levels: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
     levels.sort_unstable();
     let link = Link {
         name: name.unwrap_or_else(|| names.join("-")),

@@ -8,6 +8,7 @@ use serde_json::json;
 use super::run::read_case;
 use super::{pretty, print};
 use crate::failure::Failure;
+use crate::json::add_place;
 use crate::tables;
 
 /// Validates a case, reads its record, and prints both in SI units.
@@ -37,25 +38,35 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         .gaps()
         .iter()
         .map(|g| {
-            let levels: Vec<_> = system.levels()[g.first_level..g.first_level + g.levels]
-                .iter()
-                .map(|l| json!({
-                    "left_storey": l.left_storey, "right_storey": l.right_storey, "width": l.width,
-                    "effective_mass": l.effective_mass, "model": l.model.descriptor().name,
-                }))
-                .collect();
+            let levels = system.levels_of(g).iter().map(|l| {
+                let mut value = json!({
+                    "width": l.width, "effective_mass": l.effective_mass,
+                    "model": l.model.descriptor().name,
+                });
+                add_place(&mut value, &l.place);
+                value
+            });
+            let levels: Vec<_> = levels.collect();
             json!({"name": g.name, "between": g.between, "levels": levels})
         })
         .collect();
     let links: Vec<_> = system
         .links()
         .iter()
-        .map(|l| {
+        .enumerate()
+        .map(|(index, l)| {
+            let places = system.link_levels(index);
+            let levels = places.iter().map(|place| {
+                let mut value = json!({});
+                add_place(&mut value, place);
+                value
+            });
+            let levels: Vec<_> = levels.collect();
             let laws: Vec<_> = system.elements()[l.first_element..l.first_element + l.levels]
                 .iter()
                 .map(|e| e.law.descriptor().name)
                 .collect();
-            json!({"name": l.name, "between": l.between, "laws": laws})
+            json!({"name": l.name, "between": l.between, "levels": levels, "laws": laws})
         })
         .collect();
     let record = &assembly.accelerogram;

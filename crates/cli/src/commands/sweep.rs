@@ -21,6 +21,7 @@ use super::{pretty, print, reads_too};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::interruption;
+use crate::tables::warning_lines;
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -213,6 +214,7 @@ pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
         "collapsed": report.collapsed,
         "first_collapses": told(&report.collapses),
         "study_sha256": report.study_sha256,
+        "warnings": report.warnings,
         "records": records.collect::<Vec<_>>(),
         "output": options.output.display().to_string(),
         "csv": options.csv.as_ref().map(|p| p.display().to_string()),
@@ -225,6 +227,7 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
     if !study.title.is_empty() {
         text.push_str(&format!("{}\n", study.title));
     }
+    text.push_str(&warning_lines(&report.warnings));
     let before = report.runs - report.made;
     text.push_str(&format!(
         "{} runs in {}",

@@ -57,15 +57,17 @@ pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
     let system = &record.assembly.system;
     let mut table = new_table(&[
         "level",
+        "elevations (m)",
         "deformation (mm)",
         "force (kN)",
         "ductility",
         "deformation at the end (mm)",
         "energy lost (kJ)",
     ]);
-    for (l, element) in outcome.levels.iter().zip(elements(system, index)).rev() {
+    for (l, place) in outcome.levels.iter().zip(system.link_levels(index)).rev() {
         table.add_row([
-            ends(system, element),
+            place.label(),
+            place.elevations_label(),
             format!(
                 "{:.2} @{:.2}",
                 l.deformation.value * 1e3,
@@ -89,20 +91,6 @@ pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
 fn elements(system: &System, link: usize) -> &[Element] {
     let link = &system.links()[link];
     &system.elements()[link.first_element..link.first_element + link.levels]
-}
-
-/// Storey numbers of both ends.
-fn ends(system: &System, element: &Element) -> String {
-    let storey = |dof: Option<usize>| {
-        dof.map_or_else(
-            || "wall".to_owned(),
-            |dof| {
-                let building = system.offsets().partition_point(|o| *o <= dof) - 1;
-                (dof - system.offsets()[building] + 1).to_string()
-            },
-        )
-    };
-    format!("{}-{}", storey(element.near), storey(element.far))
 }
 
 fn cards(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescriptor> {
@@ -167,14 +155,17 @@ pub(super) fn links(system: &System) -> String {
     let mut text = String::new();
     for (index, link) in system.links().iter().enumerate() {
         let mut table = new_table(&[
-            "left-right storey",
+            "level",
+            "elevations (m)",
             "law",
             "initial stiffness (N/m)",
             "yields at (mm)",
         ]);
-        for element in elements(system, index) {
+        let places = system.link_levels(index);
+        for (element, place) in elements(system, index).iter().zip(places) {
             table.add_row([
-                ends(system, element),
+                place.label(),
+                place.elevations_label(),
                 element.law.descriptor().name.to_owned(),
                 format!("{:.4e}", element.law.initial_stiffness()),
                 element

@@ -125,7 +125,7 @@ fn a_collapse_has_reached_every_state() {
     for row in fallen {
         assert!(row[column("diagnosis")].contains("frame collapsed at t ="));
         assert!(row[column("energy_input [J]")].is_empty());
-        assert!(!row[column("isolated_demand: frame-block 1-1 [m]")].is_empty());
+        assert!(!row[column("isolated_demand: frame-block 1-1 (3 m | 3 m) [m]")].is_empty());
     }
     // For people; and the shards of a study carry collapses into the whole.
     let told = bench.text("ida study.toml -o out.h5 --resume");

@@ -1,6 +1,7 @@
 //! Figures of the page.
 
 use super::html::figures;
+use super::words;
 use crate::decimation::decimated;
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, figure_of_size};
@@ -122,7 +123,7 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
         return Ok(String::new());
     };
     let opening = gap.penetration.column(level).map(|d| -1.0e3 * d);
-    let at = format!("level {}", level + 1);
+    let at = words::level(&gap.levels[level]);
     let mut panels = vec![over_time(
         &format!("Opening of the gap at {at} (mm); negative in contact"),
         vec![history(result, &at, opening)],
@@ -149,7 +150,7 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
 /// A stem for each impact, a curve for each level that has any; all over the whole time.
 fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) -> Vec<Curve> {
     let at = |l: usize| gap.impacts.iter().filter(move |i| i.level == l as u64 + 1);
-    (0..gap.elevation.len())
+    (0..gap.levels.len())
         .filter(|l| at(*l).next().is_some())
         .map(|l| {
             let known = at(l)
@@ -157,7 +158,7 @@ fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) 
                 .filter(|(t, y)| t.is_finite() && y.is_finite());
             let inner = known.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
             Curve {
-                name: format!("level {}", l + 1),
+                name: words::level(&gap.levels[l]),
                 points: [(0.0, 0.0)]
                     .into_iter()
                     .chain(inner)
@@ -173,7 +174,7 @@ pub(super) fn loudest(gap: &GapResult) -> Option<usize> {
     let hardest = gap.hardest_first().first().map(|i| i.level as usize - 1);
     let closest = || {
         let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);
-        (0..gap.elevation.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))
+        (0..gap.levels.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))
     };
     hardest.or_else(closest)
 }

@@ -71,7 +71,8 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
 pub(super) fn levels(gap: &GapResult) -> String {
     let headings = [
         "level",
-        "elevation (m)",
+        "left elevation (m)",
+        "right elevation (m)",
         "width (mm)",
         "impacts",
         "peak force (kN)",
@@ -80,7 +81,7 @@ pub(super) fn levels(gap: &GapResult) -> String {
         "restitution",
         "dissipated (kJ)",
     ];
-    let rows = (0..gap.elevation.len()).rev().map(|l| {
+    let rows = (0..gap.levels.len()).rev().map(|l| {
         let here: Vec<&ImpactResult> = gap
             .impacts
             .iter()
@@ -108,8 +109,9 @@ pub(super) fn levels(gap: &GapResult) -> String {
             .filter(|e| e.is_finite())
             .sum();
         vec![
-            (l + 1).to_string(),
-            figures(gap.elevation[l]),
+            gap.levels[l].label.clone(),
+            figures(gap.levels[l].elevations[0]),
+            figures(gap.levels[l].elevations[1]),
             figures(1.0e3 * gap.width[l]),
             here.len().to_string(),
             figures(1.0e-3 * hardest.map_or(f64::NAN, |i| i.force())),
@@ -130,6 +132,8 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
     let impacts = gap.hardest_first();
     let headings = [
         "level",
+        "left elevation (m)",
+        "right elevation (m)",
         "closes (s)",
         "opens (s)",
         "approach (m/s)",
@@ -141,8 +145,11 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
         "dissipated (kJ)",
     ];
     let rows = impacts.iter().take(count).map(|i| {
+        let level = &gap.levels[i.level as usize - 1];
         vec![
-            i.level.to_string(),
+            level.label.clone(),
+            figures(level.elevations[0]),
+            figures(level.elevations[1]),
             format!("{:.4}", i.t_close),
             match i.t_open.is_finite() {
                 true => format!("{:.4}", i.t_open),
@@ -169,16 +176,18 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
 pub(super) fn link(link: &LinkResult) -> String {
     let headings = [
         "level",
-        "elevation (m)",
+        "left elevation (m)",
+        "right elevation (m)",
         "peak deformation (mm)",
         "peak force (kN)",
         "dissipated (kJ)",
     ];
-    let rows = (0..link.elevation.len()).rev().map(|l| {
+    let rows = (0..link.levels.len()).rev().map(|l| {
         let at = |values: &[f64]| values.get(l).copied().unwrap_or(f64::NAN);
         vec![
-            (l + 1).to_string(),
-            figures(link.elevation[l]),
+            link.levels[l].label.clone(),
+            figures(link.levels[l].elevations[0]),
+            figures(link.levels[l].elevations[1]),
             figures(1.0e3 * at(&link.deformation)),
             figures(1.0e-3 * at(&link.force)),
             figures(1.0e-3 * at(&link.energy_dissipated)),

@@ -3,7 +3,7 @@
 use super::figures::loudest;
 use super::html::escaped;
 use super::numbers::{figures, percent, ratio as times};
-use crate::result::{BuildingResult, GapResult, RunResult, StoreyPeaks};
+use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
@@ -27,7 +27,7 @@ pub(super) fn summary(result: &RunResult) -> String {
 fn hit(gap: &GapResult) -> Option<String> {
     let level = loudest(gap)?;
     let name = escaped(&gap.name);
-    let at = |l: usize| format!("level {} ({} m)", l + 1, figures(gap.elevation[l]));
+    let at = |l: usize| escaped(&self::level(&gap.levels[l]));
     if gap.impacts.is_empty() {
         let nearest = gap
             .penetration
@@ -53,18 +53,27 @@ fn hit(gap: &GapResult) -> Option<String> {
         1 => "once".to_owned(),
         count => format!("{count} times"),
     };
-    let levels = (0..gap.elevation.len())
+    let levels = (0..gap.levels.len())
         .filter(|l| gap.impacts.iter().any(|i| i.level == *l as u64 + 1))
         .count();
     Some(format!(
         "<strong>Gap {name} closes {times}</strong> at {levels} of {} levels. The hardest impact \
          hits {force} at {}, {} s into the motion, approaching with {} m/s ({}).",
-        gap.elevation.len(),
+        gap.levels.len(),
         at(level),
         figures(hardest.t_close),
         figures(hardest.approach_velocity),
         escaped(&gap.model),
     ))
+}
+
+/// A level with the elevations of both sides.
+pub(super) fn level(level: &LevelResult) -> String {
+    let [left, right] = level.elevations.map(|z| match z.is_finite() {
+        true => format!("{} m", figures(z)),
+        false => figures(z),
+    });
+    format!("level {} ({left} | {right})", level.label)
 }
 
 /// What pounding changed in a building: the greatest rise of each quantity.

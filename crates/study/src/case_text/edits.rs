@@ -107,12 +107,13 @@ pub(crate) fn entry(source: &str, path: &Path) -> Result<Entry, Lost> {
 }
 
 /// Keys that every gap understands, whatever its model.
-const OF_ANY_GAP: [&str; 6] = [
+const OF_ANY_GAP: [&str; 7] = [
     "name",
     "between",
     "width",
     "levels",
     "elevation_tolerance",
+    "floor_to_floor",
     "model",
 ];
 

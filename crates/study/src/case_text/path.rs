@@ -61,12 +61,27 @@ impl Path {
     /// Whether it leads to something of a gap that changes neither buildings nor motion, nor
     /// which floors may touch.
     pub(crate) fn of_gap(&self) -> bool {
-        self.table() == "gap" && !self.0.contains(&Step::Key("levels".to_owned()))
+        self.table() == "gap" && !self.leads_through("levels")
     }
 
     /// Whether it leads to the scale of the motion.
     pub(crate) fn of_scale(&self) -> bool {
         self.table() == "ground_motion" && self.0.get(1) == Some(&Step::Key("scale".to_owned()))
+    }
+
+    /// Whether it leads through an entry of this key.
+    pub(crate) fn leads_through(&self, key: &str) -> bool {
+        self.0.contains(&Step::Key(key.to_owned()))
+    }
+
+    /// Name of the building or the gap that it leads into, out of those of the case in
+    /// their order; `None` if it names none of them.
+    pub(crate) fn second<'n>(&self, mut names: impl Iterator<Item = &'n str>) -> Option<String> {
+        let name = match self.0.get(1)? {
+            Step::Index(index) => names.nth(*index),
+            Step::Key(key) => names.find(|n| n == key),
+        };
+        name.map(str::to_owned)
     }
 
     /// The first step, if it is a key.

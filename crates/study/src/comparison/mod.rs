@@ -118,6 +118,8 @@ pub struct Comparison {
     /// Levels that models close although the demand of a gap check does not, or the
     /// reverse.
     pub level_differences: Vec<LevelDifference>,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
 }
 
 /// Compares models on a case under records, made by
@@ -182,6 +184,11 @@ pub fn compare(
         conclusions: Vec::new(),
         storey_differences: Vec::new(),
         level_differences: Vec::new(),
+        warnings: system
+            .unequal_floor_warnings()
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
     };
     comparison.sum_up();
     Ok(comparison)

@@ -6,15 +6,12 @@ use pounding_separation::{
     SeparationError, Site, Situation, SoilZone, Status, StructuralSystem, Structure,
     YieldingOscillator, correlation_coefficient, descriptors, find,
 };
-use pounding_shear_building::ShearBuilding;
+use pounding_shear_building::{ShearBuilding, are_level};
 use pounding_time_history::{BuildingOutcome, Gap, System};
 
 use super::SAME;
 use super::demand::{GapLevel, RecordDemand};
 use super::error::CheckError;
-
-/// Floors this close in elevation (m) are level.
-const LEVEL: f64 = 0.01;
 
 /// A gap by one provision.
 #[derive(Debug, Clone)]
@@ -131,14 +128,12 @@ impl GapPlace<'_> {
             })
         };
         let gap = self.gap();
-        self.system.levels()[gap.first_level..gap.first_level + gap.levels]
-            .iter()
-            .map(|l| [place(l.left), place(l.right)])
-            .collect()
+        let levels = self.system.levels_of(gap).iter();
+        levels.map(|l| [place(l.left), place(l.right)]).collect()
     }
 
     fn elevation(&self, level: usize) -> f64 {
-        self.system.levels()[self.gap().first_level + level].elevation
+        self.system.levels_of(self.gap())[level].place.elevation()
     }
 
     /// Whether every floor of the lower building faces a floor of the other.
@@ -153,8 +148,9 @@ impl GapPlace<'_> {
             buildings[*right].elevations(),
         );
         let (low, high) = if a.last() <= b.last() { (a, b) } else { (b, a) };
+        let tolerance = self.gap().elevation_tolerance;
         low.iter()
-            .all(|z| high.iter().any(|other| (z - other).abs() <= LEVEL))
+            .all(|z| high.iter().any(|other| are_level(*z, *other, tolerance)))
     }
 }
 

@@ -1,6 +1,8 @@
 //! Demand of each record, and what pounding does at the provided gap.
 
-use pounding_time_history::{BuildingOutcome, Gap, GapOutcome, Peak, System, isolated_demand, run};
+use pounding_time_history::{
+    BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, System, isolated_demand, run,
+};
 
 use super::error::CheckError;
 use super::parallel::{Progress, in_parallel};
@@ -9,12 +11,8 @@ use super::records::CaseUnderRecord;
 /// A contact level of a gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapLevel {
-    /// Storey of the left building, from 1; `None` for a wall.
-    pub left_storey: Option<usize>,
-    /// Storey of the right building, from 1; `None` for a wall.
-    pub right_storey: Option<usize>,
-    /// Elevation (m).
-    pub elevation: f64,
+    /// Storeys and elevations of both floors.
+    pub place: LevelPlace,
     /// Provided width (m).
     pub width: f64,
 }
@@ -76,12 +74,10 @@ pub(crate) fn closes(gap: &GapOutcome) -> bool {
 }
 
 pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {
-    system.levels()[gap.first_level..gap.first_level + gap.levels]
-        .iter()
+    let levels = system.levels_of(gap).iter();
+    levels
         .map(|l| GapLevel {
-            left_storey: l.left_storey,
-            right_storey: l.right_storey,
-            elevation: l.elevation,
+            place: l.place,
             width: l.width,
         })
         .collect()

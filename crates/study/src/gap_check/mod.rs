@@ -83,6 +83,8 @@ pub struct GapCheck {
     pub gaps: Vec<GapReport>,
     /// Sweep over widths.
     pub sweep: Option<GapSweep>,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
 }
 
 /// Part by which a width may fall short of a demand and still be the same: peaks of two
@@ -161,6 +163,13 @@ pub fn gap_check(
         records: demands,
         gaps,
         sweep: sweep.transpose()?,
+        warnings: first
+            .assembly
+            .system
+            .unequal_floor_warnings()
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
     })
 }
 

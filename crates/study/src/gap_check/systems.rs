@@ -24,13 +24,14 @@ pub(crate) fn rebuilt(
 ) -> Result<System, TimeHistoryError> {
     let mut other = system.without_gaps();
     for (index, gap) in system.gaps().iter().enumerate() {
-        let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+        let levels = system.levels_of(gap);
         let pairs = levels.iter().map(|level| {
             let (width, model) = change(index, level);
             let (left, right) = (floor(system, level.left), floor(system, level.right));
             (left, right, width, model)
         });
-        other.add_gap(&gap.name, gap.between.clone(), pairs.collect())?;
+        let (between, tolerance) = (gap.between.clone(), gap.elevation_tolerance);
+        other.add_gap_with_tolerance(&gap.name, between, pairs.collect(), tolerance)?;
     }
     Ok(other)
 }

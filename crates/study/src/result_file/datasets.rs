@@ -68,6 +68,10 @@ pub(super) fn states(file: &File, axes: &Axes<'_>, rows: usize) -> Result<(Datas
     Ok((status, id))
 }
 
+/// Coordinates of storeys and of levels beside their labels.
+const OF_STOREYS: &str = "storey_building storey_number storey_elevation";
+const OF_LEVELS: &str = "level_gap level_left_storey level_right_storey level_left_elevation level_right_elevation level_width";
+
 /// A dataset for each quantity, with its columns.
 pub(super) fn quantities(
     file: &File,
@@ -78,17 +82,18 @@ pub(super) fn quantities(
     let layout = &description.layout;
     let mut quantities = Vec::new();
     for q in &layout.quantities {
-        let (width, scale) = match q.axis {
-            Axis::Run => (None, None),
-            Axis::Storey => (Some(layout.width(q.axis)), axes.storey),
-            Axis::Level => (Some(layout.width(q.axis)), axes.level),
+        let (width, scale, places) = match q.axis {
+            Axis::Run => (None, None, ""),
+            Axis::Storey => (Some(layout.width(q.axis)), axes.storey, OF_STOREYS),
+            Axis::Level => (Some(layout.width(q.axis)), axes.level, OF_LEVELS),
         };
         if width == Some(0) {
             continue;
         }
         let data = dataset::<f64>(file, q.name, rows, width)?;
         describe(&data, q.unit, q.long_name)?;
-        text(&data, "coordinates", axes.coordinates)?;
+        let names = [axes.coordinates, places].join(" ");
+        text(&data, "coordinates", names.trim())?;
         attach(&data, axes.run, 0)?;
         if let Some(scale) = scale {
             attach(&data, scale, 1)?;
@@ -115,6 +120,7 @@ pub(super) fn attributes(file: &File, d: &Description) -> Result<()> {
         ("study_sha256", &d.study_sha256),
         ("case", &d.case),
         ("record_sha256", &d.records),
+        ("warnings", &d.warnings.join("\n")),
         ("variables", &json!(variables).to_string()),
     ] {
         text(file, name, value)?;
@@ -139,12 +145,6 @@ pub(super) fn places(
     storey: Option<&Dataset>,
     level: Option<&Dataset>,
 ) -> Result<()> {
-    let numbers = |name: &str, long: &str, values: &[i32], scale: &Dataset| {
-        let data = dataset::<i32>(file, name, values.len(), None)?;
-        data.write_raw(values)?;
-        describe(&data, "", long)?;
-        attach(&data, scale, 0)
-    };
     let (storeys, levels) = (&d.layout.storeys, &d.layout.levels);
     if let Some(scale) = storey {
         if let Some(data) = labels(
@@ -155,26 +155,51 @@ pub(super) fn places(
             attach(&data, scale, 0)?;
         }
         let values: Vec<i32> = storeys.iter().map(|p| p.storeys[0] as i32).collect();
-        numbers(
-            "storey_number",
-            "storey of its building, from 1 at the bottom",
-            &values,
-            scale,
-        )?;
+        let long_name = "storey of its building, from 1 at the bottom";
+        numbers(file, ("storey_number", "", long_name), &values, scale)?;
+        let values = storeys.iter().map(|p| or_nan(p.elevations[0]));
+        let long_name = "floor elevation above the ground; NaN where a variable changes it";
+        let about = ("storey_elevation", "m", long_name);
+        numbers(file, about, &values.collect::<Vec<_>>(), scale)?;
     }
     if let Some(scale) = level {
         if let Some(data) = labels(file, "level_gap", levels.iter().map(|p| p.of.as_str()))? {
             attach(&data, scale, 0)?;
         }
-        for (i, name) in ["level_left_storey", "level_right_storey"]
-            .into_iter()
-            .enumerate()
-        {
+        for (i, side) in ["left", "right"].into_iter().enumerate() {
             let values: Vec<i32> = levels.iter().map(|p| p.storeys[i] as i32).collect();
-            numbers(name, "storey from 1, 0 for a wall", &values, scale)?;
+            let name = format!("level_{side}_storey");
+            let about = (name.as_str(), "", "storey from 1, 0 for a wall");
+            numbers(file, about, &values, scale)?;
+            let values = levels.iter().map(|p| or_nan(p.elevations[i]));
+            let name = format!("level_{side}_elevation");
+            let long_name =
+                "floor elevation above the ground; NaN for a wall, and where a variable changes it";
+            let about = (name.as_str(), "m", long_name);
+            numbers(file, about, &values.collect::<Vec<_>>(), scale)?;
         }
+        let values: Vec<f64> = levels.iter().map(|p| or_nan(p.width)).collect();
+        let long_name = "width of the gap at rest; NaN where a variable changes it";
+        numbers(file, ("level_width", "m", long_name), &values, scale)?;
     }
     Ok(())
+}
+
+/// A coordinate of storeys or levels: name, unit, long name and values.
+fn numbers<T: H5Type>(
+    file: &File,
+    (name, unit, long_name): (&str, &str, &str),
+    values: &[T],
+    scale: &Dataset,
+) -> Result<()> {
+    let data = dataset::<T>(file, name, values.len(), None)?;
+    data.write_raw(values)?;
+    describe(&data, unit, long_name)?;
+    attach(&data, scale, 0)
+}
+
+fn or_nan(x: Option<f64>) -> f64 {
+    x.unwrap_or(f64::NAN)
 }
 
 /// A dataset of texts; none if there are no texts.

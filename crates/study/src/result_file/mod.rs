@@ -30,7 +30,7 @@ pub struct Coordinate {
 }
 
 /// All that a result says beside its rows.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Description {
     /// Title of the study.
     pub title: String,
@@ -53,6 +53,8 @@ pub struct Description {
     pub chunk: usize,
     /// Which shard this is, from 1, and of how many; `(1, 1)` is the whole.
     pub shard: (usize, usize),
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
     /// Columns.
     pub layout: Layout,
     /// Variables of the study.

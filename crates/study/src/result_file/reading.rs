@@ -283,6 +283,11 @@ fn description(file: &File) -> hdf5::Result<Description> {
         runs: number("runs")?,
         chunk: number("chunk")?,
         shard: (number("shard")?, number("shards")?),
+        // Versions before had none.
+        warnings: match file.attr_names()?.iter().any(|n| n == "warnings") {
+            true => text("warnings")?.lines().map(str::to_owned).collect(),
+            false => Vec::new(),
+        },
         layout: layout(file)?,
         coordinates: variables
             .as_array()
@@ -309,26 +314,68 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
         let numbers = numbers.collect::<Result<Vec<_>, _>>();
         numbers.map_err(|_| hdf5::Error::from(format!("{name} has a number that cannot be")))
     };
-    let place = |(label, of): (String, String), storeys: Vec<usize>| Place { label, of, storeys };
+    // Versions before had no elevations and widths.
+    let known = |name: &str, count: usize| -> hdf5::Result<Vec<Option<f64>>> {
+        if !file.link_exists(name) {
+            return Ok(vec![None; count]);
+        }
+        let read = values::<f64>(file, name).map_err(|e| of(name, &e))?;
+        let numbers = read.into_iter().map(|x| (!x.is_nan()).then_some(x));
+        Ok(numbers.collect())
+    };
     let (storey, building, number) = (
         labels("storey")?,
         labels("storey_building")?,
         numbers("storey_number")?,
     );
+    let elevation = known("storey_elevation", storey.len())?;
     let (level, gap) = (labels("level")?, labels("level_gap")?);
     let (left, right) = (
         numbers("level_left_storey")?,
         numbers("level_right_storey")?,
     );
-    let fits = [building.len(), number.len()] == [storey.len(); 2]
-        && [gap.len(), left.len(), right.len()] == [level.len(); 3];
+    let (left_elevation, right_elevation, width) = (
+        known("level_left_elevation", level.len())?,
+        known("level_right_elevation", level.len())?,
+        known("level_width", level.len())?,
+    );
+    let of_levels = [
+        gap.len(),
+        left.len(),
+        right.len(),
+        left_elevation.len(),
+        right_elevation.len(),
+        width.len(),
+    ];
+    let fits = [building.len(), number.len(), elevation.len()] == [storey.len(); 3]
+        && of_levels == [level.len(); 6];
     if !fits {
         return Err(hdf5::Error::from("storeys or levels are not all described"));
     }
-    let storeys = storey.into_iter().zip(building).zip(number);
-    let storeys = storeys.map(|(p, n)| place(p, vec![n]));
-    let levels = level.into_iter().zip(gap).zip(left.into_iter().zip(right));
-    let levels = levels.map(|(p, (l, r))| place(p, vec![l, r]));
+    let storeys = storey.into_iter().zip(building).zip(number).zip(elevation);
+    let storeys = storeys.map(|(((label, of), n), z)| Place {
+        label,
+        of,
+        storeys: vec![n],
+        elevations: vec![z],
+        width: None,
+    });
+    let elevations = left_elevation.into_iter().zip(right_elevation);
+    let levels = level
+        .into_iter()
+        .zip(gap)
+        .zip(left.into_iter().zip(right))
+        .zip(elevations)
+        .zip(width)
+        .map(
+            |((((label, of), (l, r)), (z_left, z_right)), width)| Place {
+                label,
+                of,
+                storeys: vec![l, r],
+                elevations: vec![z_left, z_right],
+                width,
+            },
+        );
     Ok(Layout::from_places(
         storeys.collect(),
         levels.collect(),

@@ -164,7 +164,7 @@ fn header(d: &Description) -> Vec<String> {
         cells.extend(
             places
                 .iter()
-                .map(|p| with_unit(&format!("{}: {}", q.name, p.label), q.unit)),
+                .map(|p| with_unit(&format!("{}: {}", q.name, p.heading()), q.unit)),
         );
     }
     cells.push("diagnosis".to_owned());

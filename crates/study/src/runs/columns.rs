@@ -1,6 +1,8 @@
 //! The columns of a result: which quantities, of what, in which unit.
 
-use pounding_time_history::{Outcome, System};
+use pounding_time_history::{LevelPlace, Outcome, System};
+
+use crate::study_file::{Study, Target};
 
 /// What a quantity belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,6 +149,10 @@ pub(crate) fn is_result(name: &str) -> bool {
         "level_gap",
         "level_left_storey",
         "level_right_storey",
+        "storey_elevation",
+        "level_left_elevation",
+        "level_right_elevation",
+        "level_width",
         "failures",
     ];
     QUANTITIES
@@ -157,7 +163,7 @@ pub(crate) fn is_result(name: &str) -> bool {
 }
 
 /// A storey or a contact level.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Place {
     /// Label, unique along its axis.
     pub label: String,
@@ -165,10 +171,34 @@ pub struct Place {
     pub of: String,
     /// Storeys from 1: of the building, or left and right of the gap; 0 is a wall.
     pub storeys: Vec<usize>,
+    /// Elevations (m) of these storeys; `None` for a wall, and where a variable of the study
+    /// changes a storey height below.
+    pub elevations: Vec<Option<f64>>,
+    /// Width of a level at rest (m); `None` for a storey, and where a variable changes it.
+    pub width: Option<f64>,
+}
+
+impl Place {
+    /// Label with the elevations of both sides of a level, as far as all runs share them.
+    #[must_use]
+    pub fn heading(&self) -> String {
+        let (&[left, right], &[z_left, z_right]) = (&self.storeys[..], &self.elevations[..]) else {
+            return self.label.clone();
+        };
+        let varies = |storey: usize, z: Option<f64>| storey > 0 && z.is_none();
+        if varies(left, z_left) || varies(right, z_right) {
+            return self.label.clone();
+        }
+        let place = LevelPlace {
+            storeys: [left, right].map(|n| (n > 0).then_some(n)),
+            elevations: [z_left, z_right],
+        };
+        format!("{} {place}", self.of)
+    }
 }
 
 /// The shape of the results of a study: the same for all its runs.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// Storeys of all buildings, from the left and from the bottom.
     pub storeys: Vec<Place>,
@@ -186,27 +216,58 @@ impl Layout {
                 label: format!("{} {n}", b.name()),
                 of: b.name().to_owned(),
                 storeys: vec![n],
+                elevations: vec![Some(b.elevations()[n - 1])],
+                width: None,
             })
         });
         let levels = system.gaps().iter().flat_map(|gap| {
-            let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
-            levels.iter().map(|l| {
-                let pair = [l.left_storey.unwrap_or(0), l.right_storey.unwrap_or(0)];
-                let shown = pair.map(|n| {
-                    if n == 0 {
-                        "wall".to_owned()
-                    } else {
-                        n.to_string()
-                    }
-                });
-                Place {
-                    label: format!("{} {}", gap.name, shown.join("-")),
-                    of: gap.name.clone(),
-                    storeys: pair.to_vec(),
-                }
+            system.levels_of(gap).iter().map(|l| Place {
+                label: format!("{} {}", gap.name, l.place.label()),
+                of: gap.name.clone(),
+                storeys: l.place.storeys.map(|n| n.unwrap_or(0)).to_vec(),
+                elevations: l.place.elevations.to_vec(),
+                width: Some(l.width),
             })
         });
         Self::from_places(storeys.collect(), levels.collect(), isolated_demand)
+    }
+
+    /// Leaves out the elevations and widths that a variable of the study changes. Returns
+    /// the names of the gaps beside buildings whose storey heights vary.
+    pub(crate) fn leave_out_varied(&mut self, study: &Study, system: &System) -> Vec<String> {
+        let mut beside = Vec::new();
+        for variable in &study.variables {
+            let Target::Entry { path, .. } = &variable.target else {
+                continue;
+            };
+            if path.table() == "building" && path.leads_through("height") {
+                let names = system.buildings().iter().map(|b| b.name());
+                let name = path.second(names);
+                let varies = |building: &str| name.as_deref().is_none_or(|n| n == building);
+                for storey in self.storeys.iter_mut().filter(|s| varies(&s.of)) {
+                    storey.elevations.fill(None);
+                }
+                for gap in system.gaps() {
+                    let sides = gap.between.each_ref().map(|side| varies(side));
+                    if sides.contains(&true) && !beside.contains(&gap.name) {
+                        beside.push(gap.name.clone());
+                    }
+                    for level in self.levels.iter_mut().filter(|l| l.of == gap.name) {
+                        for (z, varies) in level.elevations.iter_mut().zip(sides) {
+                            *z = z.filter(|_| !varies);
+                        }
+                    }
+                }
+            }
+            if path.table() == "gap" && path.leads_through("width") {
+                let name = path.second(system.gaps().iter().map(|g| g.name.as_str()));
+                let varies = |gap: &str| name.as_deref().is_none_or(|n| n == gap);
+                for level in self.levels.iter_mut().filter(|l| varies(&l.of)) {
+                    level.width = None;
+                }
+            }
+        }
+        beside
     }
 
     /// The shape with these storeys and levels.

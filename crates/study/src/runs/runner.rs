@@ -99,6 +99,8 @@ pub(crate) struct Runner<'s> {
     pub study: &'s Study,
     pub motions: Motions,
     pub layout: Layout,
+    /// What the user should know of the case.
+    pub warnings: Vec<String>,
     version: &'static str,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
@@ -113,8 +115,23 @@ impl<'s> Runner<'s> {
         let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
         let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
         let system = assemble_with_record(&study.base, &rest)?.system;
+        let mut layout = Layout::of(&system, study.isolated_demand);
+        let varied = layout.leave_out_varied(study, &system);
+        let mut warnings: Vec<String> = system
+            .unequal_floor_warnings()
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        let meant = study.base.gaps.iter().filter(|g| g.floor_to_floor);
+        warnings.extend(meant.filter(|g| varied.contains(&g.name)).map(|gap| {
+            format!(
+                "gap {}: storey heights vary, and floors act on each other as if they were level at whatever elevations (floor_to_floor); the columns that such floors hit are not modelled",
+                gap.name
+            )
+        }));
         Ok(Self {
-            layout: Layout::of(&system, study.isolated_demand),
+            layout,
+            warnings,
             study,
             motions,
             version: VERSION,

@@ -62,7 +62,7 @@ impl Driver<'_> {
     pub(super) fn place_of(&self, event: &Candidate) -> String {
         match event.kind {
             EventKind::Branch(_) => self.system.place_of_element(event.level),
-            _ => self.system.place_of_level(event.level),
+            _ => self.system.name_of_level(event.level),
         }
     }
 
@@ -71,7 +71,7 @@ impl Driver<'_> {
             .contacts
             .closed()
             .iter()
-            .map(|l| self.system.place_of_level(*l))
+            .map(|l| self.system.name_of_level(*l))
             .collect();
         if places.is_empty() {
             "none".to_owned()

@@ -3,7 +3,7 @@
 use hdf5::{Dataset, Group};
 
 use super::datasets::{matrix, series};
-use super::{Result, RunRecord, dimension_scales, elements};
+use super::{Result, RunRecord, dimension_scales, elements, share_time};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::recorder::Sample;
 
@@ -12,6 +12,7 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
     let system = &record.assembly.system;
     for (index, building) in system.buildings().iter().enumerate() {
         let group = all.create_group(building.name())?;
+        share_time(&group)?;
         let range = system.offsets()[index]..system.offsets()[index + 1];
         let storey = series(
             &group,
@@ -73,6 +74,7 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             &|s| s.storey_shear[range.clone()].to_vec(),
         )?;
         let peaks = group.create_group("peak")?;
+        group.link_hard("storey", "peak/storey")?;
         storey_peaks(
             &peaks,
             "",

@@ -17,14 +17,14 @@ pub(super) fn column(samples: &[Sample], pick: impl Fn(&Sample) -> f64) -> Vec<f
 }
 
 /// A one-dimensional dataset with units and long name.
-pub(super) fn series(
+pub(super) fn series<T: H5Type>(
     group: &Group,
     name: &str,
     units: &str,
     long_name: &str,
-    values: &[f64],
+    values: &[T],
 ) -> Result<Dataset> {
-    let builder = group.new_dataset::<f64>();
+    let builder = group.new_dataset::<T>();
     let data = if values.is_empty() {
         builder.shape(0).create(name)?
     } else {
@@ -84,6 +84,28 @@ pub(super) fn table<T: H5Type>(group: &Group, name: &str, rows: &[T]) -> Result<
     Ok(data)
 }
 
+/// A one-dimensional dataset of texts with a long name.
+pub(super) fn labels(
+    group: &Group,
+    name: &str,
+    long_name: &str,
+    values: &[String],
+) -> Result<Dataset> {
+    let texts = values.iter().map(|v| unicode(name, v));
+    let texts = texts.collect::<Result<Vec<_>>>()?;
+    let builder = group.new_dataset::<VarLenUnicode>();
+    let data = builder.shape(texts.len()).create(name)?;
+    if !texts.is_empty() {
+        data.write_raw(&texts)?;
+    }
+    text(&data, "long_name", long_name)?;
+    Ok(data)
+}
+
+fn unicode(name: &str, value: &str) -> Result<VarLenUnicode> {
+    VarLenUnicode::from_str(value).map_err(|e| hdf5::Error::from(format!("{name}: {e}")))
+}
+
 fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
     text(data, "units", units)?;
     text(data, "long_name", long_name)
@@ -91,8 +113,7 @@ fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
 
 /// A UTF-8 text attribute.
 pub(super) fn text(location: &Location, name: &str, value: &str) -> Result<()> {
-    let value = VarLenUnicode::from_str(value)
-        .map_err(|e| hdf5::Error::from(format!("attribute {name}: {e}")))?;
+    let value = unicode(&format!("attribute {name}"), value)?;
     location
         .new_attr::<VarLenUnicode>()
         .create(name)?

@@ -3,8 +3,8 @@
 use hdf5::{Dataset, Group};
 
 use super::datasets::{matrix, series, text};
-use super::{Result, RunRecord, dimension_scales};
-use crate::elements::{Element, ElementPlace};
+use super::{Result, RunRecord, dimension_scales, levels, share_time};
+use crate::elements::ElementPlace;
 use crate::outcome::{LinkLevelOutcome, Peak};
 use crate::recorder::Sample;
 
@@ -85,11 +85,8 @@ pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -
     for (index, link) in system.links().iter().enumerate() {
         let group = all.create_group(&link.name)?;
         let range = link.first_element..link.first_element + link.levels;
-        let elements = &system.elements()[range.clone()];
-        let heights: Vec<f64> = elements.iter().map(|e| elevation(record, e)).collect();
-        let long_name = "elevation of the level of the link";
-        let level = series(&group, "level", "m", long_name, &heights)?;
-        dimension_scales::make_scale(&level, "level")?;
+        share_time(&group)?;
+        let level = levels::coordinates(&group, &system.link_levels(index))?;
         let outcome = &record.outcome.links[index];
         text(&group, "law", outcome.law)?;
         type Pick = fn(&Sample) -> &[f64];
@@ -119,10 +116,12 @@ pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -
                 .flat_map(|s| pick(s)[range.clone()].iter().copied())
                 .collect();
             let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+            text(&data, "coordinates", levels::COORDINATES)?;
             dimension_scales::attach(&data, time, 0)?;
             dimension_scales::attach(&data, &level, 1)?;
         }
         link_peaks(&group.create_group("peak")?, &outcome.levels, &level)?;
+        group.link_hard("level", "peak/level")?;
     }
     Ok(())
 }
@@ -144,14 +143,4 @@ fn link_peaks(group: &Group, levels: &[LinkLevelOutcome], level: &Dataset) -> Re
         dimension_scales::attach(&time, level, 0)?;
     }
     Ok(())
-}
-
-/// Elevation of the left floor of a link, of the right one beside a wall.
-fn elevation(record: &RunRecord<'_>, element: &Element) -> f64 {
-    let system = &record.assembly.system;
-    let Some(dof) = element.near.or(element.far) else {
-        return 0.0;
-    };
-    let building = system.offsets().partition_point(|o| *o <= dof) - 1;
-    system.buildings()[building].elevations()[dof - system.offsets()[building]]
 }

@@ -3,9 +3,10 @@
 use hdf5::{Dataset, H5Type};
 
 use super::datasets::{matrix, series, table as rows_of, text};
-use super::{Result, RunRecord, dimension_scales};
+use super::{Result, RunRecord, dimension_scales, levels, share_time};
 use crate::outcome::Impact;
 use crate::recorder::Sample;
+use crate::system::LevelPlace;
 
 /// One impact as a row of the compound table.
 #[derive(Debug, Clone, Copy, H5Type)]
@@ -50,17 +51,11 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
     for (index, gap) in system.gaps().iter().enumerate() {
         let group = all.create_group(&gap.name)?;
         let range = gap.first_level..gap.first_level + gap.levels;
-        let levels = &system.levels()[range.clone()];
-        let elevation: Vec<f64> = levels.iter().map(|l| l.elevation).collect();
-        let level = series(
-            &group,
-            "level",
-            "m",
-            "elevation of the contact level",
-            &elevation,
-        )?;
-        dimension_scales::make_scale(&level, "level")?;
-        let width: Vec<f64> = levels.iter().map(|l| l.width).collect();
+        let contact_levels = system.levels_of(gap);
+        share_time(&group)?;
+        let places: Vec<LevelPlace> = contact_levels.iter().map(|l| l.place).collect();
+        let level = levels::coordinates(&group, &places)?;
+        let width: Vec<f64> = contact_levels.iter().map(|l| l.width).collect();
         dimension_scales::attach(
             &series(&group, "width", "m", "width of the gap at rest", &width)?,
             &level,
@@ -74,10 +69,12 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
         let long_name = "widening of the gap by plastic deformation over the run";
         let widening = series(&group, "widening", "m", long_name, &widened)?;
         dimension_scales::attach(&widening, &level, 0)?;
+        let coordinates = format!("{} width", levels::COORDINATES);
         let table =
             |name: &str, units: &str, long_name: &str, pick: &dyn Fn(&Sample) -> Vec<f64>| {
                 let rows: Vec<f64> = record.samples.iter().flat_map(pick).collect();
                 let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+                text(&data, "coordinates", &coordinates)?;
                 dimension_scales::attach(&data, time, 0)?;
                 dimension_scales::attach(&data, &level, 1)
             };
@@ -107,9 +104,9 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
         text(
             &impacts,
             "long_name",
-            "impacts in order of closure; levels from 1, bottom first; SI units",
+            "impacts in order of closure; level is the place in the dimension level, from 1; SI units",
         )?;
-        if let Some(first) = levels.first() {
+        if let Some(first) = contact_levels.first() {
             let names: Vec<_> = first
                 .model
                 .descriptor()

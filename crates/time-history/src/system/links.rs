@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pounding_hysteresis::HysteresisLaw;
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 
-use super::{Floor, System};
+use super::{Floor, LevelPlace, System};
 use crate::elements::{Element, ElementPlace};
 use crate::error::TimeHistoryError;
 
@@ -97,6 +97,28 @@ impl System {
         &self.links
     }
 
+    /// Storeys and elevations of the levels of a link, from the bottom.
+    #[must_use]
+    pub fn link_levels(&self, link: usize) -> Vec<LevelPlace> {
+        let floor = |dof: usize| {
+            let building = self.offsets.partition_point(|o| *o <= dof) - 1;
+            let storey = dof - self.offsets[building];
+            (storey + 1, self.buildings[building].elevations()[storey])
+        };
+        let link = &self.links[link];
+        let levels = &self.elements[link.first_element..link.first_element + link.levels];
+        levels
+            .iter()
+            .map(|e| {
+                let sides = [e.near, e.far].map(|dof| dof.map(floor));
+                LevelPlace {
+                    storeys: sides.map(|s| s.map(|s| s.0)),
+                    elevations: sides.map(|s| s.map(|s| s.1)),
+                }
+            })
+            .collect()
+    }
+
     /// Where an element sits, in words.
     #[must_use]
     pub fn place_of_element(&self, element: usize) -> String {
@@ -105,7 +127,11 @@ impl System {
                 format!("{} storey {}", self.buildings[building].name(), storey + 1)
             }
             ElementPlace::Link { link, level } => {
-                format!("{} level {}", self.links[link].name, level + 1)
+                format!(
+                    "{} level {}",
+                    self.links[link].name,
+                    self.link_levels(link)[level]
+                )
             }
         }
     }

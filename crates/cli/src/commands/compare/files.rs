@@ -2,7 +2,7 @@
 
 use pounding_study::comparison::{Comparison, ModelRun, QuantityKind, StoreyDifference};
 
-use super::super::gap::{csv, level_name};
+use super::super::gap::csv;
 use crate::failure::Failure;
 use crate::plot::{Curve, Panel, figure as draw};
 
@@ -98,7 +98,7 @@ fn places(c: &Comparison, (m, r): (usize, usize), run: &ModelRun) -> Vec<[String
             for (l, (impacts, level)) in run.impacts[of].iter().zip(&c.levels[of]).enumerate() {
                 let closes = c.own[r].demand_exceeds(of, l, level.width);
                 let differs = (*impacts > 0) != closes;
-                let place = format!("level {}", level_name(level));
+                let place = format!("level {}", level.place.label());
                 add(
                     *impacts as f64,
                     f64::NAN,

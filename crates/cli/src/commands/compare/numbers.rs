@@ -18,6 +18,7 @@ pub fn comparison(c: &Comparison) -> Value {
         "restitution_rule": c.options.restitution_rule.name(),
         "references": references.collect::<Vec<_>>(),
         "records": c.records,
+        "warnings": c.warnings,
         "models": c.models.iter().map(|m| model(c, m)).collect::<Vec<_>>(),
         "quantities": (0..c.quantities.len()).map(|q| quantity(c, q)).collect::<Vec<_>>(),
         "gaps": (0..c.levels.len()).map(|g| gap(c, g)).collect::<Vec<_>>(),

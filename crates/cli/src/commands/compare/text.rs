@@ -4,8 +4,7 @@ use pounding_case::Case;
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
-use super::super::gap::level_name;
-use crate::tables::new_table;
+use crate::tables::{new_table, warning_lines};
 
 const G: f64 = 9.80665;
 /// More records than this have no tables of their own.
@@ -46,6 +45,7 @@ pub fn report(case: &Case, c: &Comparison) -> String {
     if !case.title.is_empty() {
         text.push_str(&format!("{}\n", case.title));
     }
+    text.push_str(&warning_lines(&c.warnings));
     text.push_str(&calibration(c));
     if c.records.len() <= LISTED {
         for record in 0..c.records.len() {
@@ -379,7 +379,7 @@ fn level_differences(c: &Comparison) -> String {
             .find(|q| q.kind == QuantityKind::Impacts && q.index == d.gap);
         table.add_row([
             gap.map_or_else(String::new, |q| q.of.clone()),
-            level_name(place),
+            place.place.label(),
             c.records[*r].clone(),
             format!("{:.2}", place.width * 1e3),
             format!("{:.2}", d.demand[*r] * 1e3),

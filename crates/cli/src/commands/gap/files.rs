@@ -72,6 +72,11 @@ pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
     csv(&header, rows.into_iter())
 }
 
+/// Storey or elevation of a floor; nothing for a wall.
+fn of_side(value: Option<impl ToString>) -> String {
+    value.map_or_else(String::new, |v| v.to_string())
+}
+
 /// Every rule at every level under every record.
 pub fn codes(check: &GapCheck) -> Result<String, Failure> {
     let mut rows = Vec::new();
@@ -79,18 +84,22 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         for (r, record) in check.records.iter().enumerate() {
             for level in 0..gap.levels.len() {
                 let demand = record.demand[index][level].value;
-                let start = [
+                let place = &gap.levels[level].place;
+                let mut start = vec![
                     gap.name.clone(),
                     record.name.clone(),
                     (level + 1).to_string(),
-                    gap.levels[level].width.to_string(),
-                    demand.to_string(),
                 ];
+                // Storeys in columns of their own: a spreadsheet takes 3-3 for a day in March.
+                start.extend(place.storeys.map(|s| of_side(s)));
+                start.extend(place.elevations.map(|z| of_side(z)));
+                start.push(gap.levels[level].width.to_string());
+                start.push(demand.to_string());
                 let mut add = |rule: &str,
                                status: &str,
                                width: Result<f64, String>,
                                [factor, caution]: [Option<&str>; 2]| {
-                    let mut row = start.to_vec();
+                    let mut row = start.clone();
                     row.extend([rule.to_owned(), status.to_owned()]);
                     match width {
                         Ok(width) => row.extend([
@@ -125,6 +134,10 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         "gap",
         "record",
         "level",
+        "left_storey",
+        "right_storey",
+        "left_elevation_m",
+        "right_elevation_m",
         "provided_m",
         "demand_m",
         "rule",

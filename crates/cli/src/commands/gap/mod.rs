@@ -6,7 +6,6 @@ mod provisions;
 mod text;
 
 pub use files::csv;
-pub use text::level_name;
 
 use std::path::Path;
 

@@ -6,6 +6,8 @@ use pounding_study::gap_check::{
 use pounding_time_history::Peak;
 use serde_json::{Value, json};
 
+use crate::json::add_place;
+
 /// The object that `gap --json` prints.
 pub fn check(check: &GapCheck) -> Value {
     let gaps = 0..check.gaps.len();
@@ -13,6 +15,7 @@ pub fn check(check: &GapCheck) -> Value {
         "adequate": check.adequate(),
         "target_probability": check.options.target_probability,
         "confidence": check.options.confidence,
+        "warnings": check.warnings,
         "records": check.records.iter().map(record).collect::<Vec<_>>(),
         "gaps": gaps.map(|i| gap(check, i)).collect::<Vec<_>>(),
         "sweep": check.sweep.as_ref().map(sweep),
@@ -70,11 +73,9 @@ fn gap(check: &GapCheck, index: usize) -> Value {
         .enumerate()
         .map(|(l, level)| {
             let demand = check.records.iter().map(|r| peak(&r.demand[index][l]));
-            json!({
-                "left_storey": level.left_storey, "right_storey": level.right_storey,
-                "elevation": level.elevation, "width": level.width,
-                "demand": demand.collect::<Vec<_>>(),
-            })
+            let mut value = json!({"width": level.width, "demand": demand.collect::<Vec<_>>()});
+            add_place(&mut value, &level.place);
+            value
         })
         .collect();
     let fit = gap.required.lognormal.as_ref();

@@ -6,7 +6,7 @@ use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapLevel, GapReport, GapSweep, RecordDemand,
 };
 
-use crate::tables::new_table;
+use crate::tables::{new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
 const LISTED: usize = 6;
@@ -33,6 +33,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
             "  links stay in place in all that follows: \"alone\" means without contact\n",
         );
     }
+    text.push_str(&warning_lines(&check.warnings));
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
         text.push_str(&codes(check, &check.gaps[gap], all));
@@ -48,21 +49,13 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     text
 }
 
-fn storey(s: Option<usize>) -> String {
-    s.map_or("wall".to_owned(), |s| s.to_string())
-}
-
-/// A contact level by its storeys.
-pub fn level_name(level: &GapLevel) -> String {
-    let (left, right) = (storey(level.left_storey), storey(level.right_storey));
-    format!("{left}-{right}")
-}
-
 /// Demand at every level under every record.
 fn demand(check: &GapCheck, index: usize) -> String {
     let gap = &check.gaps[index];
     let few = check.records.len() <= LISTED;
-    let mut header = vec!["level".to_owned(), "provided (mm)".to_owned()];
+    let mut header = ["level", "elevations (m)", "provided (mm)"]
+        .map(str::to_owned)
+        .to_vec();
     if few {
         header.extend(check.records.iter().map(|r| format!("{} (mm)", r.name)));
     }
@@ -71,7 +64,11 @@ fn demand(check: &GapCheck, index: usize) -> String {
     let mut table = new_table(&header);
     for (l, level) in gap.levels.iter().enumerate().rev() {
         let peaks = check.records.iter().map(|r| r.demand[index][l]);
-        let mut row = vec![level_name(level), format!("{:.1}", level.width * 1e3)];
+        let mut row = vec![
+            level.place.label(),
+            level.place.elevations_label(),
+            format!("{:.1}", level.width * 1e3),
+        ];
         if few {
             row.extend(
                 peaks

@@ -1,0 +1,82 @@
+//! Where a level of a gap or of a link lies, and how results name it.
+
+use std::fmt;
+
+use pounding_shear_building::are_level;
+
+/// The floors on both sides of a contact level or of a level of a link, left and right;
+/// `None` is a rigid wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelPlace {
+    /// Storey numbers, from 1 at the bottom.
+    pub storeys: [Option<usize>; 2],
+    /// Elevations (m).
+    pub elevations: [Option<f64>; 2],
+}
+
+impl LevelPlace {
+    /// Short name: left and right storey, `3-3`, or `3-wall`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        self.storeys.map(or_wall).join("-")
+    }
+
+    /// Left and right elevation (m), `9 | 9`, or `9 | wall`.
+    #[must_use]
+    pub fn elevations_label(&self) -> String {
+        self.elevations.map(or_wall).join(" | ")
+    }
+
+    /// Elevation of the left floor, or of the right one beside a wall on the left (m).
+    #[must_use]
+    pub fn elevation(&self) -> f64 {
+        let [left, right] = self.elevations;
+        left.or(right).unwrap_or(0.0)
+    }
+
+    /// Whether both floors are level within a tolerance (m). A wall is level with every
+    /// floor.
+    #[must_use]
+    pub fn is_level(&self, tolerance: f64) -> bool {
+        match self.elevations {
+            [Some(left), Some(right)] => are_level(left, right, tolerance),
+            _ => true,
+        }
+    }
+}
+
+/// Storeys and elevations: `3-3 (9 m | 9 m)`, or `3-wall (9 m | wall)`.
+impl fmt::Display for LevelPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let side = |z: Option<f64>| or_wall(z.map(|z| format!("{z} m")));
+        let [left, right] = self.elevations.map(side);
+        write!(f, "{} ({left} | {right})", self.label())
+    }
+}
+
+fn or_wall(side: Option<impl ToString>) -> String {
+    side.map_or_else(|| "wall".to_owned(), |x| x.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LevelPlace;
+
+    #[test]
+    fn both_storeys_and_both_elevations_are_in_the_name() {
+        let place = LevelPlace {
+            storeys: [Some(4), Some(1)],
+            elevations: [Some(12.0), Some(3.06)],
+        };
+        assert_eq!(place.label(), "4-1");
+        assert_eq!(place.elevations_label(), "12 | 3.06");
+        assert_eq!(place.to_string(), "4-1 (12 m | 3.06 m)");
+        assert!(!place.is_level(0.01) && place.is_level(9.0));
+        let wall = LevelPlace {
+            storeys: [None, Some(2)],
+            elevations: [None, Some(6.0)],
+        };
+        assert_eq!(wall.to_string(), "wall-2 (wall | 6 m)");
+        assert!(wall.is_level(0.0) && wall.elevation() == 6.0);
+    }
+}

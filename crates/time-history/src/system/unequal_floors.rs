@@ -1,0 +1,79 @@
+//! Floors at different elevations that face one another in a gap.
+
+use pounding_shear_building::decimal;
+
+use super::{Gap, LevelPlace, System};
+use crate::warnings::Warning;
+
+/// A contact level whose floors are not level within the tolerance of its gap. In a
+/// building such a floor hits a column between two floors; here both floors act on each
+/// other as if they were level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnequalFloors {
+    /// Names of the left and right neighbour.
+    pub between: [String; 2],
+    /// Storeys and elevations.
+    pub place: LevelPlace,
+    /// Difference of the elevations (m).
+    pub difference: f64,
+}
+
+impl UnequalFloors {
+    /// Both floors with their elevations: `storey 4 of "a" at 12 m and storey 1 of "b" at
+    /// 3 m`.
+    #[must_use]
+    pub fn floors(&self) -> String {
+        let side = |i: usize| {
+            format!(
+                "storey {} of \"{}\" at {} m",
+                self.place.storeys[i].unwrap_or(0),
+                self.between[i],
+                self.place.elevations[i].unwrap_or(0.0)
+            )
+        };
+        format!("{} and {}", side(0), side(1))
+    }
+}
+
+/// Says of the first of some pairs that there are more.
+pub(crate) fn first_of(pairs: usize) -> String {
+    match pairs {
+        1 => String::new(),
+        n => format!(" (the first of {n} such pairs in this gap)"),
+    }
+}
+
+impl System {
+    /// Levels of a gap whose floors are not level within its tolerance, from the bottom.
+    #[must_use]
+    pub fn unequal_floors(&self, gap: &Gap) -> Vec<UnequalFloors> {
+        let levels = self.levels_of(gap).iter();
+        let unequal = levels.filter(|l| !l.place.is_level(gap.elevation_tolerance));
+        unequal
+            .filter_map(|l| match l.place.elevations {
+                [Some(left), Some(right)] => Some(UnequalFloors {
+                    between: gap.between.clone(),
+                    place: l.place,
+                    difference: decimal((left - right).abs()),
+                }),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Each gap in which floors at different elevations act on each other, as a warning.
+    #[must_use]
+    pub fn unequal_floor_warnings(&self) -> Vec<Warning> {
+        let warned = self.gaps().iter().filter_map(|gap| {
+            let unequal = self.unequal_floors(gap);
+            let first = unequal.first()?;
+            Some(Warning::UnequalFloors {
+                gap: gap.name.clone(),
+                floors: first.floors(),
+                difference: first.difference,
+                pairs: unequal.len(),
+            })
+        });
+        warned.collect()
+    }
+}

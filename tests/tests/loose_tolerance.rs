@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use pounding_gap_element::{ModelParameters, registry};
+use pounding_gap_element::{ImpactModel, ModelParameters, registry};
 use pounding_hysteresis::LawParameters;
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 use pounding_time_history::{
@@ -159,6 +159,148 @@ fn a_looser_tolerance_is_not_slower_and_the_loss_follows_it() {
 fn slow_impacts_follow_the_tolerance_too() {
     let system = stiff_pair(0.005, "muthukumar_desroches_2006", 3.0);
     follows(&system, adaptive, 3.0, 1000.0);
+}
+
+/// Numbers that look random, the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        ((mixed ^ (mixed >> 33)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+    fn below(&mut self, n: usize) -> usize {
+        (self.unit() * n as f64) as usize
+    }
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.unit())
+    }
+}
+
+/// Two buildings of any stiffness and law without a gap, under two periods of a sine.
+fn random_pair(seed: u64) -> System {
+    const LAWS: [&str; 6] = [
+        "",
+        "elastic_perfectly_plastic",
+        "bouc_wen",
+        "bilinear",
+        "takeda",
+        "modified_clough",
+    ];
+    const MODELS: [&str; 7] = [
+        "muthukumar_desroches_2006",
+        "jankowski_2005",
+        "hertz_1882",
+        "anagnostopoulos_2004",
+        "linear_elastic",
+        "muthukumar_2003",
+        "ye_li_2009",
+    ];
+    let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 777);
+    for _ in 0..5 {
+        random.unit();
+    }
+    let (mut buildings, mut storeys) = (Vec::new(), Vec::new());
+    let strength = random.between(0.2, 6.0);
+    for index in 0..2 {
+        let n = 1 + random.below(5);
+        let scale = random.between(2e4, 5e9);
+        let mass: Vec<f64> = (0..n).map(|_| scale * (0.5 + random.unit())).collect();
+        let omega = random.between(6.0, 300.0);
+        let mean = scale * omega * omega;
+        let stiffness: Vec<f64> = (0..n).map(|_| mean * (0.5 + random.unit())).collect();
+        let beta = [0.1 / omega, random.between(1e-4, 0.3), 0.0][random.below(3)];
+        let name = LAWS[random.below(6)];
+        let yield_force = scale * strength * (0.1 + random.unit());
+        let damping = Damping::Rayleigh { alpha: 0.0, beta };
+        let height = vec![3.0; n];
+        let title = format!("b{index}");
+        let mut building =
+            ShearBuilding::new(title, mass, stiffness.clone(), height, damping).unwrap();
+        if !name.is_empty() {
+            let law = |k: &f64| {
+                let mut all = pounding_hysteresis::find(name)
+                    .unwrap()
+                    .example_parameters();
+                let own = [("stiffness", *k), ("yield_force", yield_force)];
+                all.values.extend(LawParameters::from_pairs(&own).values);
+                Some(StoreyLaw {
+                    yield_drift: all.yield_deformation(*k),
+                    law: pounding_hysteresis::build(name, &all).unwrap().into(),
+                })
+            };
+            let laws = stiffness.iter().map(law).collect();
+            building = building.with_laws(laws).unwrap();
+        }
+        buildings.push(Arc::new(building));
+        storeys.push(n);
+    }
+    let time_step = [0.01, 0.02][random.below(2)];
+    let frequency = random.between(0.5, 8.0);
+    let sample = |i: usize| {
+        let t = i as f64 * time_step;
+        let inside = t < 2.0 / frequency;
+        let sine = strength * (std::f64::consts::TAU * frequency * t).sin();
+        if inside { sine } else { 0.0 }
+    };
+    let samples: Vec<f64> = (0..(2.0 / time_step) as usize + 1).map(sample).collect();
+    let ground = GroundAcceleration {
+        samples: samples.into(),
+        time_step,
+    };
+    let mut system = System::new(buildings, ground);
+    let name = MODELS[random.below(7)];
+    let mut values = vec![("stiffness", random.between(1e8, 1e13))];
+    if !["hertz_1882", "linear_elastic"].contains(&name) {
+        values.push(("restitution", 0.4 + 0.5 * random.unit()));
+    }
+    let model: Arc<dyn ImpactModel> = registry::build(name, &ModelParameters::from_pairs(&values))
+        .unwrap()
+        .into();
+    let pair = |s| {
+        let (left, right) = (Floor::Storey(0, s), Floor::Storey(1, s));
+        (left, right, 0.0, Arc::clone(&model))
+    };
+    let pairs = (0..storeys[0].min(storeys[1])).map(pair).collect();
+    let names = ["b0".to_owned(), "b1".to_owned()];
+    system.add_gap("b0-b1", names, pairs).unwrap();
+    system
+}
+
+/// Among them pairs whose storeys turn while they yield, and pairs whose contact begins at
+/// rest: an interpolant of a long step would have them leave their branch again at once.
+#[test]
+fn random_pairs_take_no_more_steps_at_loose_tolerances() {
+    let total = |o: &Outcome| -> f64 {
+        let levels = &o.gaps[0].levels;
+        levels.iter().map(|l| l.energy_dissipated).sum()
+    };
+    for seed in 1..=16 {
+        let system = random_pair(seed);
+        let truth = go(&system, adaptive(1e-12), 2.0);
+        for tolerance in [1e-9, 1e-7, 1e-5, 1e-4] {
+            let options = RunOptions {
+                method: adaptive(tolerance),
+                duration: Some(2.0),
+                energy_tolerance: Some(tolerance.max(1e-6)),
+            };
+            let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+            let (loose, tight) = (work(&outcome), work(&truth));
+            assert!(
+                loose <= tight,
+                "pair {seed} at {tolerance:e}: {loose}, not {tight}"
+            );
+            let error = (total(&outcome) - total(&truth)).abs() / truth.energy.largest_input;
+            assert!(
+                error <= tolerance,
+                "pair {seed} at {tolerance:e}: loss off by {error:e} of the input"
+            );
+        }
+    }
 }
 
 /// Fixed steps meet the same events: a cubic through a step of 0.2 ms does not follow the

@@ -159,7 +159,8 @@ fn parts_that_do_not_fit() {
         let peaks = f.group("building/light/peak").unwrap();
         peaks.unlink("displacement").unwrap();
         let two = peaks.new_dataset::<f64>().shape(2);
-        two.create("displacement").unwrap();
+        let two = two.create("displacement").unwrap();
+        two.write_raw(&[0.0; 2]).unwrap();
     };
     refused(&storeys, "do not have the same storeys or levels");
     let huge = |f: &hdf5::File| {

@@ -5,6 +5,8 @@ use pounding_study::comparison::{
 };
 use serde_json::{Value, json};
 
+use crate::json::add_place;
+
 /// The object that `compare --json` prints.
 pub fn comparison(c: &Comparison) -> Value {
     let references = c.references.iter().map(|r| {
@@ -72,14 +74,14 @@ fn storey(c: &Comparison, d: &StoreyDifference) -> Value {
 
 fn level(c: &Comparison, d: &LevelDifference) -> Value {
     let place = &c.levels[d.gap][d.level];
-    json!({
-        "gap": gap_name(c, d.gap), "level": d.level + 1,
-        "left_storey": place.left_storey, "right_storey": place.right_storey,
-        "elevation": place.elevation, "width": place.width,
+    let mut value = json!({
+        "gap": gap_name(c, d.gap), "width": place.width,
         "demand": d.demand, "demand_closes": d.demand_closes,
         "models_in_contact": names_by_record(c, &d.models), "models": c.complete().len(),
         "own_law_impacts": d.own_impacts,
-    })
+    });
+    add_place(&mut value, &place.place);
+    value
 }
 
 fn names(c: &Comparison, models: &[usize]) -> Vec<&'static str> {

@@ -3,7 +3,7 @@
 use pounding_case::Case;
 use pounding_separation::Basis;
 use pounding_study::gap_check::{
-    Amplification, CodeGap, GapCheck, GapLevel, GapReport, GapSweep, RecordDemand,
+    Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
 
 use crate::tables::{new_table, warning_lines};

@@ -48,7 +48,10 @@ with xr.open_dataset(path, engine="h5netcdf") as ds:
 
 for engine in ("netcdf4", None):
     with xr.open_dataset(path, engine=engine) as other, xr.open_dataset(path, engine="h5netcdf") as ds:
-        xr.testing.assert_identical(other.load(), ds.load())
+        # Texts of fixed length are bytes to one engine and texts to the other.
+        told = [np.char.decode(d.run_id.values) if d.run_id.dtype.kind == "S" else d.run_id.values for d in (other, ds)]
+        assert np.array_equal(*told)
+        xr.testing.assert_identical(other.drop_vars("run_id").load(), ds.drop_vars("run_id").load())
 if shutil.which("ncdump"):
     told = subprocess.run(["ncdump", path], capture_output=True, text=True, check=True).stdout
     assert "jankowski_2005" in told and "peak_displacement" in told

@@ -107,8 +107,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     }
     let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
     let mut table = new_table(&[
-        "level",
-        "elevations (m)",
+        "level at (m)",
         "gap (mm)",
         "impacts",
         "first contact (s)",
@@ -124,8 +123,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
     for (l, at) in outcome.levels.iter().zip(levels).rev() {
         let or_dash = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
         table.add_row([
-            at.place.label(),
-            at.place.elevations_label(),
+            format!("{} at {}", at.place.label(), at.place.elevations_label()),
             format!("{:.1}", at.width * 1e3),
             l.impacts.to_string(),
             or_dash(l.first_contact.map(|t| format!("{t:.4}"))),

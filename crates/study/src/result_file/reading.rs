@@ -234,7 +234,7 @@ impl Description {
         }
         let all = self.runs.div_ceil(self.chunk);
         let ours = all.saturating_sub(index - 1).div_ceil(count);
-        let short = match ours > 0 && (all - index) % count == 0 {
+        let short = match ours > 0 && (all - index).is_multiple_of(count) {
             // The last chunk of the study is ours: it may be shorter.
             true => all.checked_mul(self.chunk)? - self.runs,
             false => 0,

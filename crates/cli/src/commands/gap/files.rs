@@ -91,8 +91,8 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                     (level + 1).to_string(),
                 ];
                 // Storeys in columns of their own: a spreadsheet takes 3-3 for a day in March.
-                start.extend(place.storeys.map(|s| of_side(s)));
-                start.extend(place.elevations.map(|z| of_side(z)));
+                start.extend(place.storeys.map(of_side));
+                start.extend(place.elevations.map(of_side));
                 start.push(gap.levels[level].width.to_string());
                 start.push(demand.to_string());
                 let mut add = |rule: &str,

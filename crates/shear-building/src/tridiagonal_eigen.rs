@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn eigenvalues_that_almost_agree_have_orthogonal_vectors() {
         let wilkinson = SymmetricTridiagonal {
-            diagonal: (0..121).map(|i| f64::from((60 - i as i32).abs())).collect(),
+            diagonal: (0..121).map(|i| f64::from((60_i32 - i).abs())).collect(),
             off_diagonal: vec![1.0; 120],
         };
         let mut storeys = vec![1.0; 150];

@@ -164,7 +164,7 @@ impl System {
 
     /// Adds a gap. `pairs` holds left floor, right floor, width (m) and model of
     /// each contact level. Floors are level within [`ELEVATION_TOLERANCE`]; those that are
-    /// not act on each other as if they were, with a warning ([`System::warnings`]).
+    /// not act on each other as if they were, with a warning ([`System::unequal_floor_warnings`]).
     ///
     /// # Errors
     /// A floor that does not exist, a level between two walls, a width that is negative or

@@ -81,7 +81,8 @@ with netCDF4.Dataset(path) as data:
     assert data["building/light/displacement"].filters()["fletcher32"]
 with h5py.File(path) as f:
     def checked(name, item):
-        if isinstance(item, h5py.Dataset) and item.size > 0:
+        # HDF5 has no checksums for texts of variable length.
+        if isinstance(item, h5py.Dataset) and item.size > 0 and item.dtype.kind != "O":
             assert item.fletcher32, name
     f.visititems(checked)
     assert f.attrs["checksum"].startswith("pounding-sha256:1") and f.attrs["build"]

@@ -52,8 +52,9 @@ for engine in ("netcdf4", None):
         told = [np.char.decode(d.run_id.values) if d.run_id.dtype.kind == "S" else d.run_id.values for d in (other, ds)]
         assert np.array_equal(*told)
         xr.testing.assert_identical(other.drop_vars("run_id").load(), ds.drop_vars("run_id").load())
+# Not all of it: ncdump 4.9 crashes on the texts of fixed length in run_id.
 if shutil.which("ncdump"):
-    told = subprocess.run(["ncdump", path], capture_output=True, text=True, check=True).stdout
+    told = subprocess.run(["ncdump", "-v", "model,peak_displacement", path], capture_output=True, text=True, check=True).stdout
     assert "jankowski_2005" in told and "peak_displacement" in told
 
 with h5py.File(path) as f:

@@ -180,7 +180,7 @@ impl fmt::Display for Warning {
                 second_order,
             } => write!(
                 f,
-                "{building}, storey {storey}: the peak drift is {:.0} % of the height; beyond {:.0} % storeys are damaged or gone, and the model of small displacements{} does not hold",
+                "{building}, storey {storey}: the peak drift is {:.1} % of the height; beyond {:.0} % storeys are damaged or gone, and the model of small displacements{} does not hold",
                 100.0 * ratio,
                 100.0 * DRIFT_RATIO,
                 if *second_order {

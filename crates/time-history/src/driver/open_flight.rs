@@ -4,10 +4,22 @@ use super::engage::Open;
 use super::{Driver, Mute};
 use crate::error::TimeHistoryError;
 use crate::free_flight::{Leg, Logbook};
+use crate::system::System;
+
+/// Storeys of the largest building from which terms of tridiagonal matrices cost less than
+/// full matrices of mode shapes.
+const TALL: usize = 400;
+
+/// Whether the series with tridiagonal matrices, whose work grows with the storeys, is
+/// cheaper than exact steps of the modes, whose work grows with their square.
+fn is_cheaper_by_series(system: &System) -> bool {
+    let tallest = system.buildings().iter().map(|b| b.storeys()).max();
+    system.bands().is_some() && tallest.is_some_and(|n| n > TALL)
+}
 
 impl Driver<'_> {
     pub(super) fn ready_to_fly(mut self) -> Self {
-        if self.method.flies() {
+        if self.method.flies() && !is_cheaper_by_series(self.system) {
             self.open = Open::new(self.system, &self.options.method);
         }
         self

@@ -90,7 +90,7 @@ impl ModalSeries {
                 break;
             }
         }
-        self.onto_floors(constants, out);
+        self.write_floors(constants, out);
         let (n, end) = (out.displacement.len(), &mut self.known[1]);
         end.floors[..n].copy_from_slice(&out.displacement);
         end.floors[n..].copy_from_slice(&out.velocity);
@@ -178,7 +178,8 @@ impl ModalSeries {
         k > 3 && largest[0] < NEGLIGIBLE.0 && largest[1] < NEGLIGIBLE.1
     }
 
-    fn onto_floors(&mut self, constants: &FreeFlight, out: &mut Sums) {
+    /// Sums of the floors from those of the modes.
+    fn write_floors(&mut self, constants: &FreeFlight, out: &mut Sums) {
         let [d, v, integral, s0, s1, s2, e0, e1, e2] = &self.sums;
         let shapes = &constants.shapes;
         let ([os0, os1, os2], [oe0, oe1, oe2]) = (&mut out.start, &mut out.end);

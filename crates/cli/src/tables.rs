@@ -58,14 +58,24 @@ pub fn new_long_table(header: &[&str]) -> Table {
     table
 }
 
+/// A number with this many decimals, or by its power of ten where it is long.
+pub fn decimal(x: f64, digits: usize) -> String {
+    if x.is_finite() && x.abs() >= 1e7 {
+        format!("{x:.digits$e}")
+    } else {
+        format!("{x:.digits$}")
+    }
+}
+
 /// Value, time, and ratio to the isolated building.
 fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
     let ratio = if alone.value > 0.0 {
-        format!("x{:.2}", p.value / alone.value)
+        format!("x{}", decimal(p.value / alone.value, 2))
     } else {
         "-".to_owned()
     };
-    format!("{:.digits$} @{:.2} {ratio}", p.value * factor, p.time)
+    let value = decimal(p.value * factor, digits);
+    format!("{value} @{:.2} {ratio}", p.time)
 }
 
 fn building(record: &RunRecord<'_>, index: usize) -> String {
@@ -242,7 +252,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
                 format!("{}", b.mass()[i]),
                 format!("{:e}", b.stiffness()[i]),
                 (i + 1).to_string(),
-                format!("{:.5}", modes.period[i]),
+                decimal(modes.period[i], 5),
                 format!("{:.3}", 100.0 * modes.damping_ratio[i]),
                 format!("{:.2}", 100.0 * modes.effective_mass[i] / total),
             ]);

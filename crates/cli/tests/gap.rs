@@ -390,6 +390,43 @@ fn provisions_are_listed_with_their_status() {
     assert!(line.unwrap().contains(" R "), "{shown}");
 }
 
+/// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
+#[test]
+fn alike_buildings_need_no_sweep() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions").display().to_string();
+    let case = case
+        .unwrap()
+        .replace("\"1000 t\"", "\"25 t\"")
+        .replace("\"2215 MN/m\"", "\"3.46 MN/m\"")
+        .replace("../../ground_motions", &records);
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let call = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(["gap", "case.toml"])
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+    };
+    let output = call(&["--csv", "x.csv", "--plot", "x.svg"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(shown.contains("WIDE ENOUGH"), "{shown}");
+    assert!(shown.contains("No sweep: under no record"), "{shown}");
+    let csv = std::fs::read_to_string(folder.path().join("x.csv")).unwrap();
+    assert!(csv.starts_with("width_m,record") && csv.lines().count() == 1, "{csv}");
+    assert!(folder.path().join("x.svg").is_file());
+    let widths = json(&call(&["--json"]))["sweep"]["widths"].clone();
+    assert_eq!(widths.as_array().map(Vec::len), Some(0));
+    let output = call(&["--from", "10 mm"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("give the last width too"));
+    let swept = json(&call(&["--to", "10 mm", "--points", "2", "--json"]))["sweep"].clone();
+    assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
+}
+
 #[test]
 fn mistakes() {
     for (arguments, says) in [

@@ -272,18 +272,27 @@ pub(crate) const EXPONENT: ParameterDescriptor = ParameterDescriptor {
 };
 
 /// Damping ratio of a model of the linear class.
-pub(crate) const DAMPING_RATIO: ParameterDescriptor = optional(
-    "damping_ratio",
-    ParameterUnit::One,
-    "Damping ratio of the contact, instead of restitution",
-);
+///
+/// Above 1e4 next to nothing of the approach velocity is given back, and every tenfold
+/// takes six times the steps.
+pub(crate) const DAMPING_RATIO: ParameterDescriptor = ParameterDescriptor {
+    maximum: (1e4, true),
+    ..optional(
+        "damping_ratio",
+        ParameterUnit::One,
+        "Damping ratio of the contact, instead of restitution",
+    )
+};
 
 /// Damping factor of a model of the Hunt-Crossley class.
-pub(crate) const DAMPING_FACTOR: ParameterDescriptor = optional(
-    "damping_factor",
-    ParameterUnit::One,
-    "Dimensionless damping factor y, instead of restitution",
-);
+pub(crate) const DAMPING_FACTOR: ParameterDescriptor = ParameterDescriptor {
+    maximum: (1e6, true),
+    ..optional(
+        "damping_factor",
+        ParameterUnit::One,
+        "Dimensionless damping factor y, instead of restitution",
+    )
+};
 
 /// Friction factor of a model with dry friction.
 pub(crate) const FRICTION: ParameterDescriptor = ParameterDescriptor {

@@ -15,7 +15,8 @@ use super::systems::rebuilt;
 pub struct SweepOptions {
     /// Gap whose width varies; `None`: all gaps of the case, all with the same width.
     pub gap: Option<String>,
-    /// Smallest width (m); `None`: one step, so that the next below were zero.
+    /// Smallest width (m); `None`: one step, so that the next below were zero. If the greatest
+    /// is not given either and nothing is demanded, there is no width.
     pub from: Option<f64>,
     /// Greatest width (m); `None`: 1.05 of the greatest demand of the gaps that vary.
     pub to: Option<f64>,
@@ -86,7 +87,7 @@ pub struct WorstWidth {
 pub struct GapSweep {
     /// Gap whose width varies; `None`: all.
     pub gap: Option<String>,
-    /// Widths (m), ascending.
+    /// Widths (m), ascending; none where no gap that varies demands any.
     pub widths: Vec<f64>,
     /// A run for each width and record, or why it failed.
     pub runs: Vec<Vec<Result<SweepRun, String>>>,
@@ -161,9 +162,23 @@ pub(crate) fn sweep(
     threads: usize,
     progress: Progress<'_>,
 ) -> Result<GapSweep, CheckError> {
-    let to = match asked.to {
-        Some(to) => to,
-        None => widest(demands, asked.from.unwrap_or(0.0), gap)?,
+    let to = match (asked.to, widest(demands, gap)) {
+        (Some(to), _) => to,
+        (None, to) if to > asked.from.unwrap_or(0.0) => to,
+        (None, 0.0) if asked.from.is_none() => {
+            return Ok(GapSweep {
+                gap: asked.gap.clone(),
+                widths: Vec::new(),
+                runs: Vec::new(),
+            });
+        }
+        (None, _) => {
+            return Err(CheckError::Option {
+                option: "first width of the sweep",
+                value: asked.from.unwrap_or(0.0),
+                reason: "it is not less than what any record demands: give the last width too",
+            });
+        }
     };
     let from = asked.from.unwrap_or(to / asked.points as f64);
     let steps = (asked.points - 1) as f64;
@@ -184,20 +199,12 @@ pub(crate) fn sweep(
     })
 }
 
-/// A little more than the greatest demand.
-fn widest(demands: &[RecordDemand], from: f64, gap: Option<usize>) -> Result<f64, CheckError> {
+/// A little more than the greatest demand (m).
+fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
     let peaks = varied.flat_map(|(_, levels)| levels);
-    let widest = 1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value));
-    if widest > from {
-        return Ok(widest);
-    }
-    Err(CheckError::Option {
-        option: "first width of the sweep",
-        value: from,
-        reason: "it is not less than what any record demands: give the last width too",
-    })
+    1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value))
 }
 
 fn one(

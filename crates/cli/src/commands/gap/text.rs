@@ -6,7 +6,7 @@ use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
 
-use crate::tables::{new_table, warning_lines};
+use crate::tables::{decimal, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
 const LISTED: usize = 6;
@@ -280,7 +280,7 @@ fn maximum(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> St
     let top = values.fold((0, f64::NEG_INFINITY), |best, (i, x)| {
         if x > best.1 { (i, x) } else { best }
     });
-    format!("x{:.3} (storey {})", top.1, top.0 + 1)
+    format!("x{} (storey {})", decimal(top.1, 3), top.0 + 1)
 }
 
 const JUMPS: &str = "Rigid impacts are jumps of the velocity: accelerations leave them out, here and in the sweep.\n";
@@ -353,7 +353,7 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
                 Some((*name, top))
             });
             let top = tops.max_by(|a, b| a.1.total_cmp(&b.1));
-            top.map_or("-".to_owned(), |(name, x)| format!("x{x:.3} ({name})"))
+            top.map_or("-".to_owned(), |(name, x)| format!("x{} ({name})", decimal(x, 3)))
         }));
         row.push("-".to_owned());
         row
@@ -377,6 +377,9 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     let Some(first) = check.records.first() else {
         return String::new();
     };
+    if sweep.widths.is_empty() {
+        return "\nNo sweep: under no record do the buildings approach each other without contact; --from and --to set its widths\n".to_owned();
+    }
     let buildings: Vec<&str> = first.isolated.iter().map(|b| b.name.as_str()).collect();
     let mut header = vec!["width (mm)".to_owned()];
     for name in &buildings {
@@ -389,7 +392,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     for (i, width) in sweep.widths.iter().enumerate().step_by(every) {
         let mut row = vec![format!("{:.2}", width * 1e3)];
         for building in 0..buildings.len() {
-            let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.3}"));
+            let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| decimal(x, 3));
             row.extend(QUANTITIES.map(|(_, q)| cell(over_records(sweep, i, building, q))));
         }
         let impacts = sweep.runs[i].iter().flatten().map(|r| r.impacts).max();
@@ -429,9 +432,9 @@ fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
                 continue;
             }
             text.push_str(&format!(
-                "{name}: {quantity} worst at {:.2} mm: x{:.3} at storey {} under {}\n",
+                "{name}: {quantity} worst at {:.2} mm: x{} at storey {} under {}\n",
                 w.width * 1e3,
-                w.amplification,
+                decimal(w.amplification, 3),
                 w.storey + 1,
                 check.records[w.record].name
             ));

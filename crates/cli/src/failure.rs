@@ -1,10 +1,11 @@
 //! Failures as the user sees them, with exit codes.
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
-use pounding_case::CaseError;
+use pounding_case::{Case, CaseError};
 use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
@@ -125,6 +126,31 @@ impl Failure {
         Self::inputs(error.each().map(|e| located(e, source)).collect())
     }
 
+    /// An error of assembly or run of a case: with its line where it stands in one, else with
+    /// the name of the file.
+    pub fn of_case(error: TimeHistoryError, case: &Case) -> Self {
+        let placed = matches!(
+            error,
+            TimeHistoryError::Case(_) | TimeHistoryError::GroundMotion(_)
+        );
+        let failure = Self::time_history(error, &case.source);
+        if placed {
+            failure
+        } else {
+            failure.about(&case.file)
+        }
+    }
+
+    /// The same, said of a file.
+    pub fn about(self, file: &Path) -> Self {
+        let say = |report: Report| report.wrap_err(file.display().to_string());
+        match self {
+            Self::Input(report) => Self::Input(say(report)),
+            Self::Computation(report) => Self::Computation(say(report)),
+            other => other,
+        }
+    }
+
     /// An error of assembly, run or result file.
     pub fn time_history(error: TimeHistoryError, source: &str) -> Self {
         let help = error.help();
@@ -137,6 +163,7 @@ impl Failure {
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::NoClearance { .. }
+            | TimeHistoryError::ContactTooShort { .. }
             | TimeHistoryError::TooManySteps { .. }
             | TimeHistoryError::RecordingTooLarge { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),

@@ -416,7 +416,10 @@ fn alike_buildings_need_no_sweep() {
     assert!(shown.contains("WIDE ENOUGH"), "{shown}");
     assert!(shown.contains("No sweep: under no record"), "{shown}");
     let csv = std::fs::read_to_string(folder.path().join("x.csv")).unwrap();
-    assert!(csv.starts_with("width_m,record") && csv.lines().count() == 1, "{csv}");
+    assert!(
+        csv.starts_with("width_m,record") && csv.lines().count() == 1,
+        "{csv}"
+    );
     assert!(folder.path().join("x.svg").is_file());
     let widths = json(&call(&["--json"]))["sweep"]["widths"].clone();
     assert_eq!(widths.as_array().map(Vec::len), Some(0));

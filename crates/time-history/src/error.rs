@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepLimit, short};
+use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short};
+use crate::warnings::APPROACH_VELOCITY;
 
 /// Failure of an assembly, a run, or a result file.
 #[derive(Debug, thiserror::Error)]
@@ -131,6 +132,14 @@ pub enum TimeHistoryError {
         /// Storey height (m).
         height: f64,
     },
+    /// A contact too short for the digits of the time.
+    #[error(
+        "gap {gap}: its impact model stops a floor with {APPROACH_VELOCITY} m/s within {SHORTEST_CONTACT:e} s, which the digits of the time do not tell apart"
+    )]
+    ContactTooShort {
+        /// Name of the gap.
+        gap: String,
+    },
     /// Rigid floors that no impact could move: contact forces between them and the walls
     /// would not be unique.
     #[error(
@@ -219,6 +228,9 @@ impl TimeHistoryError {
             }
             Self::NoClearance { .. } | Self::Wedged { .. } => {
                 "rigid floors without clearance between two walls cannot move: give a gap a width, or its model a stiffness"
+            }
+            Self::ContactTooShort { .. } => {
+                "correct the stiffness of the impact model and the masses beside it (units?), or take the rigid model \"stereomechanical\""
             }
             Self::CompliantModel { .. } => {
                 "use model = \"stereomechanical\" in every gap, or method = \"adaptive\""

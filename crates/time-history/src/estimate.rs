@@ -3,11 +3,15 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use pounding_gap_element::{Memory, Phase};
+
 use crate::assemble::Assembly;
+use crate::elements::Element;
 use crate::error::TimeHistoryError;
 use crate::options::MethodChoice;
 use crate::rates::fastest_rate;
 use crate::system::System;
+use crate::warnings::APPROACH_VELOCITY;
 
 /// Steps of a run at most: more than a day at a microsecond each.
 pub const MAXIMUM_STEPS: f64 = 1.0e11;
@@ -25,6 +29,10 @@ const STABLE: f64 = 6.0;
 /// Duration (s) longer than that of any ground motion: eleven days.
 const LONGEST_DURATION: f64 = 1.0e6;
 
+/// Duration of a contact (s) at least: what follows times of some ten
+/// seconds with 16 digits loses the energy of shorter ones.
+pub(crate) const SHORTEST_CONTACT: f64 = 1.0e-12;
+
 /// What makes the steps of a run so many.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -40,6 +48,13 @@ pub enum StepLimit {
         /// Name of the building that has it.
         building: String,
         /// Period (s).
+        period: f64,
+    },
+    /// The shortest period (s) of a floor on a storey or link that follows a law.
+    Element {
+        /// The storey or link.
+        place: String,
+        /// Period (s) with the law's initial stiffness.
         period: f64,
     },
 }
@@ -62,6 +77,9 @@ impl fmt::Display for StepLimit {
                     "the shortest period of building {building} is {period:.3e} s"
                 )
             }
+            Self::Element { place, period } => {
+                write!(f, "{place} gives its floor a period of {period:.3e} s")
+            }
         }
     }
 }
@@ -73,6 +91,9 @@ impl StepLimit {
             Self::Duration(_) => "shorten `duration` in [analysis]",
             Self::GroundMotion(_) => "shorten `duration`, or correct the time step of the record",
             Self::Step(_) => "raise `step` or shorten `duration` in [analysis]",
+            Self::Element { .. } => {
+                "correct the stiffness of the law and the masses beside it (units?); else shorten `duration`"
+            }
             Self::Period { .. } => {
                 "correct masses, stiffnesses and damping (units?), or join storeys that are much lighter or stiffer than their neighbours; else shorten `duration`"
             }
@@ -108,7 +129,13 @@ impl StepEstimate {
         };
         let (step, limit) = match *method {
             MethodChoice::EventDriven { .. } if linear => by_rate(SERIES),
-            MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => by_rate(STABLE),
+            MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
+                let (buildings, elements) = (by_rate(STABLE), by_element(system));
+                match elements {
+                    Some(elements) if elements.0 < buildings.0 => elements,
+                    _ => buildings,
+                }
+            }
             MethodChoice::Newmark { step, .. }
             | MethodChoice::HhtAlpha { step, .. }
             | MethodChoice::RungeKutta4 { step }
@@ -139,6 +166,46 @@ impl StepEstimate {
             limit: self.limit,
         })
     }
+}
+
+/// Stable steps of the pair of order 8 on the stiffest storey or link that follows a law.
+fn by_element(system: &System) -> Option<(f64, StepLimit)> {
+    let rate = |element: &Element| {
+        let added = (element.law.initial_stiffness() - element.carried).max(0.0);
+        let ends = [element.far, element.near].into_iter().flatten();
+        ends.map(|i| added / system.mass()[i]).sum::<f64>().sqrt()
+    };
+    let rates = system.elements().iter().map(rate).enumerate();
+    let (index, rate) = rates.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let limit = StepLimit::Element {
+        place: system.place_of_element(index),
+        period: TAU / rate,
+    };
+    (rate > 0.0).then(|| (STABLE / rate, limit))
+}
+
+/// Refuses contacts that round-off of the time would lose: those that would stop a floor
+/// with [`APPROACH_VELOCITY`] within [`SHORTEST_CONTACT`].
+pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
+    let gaps = system.gaps().iter();
+    for (gap, level) in gaps.flat_map(|g| system.levels_of(g).iter().map(move |l| (g, l))) {
+        if level.model.rigid_restitution().is_some() {
+            continue;
+        }
+        let (velocity, mass) = (APPROACH_VELOCITY, level.effective_mass);
+        let collision = level.model.begin(velocity, mass);
+        let (memory, depth) = (Memory::default(), velocity * SHORTEST_CONTACT);
+        let force = level
+            .model
+            .force(&collision, &memory, Phase::Approach, depth, velocity)
+            .value;
+        if force * SHORTEST_CONTACT > mass * velocity {
+            return Err(TimeHistoryError::ContactTooShort {
+                gap: gap.name.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Three significant digits, without zeros at the end.

@@ -2,7 +2,7 @@
 
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
-use crate::estimate::StepEstimate;
+use crate::estimate::{StepEstimate, contacts_last};
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
@@ -163,6 +163,7 @@ impl RunOptions {
             }
         }
         rigid_rows_have_clearance(system)?;
+        contacts_last(system)?;
         if let Some(tolerance) = self.energy_tolerance {
             positive("energy_tolerance", tolerance)?;
         }

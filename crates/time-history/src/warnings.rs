@@ -22,7 +22,7 @@ const DRIFT_RATIO: f64 = 0.1;
 /// Steps in a contact with which fixed steps follow it to a per cent or so.
 const STEPS_IN_CONTACT: f64 = 20.0;
 /// Approach velocity (m/s) at which a contact is looked at before the run.
-const APPROACH_VELOCITY: f64 = 0.5;
+pub(crate) const APPROACH_VELOCITY: f64 = 0.5;
 /// A first storey with at most this part of the stiffness above it, in which at least
 /// that part of the roof's first-mode displacement happens, is taken for an isolator.
 const ISOLATOR: (f64, f64) = (0.2, 0.7);

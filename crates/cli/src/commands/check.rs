@@ -14,7 +14,7 @@ use crate::tables;
 /// Validates a case, reads its record, and prints both in SI units.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let case = read_case(path)?;
-    let failed = |e| Failure::time_history(e, &case.source);
+    let failed = |e| Failure::of_case(e, &case);
     let assembly = assemble(&case).map_err(failed)?;
     assembly.check_recording().map_err(failed)?;
     if !as_json {

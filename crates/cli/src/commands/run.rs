@@ -19,7 +19,7 @@ use crate::{json, plot, tables};
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case)?;
-    let failed = |e| Failure::time_history(e, &case.source);
+    let failed = |e| Failure::of_case(e, &case);
     let output = (!arguments.no_output).then(|| output_path(arguments));
     if let (Some(path), None) = (&output, &arguments.output) {
         files.writes("result", path);

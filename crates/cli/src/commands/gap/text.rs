@@ -353,7 +353,9 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
                 Some((*name, top))
             });
             let top = tops.max_by(|a, b| a.1.total_cmp(&b.1));
-            top.map_or("-".to_owned(), |(name, x)| format!("x{} ({name})", decimal(x, 3)))
+            top.map_or("-".to_owned(), |(name, x)| {
+                format!("x{} ({name})", decimal(x, 3))
+            })
         }));
         row.push("-".to_owned());
         row

@@ -105,7 +105,7 @@ fn shown(
     };
     let series = chosen
         .into_iter()
-        .map(|series| one(series, options, measured))
+        .map(|series| one(file, series, options, measured))
         .collect::<Result<_, _>>()?;
     Ok(ShownFile {
         file: file.display().to_string(),
@@ -113,7 +113,12 @@ fn shown(
     })
 }
 
-fn one(series: Series, options: &ReadOptions, measured: MeasureOptions) -> Result<Shown, Failure> {
+fn one(
+    file: &Path,
+    series: Series,
+    options: &ReadOptions,
+    measured: MeasureOptions,
+) -> Result<Shown, Failure> {
     if series.quantity != Quantity::Acceleration {
         return Ok(Shown {
             series,
@@ -134,7 +139,8 @@ fn one(series: Series, options: &ReadOptions, measured: MeasureOptions) -> Resul
     };
     // A record of zeros has no durations.
     let measures = if record.peak().value > 0.0 {
-        Some(IntensityMeasures::of(&record, measured)?)
+        let of = IntensityMeasures::of(&record, measured);
+        Some(of.map_err(|e| Failure::from(e).about(file))?)
     } else {
         None
     };

@@ -21,6 +21,10 @@ use rand_distr::{Distribution, StandardUniform};
 const SYSTEMS: u64 = 60;
 const DURATION: f64 = 0.6;
 
+/// Systems that came out differently once: terms that a longer series had left hid the end of
+/// a contact (3957), and round-off let phases change back and forth without progress.
+const ONCE_DIFFERENT: [u64; 3] = [2139, 2512, 3957];
+
 /// Random numbers of one system.
 struct Chance(ChaCha20Rng);
 
@@ -235,7 +239,8 @@ fn counts_do_not_depend_on_the_method() {
         number("POUNDING_SYSTEMS", SYSTEMS),
     );
     let (mut impacts, mut differing) = (0, Vec::new());
-    for seed in first..first + count {
+    let seeds = (first..first + count).chain(ONCE_DIFFERENT);
+    for seed in seeds {
         let (counted, found) = differences(seed);
         impacts += counted;
         for text in &found {

@@ -304,7 +304,8 @@ impl Series {
     ) -> usize {
         let is_noise = |k: usize, noise: f64| {
             let term = terms[k].abs();
-            !(term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..]))
+            // Beyond the last stands what longer series left.
+            !(term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..=self.last]))
         };
         // Most start clear of zero.
         if !is_noise(0, CLEAR_OF_ZERO) {

@@ -30,10 +30,10 @@ struct Header {
 }
 
 pub(crate) fn matches(source: &Source<'_>) -> bool {
-    source.head().take(15).any(|l| {
-        l.lower()
-            .contains("archivo estandar de aceleracion")
-    })
+    source
+        .head()
+        .take(15)
+        .any(|l| l.lower().contains("archivo estandar de aceleracion"))
 }
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -67,7 +67,11 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             return Err(source.error(
                 line.number,
                 line.bytes.len(),
-                format!("{} numbers where there must be {}", row.len(), layout.per_line),
+                format!(
+                    "{} numbers where there must be {}",
+                    row.len(),
+                    layout.per_line
+                ),
                 "the file is damaged or truncated: get it again",
             ));
         }
@@ -88,7 +92,9 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
 impl Header {
     /// Entry `k` of a list, unless there is one for all channels.
     fn entry(list: &[String], k: usize) -> Option<(f64, f64)> {
-        let text = list.get(k).or_else(|| list.first().filter(|_| list.len() == 1))?;
+        let text = list
+            .get(k)
+            .or_else(|| list.first().filter(|_| list.len() == 1))?;
         number::first_in(text)
     }
 
@@ -118,10 +124,7 @@ impl Header {
 }
 
 /// Reads the header; `lines` are at the first row afterwards.
-fn header<'a>(
-    source: &Source<'a>,
-    lines: &mut Lines<'a>,
-) -> Result<Header, GroundMotionError> {
+fn header<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Header, GroundMotionError> {
     let mut header = Header::default();
     let mut announced = false;
     while let Some(line) = lines.peek() {
@@ -147,10 +150,12 @@ fn header<'a>(
 /// A row of numbers: not a ruler, not channels' names.
 fn is_row(line: Line<'_>) -> bool {
     let mut fields = line.fields().peekable();
-    fields.peek().is_some() && line.bytes.contains(&b'.') && fields.all(|(_, f)| {
-        f.iter()
-            .all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'*' | b'E' | b'e'))
-    })
+    fields.peek().is_some()
+        && line.bytes.contains(&b'.')
+        && fields.all(|(_, f)| {
+            f.iter()
+                .all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'*' | b'E' | b'e'))
+        })
 }
 
 impl Header {

@@ -78,7 +78,11 @@ fn channel(
         _ => Processing::Unstated,
     };
     draft.component = component(&text, &integers);
-    draft.title = format!("{}; {}", text[1].text().trim(), text[4 % text.len()].columns(40, 80));
+    draft.title = format!(
+        "{}; {}",
+        text[1].text().trim(),
+        text[4 % text.len()].columns(40, 80)
+    );
     draft.corners = (reals.positive(54), reals.positive(57));
     draft.start_time = text
         .iter()
@@ -211,7 +215,14 @@ fn component(text: &[Line<'_>], integers: &HeaderNumbers) -> String {
             .iter()
             .map(Line::text)
             .find(|l| l.starts_with("Sta Chan"))
-            .and_then(|l| l.get(8..)?.split_once(':')?.1.split('(').next().map(str::to_owned))
+            .and_then(|l| {
+                l.get(8..)?
+                    .split_once(':')?
+                    .1
+                    .split('(')
+                    .next()
+                    .map(str::to_owned)
+            })
             .unwrap_or_default()
             .trim()
             .to_owned(),

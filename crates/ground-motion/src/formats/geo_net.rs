@@ -56,10 +56,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     Ok(series)
 }
 
-fn header<'a>(
-    source: &Source<'a>,
-    lines: &mut Lines<'a>,
-) -> Result<Header<'a>, GroundMotionError> {
+fn header<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Header<'a>, GroundMotionError> {
     while lines.peek().is_some_and(|l| l.is_blank()) {
         lines.next();
     }
@@ -111,7 +108,11 @@ fn blocks(
         .into_iter()
         .filter_map(|(q, unit, k)| Some((q, DraftUnit::Stated(unit), header.integers.count(k)?)))
         .collect();
-    if found.is_empty() { Err(none()) } else { Ok(found) }
+    if found.is_empty() {
+        Err(none())
+    } else {
+        Ok(found)
+    }
 }
 
 /// `Raw readings in units of 1.00 mm/s/s`.
@@ -190,9 +191,9 @@ fn block(
     if let (Some(step), Some((text, digit))) = (step, printed)
         && (step - text).abs() > digit
     {
-        draft
-            .warnings
-            .push(format!("the header says a step of {step} s, its text {text} s"));
+        draft.warnings.push(format!(
+            "the header says a step of {step} s, its text {text} s"
+        ));
     }
     if pad > 0.0 && quantity == Quantity::Acceleration {
         draft.warnings.push(format!(

@@ -138,7 +138,8 @@ impl Header {
         let stated = self.units.iter().find(|u| u.quantity == quantity).copied();
         // The list names acceleration and velocity; displacement follows them.
         let metres = self.units.contains(&SeriesUnit::M_S);
-        let unit = stated.or((quantity == Quantity::Displacement && metres).then_some(SeriesUnit::M));
+        let unit =
+            stated.or((quantity == Quantity::Displacement && metres).then_some(SeriesUnit::M));
         let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         let mut draft = if raw && self.step.is_none() {
             // Uneven: each value is followed by its time.

@@ -174,9 +174,9 @@ impl Header {
 
 /// `3920(gal)/6182761` in gal a count.
 fn scale(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<f64, GroundMotionError> {
-    let parts = value.split_once('/').and_then(|(above, below)| {
-        Some((number::first_in(above)?.0, number::first_in(below)?.0))
-    });
+    let parts = value
+        .split_once('/')
+        .and_then(|(above, below)| Some((number::first_in(above)?.0, number::first_in(below)?.0)));
     match parts {
         Some((above, below)) if above > 0.0 && below > 0.0 => Ok(above / below),
         _ => Err(source.error(

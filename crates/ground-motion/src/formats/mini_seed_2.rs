@@ -34,7 +34,9 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     for channel in records.chunk_by(|a, b| a.name == b.name) {
         let name = channel[0].label();
         if channel[0].is_velocity() {
-            source.warn(&format!("channel {name} records velocity and was passed over"));
+            source.warn(&format!(
+                "channel {name} records velocity and was passed over"
+            ));
             velocity = Some(name);
             continue;
         }

@@ -124,9 +124,7 @@ fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
         let step = after("dt").and_then(|t| number::parse(t.as_bytes()).ok());
         return (count.parse().ok(), step);
     }
-    let mut numbers = line
-        .fields()
-        .filter_map(|(_, f)| number::parse(f).ok());
+    let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
     let count = numbers
         .next()
         .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));
@@ -143,9 +141,7 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             .or_else(|| after.strip_prefix("are"))
             .or_else(|| after.strip_prefix(':'))?;
         let word = word.trim_start_matches([' ', '(', ':']);
-        let end = word
-            .find([' ', ',', ')', '\t', ';'])
-            .unwrap_or(word.len());
+        let end = word.find([' ', ',', ')', '\t', ';']).unwrap_or(word.len());
         SeriesUnit::parse(&word[..end])
     });
     if let Some(unit) = stated {

@@ -80,10 +80,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
 }
 
 /// Reads numbers with decimal points.
-fn numbers(
-    source: &Source<'_>,
-    header: Option<&Header>,
-) -> Result<Vec<Series>, GroundMotionError> {
+fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(text) = &source.options.layout {
         if let Some(layout) = Layout::parse(text) {
             return fixed(source, layout);
@@ -94,7 +91,12 @@ fn numbers(
             return wrapped(source, &survey, None);
         }
         let survey = Survey::new(source, true)?;
-        return columns(source, &survey, &Columns::new(names, header), &Keys::default());
+        return columns(
+            source,
+            &survey,
+            &Columns::new(names, header),
+            &Keys::default(),
+        );
     }
     if let Some(header) = header {
         let survey = Survey::new(source, true)?;
@@ -104,7 +106,12 @@ fn numbers(
     match survey.arrangement(source)? {
         Arrangement::Wrapped => wrapped(source, &survey, None),
         Arrangement::CountAndStep(count, step) => wrapped(source, &survey, Some((count, step))),
-        Arrangement::Columns(names) => columns(source, &survey, &Columns::new(names, None), &Keys::default()),
+        Arrangement::Columns(names) => columns(
+            source,
+            &survey,
+            &Columns::new(names, None),
+            &Keys::default(),
+        ),
         Arrangement::Cards => cards(source, &survey),
     }
 }
@@ -125,7 +132,11 @@ impl Columns {
     /// many columns.
     fn new(names: Vec<String>, header: Option<&Header>) -> Self {
         let roles = header.map_or(&[][..], |h| &h.columns);
-        let roles = if roles.len() == names.len() { roles } else { &[] };
+        let roles = if roles.len() == names.len() {
+            roles
+        } else {
+            &[]
+        };
         let mut columns = Self::of_roles(roles);
         columns.units.resize(names.len(), None);
         columns.pairs = names.len() == 2 && names[0] == "t" && header.is_none();
@@ -134,7 +145,11 @@ impl Columns {
     }
 
     fn of_roles(roles: &[Role]) -> Self {
-        let several = roles.iter().filter(|r| matches!(r, Role::Acceleration(..))).count() > 1;
+        let several = roles
+            .iter()
+            .filter(|r| matches!(r, Role::Acceleration(..)))
+            .count()
+            > 1;
         let mut columns = Self {
             names: Vec::new(),
             units: Vec::new(),
@@ -152,7 +167,11 @@ impl Columns {
                     let taken = ["t", "v", "d"].contains(&name.as_str())
                         || OTHERS.contains(&name.as_str())
                         || columns.names.contains(name);
-                    let name = if taken { format!("column_{}", k + 1) } else { name.clone() };
+                    let name = if taken {
+                        format!("column_{}", k + 1)
+                    } else {
+                        name.clone()
+                    };
                     (name, *unit)
                 }
                 Role::Acceleration(_, unit) => ("a".to_owned(), *unit),

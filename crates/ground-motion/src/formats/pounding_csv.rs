@@ -1,7 +1,7 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
-use crate::draft::{Draft, DraftUnit, Times};
 use crate::accelerogram::Origin;
+use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -61,7 +61,12 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let step = keys.step.map(|s| s.1);
     let first = lines.number() + 1;
     let mut times = TimeColumn::with_capacity(0);
-    let samples = rows(source, &mut lines, step.or(source.options.time_step), &mut times)?;
+    let samples = rows(
+        source,
+        &mut lines,
+        step.or(source.options.time_step),
+        &mut times,
+    )?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Stated(SeriesUnit::from(unit)),
@@ -120,7 +125,10 @@ impl Keys {
                 Err(source.error(
                     line,
                     0,
-                    format!("dt = {stated} s, but the times are {} s apart", bound(found)),
+                    format!(
+                        "dt = {stated} s, but the times are {} s apart",
+                        bound(found)
+                    ),
                     "make both the same",
                 ))
             }

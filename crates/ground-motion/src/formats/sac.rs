@@ -55,7 +55,11 @@ impl Words<'_> {
     fn text(&self, from: usize) -> String {
         let field = self.bytes.get(from..from + 8).unwrap_or(&[]);
         let text = latin_1(field).trim().to_owned();
-        if text.starts_with("-12345") { String::new() } else { text }
+        if text.starts_with("-12345") {
+            String::new()
+        } else {
+            text
+        }
     }
 }
 

@@ -26,7 +26,11 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
         && title.starts_with(|c: char| c.is_ascii_uppercase())
         && title.chars().take(4).all(|c| c.is_ascii_uppercase());
     // A comment may stand before plain columns, too: the null value settles it.
-    let mut null = || lines.nth(TEXT_LINES - 2).is_some_and(|l| l.columns(0, 10) == "-32768");
+    let mut null = || {
+        lines
+            .nth(TEXT_LINES - 2)
+            .is_some_and(|l| l.columns(0, 10) == "-32768")
+    };
     second.bytes.starts_with(b"*") && (known || kind == "*" && null())
 }
 

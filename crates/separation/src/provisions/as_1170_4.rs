@@ -45,6 +45,9 @@ mod tests {
     fn by_hand() {
         let own = |h| BOUNDARY.boundary(&Structure::default(), h, &Site::default());
         assert!((own(20.0).unwrap().width - 0.2).abs() < 1.0e-12);
-        assert!(matches!(own(15.0), Err(SeparationError::NotApplicable { .. })));
+        assert!(matches!(
+            own(15.0),
+            Err(SeparationError::NotApplicable { .. })
+        ));
     }
 }

@@ -23,9 +23,7 @@ fn maximum_displacement(
             let d = working.note(format!("d({})", structure.name), d, "m");
             d / working.importance(structure)?
         }
-        None => {
-            working.displacement(structure)? / working.response_modification(structure)?
-        }
+        None => working.displacement(structure)? / working.response_modification(structure)?,
     };
     Ok(amplification * reduced)
 }
@@ -187,7 +185,12 @@ mod tests {
             ..Situation::default()
         };
         let families = [
-            "asce_7_10", "asce_7_16", "asce_7_22", "ibc_2009", "kds", "sni_1726_2019",
+            "asce_7_10",
+            "asce_7_16",
+            "asce_7_22",
+            "ibc_2009",
+            "kds",
+            "sni_1726_2019",
         ];
         for family in families {
             let card = |place: &str| find(&format!("{family}_{place}")).unwrap();

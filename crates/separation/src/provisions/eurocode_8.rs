@@ -23,7 +23,8 @@ fn boundary(
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
     let same_owner = working.need(situation.site.same_owner, Input::SameOwner, "")?;
     if !same_owner {
-        let reason = "across a property line each building keeps its own distance: see the boundary rule";
+        let reason =
+            "across a property line each building keeps its own distance: see the boundary rule";
         return Err(working.not_applicable(reason));
     }
     let left = working.displacement(&situation.left)?;
@@ -48,11 +49,7 @@ pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static FIRST_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "en_1998_1_2004_between",
     formula: "sqrt(ds1^2 + ds2^2), times 0.7 where floors are aligned (ds = qd de = u)",
-    inputs: &[
-        Input::Displacement,
-        Input::FloorsAligned,
-        Input::SameOwner,
-    ],
+    inputs: &[Input::Displacement, Input::FloorsAligned, Input::SameOwner],
     rule: Rule::Between(between),
     ..FIRST_BOUNDARY
 };

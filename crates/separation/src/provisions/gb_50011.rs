@@ -2,7 +2,7 @@
 
 use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
 use crate::error::SeparationError;
-use crate::inputs::{Input, Situation, Structure, StructuralSystem};
+use crate::inputs::{Input, Situation, StructuralSystem, Structure};
 use crate::working::Working;
 
 /// Width (m) for frames: 100 mm up to 15 m, 20 mm more for every further step, begun

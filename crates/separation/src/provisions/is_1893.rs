@@ -20,11 +20,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     elastic_displacement_factor: Some("R"),
     formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
-    inputs: &[
-        Input::Displacement,
-        Input::Importance,
-        Input::FloorsAligned,
-    ],
+    inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
     status: Status::FromMemory("the formula; that the clause exists was seen"),
     remarks: &[],
     rule: Rule::Between(sum),

@@ -2,7 +2,7 @@
 
 use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
 use crate::error::SeparationError;
-use crate::inputs::{Input, Situation, Structure, StructuralSystem};
+use crate::inputs::{Input, Situation, StructuralSystem, Structure};
 use crate::working::Working;
 
 /// Coefficient at which the table holds.

@@ -43,11 +43,7 @@ fn boundary_simplified(
 }
 
 /// Half where both are alike: equal height, kind of structure and floors.
-fn halved(
-    working: &mut Working,
-    situation: &Situation,
-    sum: f64,
-) -> Result<f64, SeparationError> {
+fn halved(working: &mut Working, situation: &Situation, sum: f64) -> Result<f64, SeparationError> {
     let Situation {
         left, right, site, ..
     } = situation;
@@ -67,8 +63,8 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
         elevation,
         site,
     } = situation;
-    let sum = boundary(working, left, *elevation, site)?
-        + boundary(working, right, *elevation, site)?;
+    let sum =
+        boundary(working, left, *elevation, site)? + boundary(working, right, *elevation, site)?;
     halved(working, situation, sum)
 }
 

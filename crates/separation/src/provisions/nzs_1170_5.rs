@@ -35,9 +35,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nzs_1170_5_between",
     formula: "u1 + u2",
-    remarks: &[
-        "For deflections of the ultimate limit state; no relief by a square root.",
-    ],
+    remarks: &["For deflections of the ultimate limit state; no relief by a square root."],
     rule: Rule::Between(between),
     ..BOUNDARY
 };

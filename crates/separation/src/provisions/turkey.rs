@@ -69,11 +69,7 @@ pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     clause: "2.10.3",
     elastic_displacement_factor: Some("R / 4 or R / 2"),
     formula: "alpha (d1 + d2), alpha = R / 4 where floors are aligned, else R / 2 (R d = I u)",
-    inputs: &[
-        Input::Displacement,
-        Input::Importance,
-        Input::FloorsAligned,
-    ],
+    inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
     status: Status::FromMemory("the clause; the sum is the safe reading of it"),
     remarks: &["Each building's own R goes with its displacement."],
     rule: Rule::Between(tdy_2007),

@@ -87,7 +87,10 @@ mod tests {
             right: structure(0.06),
             ..Situation::default()
         };
-        for (own, between) in [(&UBC_BOUNDARY, &UBC_BETWEEN), (&NSCP_BOUNDARY, &NSCP_BETWEEN)] {
+        for (own, between) in [
+            (&UBC_BOUNDARY, &UBC_BETWEEN),
+            (&NSCP_BOUNDARY, &NSCP_BETWEEN),
+        ] {
             let site = Site::default();
             let width = own.boundary(&situation.left, 9.0, &site).unwrap().width;
             assert!((width - 0.056).abs() < 1.0e-12);

@@ -117,13 +117,19 @@ impl Record {
             .map(|big| Numbers { bytes, big })
             .find(Numbers::plausible);
         let Some(numbers) = order else {
-            return Err(error(20, "the record's year and day are not a date".to_owned()));
+            return Err(error(
+                20,
+                "the record's year and day are not a date".to_owned(),
+            ));
         };
         let blockettes = blockettes(source, at, &numbers)?;
         if blockettes.length > bytes.len() {
             return Err(error(
                 bytes.len(),
-                format!("the file ends inside a record of {} bytes", blockettes.length),
+                format!(
+                    "the file ends inside a record of {} bytes",
+                    blockettes.length
+                ),
             ));
         }
         let nominal = rate(f64::from(numbers.signed(32)), f64::from(numbers.signed(34)));
@@ -156,7 +162,13 @@ impl Record {
     /// Network, station, location and channel.
     pub(super) fn label(&self) -> String {
         let part = |from: usize, to: usize| latin_1(&self.name[from..to]).trim().to_owned();
-        format!("{}.{}.{}.{}", part(10, 12), part(0, 5), part(5, 7), part(7, 10))
+        format!(
+            "{}.{}.{}.{}",
+            part(10, 12),
+            part(0, 5),
+            part(5, 7),
+            part(7, 10)
+        )
     }
 
     pub(super) fn channel(&self) -> String {
@@ -214,7 +226,11 @@ impl Record {
 fn plain(field: &[u8], big: bool, encoding: u8) -> f64 {
     let mut bits = 0_u64;
     for k in 0..field.len() {
-        let byte = if big { field[k] } else { field[field.len() - 1 - k] };
+        let byte = if big {
+            field[k]
+        } else {
+            field[field.len() - 1 - k]
+        };
         bits = bits << 8 | u64::from(byte);
     }
     match encoding {

@@ -64,7 +64,10 @@ pub(super) fn decode(
             let at = frame * FRAME + 4 * k;
             let packed = word(at);
             let Some((bits, number)) = packing(version, code, packed) else {
-                return Err((at, format!("Steim-{version} has no packing of code {code} here")));
+                return Err((
+                    at,
+                    format!("Steim-{version} has no packing of code {code} here"),
+                ));
             };
             let packed = in_file_order(packed, bits, big);
             for i in (0..number).rev() {

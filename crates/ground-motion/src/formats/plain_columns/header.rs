@@ -30,7 +30,15 @@ pub(super) struct Header {
 
 /// Bytes that a header may have: a row of numbers may be the whole file.
 const LONGEST: usize = 4000;
-const TIME: [&str; 7] = ["t", "time", "times", "elapsed time", "zeit", "temps", "tiempo"];
+const TIME: [&str; 7] = [
+    "t",
+    "time",
+    "times",
+    "elapsed time",
+    "zeit",
+    "temps",
+    "tiempo",
+];
 const ACCELERATION: [&str; 9] = [
     "a",
     "ag",
@@ -43,7 +51,14 @@ const ACCELERATION: [&str; 9] = [
     "ground accel",
 ];
 const MOTION: [&str; 8] = [
-    "v", "vel", "velocity", "ground velocity", "d", "disp", "displacement", "ground displacement",
+    "v",
+    "vel",
+    "velocity",
+    "ground velocity",
+    "d",
+    "disp",
+    "displacement",
+    "ground displacement",
 ];
 const COUNTER: [&str; 8] = ["-", "#", "n", "no", "nr", "row", "index", "sample"];
 /// Names behind which a unit may follow after a blank or an underscore alone. `a_g` is not
@@ -72,7 +87,11 @@ fn time_unit(text: &str) -> Option<f64> {
 
 /// A unit of motion in any of its spellings: `m/s²`, `m/s^2`, `m s-2`, `m_s2`, `m/s**2`.
 fn motion_unit(text: &str) -> Option<SeriesUnit> {
-    let plain = text.trim().to_lowercase().replace('²', "2").replace(['−', '⁻'], "-");
+    let plain = text
+        .trim()
+        .to_lowercase()
+        .replace('²', "2")
+        .replace(['−', '⁻'], "-");
     let spaced = ["s-2", "s^-2", "sec-2", "sec^-2"].iter().find_map(|end| {
         let length = plain.strip_suffix(end)?;
         let length = length.strip_suffix([' ', '.', '·', '*', '_'])?;
@@ -80,8 +99,7 @@ fn motion_unit(text: &str) -> Option<SeriesUnit> {
     });
     // SeriesUnit takes stops out, which are none of a unit of a header.
     let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
-    known(&spaced.unwrap_or_else(|| plain.clone()))
-        .or_else(|| known(&plain.replacen('_', "/", 1)))
+    known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
 }
 
 /// The header, if every cell of the line names a column and one is an acceleration.
@@ -106,7 +124,10 @@ pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
         _ => cells,
     };
     let columns: Vec<Role> = cells.iter().map(|c| role(c)).collect::<Option<_>>()?;
-    let times = columns.iter().filter(|c| matches!(c, Role::Time(_))).count();
+    let times = columns
+        .iter()
+        .filter(|c| matches!(c, Role::Time(_)))
+        .count();
     let found = columns.iter().any(|c| matches!(c, Role::Acceleration(..)));
     (found && times <= 1).then(|| Header {
         line: line.number,
@@ -155,13 +176,14 @@ fn role(cell: &str) -> Option<Role> {
     if let Some((name, unit)) = cell.split_once(" in ") {
         return named(name, unit);
     }
-    cell.match_indices(['_', ' ', '/']).find_map(|(at, divider)| {
-        let (name, unit) = (&cell[..at], &cell[at + 1..]);
-        let known = plain(name);
-        let takes = |names: &[&str]| names.contains(&known.as_str());
-        let may = takes(&LONG) || takes(&MOTION) || divider == "/" && takes(&ACCELERATION);
-        if may { named(name, unit) } else { None }
-    })
+    cell.match_indices(['_', ' ', '/'])
+        .find_map(|(at, divider)| {
+            let (name, unit) = (&cell[..at], &cell[at + 1..]);
+            let known = plain(name);
+            let takes = |names: &[&str]| names.contains(&known.as_str());
+            let may = takes(&LONG) || takes(&MOTION) || divider == "/" && takes(&ACCELERATION);
+            if may { named(name, unit) } else { None }
+        })
 }
 
 /// Lower case, blanks for underscores, without a stop at the end.
@@ -237,10 +259,16 @@ mod tests {
         assert_eq!(of("time_ms,acceleration_g").unwrap()[0], Role::Time(1.0e-3));
         let several = of("n,t (s),NS (g),EW (g),velocity (m/s)").unwrap();
         assert_eq!(several[0], Role::Other);
-        assert_eq!(several[3], Role::Acceleration("EW".to_owned(), Some(SeriesUnit::G)));
+        assert_eq!(
+            several[3],
+            Role::Acceleration("EW".to_owned(), Some(SeriesUnit::G))
+        );
         assert_eq!(several[4], Role::Other);
         // Named, but without a unit: never guessed.
-        assert_eq!(of("t,a_g").unwrap()[1], Role::Acceleration("a_g".to_owned(), None));
+        assert_eq!(
+            of("t,a_g").unwrap()[1],
+            Role::Acceleration("a_g".to_owned(), None)
+        );
         assert_eq!(of("time,acceleration").unwrap()[0], Role::Time(1.0));
     }
 

@@ -12,6 +12,7 @@ mod watch;
 use pounding_hysteresis::History;
 
 use crate::contact::Contacts;
+use crate::dense_output::Observers;
 use crate::dynamics::{Dynamics, Instant, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind, Finder};
@@ -21,7 +22,7 @@ use crate::methods::{Context, Method, Verdict};
 use crate::options::RunOptions;
 use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
-use crate::recorder::{Recorder, Sample, StepView, fill_sample};
+use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
 use engage::{Left, Open};
 use rigid_impacts::RigidImpacts;
@@ -62,25 +63,27 @@ pub fn run(
 ) -> Result<Outcome, TimeHistoryError> {
     let duration = options.check(system)?;
     let mut driver = Driver::new(system, options);
-    driver.begin(recorders)?;
+    let mut observers = Observers::new(system, recorders, duration);
+    driver.begin(observers.recorders)?;
     let mut told = 0.0;
     let mut sample = 0;
     while segment(system, sample, duration).is_some() {
         let mut from = 0.0;
-        if recorders.is_empty() && driver.open.is_some() {
-            sample += driver.fly(sample, duration)?;
-            match driver.engage(sample, duration)? {
+        if driver.open.is_some() {
+            sample += driver.fly(sample, duration, &mut observers)?;
+            match driver.engage(sample, duration, &mut observers)? {
                 Left::At(next) => {
                     sample = next;
                     from = f64::NAN;
                 }
                 Left::Within(at, tau) => (sample, from) = (at, tau),
             }
+            driver.hand_out_impacts(observers.recorders)?;
         }
         if from.is_finite()
             && let Some(segment) = segment(system, sample, duration)
         {
-            driver.segment(&segment, from, duration, recorders)?;
+            driver.segment(&segment, from, duration, observers.recorders)?;
             sample += 1;
         }
         let done = (sample as f64 * system.ground().time_step / duration).min(1.0);
@@ -90,7 +93,7 @@ pub fn run(
         }
     }
     progress(1.0);
-    driver.finish(duration, recorders)
+    driver.finish(duration, observers.recorders)
 }
 
 /// Interval number `sample` of the ground motion up to the end of the run; after
@@ -402,14 +405,14 @@ impl<'a> Driver<'a> {
             (tau, step),
         );
         for recorder in recorders.iter_mut() {
-            recorder.step(&mut StepView {
+            let step = MethodStep {
                 context: &mut context,
                 method: self.method.as_ref(),
                 state: &mut self.interpolated,
                 tau,
                 step,
-                last,
-            })?;
+            };
+            recorder.step(&mut StepView::of_method(step, last))?;
         }
         self.method.accept(cut);
         std::mem::swap(&mut self.state, &mut self.new_state);

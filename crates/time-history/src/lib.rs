@@ -6,6 +6,7 @@ mod batch;
 mod bernstein;
 mod complementarity;
 mod contact;
+mod dense_output;
 mod dimension;
 mod driver;
 mod dynamics;

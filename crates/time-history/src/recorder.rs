@@ -1,12 +1,14 @@
 //! Recorders: sinks that see every accepted step and every finished impact.
 
-use crate::dynamics::{Dynamics, Instant};
+use crate::contact::Contacts;
+use crate::dense_output::{ModalStep, Room};
+use crate::dynamics::{Dynamics, Instant, Layout};
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::methods::{Context, Method};
 use crate::outcome::{Energy, Impact};
-use crate::polynomial::value;
+use crate::polynomial::{Polynomial, difference, maximum_above, value};
 use crate::system::System;
 
 /// Responses at one time.
@@ -41,25 +43,54 @@ pub struct Sample {
 
 /// An accepted step, open to interpolation.
 pub struct StepView<'a, 'b, 'c> {
+    source: Source<'a, 'b, 'c>,
+    last: bool,
+}
+
+/// What the step holds.
+enum Source<'a, 'b, 'c> {
+    /// The polynomials of a method.
+    Method(MethodStep<'a, 'b, 'c>),
+    /// The motion of the modes.
+    Modes(&'a ModalStep<'a>, &'a mut Room),
+}
+
+/// A step of a method in the coordinates of the floors.
+pub(crate) struct MethodStep<'a, 'b, 'c> {
     pub(crate) context: &'a mut Context<'b, 'c>,
     pub(crate) method: &'a dyn Method,
     pub(crate) state: &'a mut [f64],
     pub(crate) tau: f64,
     pub(crate) step: f64,
-    pub(crate) last: bool,
 }
 
-impl StepView<'_, '_, '_> {
+impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
+    pub(crate) fn of_method(step: MethodStep<'a, 'b, 'c>, last: bool) -> Self {
+        let source = Source::Method(step);
+        Self { source, last }
+    }
+
+    pub(crate) fn of_modes(step: &'a ModalStep<'a>, room: &'a mut Room, last: bool) -> Self {
+        let source = Source::Modes(step, room);
+        Self { source, last }
+    }
+
     /// Start of the step (s).
     #[must_use]
     pub fn start(&self) -> f64 {
-        self.context.segment.start + self.tau
+        match &self.source {
+            Source::Method(step) => step.start(),
+            Source::Modes(step, _) => step.start,
+        }
     }
 
     /// End of the step (s).
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.context.segment.start + self.tau + self.step
+        match &self.source {
+            Source::Method(step) => step.start() + step.step,
+            Source::Modes(step, _) => step.start + step.length,
+        }
     }
 
     /// Whether the run ends with this step.
@@ -71,6 +102,38 @@ impl StepView<'_, '_, '_> {
     /// Responses at a time inside the step, by the method's interpolant;
     /// accelerations and forces by the equations of motion there.
     pub fn sample(&mut self, time: f64, out: &mut Sample) {
+        match &mut self.source {
+            Source::Method(step) => step.sample(time, out),
+            Source::Modes(step, room) => step.sample(time, room, out),
+        }
+    }
+
+    /// Greatest value above `floor` (m) that the displacement of the degree of freedom `left`
+    /// less that of `right` takes within the step, with its time (s). `None` is the ground.
+    pub(crate) fn approach(
+        &mut self,
+        (left, right): (Option<usize>, Option<usize>),
+        floor: f64,
+    ) -> Option<(f64, f64)> {
+        match &mut self.source {
+            Source::Method(step) => {
+                let of = |dof: Option<usize>| {
+                    dof.map_or(Polynomial::default(), |i| *step.method.polynomial(i))
+                };
+                let found = maximum_above(&difference(&of(left), &of(right)), floor);
+                found.map(|(theta, top)| (step.start() + theta * step.step, top))
+            }
+            Source::Modes(step, room) => step.approach((left, right), floor, room),
+        }
+    }
+}
+
+impl MethodStep<'_, '_, '_> {
+    fn start(&self) -> f64 {
+        self.context.segment.start + self.tau
+    }
+
+    fn sample(&mut self, time: f64, out: &mut Sample) {
         let offset = (time - self.start()).clamp(0.0, self.step);
         let theta = if self.step > 0.0 {
             offset / self.step
@@ -95,45 +158,65 @@ pub(crate) fn fill_sample(
     out: &mut Sample,
 ) {
     let Dynamics { system, layout, .. } = *context.dynamics;
+    let mut absolute = std::mem::take(&mut out.acceleration_absolute);
+    absolute.resize(layout.dofs, 0.0);
+    let ground = now.ground;
+    context
+        .dynamics
+        .accelerations(context.contacts, now, state, &mut absolute);
+    for a in &mut absolute {
+        *a += ground;
+    }
+    let motion = (state, context.dynamics.forces.as_slice());
+    fill(system, context.contacts, (time, ground), motion, out);
+    out.acceleration_absolute = absolute;
+    if !system.elements().is_empty() {
+        elements(context, now.elapsed, state, out);
+        out.energy = ledger::energy(system, layout, context.contacts, state, now.elapsed);
+    }
+}
+
+/// Fills a sample of linear buildings, but for accelerations, from a full state and the contact
+/// forces of all levels, of which those that are closed count.
+pub(crate) fn fill(
+    system: &System,
+    contacts: &Contacts,
+    (time, ground): (f64, f64),
+    (state, forces): (&[f64], &[f64]),
+    out: &mut Sample,
+) {
+    let layout = Layout::of(system);
     let n = layout.dofs;
     let (u, v) = (&state[..n], &state[n..2 * n]);
-    out.time = time;
-    out.ground_acceleration = now.ground;
+    (out.time, out.ground_acceleration) = (time, ground);
     out.displacement.clear();
     out.displacement.extend_from_slice(u);
     out.velocity.clear();
     out.velocity.extend_from_slice(v);
-    out.acceleration_absolute.resize(n, 0.0);
-    let ground = now.ground;
-    context
-        .dynamics
-        .accelerations(context.contacts, now, state, &mut out.acceleration_absolute);
-    for a in &mut out.acceleration_absolute {
-        *a += ground;
-    }
     out.penetration.clear();
-    let penetration = |l| context.contacts.penetration(system, l, u);
+    let penetration = |l| contacts.penetration(system, l, u);
     out.penetration.extend((0..layout.levels).map(penetration));
     out.force.clear();
     out.force.resize(layout.levels, 0.0);
-    for &l in context.contacts.closed() {
-        out.force[l] = context.dynamics.forces[l];
+    for &l in contacts.closed() {
+        out.force[l] = forces[l];
     }
-    elements(context, now.elapsed, state, out);
-    out.energy = ledger::energy(system, layout, context.contacts, state, now.elapsed);
-}
-
-/// Storey shears, and what elements do.
-fn elements(context: &mut Context<'_, '_>, elapsed: Option<f64>, state: &[f64], out: &mut Sample) {
-    let Dynamics { system, layout, .. } = *context.dynamics;
     out.storey_shear.clear();
     for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
         let mut below = 0.0;
-        for (k, u) in building.stiffness().iter().zip(&state[range[0]..range[1]]) {
+        for (k, u) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
             out.storey_shear.push(k * (u - below));
             below = *u;
         }
     }
+    if system.elements().is_empty() {
+        out.energy = ledger::energy(system, layout, contacts, state, None);
+    }
+}
+
+/// What elements do, and shears of storeys that follow a law.
+fn elements(context: &mut Context<'_, '_>, elapsed: Option<f64>, state: &[f64], out: &mut Sample) {
+    let Dynamics { system, layout, .. } = *context.dynamics;
     out.element_deformation.clear();
     out.element_force.clear();
     out.element_dissipated.clear();

@@ -4,7 +4,6 @@ use crate::driver::run;
 use crate::error::TimeHistoryError;
 use crate::options::RunOptions;
 use crate::outcome::{Outcome, Peak};
-use crate::polynomial::{Polynomial, difference, maximum_above};
 use crate::recorder::{Recorder, Sample, StepView};
 use crate::system::System;
 
@@ -48,13 +47,9 @@ impl Recorder for RelativeDisplacement {
     }
 
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
-        let (start, length) = (step.start(), step.step);
-        let still = Polynomial::default();
-        for (&(left, right), peak) in self.pairs.iter().zip(&mut self.peaks) {
-            let of = |floor: Option<usize>| floor.map_or(&still, |i| step.method.polynomial(i));
-            let approach = difference(of(left), of(right));
-            if let Some((theta, top)) = maximum_above(&approach, peak.value) {
-                peak.raise(top, start + theta * length);
+        for (pair, peak) in self.pairs.iter().zip(&mut self.peaks) {
+            if let Some((time, top)) = step.approach(*pair, peak.value) {
+                peak.raise(top, time);
             }
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! Following contacts in the coordinates of the modes.
 
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
+use crate::dense_output::Observers;
 use crate::dynamics::Segment;
 use crate::engagement::{
     LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
@@ -99,11 +100,12 @@ impl Driver<'_> {
         &mut self,
         sample: usize,
         duration: f64,
+        observers: &mut Observers<'_, '_>,
     ) -> Result<Left, TimeHistoryError> {
         let Some(mut open) = self.open.take() else {
             return Ok(Left::Within(sample, 0.0));
         };
-        let left = self.engage_with(&mut open, sample, duration);
+        let left = self.engage_with(&mut open, (sample, duration), observers);
         self.open = Some(open);
         left
     }
@@ -111,8 +113,8 @@ impl Driver<'_> {
     fn engage_with(
         &mut self,
         open: &mut Open<'_>,
-        first: usize,
-        duration: f64,
+        (first, duration): (usize, f64),
+        observers: &mut Observers<'_, '_>,
     ) -> Result<Left, TimeHistoryError> {
         let mut sample = first;
         if (0..self.system.levels().len()).any(|l| self.is_rigid(l)) {
@@ -131,7 +133,7 @@ impl Driver<'_> {
         q.copy_from_slice(&flight.now.displacement);
         p.copy_from_slice(&flight.now.velocity);
         while let Some(segment) = segment(self.system, sample, duration) {
-            if let Some(tau) = self.engage_segment(open, &segment)? {
+            if let Some(tau) = self.engage_segment(open, &segment, observers)? {
                 if sample > first || tau > 0.0 {
                     open.put_back();
                 }
@@ -180,6 +182,7 @@ impl Driver<'_> {
         &mut self,
         open: &mut Open<'_>,
         segment: &Segment,
+        observers: &mut Observers<'_, '_>,
     ) -> Result<Option<f64>, TimeHistoryError> {
         let mut tau = 0.0;
         open.engagement.derived = false;
@@ -217,10 +220,13 @@ impl Driver<'_> {
             } else {
                 None
             };
-            let taken = series.and_then(|length| self.by_series(open, segment, tau, length));
+            let taken = match series {
+                Some(length) => self.by_series(open, (segment, tau), length, observers)?,
+                None => None,
+            };
             let (step, event) = match taken {
                 Some(taken) => taken,
-                None => self.by_pair(open, segment, tau, longest)?,
+                None => self.by_pair(open, (segment, tau), longest, observers)?,
             };
             if let Some((event, whole)) = event
                 && event.theta * whole <= EVENT_TOLERANCE

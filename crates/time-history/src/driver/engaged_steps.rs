@@ -2,6 +2,7 @@
 
 use super::engage::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
+use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Segment;
 use crate::engagement::{
     Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
@@ -37,10 +38,10 @@ impl Driver<'_> {
     pub(super) fn by_series(
         &mut self,
         open: &mut Open<'_>,
-        segment: &Segment,
-        tau: f64,
+        (segment, tau): (&Segment, f64),
         longest: f64,
-    ) -> Option<Taken> {
+        observers: &mut Observers<'_, '_>,
+    ) -> Result<Option<Taken>, TimeHistoryError> {
         let Open {
             constants,
             flight,
@@ -70,7 +71,7 @@ impl Driver<'_> {
         if !e.affine {
             let reach = e.series.reach(SERIES_SIZE * e.tolerance);
             if reach < FAR_ENOUGH {
-                return None;
+                return Ok(None);
             }
             if reach < 1.0 {
                 e.series.shorten(reach);
@@ -93,7 +94,7 @@ impl Driver<'_> {
         let mut step = whole;
         if let Some(event) = event {
             if event.theta * whole <= EVENT_TOLERANCE {
-                return Some((0.0, Some((event, whole))));
+                return Ok(Some((0.0, Some((event, whole)))));
             }
             if event.theta < 1.0 {
                 step = event.theta * whole;
@@ -102,6 +103,19 @@ impl Driver<'_> {
                 closings(&e.rows, q, &mut e.closings);
             }
         }
+        if !observers.is_empty() {
+            observers.show(&ModalStep {
+                system: self.system,
+                constants,
+                rows: &e.rows,
+                contacts: &self.contacts,
+                state: &self.state,
+                start,
+                length: step,
+                ground: (segment.ground(tau), segment.slope),
+                motion: Motion::Series(&e.series),
+            })?;
+        }
         self.note_series(open, start);
         let e = &mut open.engagement;
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
@@ -109,7 +123,7 @@ impl Driver<'_> {
         if !e.affine {
             e.lengths.accept_series(step);
         }
-        Some((step, event.map(|event| (event, whole))))
+        Ok(Some((step, event.map(|event| (event, whole)))))
     }
 
     /// Takes works and peaks of the series as it now is, from its start (s) on.
@@ -152,9 +166,9 @@ impl Driver<'_> {
     pub(super) fn by_pair(
         &mut self,
         open: &mut Open<'_>,
-        segment: &Segment,
-        tau: f64,
+        (segment, tau): (&Segment, f64),
         longest: f64,
+        observers: &mut Observers<'_, '_>,
     ) -> Result<Taken, TimeHistoryError> {
         let Open {
             constants,
@@ -208,6 +222,19 @@ impl Driver<'_> {
             end: &e.pair.end,
             clock: &trial.clock,
         };
+        if !observers.is_empty() {
+            observers.show(&ModalStep {
+                system: self.system,
+                constants,
+                rows: &e.rows,
+                contacts: &self.contacts,
+                state: &self.state,
+                start,
+                length: step,
+                ground: scene.ground,
+                motion: Motion::Pair(&scene, &span),
+            })?;
+        }
         note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
         self.note_contacts(&scene, &span, &e.pair, start);
         closings(&e.rows, &e.pair.end.motion[0], &mut e.closings);

@@ -2,6 +2,7 @@
 
 use super::engage::Open;
 use super::{Driver, Mute};
+use crate::dense_output::Observers;
 use crate::error::TimeHistoryError;
 use crate::free_flight::{Leg, Logbook};
 use crate::system::System;
@@ -27,9 +28,16 @@ impl Driver<'_> {
 
     /// Flies from this sample on while no gap can close and no peak can lie between
     /// samples. Returns the number of samples flown.
-    pub(super) fn fly(&mut self, sample: usize, duration: f64) -> Result<usize, TimeHistoryError> {
+    pub(super) fn fly(
+        &mut self,
+        sample: usize,
+        duration: f64,
+        observers: &mut Observers<'_, '_>,
+    ) -> Result<usize, TimeHistoryError> {
         let Some(Open {
-            constants, flight, ..
+            constants,
+            flight,
+            engagement,
         }) = &mut self.open
         else {
             return Ok(0);
@@ -57,7 +65,8 @@ impl Driver<'_> {
             largest_input: &mut self.ledger.largest_input,
             residual: 0.0,
         };
-        let flown = flight.fly(constants, &leg, &mut book);
+        let watched = (&engagement.rows, observers);
+        let flown = flight.fly(constants, &leg, &mut book, watched)?;
         if flown > 0 {
             let residual = self.residual.abs() + book.residual;
             if !residual.is_finite() {

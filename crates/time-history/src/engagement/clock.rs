@@ -64,6 +64,15 @@ impl Clock {
         }
     }
 
+    /// The `theta` of a time (s) from the start of the step.
+    pub(crate) fn place_of(&self, offset: f64) -> f64 {
+        let span = self.span();
+        if span == 0.0 {
+            return 0.0;
+        }
+        ((self.until(offset).to - self.from) / span).clamp(0.0, 1.0)
+    }
+
     /// Derivative of time with respect to `s` at `theta`.
     pub(crate) fn rate(&self, theta: f64) -> f64 {
         let s = self.from + theta * self.span();

@@ -29,7 +29,7 @@ pub(crate) use peaks::{
     Rates, Tracks, begin_acceleration, note_floors_of_series, note_floors_of_span,
 };
 pub(crate) use reach::NEAR;
-pub(crate) use rows::{FloorRows, LevelRows, closings, stored};
+pub(crate) use rows::{FloorRows, LevelRows, ModalRow, closings, stored};
 pub(crate) use search::{in_series, in_span, soon_after};
 pub(crate) use series::{Series, SeriesStep};
 pub(crate) use span::Span;

@@ -254,6 +254,35 @@ impl Series {
         }
     }
 
+    /// Displacements and velocities of the modes at the start.
+    pub(crate) fn start(&self, displacement: &mut [Lane], velocity: &mut [Lane]) {
+        displacement.copy_from_slice(&self.displacement[..self.lanes]);
+        velocity.copy_from_slice(&self.velocity[..self.lanes]);
+    }
+
+    /// Takes over another series of the same system, without its bounds.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        (self.last, self.step, self.ground) = (other.last, other.step, other.ground);
+        let terms = ..(other.last + 1) * other.lanes;
+        self.displacement[terms].copy_from_slice(&other.displacement[terms]);
+        self.velocity[terms].copy_from_slice(&other.velocity[terms]);
+        self.touches.clone_from(&other.touches);
+    }
+
+    /// Greatest value above `floor` of one row less another, with its theta.
+    pub(crate) fn maximum_of_difference(
+        &self,
+        (left, right): (Option<&ModalRow>, Option<&ModalRow>),
+        floor: f64,
+    ) -> Option<(f64, f64)> {
+        let of = |row: Option<&ModalRow>| row.map_or([0.0; TERMS], |row| self.row(row));
+        let (mut terms, less) = (of(left), of(right));
+        for (term, less) in terms.iter_mut().zip(less) {
+            *term -= less;
+        }
+        self.maximum(&terms, floor)
+    }
+
     /// Works of ground motion and damping over the step.
     pub(crate) fn works(&self, modes: &[ModeLanes]) -> Works {
         expansion::works(self, modes)

@@ -176,6 +176,30 @@ pub(super) fn advance(constants: &FreeFlight, samples: &[f64], now: &mut Modal) 
     }
 }
 
+/// Advances displacements and velocities by one step with these constants. Returns the work of
+/// ground motion and that of damping (J).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn step_over(
+    modes: &[ModeLanes],
+    ground: Ground,
+    displacement: &mut [Lane],
+    velocity: &mut [Lane],
+) -> (f64, f64) {
+    let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
+    for (c, m) in modes.iter().enumerate() {
+        let state = [displacement[c], velocity[c], input, viscous];
+        let ([q, p, pushed, damped], _) = step_modes(m, state, ground);
+        (displacement[c], velocity[c]) = (q, p);
+        (input, viscous) = (pushed, damped);
+    }
+    (input.0.iter().sum(), viscous.0.iter().sum())
+}
+
 /// Extremes of absolute floor acceleration over the block that was flown last.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",

@@ -75,6 +75,13 @@ impl FreeFlight {
         Some(this)
     }
 
+    /// Constants of all modes for a part of a sample of this length (s).
+    pub(crate) fn modes_over(&self, system: &System, length: f64) -> Vec<ModeLanes> {
+        let mut part = Self::empty(system, length);
+        part.add_modes(system);
+        part.modes
+    }
+
     fn with_step(system: &System, step: f64) -> Self {
         let mut this = Self::empty(system, step);
         for (index, building) in system.buildings().iter().enumerate() {

@@ -1,5 +1,7 @@
 //! The flight over many samples.
 
+use std::ops::Range;
+
 use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
 use super::constants::FreeFlight;
@@ -8,8 +10,10 @@ use super::lanes::{
 };
 use super::transform::transform;
 use crate::contact::Contacts;
+use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Layout;
-use crate::engagement::Tracks;
+use crate::engagement::{LevelRows, Tracks};
+use crate::error::TimeHistoryError;
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::system::System;
 
@@ -51,6 +55,8 @@ pub(crate) struct Flight {
     drifted: Vec<Lane>,
     block: Block,
     candidates: Candidates,
+    /// The motion from sample to sample, for observers.
+    replay: Modal,
 }
 
 impl Flight {
@@ -72,6 +78,7 @@ impl Flight {
             drifted: zeros(),
             block: Block::new(system),
             candidates: Candidates::new(lanes, dofs),
+            replay: Modal::new(lanes),
         }
     }
 
@@ -174,13 +181,21 @@ impl Flight {
         constants: &FreeFlight,
         leg: &Leg<'_>,
         book: &mut Logbook<'_>,
-    ) -> usize {
+        (rows, observers): (&LevelRows, &mut Observers<'_, '_>),
+    ) -> Result<usize, TimeHistoryError> {
         self.take_off(constants);
         let before = book.state[Layout::of(leg.system).input()];
         let mut sample = leg.from;
         while sample < leg.to {
             let count = BLOCK.min(leg.to - sample);
+            if !observers.is_empty() {
+                self.replay.copy_from(&self.now);
+            }
             let flown = self.fly_block(constants, leg, (sample, count));
+            if !observers.is_empty() {
+                let samples = sample..sample + flown;
+                self.show(constants, leg, samples, (book.state, rows, &mut *observers))?;
+            }
             if flown > 0 {
                 self.moved = true;
                 sample += flown;
@@ -197,7 +212,36 @@ impl Flight {
         book.state[layout.input()] += sum(&self.now.input);
         book.state[layout.viscous()] += sum(&self.now.viscous);
         book.residual = sum(&self.drifted);
-        sample - leg.from
+        Ok(sample - leg.from)
+    }
+
+    /// Shows samples that were flown to observers, from the motion before them on.
+    fn show(
+        &mut self,
+        constants: &FreeFlight,
+        leg: &Leg<'_>,
+        samples: Range<usize>,
+        (state, rows, observers): (&[f64], &LevelRows, &mut Observers<'_, '_>),
+    ) -> Result<(), TimeHistoryError> {
+        let ground = &leg.system.ground().samples;
+        for sample in samples {
+            observers.show(&ModalStep {
+                system: leg.system,
+                constants,
+                rows,
+                contacts: leg.contacts,
+                state,
+                start: sample as f64 * constants.step,
+                length: constants.step,
+                ground: (
+                    ground[sample],
+                    (ground[sample + 1] - ground[sample]) / constants.step,
+                ),
+                motion: Motion::Free(&self.replay),
+            })?;
+            block::advance(constants, &ground[sample..=sample + 1], &mut self.replay);
+        }
+        Ok(())
     }
 
     fn take_off(&mut self, constants: &FreeFlight) {

@@ -159,6 +159,14 @@ pub(crate) struct Track {
 }
 
 impl Modal {
+    /// Takes over another state of the same system.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.displacement.copy_from_slice(&other.displacement);
+        self.velocity.copy_from_slice(&other.velocity);
+        self.input.copy_from_slice(&other.input);
+        self.viscous.copy_from_slice(&other.viscous);
+    }
+
     pub(crate) fn new(lanes: usize) -> Self {
         let zeros = || vec![Lane::ZERO; lanes];
         Self {

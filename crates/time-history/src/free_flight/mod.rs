@@ -18,9 +18,11 @@ mod lanes;
 mod mode_step;
 mod transform;
 
+pub(crate) use block::step_over;
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
 pub(crate) use lanes::{
-    Lane, ModeLanes, Track, WIDTH, add, drifts, gather, mul, raise, raise_now, scale, spread,
+    Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, drifts, gather, mul, raise, raise_now,
+    restoring, scale, spread,
 };
 pub(crate) use transform::{to_floors, transform, transform_four};

@@ -1,0 +1,368 @@
+//! Dense output of the steps that are taken in the coordinates of the modes: observers read
+//! the exact step of contact-free motion, the series, or the polynomials of the pair, and so
+//! never change which steps are taken.
+
+use crate::contact::Contacts;
+use crate::dynamics::Layout;
+use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span};
+use crate::error::TimeHistoryError;
+use crate::free_flight::{
+    FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, gather, restoring, step_over, transform,
+};
+use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
+use crate::recorder::{Recorder, Sample, StepView, fill};
+use crate::system::System;
+
+/// Lengths of parts of a sample whose exact steps are kept.
+const PARTS: usize = 64;
+
+/// What observers of a run need beside the step: room, and who they are.
+pub(crate) struct Observers<'a, 'b> {
+    pub recorders: &'a mut [&'b mut dyn Recorder],
+    room: Option<Room>,
+    /// End of the run (s).
+    end: f64,
+}
+
+/// Work space.
+#[derive(Debug)]
+pub(crate) struct Room {
+    /// Modal displacements, velocities and absolute accelerations at the time asked for.
+    displacement: Vec<Lane>,
+    velocity: Vec<Lane>,
+    absolute: Vec<Lane>,
+    floors: Vec<Lane>,
+    /// The whole state.
+    state: Vec<f64>,
+    /// Contact forces of all levels (N).
+    forces: Vec<f64>,
+    /// A series cut short, and that of contact-free motion.
+    series: Series,
+    free: Series,
+    /// Exact steps over parts of a sample: length (s) and constants of the modes.
+    parts: Vec<(f64, Vec<ModeLanes>)>,
+    /// Place of the part that is replaced next.
+    oldest: usize,
+}
+
+impl Room {
+    pub(crate) fn new(system: &System) -> Self {
+        let layout = Layout::of(system);
+        let lanes = layout.dofs.div_ceil(WIDTH);
+        let zeros = || vec![Lane::ZERO; lanes];
+        Self {
+            displacement: zeros(),
+            velocity: zeros(),
+            absolute: zeros(),
+            floors: zeros(),
+            state: vec![0.0; layout.dimension()],
+            forces: vec![0.0; layout.levels],
+            series: Series::new(lanes, layout.levels),
+            free: Series::new(lanes, 0),
+            parts: Vec::with_capacity(PARTS),
+            oldest: 0,
+        }
+    }
+}
+
+/// How the modes move within a step.
+#[derive(Clone, Copy)]
+pub(crate) enum Motion<'a> {
+    /// Without contact, from this state on; its works count from those of the run's state.
+    Free(&'a Modal),
+    /// As a series.
+    Series(&'a Series),
+    /// Between two points of the pair.
+    Pair(&'a Scene<'a>, &'a Span<'a>),
+}
+
+/// A step in the coordinates of the modes.
+pub(crate) struct ModalStep<'a> {
+    pub system: &'a System,
+    pub constants: &'a FreeFlight,
+    pub rows: &'a LevelRows,
+    /// Contacts during the step.
+    pub contacts: &'a Contacts,
+    /// The state of the run, of which the works are read.
+    pub state: &'a [f64],
+    /// Start and length of the step (s).
+    pub start: f64,
+    pub length: f64,
+    /// Ground acceleration at the start (m/s2) and its slope (m/s3).
+    pub ground: (f64, f64),
+    pub motion: Motion<'a>,
+}
+
+impl<'a, 'b> Observers<'a, 'b> {
+    /// Of a run up to `end` (s).
+    pub(crate) fn new(
+        system: &System,
+        recorders: &'a mut [&'b mut dyn Recorder],
+        end: f64,
+    ) -> Self {
+        Self {
+            room: (!recorders.is_empty()).then(|| Room::new(system)),
+            recorders,
+            end,
+        }
+    }
+
+    /// Whether there is nobody to serve.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.recorders.is_empty()
+    }
+
+    /// Shows a step to all.
+    pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
+        let last = step.start + step.length >= self.end * (1.0 - 1.0e-12);
+        if let Some(room) = &mut self.room {
+            for recorder in self.recorders.iter_mut() {
+                recorder.step(&mut StepView::of_modes(step, room, last))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ModalStep<'_> {
+    /// Responses at a time inside the step.
+    pub(crate) fn sample(&self, time: f64, room: &mut Room, out: &mut Sample) {
+        let offset = (time - self.start).clamp(0.0, self.length);
+        let layout = Layout::of(self.system);
+        let n = layout.dofs;
+        room.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
+        room.forces.fill(0.0);
+        let works = match self.motion {
+            Motion::Free(start) => self.free(start, offset, room),
+            Motion::Series(series) => self.series(series, offset, room),
+            Motion::Pair(scene, span) => self.pair(scene, span, offset, room),
+        };
+        room.state[layout.input()] += works.0;
+        room.state[layout.viscous()] += works.1;
+        for (modal, place) in [(&room.displacement, 0), (&room.velocity, n)] {
+            transform(&self.constants.shapes, modal, &mut room.floors);
+            gather(&room.floors, &mut room.state[place..place + n]);
+        }
+        transform(&self.constants.shapes, &room.absolute, &mut room.floors);
+        out.acceleration_absolute.resize(n, 0.0);
+        gather(&room.floors, &mut out.acceleration_absolute);
+        let ground = self.ground.0 + self.ground.1 * offset;
+        let motion = (room.state.as_slice(), room.forces.as_slice());
+        fill(self.system, self.contacts, (time, ground), motion, out);
+    }
+
+    /// Greatest value above `floor` that the displacement of the left floor less that of the
+    /// right one takes, with its time (s).
+    pub(crate) fn approach(
+        &self,
+        (left, right): (Option<usize>, Option<usize>),
+        floor: f64,
+        room: &mut Room,
+    ) -> Option<(f64, f64)> {
+        let rows = &self.constants.rows.floors;
+        let [left, right] = [left, right].map(|i| i.map(|i| &rows[i]));
+        match self.motion {
+            Motion::Series(series) => {
+                let found = series.maximum_of_difference((left, right), floor);
+                found.map(|(theta, top)| (self.start + theta * self.length, top))
+            }
+            Motion::Free(start) => self.approach_of_free(start, (left, right), floor, room),
+            Motion::Pair(_, span) => {
+                let of = |row: Option<&ModalRow>| {
+                    row.map_or(Polynomial::default(), |row| {
+                        let (a, b) = span.row(row, 0.0);
+                        span.displacement(a, b)
+                    })
+                };
+                let (theta, top) = maximum_above(&difference(&of(left), &of(right)), floor)?;
+                Some((self.start + span.clock.offset(theta), top))
+            }
+        }
+    }
+
+    /// The same without contact, in series over parts of the step.
+    fn approach_of_free(
+        &self,
+        start: &Modal,
+        rows: (Option<&ModalRow>, Option<&ModalRow>),
+        floor: f64,
+        room: &mut Room,
+    ) -> Option<(f64, f64)> {
+        let rate = self.constants.fastest;
+        let parts = (self.length / Series::longest(rate)).ceil().max(1.0);
+        let step = self.length / parts;
+        room.displacement.copy_from_slice(&start.displacement);
+        room.velocity.copy_from_slice(&start.velocity);
+        let (mut best, mut above) = (None, floor);
+        for part in 0..parts as usize {
+            let offset = part as f64 * step;
+            let from = SeriesStep {
+                displacement: &room.displacement,
+                velocity: &room.velocity,
+                ground: (self.ground.0 + self.ground.1 * offset, self.ground.1),
+                step,
+                rate,
+                terms: 0,
+            };
+            room.free.expand(self.constants, self.rows, &[], &from);
+            if let Some((theta, top)) = room.free.maximum_of_difference(rows, above) {
+                above = top;
+                best = Some((self.start + offset + theta * step, top));
+            }
+            let modes = &self.constants.modes;
+            let (q, p) = (&mut room.displacement, &mut room.velocity);
+            room.free.end(modes, q, p, &mut room.absolute);
+        }
+        best
+    }
+
+    /// Motion without contact after `offset` (s). Returns the works of ground motion and
+    /// damping (J) from those of the run's state on.
+    fn free(&self, start: &Modal, offset: f64, room: &mut Room) -> (f64, f64) {
+        let modes = &self.constants.modes;
+        let works = [&start.input, &start.viscous].map(|w| sum(w));
+        let Room {
+            displacement,
+            velocity,
+            absolute,
+            parts,
+            oldest,
+            ..
+        } = room;
+        displacement.copy_from_slice(&start.displacement);
+        velocity.copy_from_slice(&start.velocity);
+        // Times this close are one, but for round-off.
+        let close = 8.0 * f64::EPSILON * (self.start + self.length);
+        let works = if offset <= close {
+            works
+        } else {
+            let whole = self.constants.step;
+            let part = if (offset - whole).abs() <= close {
+                modes
+            } else {
+                self.kept((offset, close), (parts, oldest))
+            };
+            let ground = Ground {
+                start: self.ground.0,
+                end: self.ground.0 + self.ground.1 * offset,
+                slope: self.ground.1,
+            };
+            let done = step_over(part, ground, displacement, velocity);
+            [works[0] + done.0, works[1] + done.1]
+        };
+        restoring(modes, displacement, velocity, absolute);
+        (works[0], works[1])
+    }
+
+    fn series(&self, series: &Series, offset: f64, room: &mut Room) -> (f64, f64) {
+        let layout = Layout::of(self.system);
+        let theta = (offset / self.length).clamp(0.0, 1.0);
+        let cut = &mut room.series;
+        cut.copy_from(series);
+        if theta < 1.0 && theta > 0.0 {
+            cut.shorten(theta);
+        }
+        let modes = &self.constants.modes;
+        let mut works = (0.0, 0.0);
+        if theta > 0.0 {
+            let (q, p) = (&mut room.displacement, &mut room.velocity);
+            cut.end(modes, q, p, &mut room.absolute);
+            let done = cut.works(modes);
+            works = (done.input, done.viscous);
+            cut.contact_works();
+        } else {
+            let (q, p) = (&mut room.displacement, &mut room.velocity);
+            cut.start(q, p);
+            cut.start_acceleration(modes, &mut room.absolute);
+        }
+        for touch in &room.series.touches {
+            if theta > 0.0 {
+                room.state[layout.work(touch.level)] += touch.works.0;
+                room.forces[touch.level] = room.series.at(&touch.force, 1.0).0;
+            } else {
+                room.forces[touch.level] = touch.force[0];
+            }
+        }
+        works
+    }
+
+    fn pair(&self, scene: &Scene<'_>, span: &Span<'_>, offset: f64, room: &mut Room) -> (f64, f64) {
+        let layout = Layout::of(self.system);
+        let theta = span.clock.place_of(offset);
+        let (mut input, mut viscous) = (0.0, 0.0);
+        // Works by Gauss's rule in the variable of the step.
+        for (node, weight) in GAUSS {
+            let place = node * theta;
+            let time = weight * theta * span.clock.span() * span.clock.rate(place);
+            self.within(span, place, room);
+            let ground = self.ground.0 + self.ground.1 * span.clock.offset(place);
+            for (c, m) in self.constants.modes.iter().enumerate() {
+                for l in 0..WIDTH {
+                    let p = room.velocity[c][l];
+                    input -= time * m.participation[l] * ground * p;
+                    viscous += time * m.damping[l] * p * p;
+                }
+            }
+            for touch in scene.touches {
+                let row = &self.rows.levels[touch.level];
+                let delta = row.dot(&room.displacement) - touch.width;
+                let rate = row.dot(&room.velocity);
+                let level = &self.system.levels()[touch.level];
+                let force = touch.contact.force(level, delta, rate).value;
+                room.state[layout.work(touch.level)] += time * force * rate;
+            }
+        }
+        self.within(span, theta, room);
+        let (q, p) = (&room.displacement, &room.velocity);
+        restoring(&self.constants.modes, q, p, &mut room.absolute);
+        for touch in scene.touches {
+            let row = &self.rows.levels[touch.level];
+            let delta = row.dot(&room.displacement) - touch.width;
+            let rate = row.dot(&room.velocity);
+            let level = &self.system.levels()[touch.level];
+            let force = touch.contact.force(level, delta, rate).value;
+            row.add(-force, &mut room.absolute);
+            room.forces[touch.level] = force;
+        }
+        (input, viscous)
+    }
+
+    /// Constants of the exact step over a part of a sample.
+    fn kept<'r>(
+        &self,
+        (length, close): (f64, f64),
+        (parts, oldest): (&'r mut Vec<(f64, Vec<ModeLanes>)>, &mut usize),
+    ) -> &'r [ModeLanes] {
+        let known = parts.iter().position(|p| (p.0 - length).abs() <= close);
+        let place = known.unwrap_or_else(|| {
+            let made = (length, self.constants.modes_over(self.system, length));
+            if parts.len() < PARTS {
+                parts.push(made);
+                return parts.len() - 1;
+            }
+            *oldest = (*oldest + 1) % PARTS;
+            parts[*oldest] = made;
+            *oldest
+        });
+        &parts[place].1
+    }
+
+    /// Displacements and velocities of the modes at `theta` of a step of the pair.
+    fn within(&self, span: &Span<'_>, theta: f64, room: &mut Room) {
+        for c in 0..self.constants.modes.len() {
+            for l in 0..WIDTH {
+                let at = |motion: &[Vec<Lane>; 4]| -> [f64; 4] {
+                    std::array::from_fn(|k| motion[k][c][l])
+                };
+                let (a, b) = (at(&span.start.motion), at(&span.end.motion));
+                room.displacement[c][l] = value(&span.displacement(a, b), theta);
+                room.velocity[c][l] = value(&span.velocity(a, b), theta);
+            }
+        }
+    }
+}
+
+/// Sum over all lanes.
+fn sum(lanes: &[Lane]) -> f64 {
+    lanes.iter().flat_map(|l| l.0).sum()
+}

@@ -7,7 +7,8 @@ use crate::dynamics::Layout;
 use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span};
 use crate::error::TimeHistoryError;
 use crate::free_flight::{
-    FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, gather, restoring, step_over, transform,
+    FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring, step_over,
+    transform,
 };
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{Recorder, Sample, StepView, fill};
@@ -68,12 +69,22 @@ impl Room {
 /// How the modes move within a step.
 #[derive(Clone, Copy)]
 pub(crate) enum Motion<'a> {
-    /// Without contact, from this state on; its works count from those of the run's state.
-    Free(&'a Modal),
+    /// Without contact.
+    Free(Flown<'a>),
     /// As a series.
     Series(&'a Series),
     /// Between two points of the pair.
     Pair(&'a Scene<'a>, &'a Span<'a>),
+}
+
+/// A sample without contact.
+#[derive(Clone, Copy)]
+pub(crate) struct Flown<'a> {
+    /// Motion at both ends; its works count from those of the run's state.
+    pub start: &'a Modal,
+    pub end: &'a Modal,
+    /// What the displacement of every floor may exceed its values at both ends by (m).
+    pub over: &'a [Lane],
 }
 
 /// A step in the coordinates of the modes.
@@ -133,7 +144,7 @@ impl ModalStep<'_> {
         room.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
         room.forces.fill(0.0);
         let works = match self.motion {
-            Motion::Free(start) => self.free(start, offset, room),
+            Motion::Free(flown) => self.free(flown, offset, room),
             Motion::Series(series) => self.series(series, offset, room),
             Motion::Pair(scene, span) => self.pair(scene, span, offset, room),
         };
@@ -155,18 +166,28 @@ impl ModalStep<'_> {
     /// right one takes, with its time (s).
     pub(crate) fn approach(
         &self,
-        (left, right): (Option<usize>, Option<usize>),
+        floors: (Option<usize>, Option<usize>),
         floor: f64,
         room: &mut Room,
     ) -> Option<(f64, f64)> {
         let rows = &self.constants.rows.floors;
-        let [left, right] = [left, right].map(|i| i.map(|i| &rows[i]));
+        let [left, right] = [floors.0, floors.1].map(|i| i.map(|i| &rows[i]));
         match self.motion {
             Motion::Series(series) => {
                 let found = series.maximum_of_difference((left, right), floor);
                 found.map(|(theta, top)| (self.start + theta * self.length, top))
             }
-            Motion::Free(start) => self.approach_of_free(start, (left, right), floor, room),
+            Motion::Free(flown) => {
+                let dot = |row: Option<&ModalRow>, q: &[Lane]| row.map_or(0.0, |r| r.dot(q));
+                let at = |q: &[Lane]| dot(left, q) - dot(right, q);
+                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(flown.over, i));
+                let ends = [flown.start, flown.end].map(|m| at(&m.displacement));
+                let over = over(floors.0) + over(floors.1);
+                if ends[0].max(ends[1]) + over <= floor {
+                    return None;
+                }
+                self.approach_of_free(flown.start, (left, right), floor, room)
+            }
             Motion::Pair(_, span) => {
                 let of = |row: Option<&ModalRow>| {
                     row.map_or(Polynomial::default(), |row| {
@@ -218,9 +239,8 @@ impl ModalStep<'_> {
 
     /// Motion without contact after `offset` (s). Returns the works of ground motion and
     /// damping (J) from those of the run's state on.
-    fn free(&self, start: &Modal, offset: f64, room: &mut Room) -> (f64, f64) {
+    fn free(&self, flown: Flown<'_>, offset: f64, room: &mut Room) -> (f64, f64) {
         let modes = &self.constants.modes;
-        let works = [&start.input, &start.viscous].map(|w| sum(w));
         let Room {
             displacement,
             velocity,
@@ -229,19 +249,17 @@ impl ModalStep<'_> {
             oldest,
             ..
         } = room;
-        displacement.copy_from_slice(&start.displacement);
-        velocity.copy_from_slice(&start.velocity);
         // Times this close are one, but for round-off.
         let close = 8.0 * f64::EPSILON * (self.start + self.length);
-        let works = if offset <= close {
+        let at_end = self.length - offset <= close;
+        let from = if at_end { flown.end } else { flown.start };
+        displacement.copy_from_slice(&from.displacement);
+        velocity.copy_from_slice(&from.velocity);
+        let works = [&from.input, &from.viscous].map(|w| sum(w));
+        let works = if at_end || offset <= close {
             works
         } else {
-            let whole = self.constants.step;
-            let part = if (offset - whole).abs() <= close {
-                modes
-            } else {
-                self.kept((offset, close), (parts, oldest))
-            };
+            let part = self.kept((offset, close), (parts, oldest));
             let ground = Ground {
                 start: self.ground.0,
                 end: self.ground.0 + self.ground.1 * offset,

@@ -10,7 +10,7 @@ use super::lanes::{
 };
 use super::transform::transform;
 use crate::contact::Contacts;
-use crate::dense_output::{ModalStep, Motion, Observers};
+use crate::dense_output::{Flown, ModalStep, Motion, Observers};
 use crate::dynamics::Layout;
 use crate::engagement::{LevelRows, Tracks};
 use crate::error::TimeHistoryError;
@@ -57,6 +57,7 @@ pub(crate) struct Flight {
     candidates: Candidates,
     /// The motion from sample to sample, for observers.
     replay: Modal,
+    replayed: Modal,
 }
 
 impl Flight {
@@ -79,6 +80,7 @@ impl Flight {
             block: Block::new(system),
             candidates: Candidates::new(lanes, dofs),
             replay: Modal::new(lanes),
+            replayed: Modal::new(lanes),
         }
     }
 
@@ -225,6 +227,9 @@ impl Flight {
     ) -> Result<(), TimeHistoryError> {
         let ground = &leg.system.ground().samples;
         for sample in samples {
+            self.replayed.copy_from(&self.replay);
+            let both = &ground[sample..=sample + 1];
+            block::advance(constants, both, &mut self.replayed);
             observers.show(&ModalStep {
                 system: leg.system,
                 constants,
@@ -237,9 +242,13 @@ impl Flight {
                     ground[sample],
                     (ground[sample + 1] - ground[sample]) / constants.step,
                 ),
-                motion: Motion::Free(&self.replay),
+                motion: Motion::Free(Flown {
+                    start: &self.replay,
+                    end: &self.replayed,
+                    over: &self.block.over[0],
+                }),
             })?;
-            block::advance(constants, &ground[sample..=sample + 1], &mut self.replay);
+            std::mem::swap(&mut self.replay, &mut self.replayed);
         }
         Ok(())
     }

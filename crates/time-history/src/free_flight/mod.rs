@@ -22,7 +22,7 @@ pub(crate) use block::step_over;
 pub(crate) use constants::FreeFlight;
 pub(crate) use flight::{Flight, Leg, Logbook};
 pub(crate) use lanes::{
-    Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, drifts, gather, mul, raise, raise_now,
+    Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
     restoring, scale, spread,
 };
 pub(crate) use transform::{to_floors, transform, transform_four};

@@ -430,6 +430,46 @@ fn alike_buildings_need_no_sweep() {
     assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
 }
 
+/// Where nothing is demanded, a rule is told with the widest gap that it asks for, which the
+/// verdict beside it and `--json` mean too.
+#[test]
+fn alike_buildings_are_told_the_widest_gap_of_a_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions").display().to_string();
+    let case = case
+        .unwrap()
+        .replace("\"1000 t\"", "\"25 t\"")
+        .replace("\"2215 MN/m\"", "\"3.46 MN/m\"")
+        .replace("\"20 mm\"", "\"150 mm\"")
+        .replace("\"31 s\"", "\"10 s\"")
+        .replace("../../ground_motions", &records);
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let call = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(["gap", "case.toml", "--points", "0"])
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+    };
+    let shown = text(&call(&[]).stdout);
+    let report = json(&call(&["--json"]));
+    for (rule, told) in [
+        ("absolute_sum", "228.4"),
+        ("square_root_of_sum_of_squares", "161.5"),
+    ] {
+        let combination = named(&report["gaps"][0]["combinations"], "rule", rule);
+        let widths = combination["width"][0].as_array().unwrap().iter();
+        let widest = widths.filter_map(Value::as_f64).fold(0.0, f64::max);
+        assert_eq!(format!("{:.1}", widest * 1e3), told);
+        let line = shown.lines().find(|l| l.contains(&format!(" {rule} ")));
+        let cells: Vec<&str> = line.unwrap().split('|').map(str::trim).collect();
+        assert_eq!(cells[4..7], [told, "no", "-"], "{shown}");
+    }
+    assert!(!shown.contains("inf"), "{shown}");
+}
+
 #[test]
 fn mistakes() {
     for (arguments, says) in [

@@ -100,13 +100,39 @@ impl GapReport {
         (0..self.demand.len()).filter(beyond).count()
     }
 
-    /// Least ratio of such a width to the demand (-), with its record.
+    /// Least ratio of such a width to the demand (-), with its record. A record that demands
+    /// nothing beside the width has none.
     #[must_use]
     pub fn least_ratio(&self, width: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
         let ratios = (0..self.demand.len()).filter_map(|r| Some((r, width(r)? / self.demand[r])));
         ratios
-            .filter(|(_, ratio)| !ratio.is_nan())
+            .filter(|(_, ratio)| *ratio * SAME < 1.0)
             .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The level at which a combination is told (from zero): the governing one, or, where
+    /// no record demands a gap, the one that the rule asks the widest gap of.
+    #[must_use]
+    pub fn told_level(&self, combination: &CombinationGap) -> usize {
+        let widest = |level: usize| {
+            let records = combination.records.iter();
+            let widths = records.filter_map(|levels| Some(levels.get(level)?.width));
+            widths.fold(0.0_f64, f64::max)
+        };
+        let last = self.levels.len().saturating_sub(1);
+        let greatest = (0..last).fold(last, |most, level| {
+            if widest(level) > widest(most) {
+                level
+            } else {
+                most
+            }
+        });
+        let demand = self.demand.iter().fold(0.0_f64, |m, d| m.max(*d));
+        if demand > SAME * widest(greatest) {
+            self.governing_level
+        } else {
+            greatest
+        }
     }
 }
 

@@ -148,7 +148,7 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         "status",
     ]);
     for c in &gap.combinations {
-        let level = gap.governing_level;
+        let level = gap.told_level(c);
         let width = |r: usize| c.records.get(r)?.get(level).map(|l| l.width);
         let name = match c.effective {
             Some(effective) => format!("{} ({})", c.rule.name(), effective.name()),

@@ -29,7 +29,7 @@ fn a_result_opens_in_python() {
         let options = &assembly.options;
         let outcome = run(&assembly.system, options, &mut recorders, &mut |_| {}).unwrap();
         let isolated = run(&assembly.system.isolated(), options, &mut [], &mut |_| {}).unwrap();
-        assert_eq!(recorder.samples.len(), 3101);
+        assert_eq!(recorder.history.len(), 3101);
         let record = RunRecord {
             title: &case.title,
             case: &case.source,
@@ -38,7 +38,7 @@ fn a_result_opens_in_python() {
             assembly: &assembly,
             outcome: &outcome,
             isolated: &isolated,
-            samples: &recorder.samples,
+            history: &recorder.history,
             wall_time: 0.0,
         };
         write_result(path, &record).unwrap();

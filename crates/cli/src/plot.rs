@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pounding_report::ReportError;
 pub use pounding_report::{Curve, Panel, Reference};
-use pounding_time_history::{RunRecord, Sample};
+use pounding_time_history::RunRecord;
 
 use crate::failure::Failure;
 
@@ -35,15 +35,20 @@ pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
 /// Draws roof displacements above, contact forces of the highest levels below.
 pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
     let system = &record.assembly.system;
-    let curve = |name: &str, pick: &dyn Fn(&Sample) -> f64| Curve {
-        name: name.to_owned(),
-        points: record.samples.iter().map(|s| (s.time, pick(s))).collect(),
+    let history = record.history;
+    let curve = |name: &str, (values, column): (&[f64], usize), factor: f64| {
+        let values = history.column(values, column);
+        let times = history.time.iter().copied();
+        Curve {
+            name: name.to_owned(),
+            points: times.zip(values.iter().map(|x| x * factor)).collect(),
+        }
     };
     let roofs = system
         .buildings()
         .iter()
         .zip(system.offsets().windows(2))
-        .map(|(b, range)| curve(b.name(), &|s| s.displacement[range[1] - 1] * 1e3))
+        .map(|(b, range)| curve(b.name(), (&history.displacement, range[1] - 1), 1e3))
         .collect();
     let forces = system
         .gaps()
@@ -51,7 +56,7 @@ pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
         .filter(|g| g.levels > 0)
         .map(|g| {
             let level = g.first_level + g.levels - 1;
-            curve(&system.name_of_level(level), &|s| s.force[level] * 1e-3)
+            curve(&system.name_of_level(level), (&history.force, level), 1e-3)
         })
         .collect();
     let panel = |caption: &str, curves| Panel {

@@ -43,7 +43,7 @@ pub use excitation::{processing_step, read_record, scale_record};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
-pub use recorder::{GridRecorder, Recorder, Sample, StepView};
+pub use recorder::{GridRecorder, History, Recorder, Sample, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 pub use result_file::{RunRecord, dimension_scales, write_result};
 pub use system::{

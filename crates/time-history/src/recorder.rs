@@ -1,5 +1,7 @@
 //! Recorders: sinks that see every accepted step and every finished impact.
 
+use std::ops::Range;
+
 use crate::contact::Contacts;
 use crate::dense_output::{ModalStep, Room};
 use crate::dynamics::{Dynamics, Instant, Layout};
@@ -260,12 +262,100 @@ pub trait Recorder {
     }
 }
 
+/// Responses at many times: one list per quantity, row after row in order of time. A row of
+/// floors holds the buildings from the left, one of levels or elements their order in the
+/// [`System`]. Units are those of [`Sample`].
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct History {
+    /// Times (s).
+    pub time: Vec<f64>,
+    /// Ground acceleration (m/s2).
+    pub ground_acceleration: Vec<f64>,
+    /// Floor displacements relative to the ground (m).
+    pub displacement: Vec<f64>,
+    /// Floor velocities relative to the ground (m/s).
+    pub velocity: Vec<f64>,
+    /// Absolute floor accelerations (m/s2).
+    pub acceleration_absolute: Vec<f64>,
+    /// Penetration of every contact level (m), negative while open.
+    pub penetration: Vec<f64>,
+    /// Contact force of every level (N).
+    pub force: Vec<f64>,
+    /// Storey shears (N).
+    pub storey_shear: Vec<f64>,
+    /// Deformation of every element (m).
+    pub element_deformation: Vec<f64>,
+    /// Force of every element (N).
+    pub element_force: Vec<f64>,
+    /// Energy that every element has dissipated so far (J).
+    pub element_dissipated: Vec<f64>,
+    /// Energy ledger.
+    pub energy: Vec<Energy>,
+}
+
+impl History {
+    /// Number of times.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// Some columns of one of the lists, row after row.
+    #[must_use]
+    pub fn columns(&self, values: &[f64], range: Range<usize>) -> Vec<f64> {
+        let width = values.len() / self.len().max(1);
+        if width == 0 {
+            return Vec::new();
+        }
+        let rows = values.chunks_exact(width);
+        let chosen = rows.flat_map(|row| row[range.clone()].iter().copied());
+        chosen.collect()
+    }
+
+    /// One column of one of the lists.
+    #[must_use]
+    pub fn column(&self, values: &[f64], index: usize) -> Vec<f64> {
+        self.columns(values, index..index + 1)
+    }
+
+    fn push(&mut self, sample: &Sample) {
+        self.time.push(sample.time);
+        self.ground_acceleration.push(sample.ground_acceleration);
+        for (list, row) in [
+            (&mut self.displacement, &sample.displacement),
+            (&mut self.velocity, &sample.velocity),
+            (
+                &mut self.acceleration_absolute,
+                &sample.acceleration_absolute,
+            ),
+            (&mut self.penetration, &sample.penetration),
+            (&mut self.force, &sample.force),
+            (&mut self.storey_shear, &sample.storey_shear),
+            (&mut self.element_deformation, &sample.element_deformation),
+            (&mut self.element_force, &sample.element_force),
+            (&mut self.element_dissipated, &sample.element_dissipated),
+        ] {
+            list.extend_from_slice(row);
+        }
+        self.energy.push(sample.energy);
+    }
+}
+
 /// Records responses on an even grid of times, from zero to the end of the run.
 #[derive(Debug, Clone)]
 pub struct GridRecorder {
     step: f64,
     /// Responses in order of time.
-    pub samples: Vec<Sample>,
+    pub history: History,
+    /// Room for one of them.
+    sample: Sample,
 }
 
 impl GridRecorder {
@@ -277,7 +367,8 @@ impl GridRecorder {
         if step.is_finite() && step > 0.0 {
             Ok(Self {
                 step,
-                samples: Vec::new(),
+                history: History::default(),
+                sample: Sample::default(),
             })
         } else {
             Err(TimeHistoryError::Option {
@@ -291,7 +382,7 @@ impl GridRecorder {
 
 impl Recorder for GridRecorder {
     fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
-        self.samples.push(start.clone());
+        self.history.push(start);
         Ok(())
     }
 
@@ -304,13 +395,12 @@ impl Recorder for GridRecorder {
             0.0
         };
         loop {
-            let time = self.samples.len() as f64 * self.step;
+            let time = self.history.len() as f64 * self.step;
             if time > step.end() + slack {
                 return Ok(());
             }
-            let mut sample = Sample::default();
-            step.sample(time, &mut sample);
-            self.samples.push(sample);
+            step.sample(time, &mut self.sample);
+            self.history.push(&self.sample);
         }
     }
 }

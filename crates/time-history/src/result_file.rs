@@ -19,9 +19,9 @@ use sha2::{Digest, Sha256};
 
 use crate::assemble::Assembly;
 use crate::error::TimeHistoryError;
-use crate::outcome::Outcome;
-use crate::recorder::Sample;
-use datasets::{column, series, text};
+use crate::outcome::{Energy, Outcome};
+use crate::recorder::History;
+use datasets::{series, text};
 
 /// Everything that goes into a result file.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +41,7 @@ pub struct RunRecord<'a> {
     /// Result of the same buildings without gaps.
     pub isolated: &'a Outcome,
     /// Responses on the output grid.
-    pub samples: &'a [Sample],
+    pub history: &'a History,
     /// Wall-clock time of the run (s); the only value that two runs do not share.
     pub wall_time: f64,
 }
@@ -93,8 +93,8 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
         origin.map_or("", |o| o.sha256.as_str()),
     )?;
     text(&file, "status", "complete")?;
-    let samples = record.samples;
-    let time = series(&file, "time", "s", "time", &column(samples, |s| s.time))?;
+    let history = record.history;
+    let time = series(&file, "time", "s", "time", &history.time)?;
     dimension_scales::make_scale(&time, "time")?;
     let ground = file.create_group("ground")?;
     share_time(&ground)?;
@@ -103,7 +103,7 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
         "acceleration",
         "m s-2",
         "ground acceleration",
-        &column(samples, |s| s.ground_acceleration),
+        &history.ground_acceleration,
     )?;
     dimension_scales::attach(&a, &time, 0)?;
     // A text here ends at a NUL, which titles of damaged headers may have.
@@ -126,34 +126,33 @@ fn share_time(group: &Group) -> Result<()> {
 fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
     let group = file.create_group("energy")?;
     share_time(&group)?;
-    type Pick = fn(&Sample) -> f64;
+    type Pick = fn(&Energy) -> f64;
     let entries: [(&str, &str, Pick); 7] = [
         (
             "input",
             "work of the ground motion, relative formulation",
-            |s| s.energy.input,
+            |e| e.input,
         ),
-        ("kinetic", "kinetic energy relative to the ground", |s| {
-            s.energy.kinetic
+        ("kinetic", "kinetic energy relative to the ground", |e| {
+            e.kinetic
         }),
         (
             "strain",
             "recoverable energy of storeys, links and contacts",
-            |s| s.energy.strain,
+            |e| e.strain,
         ),
-        ("viscous", "dissipated by viscous damping", |s| {
-            s.energy.viscous
-        }),
+        ("viscous", "dissipated by viscous damping", |e| e.viscous),
         (
             "hysteretic",
             "dissipated by storeys with laws and by links",
-            |s| s.energy.hysteretic,
+            |e| e.hysteretic,
         ),
-        ("impact", "dissipated in contacts", |s| s.energy.impact),
-        ("residual", "what the ledger misses", |s| s.energy.residual),
+        ("impact", "dissipated in contacts", |e| e.impact),
+        ("residual", "what the ledger misses", |e| e.residual),
     ];
     for (name, long_name, pick) in entries {
-        let data = series(&group, name, "J", long_name, &column(record.samples, pick))?;
+        let values: Vec<f64> = record.history.energy.iter().map(pick).collect();
+        let data = series(&group, name, "J", long_name, &values)?;
         dimension_scales::attach(&data, time, 0)?;
     }
     let ratio = group.new_attr::<f64>().create("residual_ratio")?;

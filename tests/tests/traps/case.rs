@@ -217,9 +217,10 @@ impl Case {
         };
         let mut grid = GridRecorder::new(self.time_step).unwrap();
         let outcome = run(&self.system(), &options, &mut [&mut grid], &mut |_| {}).unwrap();
-        assert!(grid.samples.len() >= self.ground.len());
-        let seen = grid.samples.iter().map(|s| s.penetration[0]);
-        (outcome, seen.fold(f64::NEG_INFINITY, f64::max))
+        assert!(grid.history.len() >= self.ground.len());
+        let seen = grid.history.column(&grid.history.penetration, 0);
+        let greatest = seen.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        (outcome, greatest)
     }
 }
 

@@ -41,7 +41,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         assembly: &assembly,
         outcome: &outcome,
         isolated: &isolated,
-        samples: &recorder.samples,
+        history: &recorder.history,
         wall_time,
     };
     if let Some(path) = &output {

@@ -5,7 +5,6 @@ use hdf5::{Dataset, Group};
 use super::datasets::{matrix, series};
 use super::{Result, RunRecord, dimension_scales, elements, share_time};
 use crate::outcome::{Peak, StoreyPeaks};
-use crate::recorder::Sample;
 
 pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
     let all = file.create_group("building")?;
@@ -22,56 +21,54 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             building.elevations(),
         )?;
         dimension_scales::make_scale(&storey, "storey")?;
-        let table =
-            |name: &str, units: &str, long_name: &str, pick: &dyn Fn(&Sample) -> Vec<f64>| {
-                let rows: Vec<f64> = record.samples.iter().flat_map(pick).collect();
-                let data = matrix(&group, name, units, long_name, &rows, range.len())?;
-                dimension_scales::attach(&data, time, 0)?;
-                dimension_scales::attach(&data, &storey, 1)
-            };
-        let drifts = |s: &Sample| -> Vec<f64> {
-            let mut below = 0.0;
-            s.displacement[range.clone()]
-                .iter()
-                .map(|u| u - std::mem::replace(&mut below, *u))
-                .collect()
+        let history = record.history;
+        let table = |name: &str, units: &str, long_name: &str, rows: &[f64]| {
+            let data = matrix(&group, name, units, long_name, rows, range.len())?;
+            dimension_scales::attach(&data, time, 0)?;
+            dimension_scales::attach(&data, &storey, 1)
         };
-        let scaled = |s: &Sample, by: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            drifts(s)
-                .iter()
-                .enumerate()
-                .map(|(i, d)| d * by(i))
-                .collect()
+        let columns = |values: &[f64]| history.columns(values, range.clone());
+        let drift_ratios = || -> Vec<f64> {
+            let displacements = columns(&history.displacement);
+            let rows = displacements.chunks_exact(range.len());
+            rows.flat_map(|row| {
+                let mut below = 0.0;
+                let drifts = row
+                    .iter()
+                    .map(move |u| u - std::mem::replace(&mut below, *u));
+                drifts.zip(building.height()).map(|(d, h)| d * (1.0 / h))
+            })
+            .collect()
         };
         table(
             "displacement",
             "m",
             "floor displacement relative to the ground",
-            &|s| s.displacement[range.clone()].to_vec(),
+            &columns(&history.displacement),
         )?;
         table(
             "velocity",
             "m s-1",
             "floor velocity relative to the ground",
-            &|s| s.velocity[range.clone()].to_vec(),
+            &columns(&history.velocity),
         )?;
         table(
             "acceleration_absolute",
             "m s-2",
             "absolute floor acceleration",
-            &|s| s.acceleration_absolute[range.clone()].to_vec(),
+            &columns(&history.acceleration_absolute),
         )?;
         table(
             "drift_ratio",
             "1",
             "storey drift over storey height",
-            &|s| scaled(s, &|i| 1.0 / building.height()[i]),
+            &drift_ratios(),
         )?;
         table(
             "storey_shear",
             "N",
             "storey shear, elastic or by the storey's law",
-            &|s| s.storey_shear[range.clone()].to_vec(),
+            &columns(&history.storey_shear),
         )?;
         let peaks = group.create_group("peak")?;
         group.link_hard("storey", "peak/storey")?;

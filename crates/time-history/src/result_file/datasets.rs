@@ -6,15 +6,10 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type, Location};
 
 use super::Result;
-use crate::recorder::Sample;
 
 /// Rows of a chunk: a few hundred kilobytes for tall buildings, few chunks for
 /// short runs.
 const CHUNK_ROWS: usize = 1024;
-
-pub(super) fn column(samples: &[Sample], pick: impl Fn(&Sample) -> f64) -> Vec<f64> {
-    samples.iter().map(pick).collect()
-}
 
 /// A one-dimensional dataset with units and long name.
 pub(super) fn series<T: H5Type>(

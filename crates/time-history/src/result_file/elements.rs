@@ -6,7 +6,6 @@ use super::datasets::{matrix, series, text};
 use super::{Result, RunRecord, dimension_scales, levels, share_time};
 use crate::elements::ElementPlace;
 use crate::outcome::{LinkLevelOutcome, Peak};
-use crate::recorder::Sample;
 
 /// Energy dissipated in every storey over time, ductility and what stays, for a building
 /// that has laws.
@@ -29,13 +28,11 @@ pub(super) fn storeys(
             place[storey] = Some(e);
         }
     }
-    let mut rows = Vec::with_capacity(storeys * record.samples.len());
-    for sample in record.samples {
-        rows.extend(
-            place
-                .iter()
-                .map(|e| e.map_or(0.0, |e| sample.element_dissipated[e])),
-        );
+    let history = record.history;
+    let mut rows = Vec::with_capacity(storeys * history.len());
+    let width = record.assembly.system.elements().len();
+    for row in history.element_dissipated.chunks_exact(width) {
+        rows.extend(place.iter().map(|e| e.map_or(0.0, |e| row[e])));
     }
     let long_name = "energy dissipated by the law of the storey so far";
     let data = matrix(group, "hysteretic_energy", "J", long_name, &rows, storeys)?;
@@ -89,32 +86,29 @@ pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -
         let level = levels::coordinates(&group, &system.link_levels(index))?;
         let outcome = &record.outcome.links[index];
         text(&group, "law", outcome.law)?;
-        type Pick = fn(&Sample) -> &[f64];
-        let quantities: [(&str, &str, &str, Pick); 3] = [
+        let history = record.history;
+        let quantities: [(&str, &str, &str, &[f64]); 3] = [
             (
                 "deformation",
                 "m",
                 "displacement of the right floor less that of the left",
-                |s| &s.element_deformation,
+                &history.element_deformation,
             ),
             (
                 "force",
                 "N",
                 "force of the link, positive in tension",
-                |s| &s.element_force,
+                &history.element_force,
             ),
             (
                 "energy_dissipated",
                 "J",
                 "energy dissipated by the link so far",
-                |s| &s.element_dissipated,
+                &history.element_dissipated,
             ),
         ];
-        for (name, units, long_name, pick) in quantities {
-            let samples = record.samples.iter();
-            let rows: Vec<f64> = samples
-                .flat_map(|s| pick(s)[range.clone()].iter().copied())
-                .collect();
+        for (name, units, long_name, values) in quantities {
+            let rows = history.columns(values, range.clone());
             let data = matrix(&group, name, units, long_name, &rows, range.len())?;
             text(&data, "coordinates", levels::COORDINATES)?;
             dimension_scales::attach(&data, time, 0)?;

@@ -5,7 +5,6 @@ use hdf5::{Dataset, H5Type};
 use super::datasets::{matrix, series, table as rows_of, text};
 use super::{Result, RunRecord, dimension_scales, levels, share_time};
 use crate::outcome::Impact;
-use crate::recorder::Sample;
 use crate::system::LevelPlace;
 
 /// One impact as a row of the compound table.
@@ -70,23 +69,26 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
         let widening = series(&group, "widening", "m", long_name, &widened)?;
         dimension_scales::attach(&widening, &level, 0)?;
         let coordinates = format!("{} width", levels::COORDINATES);
-        let table =
-            |name: &str, units: &str, long_name: &str, pick: &dyn Fn(&Sample) -> Vec<f64>| {
-                let rows: Vec<f64> = record.samples.iter().flat_map(pick).collect();
-                let data = matrix(&group, name, units, long_name, &rows, range.len())?;
-                text(&data, "coordinates", &coordinates)?;
-                dimension_scales::attach(&data, time, 0)?;
-                dimension_scales::attach(&data, &level, 1)
-            };
+        let history = record.history;
+        let table = |name: &str, units: &str, long_name: &str, values: &[f64]| {
+            let rows = history.columns(values, range.clone());
+            let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+            text(&data, "coordinates", &coordinates)?;
+            dimension_scales::attach(&data, time, 0)?;
+            dimension_scales::attach(&data, &level, 1)
+        };
         table(
             "penetration",
             "m",
             "penetration, negative while the gap is open",
-            &|s| s.penetration[range.clone()].to_vec(),
+            &history.penetration,
         )?;
-        table("force", "N", "contact force, positive pushes apart", &|s| {
-            s.force[range.clone()].to_vec()
-        })?;
+        table(
+            "force",
+            "N",
+            "contact force, positive pushes apart",
+            &history.force,
+        )?;
         let rows: Vec<ImpactRow> = record
             .outcome
             .impacts

@@ -188,6 +188,64 @@ fn damping_that_brakes_the_isolators() {
     assert!(modal.check.is_empty(), "{:?}", modal.check);
 }
 
+/// A layer of isolators is given by its law, too: 40 MN/m that yield and leave 4 MN/m below
+/// storeys of 100 MN/m. With the damping `C = 0.3 M + 0.004 K` of the elastic stiffness and
+/// floors of 100 t that move as one on 4 MN/m, the ratio is
+/// `(0.3 M + 0.004 * 40e6) / (2 sqrt(4e6 M))` for `M = 400 t`: 11.1 %, of which storeys above
+/// that are not rigid leave 10.8 %.
+#[test]
+fn damping_that_brakes_isolators_after_yield() {
+    let law = |stiffness: &str, law: &str, damping: &str| {
+        CASE.replacen("storeys = 2", "storeys = 4", 1)
+            .replacen("25 t", "100 t", 1)
+            .replacen(
+                "\"3.46 MN/m\"",
+                &format!("{stiffness}\np_delta = false\nlaw = {law}"),
+                1,
+            )
+            .replacen("{ stiffness_proportional = 0.05 }", damping, 1)
+    };
+    const LAYER: &str = "[\"40 MN/m\", \"100 MN/m\", \"100 MN/m\", \"100 MN/m\"]";
+    const RAYLEIGH: &str = "{ rayleigh = { alpha = 0.3, beta = 0.004 } }";
+    let below = |law: &str| format!("{{ model = {law}, storeys = [1], yield_force = \"200 kN\" }}");
+    let told = said(&law(
+        LAYER,
+        &below("\"bilinear\", hardening_ratio = 0.1"),
+        RAYLEIGH,
+    ));
+    assert_eq!(told.check.len(), 1, "{:?}", told.check);
+    for part in [
+        "a stands on a first storey that is soft after yield (4 MN/m)",
+        "of the 10.8 %",
+        "with that stiffness",
+    ] {
+        assert!(told.check[0].contains(part), "{:?}", told.check);
+    }
+    let slider = said(&law(
+        LAYER,
+        &below("\"elastic_perfectly_plastic\""),
+        RAYLEIGH,
+    ));
+    assert!(
+        slider.check[0].contains("soft after yield (0 MN/m)"),
+        "{:?}",
+        slider.check
+    );
+    // A frame that yields everywhere is none, and neither is one that stays stiff.
+    let all = "{ model = \"bilinear\", yield_force = \"200 kN\", hardening_ratio = 0.1 }";
+    let stiff = below("\"bilinear\", hardening_ratio = 0.6");
+    let modal = "{ modal = 0.05 }";
+    let layer = below("\"bilinear\", hardening_ratio = 0.1");
+    for case in [
+        law(LAYER, all, RAYLEIGH),
+        law(LAYER, &stiff, RAYLEIGH),
+        law(LAYER, &layer, modal),
+    ] {
+        let told = said(&case);
+        assert!(told.check.is_empty(), "{:?}", told.check);
+    }
+}
+
 /// `pi sqrt(m / k) = 45.9 ms` for 20 t and 93.5 MN/m, elastic in approach.
 #[test]
 fn fixed_steps_that_are_too_coarse_for_the_contact() {

@@ -5,7 +5,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use pounding_gap_element::{Bodies, ImpactModel, collide};
-use pounding_shear_building::{Damping, DampingMatrix, ShearBuilding};
+use pounding_hysteresis::laboratory;
+use pounding_shear_building::{Damping, DampingMatrix, Modes, ShearBuilding};
 
 use crate::assemble::Assembly;
 use crate::estimate::{StepEstimate, StepLimit, short};
@@ -74,6 +75,8 @@ pub enum Warning {
         ratio: f64,
         /// Part of it that acts on the motion of the first storey (-).
         share: f64,
+        /// Stiffness (N/m) of that storey after yield, if it is soft only then.
+        after_yield: Option<f64>,
     },
     /// Fixed steps that a contact is too short for.
     CoarseStep {
@@ -142,12 +145,23 @@ impl fmt::Display for Warning {
                 building,
                 ratio,
                 share,
-            } => write!(
-                f,
-                "{building} stands on a soft first storey, as on isolators, and its damping is in proportion to mass and stiffness: of the {:.1} % of critical in mode 1, {:.0} % act on the motion of that storey, where they brake the isolators; use `modal` or `dashpots`",
-                100.0 * ratio,
-                100.0 * share
-            ),
+                after_yield,
+            } => {
+                let (soft, mode) = after_yield.map_or_else(
+                    || ("soft first storey".to_owned(), "mode 1"),
+                    |k| {
+                        let k = short(1e-6 * k);
+                        let soft = format!("first storey that is soft after yield ({k} MN/m)");
+                        (soft, "mode 1 with that stiffness")
+                    },
+                );
+                write!(
+                    f,
+                    "{building} stands on a {soft}, as on isolators, and its damping is in proportion to mass and stiffness: of the {:.1} % of critical in {mode}, {:.0} % act on the motion of that storey, where they brake the isolators; use `modal` or `dashpots`",
+                    100.0 * ratio,
+                    100.0 * share
+                )
+            }
             Self::CoarseStep {
                 gap,
                 step,
@@ -299,15 +313,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
             });
         }
     }
-    for building in system.buildings() {
-        if let Some(share) = share_in_isolator(building) {
-            warnings.push(Warning::DampingInIsolator {
-                building: building.name().to_owned(),
-                ratio: building.modes().damping_ratio[0],
-                share,
-            });
-        }
-    }
+    warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
     for gap in system.gaps() {
         let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
         let wide = levels.iter().filter_map(|level| {
@@ -346,31 +352,86 @@ fn lower_storey(system: &System, level: &ContactLevel) -> Option<f64> {
     heights.min_by(f64::total_cmp)
 }
 
-/// Part of the first mode's damping that acts on the motion of a soft first storey: what
-/// the storeys above do not take. Dashpots in proportion to the masses stand between the
-/// floors and the ground, so that the isolators move them, too.
-fn share_in_isolator(building: &ShearBuilding) -> Option<f64> {
+/// Damping that brakes the isolators below a building: those that are soft from the start,
+/// or that a law of the first storey makes soft when it yields.
+fn braked_isolator(building: &ShearBuilding) -> Option<Warning> {
     let proportional = !matches!(
         building.damping(),
         Damping::Modal { .. } | Damping::Dashpots { .. }
     );
-    let (stiffness, modes) = (building.stiffness(), building.modes());
-    let above = stiffness.get(1)?;
-    let shape = |i: usize| modes.shape[(i, 0)];
-    let soft = stiffness[0] <= ISOLATOR.0 * above
-        && shape(0) >= ISOLATOR.1 * shape(building.storeys() - 1);
+    let above = *building.stiffness().get(1)?;
+    let soft = |stiffness: f64| stiffness <= ISOLATOR.0 * above;
+    if !proportional {
+        return None;
+    }
+    let from_start = || damping_of_isolator(building, building.modes());
+    let from_start = soft(building.stiffness()[0]).then(from_start).flatten();
+    let after_yield = || {
+        let after = stiffness_after_yield(building).filter(|k| soft(*k))?;
+        let mut stiffness = building.stiffness().to_vec();
+        // A storey without any has no mode that vibrates: one far softer than all others.
+        stiffness[0] = after.max(ISOLATOR.0 * 1e-3 * above);
+        let (mass, height) = (building.mass().to_vec(), building.height().to_vec());
+        let undamped = Damping::MassProportional { ratio: 0.0 };
+        let name = building.name().to_owned();
+        let yielded = ShearBuilding::new(name, mass, stiffness, height, undamped).ok()?;
+        Some((damping_of_isolator(building, yielded.modes())?, Some(after)))
+    };
+    let braked = from_start.map(|d| (d, None)).or_else(after_yield);
+    braked.map(|((ratio, share), after_yield)| Warning::DampingInIsolator {
+        building: building.name().to_owned(),
+        ratio,
+        share,
+        after_yield,
+    })
+}
+
+/// Damping ratio of the first of these modes, and the part of it that acts on the motion of
+/// the first storey, if most of the motion is there: what the storeys above do not take.
+/// Dashpots in proportion to the masses stand between the floors and the ground, so that
+/// the isolators move them, too.
+fn damping_of_isolator(building: &ShearBuilding, modes: &Modes) -> Option<(f64, f64)> {
     let DampingMatrix::Tridiagonal(matrix) = building.damping_matrix() else {
         return None;
     };
-    let whole = 2.0 * modes.circular_frequency[0] * modes.damping_ratio[0];
-    if !(proportional && soft && whole > 0.0) {
+    let shape: Vec<f64> = modes.shape.column(0).iter().copied().collect();
+    if shape.first()?.abs() < ISOLATOR.1 * shape.last()?.abs() {
         return None;
     }
-    let storeys = matrix.off_diagonal.iter().enumerate().map(|(i, c)| {
-        let drift = shape(i + 1) - shape(i);
-        -c * drift * drift
-    });
-    Some((1.0 - storeys.sum::<f64>() / whole).clamp(0.0, 1.0))
+    let mut forces = vec![0.0; shape.len()];
+    matrix.multiply(&shape, &mut forces);
+    let whole: f64 = shape.iter().zip(&forces).map(|(x, f)| x * f).sum();
+    let storeys = matrix
+        .off_diagonal
+        .iter()
+        .zip(shape.windows(2))
+        .map(|(c, x)| {
+            let drift = x[1] - x[0];
+            -c * drift * drift
+        });
+    let share = (1.0 - storeys.sum::<f64>() / whole).clamp(0.0, 1.0);
+    // Shapes are normalised to the masses.
+    let ratio = whole / (2.0 * modes.circular_frequency[0]);
+    (whole > 0.0).then_some((ratio, share))
+}
+
+/// Slope of the first storey's law (N/m) well beyond its yield, where it is the only storey
+/// that yields: in a frame whose other storeys yield too it is no isolator.
+fn stiffness_after_yield(building: &ShearBuilding) -> Option<f64> {
+    let (first, others) = building.laws().split_first()?;
+    let first = first.as_ref()?;
+    let far = 10.0 * first.yield_drift?;
+    if others.iter().flatten().any(|l| !l.law.is_linear()) {
+        return None;
+    }
+    const STEPS: u32 = 100;
+    let path: Vec<f64> = (1..=STEPS)
+        .map(|i| far * f64::from(i) / f64::from(STEPS))
+        .collect();
+    // The slope over the last yield drift; each step lasts a second, that is: slowly.
+    let points = laboratory::history(first.law.as_ref(), &path, 1.0);
+    let (a, b) = (points.get(points.len() - 11)?, points.last()?);
+    Some(((b.force - a.force) / (b.deformation - a.deformation)).max(0.0))
 }
 
 /// The shortest contact, if fixed steps are too coarse for it. `velocity` gives the

@@ -137,6 +137,8 @@ pub fn sweep(
     let runner = Runner::new(study, options.keep_going)?;
     let description = describe(&runner, options.shard);
     if let Some(report) = complete(&runner, &description, options)? {
+        // What an interrupted call made of these runs stands in the result as well.
+        Parts::discard(&options.output, &signature(&description));
         return Ok(report);
     }
     let chunks = chunks(study.runs(), study.chunk, options.shard);

@@ -165,6 +165,39 @@ fn small_pieces_become_large_ones() {
     assert!(bench.bytes("often.h5") == bench.bytes("whole.h5"));
 }
 
+/// Begun again beside its finished result and interrupted, a study that is resumed finds
+/// nothing to do: the runs of the interrupted call are removed, unless they are of another
+/// study.
+#[test]
+fn runs_beside_a_finished_result_are_removed() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o whole.h5");
+    let whole = bench.bytes("whole.h5");
+    let parts = bench.path("again.h5.parts");
+    let begin = || {
+        bench.without_its_result("sweep study.toml -o again.h5 --store-every 1000s");
+        std::fs::write(bench.path("again.h5"), &whole).unwrap();
+        assert_eq!(stored(&parts), 15);
+    };
+    begin();
+    let told = bench.text("sweep study.toml -o again.h5 --resume");
+    assert!(
+        told.contains("60 of them stored by an earlier call"),
+        "{told}"
+    );
+    assert!(!parts.exists());
+    assert!(bench.bytes("again.h5") == whole);
+    // Runs of another study that lie there are not touched.
+    begin();
+    let name = parts.join("study.txt");
+    let text = std::fs::read_to_string(&name).unwrap();
+    std::fs::write(&name, text.replacen(&text[..4], "0000", 1)).unwrap();
+    std::fs::remove_file(parts.join("lock")).unwrap();
+    bench.text("sweep study.toml -o again.h5 --resume");
+    assert_eq!(stored(&parts), 15);
+    assert!(!parts.join("lock").exists());
+}
+
 /// A finished result of another shard, or of another study, is never taken for one that is to
 /// be resumed.
 #[test]

@@ -162,6 +162,30 @@ impl Parts {
         Ok(())
     }
 
+    /// Removes the folder of a result that stands complete, if it holds runs of this very
+    /// study, shard and build, and no process is at work there. Any other folder stays.
+    pub(crate) fn discard(result: &Path, study: &str) {
+        let folder = Self::folder(result);
+        let ours = || std::fs::read_to_string(folder.join(STUDY)).is_ok_and(|text| text == study);
+        // Looked at before the lock, which would leave its file in a folder of others, and
+        // under it, as another process may have begun anew in between.
+        if !ours() {
+            return;
+        }
+        let Ok(lock) = lock(&folder) else { return };
+        if ours() {
+            let parts = Self {
+                folder: folder.clone(),
+                study: study.to_owned(),
+                chunks: Vec::new(),
+                stored: BTreeMap::new(),
+                _lock: lock,
+            };
+            // A folder that stays does no harm.
+            let _ = parts.remove();
+        }
+    }
+
     /// Removes what is ours, when its runs are in the result. A file of somebody else stays,
     /// and the folder with it.
     pub(crate) fn remove(self) -> std::io::Result<()> {

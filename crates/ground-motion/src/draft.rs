@@ -28,6 +28,24 @@ pub(crate) struct DraftPeak {
     pub shift: f64,
 }
 
+/// A length of the record that a header states.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StatedDuration {
+    /// Length (s).
+    pub seconds: f64,
+    /// Its line, from 1; `None`: that of the step.
+    pub line: Option<usize>,
+}
+
+impl From<f64> for StatedDuration {
+    fn from(seconds: f64) -> Self {
+        Self {
+            seconds,
+            line: None,
+        }
+    }
+}
+
 /// The unit of the values in a file.
 pub(crate) enum DraftUnit {
     /// As the file states it; its symbol for display.
@@ -48,8 +66,11 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
-    /// Length of the record that the header states (s).
-    pub header_duration: Option<f64>,
+    /// Lengths of the record that the header states, in numbers or in words.
+    pub header_durations: Vec<StatedDuration>,
+    /// Two steps that the header states: line, what is wrong, remedy. A duration that
+    /// tells which of them is wrong is said first.
+    pub step_conflict: Option<(usize, String, String)>,
     pub peak: Option<DraftPeak>,
     pub initial: Option<(f64, f64)>,
     pub processing: Processing,
@@ -73,7 +94,8 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
-            header_duration: None,
+            header_durations: Vec::new(),
+            step_conflict: None,
             peak: None,
             initial: None,
             processing: Processing::Unstated,
@@ -97,6 +119,12 @@ impl Draft {
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         let (sampling, step_text) = self.sampling(source)?;
         self.duration(source, &sampling)?;
+        if let Some((line, message, remedy)) = self.step_conflict.take() {
+            if !source.options.lenient {
+                return Err(source.error(line, 0, message, &remedy));
+            }
+            self.warnings.push(format!("line {line}: {message}"));
+        }
         for a in &mut self.samples {
             *a *= factor;
         }
@@ -315,16 +343,16 @@ impl Draft {
 const DURATION_TOLERANCE: f64 = 0.01;
 
 impl Draft {
-    /// Holds the duration in the header against count and step. Agencies count n or n - 1
-    /// steps and round the duration: one and a half steps are no difference.
+    /// Holds every duration in the header against count and step. Agencies count n or
+    /// n - 1 steps and round the duration: one and a half steps are no difference.
     fn duration(
         &mut self,
         source: &Source<'_>,
         sampling: &Sampling,
     ) -> Result<(), GroundMotionError> {
-        let Some(stated) = self.header_duration else {
+        if self.header_durations.is_empty() {
             return Ok(());
-        };
+        }
         let count = self.samples.len();
         let (found, step, how) = match sampling {
             Sampling::Even { time_step } => {
@@ -341,21 +369,25 @@ impl Draft {
                 (found, found / count as f64, how)
             }
         };
-        let difference = (found - stated).abs();
-        if difference <= 1.5 * step {
-            return Ok(());
+        for StatedDuration { seconds, line } in std::mem::take(&mut self.header_durations) {
+            let difference = (found - seconds).abs();
+            if difference <= 1.5 * step {
+                continue;
+            }
+            let message = format!("the header says a duration of {seconds} s, but {how}");
+            if !(difference <= DURATION_TOLERANCE * seconds || source.options.lenient) {
+                return Err(source.error(
+                    line.unwrap_or(self.lines.0),
+                    0,
+                    message,
+                    "duration, count or time step of the header is wrong: get the record again, or set `lenient = true` to use count and time step as they are",
+                ));
+            }
+            if !self.warnings.contains(&message) {
+                self.warnings.push(message);
+            }
         }
-        let message = format!("the header says a duration of {stated} s, but {how}");
-        if difference <= DURATION_TOLERANCE * stated || source.options.lenient {
-            self.warnings.push(message);
-            return Ok(());
-        }
-        Err(source.error(
-            self.lines.0,
-            0,
-            message,
-            "duration, count or time step of the header is wrong: get the record again, or set `lenient = true` to use count and time step as they are",
-        ))
+        Ok(())
     }
 }
 

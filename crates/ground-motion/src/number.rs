@@ -162,6 +162,45 @@ pub(crate) fn time_step(text: &str) -> Option<(f64, f64)> {
     })
 }
 
+/// The time steps (s) of the sampling rates in a text, with one unit of their last printed
+/// digit: `200 samples/sec`, `100 pts/sec`, `200 sps`; in a text on sampling `200 Hz` and
+/// `200/sec` as well.
+pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
+    let lower = text.to_ascii_lowercase();
+    let on_sampling = lower.contains("sampl");
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    let mut found = Vec::new();
+    let mut rest = lower.as_str();
+    while let Some(start) = rest.find(number) {
+        let end = rest[start..]
+            .find(|c| !number(c))
+            .map_or(rest.len(), |n| start + n);
+        let printed = rest[start..end].trim_end_matches('.').as_bytes();
+        rest = &rest[end..];
+        let unit = rest.trim_start();
+        let counts = ["samples", "sample", "pts", "points"];
+        let per = counts
+            .iter()
+            .find_map(|word| unit.strip_prefix(word))
+            .map(|after| after.trim_start_matches([' ', '.']))
+            .is_some_and(|after| {
+                ["/s", "/ s", "per s", "a second"]
+                    .iter()
+                    .any(|p| after.starts_with(p))
+            });
+        let plain = on_sampling && (unit.starts_with("hz") || unit.starts_with("/s"));
+        if !(per || plain || unit.starts_with("sps")) {
+            continue;
+        }
+        if let Ok(rate) = parse(printed)
+            && rate > 0.0
+        {
+            found.push((1.0 / rate, resolution(printed) / (rate * rate)));
+        }
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -220,6 +259,33 @@ mod tests {
             11.576
         );
         assert_eq!(first_in("at 100 Samples/sec").unwrap().0, 100.0);
+    }
+
+    #[test]
+    fn rates_of_sampling() {
+        for (text, rate) in [
+            ("RECORD LENGTH = 60.000 SEC   AT 200 SAMPLES/SEC", 200.0),
+            (
+                " 31932 Accelerogram points at 100 pts/sec in units of g.",
+                100.0,
+            ),
+            ("at 62.5 samples per second", 62.5),
+            ("SAMPLING RATE = 50 HZ", 50.0),
+            ("recorded at 200sps.", 200.0),
+        ] {
+            let found = rates(text);
+            assert_eq!(found.len(), 1, "{text}");
+            assert!((found[0].0 * rate - 1.0).abs() < 1e-12, "{text}: {found:?}");
+        }
+        for text in [
+            "12001 POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.",
+            "MAX  =   .058 G, AT   9.425 SEC.",
+            "BAND-PASS FILTERED BETWEEN  .050 AND 25.00 HZ",
+            "SENSITIVITY = 1.26  V/G.",
+            "0 samples/sec",
+        ] {
+            assert_eq!(rates(text), [], "{text}");
+        }
     }
 
     #[test]

@@ -231,7 +231,11 @@ impl<'a> Source<'a> {
                 values.push(number::parse(field).ok());
             }
         }
-        Ok(HeaderNumbers { values, first })
+        Ok(HeaderNumbers {
+            values,
+            first,
+            per_line: layout.per_line,
+        })
     }
 }
 
@@ -240,6 +244,7 @@ pub(crate) struct HeaderNumbers {
     values: Vec<Option<f64>>,
     /// Their first line, from 1.
     pub first: usize,
+    per_line: usize,
 }
 
 impl HeaderNumbers {
@@ -249,6 +254,11 @@ impl HeaderNumbers {
         let value = self.values.get(index.checked_sub(1)?).copied().flatten()?;
         let unknown = [-999.0, -9999.0, -32768.0, -12345.0].contains(&value);
         (!unknown).then_some(value)
+    }
+
+    /// Line (from 1) of number `index` (from 1).
+    pub(crate) fn line_of(&self, index: usize) -> usize {
+        self.first + index.saturating_sub(1) / self.per_line
     }
 
     /// Number `index` as a count, unless it is zero or not whole.

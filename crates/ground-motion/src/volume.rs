@@ -57,7 +57,13 @@ impl<'a> ChannelHeader<'a> {
 
     /// The first line of text that holds a word, in lower case.
     pub(crate) fn find(&self, word: &str) -> Option<String> {
-        self.text.iter().map(Line::lower).find(|l| l.contains(word))
+        self.find_line(word).map(|(_, line)| line)
+    }
+
+    /// The same with its number.
+    pub(crate) fn find_line(&self, word: &str) -> Option<(usize, String)> {
+        let lines = self.text.iter().map(|l| (l.number, l.lower()));
+        lines.into_iter().find(|(_, l)| l.contains(word))
     }
 
     /// Number of the first line.

@@ -1,8 +1,8 @@
 //! Volume 1, uncorrected: pairs of time and acceleration, or even steps.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::error::{GroundMotionError, bound};
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -38,7 +38,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         draft.title = header.title(6, 2);
         draft.start_time = header.start_time();
         draft.peak = peak(&header);
-        draft.header_duration = duration(&header);
+        draft.header_durations = durations(&header);
         series.push(draft.finish(source)?);
         end_of_channel(source, &mut lines);
     }
@@ -66,21 +66,153 @@ fn count(header: &ChannelHeader<'_>, warnings: &mut Vec<String>) -> Option<usize
     stated.or(text)
 }
 
-/// Unit in the text: `SEC AND G/10`, `sec and g.`, `IS G`.
-fn unit(header: &ChannelHeader<'_>, label: &str) -> DraftUnit {
-    let line = header.find("units ").unwrap_or_default();
-    let line = if line.is_empty() { label } else { &line };
-    let before_peak = line.split("max").next().unwrap_or_default();
-    let word = [" and ", " is ", " of g"]
-        .iter()
-        .find_map(|key| {
-            let at = before_peak.rfind(key)? + key.len();
-            let at = if *key == " of g" { at - 1 } else { at };
-            before_peak.get(at..)?.split_whitespace().next()
-        })
-        .unwrap_or_default();
-    let word = word.trim_end_matches(['.', ',']);
-    SeriesUnit::parse(word).map_or(DraftUnit::Unstated, DraftUnit::Stated)
+/// Words before a unit, the surest first.
+const BEFORE_UNIT: [&str; 8] = [
+    " and ",
+    " is ",
+    " are ",
+    "units:",
+    "units =",
+    "units=",
+    "units of ",
+    ", in ",
+];
+
+/// Unit in a text: `SEC AND G/10`, `sec and g.`, `IS G`, `(UNITS: G)`, `in units of g.`.
+fn unit_in(text: &str) -> Option<SeriesUnit> {
+    let before_peak = text.split("max").next().unwrap_or_default();
+    BEFORE_UNIT.iter().find_map(|key| {
+        let at = before_peak.rfind(key)? + key.len();
+        let word = before_peak.get(at..)?.split_whitespace().next()?;
+        // A code may touch it: `cm/sec2(04)`.
+        let word = word.split(['(', ')', ',', ';']).next()?;
+        SeriesUnit::parse(word.trim_end_matches('.'))
+    })
+}
+
+/// What follows `(UNITS: ` in the line before the data.
+fn unit_word(label: &str) -> Option<&str> {
+    let (_, rest) = label
+        .split_once("units:")
+        .or_else(|| label.split_once("units="))?;
+    rest.split([')', '(', ',']).next().map(str::trim)
+}
+
+/// The unit of the values, which header and line before the data may both state. The
+/// volume fixes none, and both are copied from one value by the agencies' programs: where
+/// they differ neither is certain, and the user must say.
+fn unit(
+    source: &Source<'_>,
+    header: &ChannelHeader<'_>,
+    label: Option<(usize, &str)>,
+    warnings: &mut Vec<String>,
+) -> Result<DraftUnit, GroundMotionError> {
+    let line = header.find_line("units ");
+    let in_header = line.and_then(|(line, text)| Some((line, unit_in(&text)?)));
+    let in_label = label.and_then(|(_, text)| unit_in(text));
+    let unknown = label.and_then(|(_, text)| unit_word(text));
+    let (Some((line, above)), Some((at, _))) = (in_header, label) else {
+        let stated = in_header.map(|u| u.1).or(in_label);
+        return Ok(stated.map_or(DraftUnit::Unstated, DraftUnit::Stated));
+    };
+    let below = match (in_label, unknown) {
+        (Some(below), _) if below != above => below.symbol.to_owned(),
+        (None, Some(word)) => word.to_owned(),
+        _ => return Ok(DraftUnit::Stated(above)),
+    };
+    let message = format!(
+        "the unit of the values is {below} here, but {} in line {line}",
+        above.symbol
+    );
+    let given = source.options.unit.and_then(|given| {
+        let stated = [Some(above), in_label].into_iter().flatten();
+        stated.into_iter().find(|unit| unit.is(given))
+    });
+    if let Some(given) = given {
+        warnings.push(format!("line {at}: {message}; {} was given", given.symbol));
+        return Ok(DraftUnit::Stated(given));
+    }
+    Err(source.error(
+        at,
+        0,
+        message,
+        "the header contradicts itself: get the record again, or say which unit is right, `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion`",
+    ))
+}
+
+/// A time step as a header states it, in seconds or as a rate.
+struct StatedStep {
+    line: usize,
+    step: f64,
+}
+
+/// Every sampling rate in the text of the header, and the step on the line that counts the
+/// points; elsewhere `at .. sec` is the time of something.
+fn steps_of_header(header: &ChannelHeader<'_>) -> Vec<StatedStep> {
+    let mut found = Vec::new();
+    for line in &header.text {
+        let text = line.lower();
+        let on_points = text.contains("of points") || text.contains("record length");
+        let step = number::time_step(&text).filter(|_| on_points);
+        let all = step.into_iter().chain(number::rates(&text));
+        found.extend(all.map(|(step, _)| StatedStep {
+            line: line.number,
+            step,
+        }));
+    }
+    found
+}
+
+/// Part of a step by which two statements of it may differ.
+const STEP_TOLERANCE: f64 = 0.01;
+
+/// Takes the step of the line before the data, else of the header; all must be the same.
+fn state_step(
+    draft: &mut Draft,
+    source: &Source<'_>,
+    header: &ChannelHeader<'_>,
+    (line, label): (usize, &str),
+) {
+    let of_label = number::time_step(label)
+        .into_iter()
+        .chain(number::rates(label));
+    let mut stated: Vec<StatedStep> = of_label
+        .map(|(step, _)| StatedStep { line, step })
+        .collect();
+    stated.extend(steps_of_header(header));
+    let Some(first) = stated.first() else {
+        return;
+    };
+    draft.times = Times::Step(Some(first.step));
+    let differs = |s: &&StatedStep| (s.step - first.step).abs() > STEP_TOLERANCE * first.step;
+    let Some(other) = stated.iter().find(differs) else {
+        return;
+    };
+    let message = format!(
+        "the time step is {} s ({} samples/s) here, but {} s ({} samples/s) in line {}",
+        bound(first.step),
+        bound(1.0 / first.step),
+        bound(other.step),
+        bound(1.0 / other.step),
+        other.line
+    );
+    let near = |given: f64| {
+        let near = move |s: &&StatedStep| (s.step - given).abs() <= 1.0e-6 * given.abs();
+        stated.iter().find(near)
+    };
+    if let Some(used) = source.options.time_step.and_then(near) {
+        draft.times = Times::Step(Some(used.step));
+        draft.warnings.push(format!(
+            "line {}: {message}; {} s was given",
+            first.line, used.step
+        ));
+        return;
+    }
+    let remedy = format!(
+        "the header contradicts itself: get the record again, or say which step is right, `time_step = \"{0} s\"` in [ground_motion] of a case, `--time-step \"{0} s\"` with `pounding motion` (`lenient = true` takes {0} s)",
+        bound(first.step)
+    );
+    draft.step_conflict = Some((first.line, message, remedy));
 }
 
 /// `MAX = -.200 G, AT 11.576 SEC.`: in g whatever the unit of the samples.
@@ -122,18 +254,17 @@ fn even(
         ));
     }
     let expected = in_label.or(in_header);
-    let step = number::time_step(&text)
-        .or_else(|| number::time_step(&header.find("samples/sec")?))
-        .map(|step| step.0);
+    let place = (label.number, text.as_str());
+    let unit = unit(source, header, Some(place), &mut warnings)?;
     let samples = source.block(lines, layout, expected, None)?;
     let mut draft = Draft::new(
         samples,
-        unit(header, &text),
+        unit,
         (label.number, label.number + 1, lines.number()),
     );
-    draft.times = Times::Step(step);
     draft.header_count = expected;
     draft.warnings = warnings;
+    state_step(&mut draft, source, header, place);
     Ok(draft)
 }
 
@@ -163,18 +294,50 @@ fn pairs(
     }
     let times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
     let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
-    let mut draft = Draft::new(samples, unit(header, ""), (first, first, lines.number()));
+    rate_of_pairs(header, &times, &mut warnings);
+    let unit = unit(source, header, None, &mut warnings)?;
+    let mut draft = Draft::new(samples, unit, (first, first, lines.number()));
     draft.times = Times::Each(times);
     draft.header_count = expected;
     draft.warnings = warnings;
     Ok(draft)
 }
 
-/// The length of the record in the header (s): real 3, else the text.
-fn duration(header: &ChannelHeader<'_>) -> Option<f64> {
-    header.reals.positive(3).or_else(|| {
-        let line = header.find("record length")?;
-        let stated = number::after(&line, "record length").map(|n| n.0);
-        stated.filter(|s| *s > 0.0)
-    })
+/// Names a rate in the header that is not that of the times. The times are the data: every
+/// value has its own, and a nominal rate changes none of them.
+fn rate_of_pairs(header: &ChannelHeader<'_>, times: &[f64], warnings: &mut Vec<String>) {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return;
+    };
+    let mean = (last - first) / (times.len().max(2) - 1) as f64;
+    for stated in steps_of_header(header) {
+        if (stated.step - mean).abs() > STEP_TOLERANCE * stated.step {
+            warnings.push(format!(
+                "line {} says {} samples/s, the times are {} s apart on average",
+                stated.line,
+                bound(1.0 / stated.step),
+                bound(mean)
+            ));
+            return;
+        }
+    }
+}
+
+/// The lengths of the record in the header: real 3, and the text, which is printed apart
+/// from it and may have been changed alone.
+fn durations(header: &ChannelHeader<'_>) -> Vec<StatedDuration> {
+    let real = header.reals.positive(3).map(|seconds| StatedDuration {
+        seconds,
+        line: Some(header.reals.line_of(3)),
+    });
+    let text = ["record length", "duration"].into_iter().find_map(|key| {
+        let (line, text) = header.find_line(key)?;
+        let seconds = number::after(&text, key)?.0;
+        Some(StatedDuration {
+            seconds,
+            line: Some(line),
+        })
+    });
+    let text = text.filter(|stated| stated.seconds > 0.0);
+    text.into_iter().chain(real).collect()
 }

@@ -95,7 +95,7 @@ fn channel(
         unit: None,
         shift: 0.0,
     });
-    draft.header_duration = reals.positive(63);
+    draft.header_durations = reals.positive(63).map(Into::into).into_iter().collect();
     Ok(draft)
 }
 

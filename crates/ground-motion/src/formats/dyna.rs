@@ -64,7 +64,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = header.count;
-    draft.header_duration = header.duration;
+    draft.header_durations = header.duration.map(Into::into).into_iter().collect();
     draft.component = header.stream;
     draft.title = format!("{}; {}", header.event, header.station);
     draft.start_time = header.start;

@@ -2,7 +2,7 @@
 //! each component, then values of eight columns without labels.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number;
@@ -155,7 +155,14 @@ fn block(
     draft.header_count = Some(count);
     // "Number of points  5800    Duration 115.98 sec", pads included.
     let stated = number::after(&header.text[9].lower(), "duration").map(|n| n.0);
-    draft.header_duration = stated.filter(|d| *d > 0.0);
+    draft.header_durations = stated
+        .filter(|d| *d > 0.0)
+        .map(|seconds| StatedDuration {
+            seconds,
+            line: Some(header.text[9].number),
+        })
+        .into_iter()
+        .collect();
     let step = header.reals.positive(26);
     draft.times = Times::Step(step);
     let component = header.text[12].text();

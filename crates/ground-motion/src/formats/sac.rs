@@ -121,7 +121,8 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         Times::Step(step)
     };
     let ends = words.float(6).zip(words.float(5)).map(|(e, b)| e - b);
-    draft.header_duration = ends.filter(|length| !uneven && *length > 0.0);
+    let length = ends.filter(|length| !uneven && *length > 0.0);
+    draft.header_durations = length.map(Into::into).into_iter().collect();
     // Version 7 has 22 doubles after the data.
     if words.integer(VERSION) == 6 && present > count {
         draft.warnings.push(format!(

@@ -94,7 +94,8 @@ fn csmip_1_even(written: i64) -> Fixture {
             most.0,
             most.1 as f64 * 0.01
         ),
-    );
+    )
+    .replace(".110 SEC", ".230 SEC   at 100 Samples/sec");
     // Integer 28 holds nonsense, as where six digits do not fit five columns.
     text.push_str(&integers(
         100,

@@ -228,6 +228,31 @@ fn impossible_counts_of_k_net_are_refused() {
     };
     let huge = said(free("1 2 9000000000000000000 3"));
     assert!(huge.contains("9e18") && huge.contains("24 bits"), "{huge}");
+    // Without blanks they are no columns of nine digits.
+    let row = "9000000000000000000".repeat(8);
+    assert_eq!(row.len() % 9, 8);
+    let glued = said(free(&row));
+    assert!(glued.starts_with("file:18:1: "), "{glued}");
+    assert!(glued.contains("24 bits"), "{glued}");
+    for count in ["99999999", "8388609", "-8388609"] {
+        let shown = said(free(&format!("1 2 {count} 3")));
+        assert!(shown.starts_with("file:18:5: "), "{shown}");
+        assert!(
+            shown.contains(count) && shown.contains("24 bits"),
+            "{shown}"
+        );
+    }
+    // The full range, of which -2^23 is a part.
+    let full = "8388607 -8388608 ".repeat(common::COUNT);
+    let full = free(full.trim()).replace("(s)  0.23", "(s)  0.46");
+    read_bytes("file", full.as_bytes(), &fixture.options).unwrap();
+    // 136 samples where the header allows 64.
+    let many = free(&"17 ".repeat(136)).replace("(s)  0.23", "(s)  0.64");
+    let many = said(many);
+    assert!(
+        many.contains("0.64 s") && many.contains("136 samples"),
+        "{many}"
+    );
     let frequency = text.replace("100Hz", "9000000000000000000Hz");
     let promised = said(frequency);
     assert!(

@@ -17,8 +17,11 @@ const NAME: usize = 18;
 const COUNTS: Layout = Layout::new(8, 9);
 const REMEDY: &str = "the header is not that of K-NET: get the record again";
 
-/// A count or a number of samples that no recorder has: K-NET and KiK-net have 24 bits.
-const IMPOSSIBLE: f64 = 2_147_483_648.0;
+/// Greatest magnitude of a count: the recorders of K-NET and KiK-net give signed integers of
+/// 24 bits, and the oldest scale factor, `2000(gal)/8388608`, puts their full range there.
+const MOST_COUNTS: f64 = 8_388_608.0;
+/// A number of samples that no record has.
+const IMPOSSIBLE_SAMPLES: f64 = 2_147_483_648.0;
 
 /// What the header says.
 #[derive(Default)]
@@ -57,7 +60,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         ));
     };
     let said = header.duration.unwrap_or(0.0) * frequency;
-    if !(said < IMPOSSIBLE) {
+    if !(said < IMPOSSIBLE_SAMPLES) {
         return Err(source.error(
             end,
             0,
@@ -67,8 +70,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     }
     let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
     for line in lines.by_ref() {
-        // The blank after the last integer of a row is trimmed.
-        if line.bytes.len() % COUNTS.width == COUNTS.width - 1 && !line.bytes.contains(&b'\t') {
+        if in_columns(line) {
             fixed_row(source, line, &mut samples)?;
         } else {
             for (column, field) in line.fields() {
@@ -76,13 +78,15 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             }
         }
     }
-    // A whole number of seconds: the count follows from it, so that what is more than a
-    // second too many belongs to another rate or duration.
+    // The count follows from the duration, which the agency prints as whole seconds: what is
+    // more than the rest of a second belongs to another rate or duration, and beyond a
+    // duration with decimals so is more than one sample.
     if let Some(duration) = header.duration
         && !source.options.lenient
     {
         let found = samples.len() as f64 / frequency;
-        if found > 1.01 * duration && found > duration + 1.0 {
+        let rest = if duration.fract() == 0.0 { 1.0 } else { 1.5 / frequency };
+        if found > 1.01 * duration && found > duration + rest {
             return Err(source.error(
                 end,
                 0,
@@ -118,6 +122,16 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     Ok(vec![draft.finish(source)?])
 }
 
+/// Whether a row has integers of eight columns with a blank after each, of which the last
+/// one is trimmed. Where there are digits in its place, the fields between blanks alone say
+/// what the numbers are: cut into columns, longer ones would pass for several.
+fn in_columns(line: Line<'_>) -> bool {
+    let blanks = line.bytes.iter().skip(COUNTS.width - 1);
+    line.bytes.len() % COUNTS.width == COUNTS.width - 1
+        && !line.bytes.contains(&b'\t')
+        && blanks.step_by(COUNTS.width).all(|b| *b == b' ')
+}
+
 fn fixed_row(
     source: &Source<'_>,
     line: Line<'_>,
@@ -136,14 +150,22 @@ fn count(
     column: usize,
     field: &[u8],
 ) -> Result<f64, GroundMotionError> {
-    let count = source.number(line, column, field)?;
-    if count.abs() < IMPOSSIBLE {
-        return Ok(count);
-    }
+    let digits = field.trim_ascii();
+    let digits = digits.strip_prefix(b"-").unwrap_or(digits);
+    let count = match source.number(line, column, field) {
+        Ok(count) if count.abs() <= MOST_COUNTS => return Ok(count),
+        Ok(count) if count.abs() < 1.0e15 => count.to_string(),
+        Ok(count) => format!("{count:e}"),
+        // So many digits that they would stand for a missing value in other formats.
+        Err(_) if digits.len() > COUNTS.width && digits.iter().all(u8::is_ascii_digit) => {
+            number::shown(field)
+        }
+        Err(error) => return Err(error),
+    };
     Err(source.error(
         line.number,
         column,
-        format!("a count of {count:e} is more than the 24 bits of the recorder hold"),
+        format!("a count of {count} is more than the 24 bits of the recorder hold, 8388608"),
         "the file is damaged: get the record again",
     ))
 }

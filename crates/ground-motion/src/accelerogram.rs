@@ -47,6 +47,8 @@ pub struct Origin {
     pub history: Vec<String>,
     /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
+    /// Line of the header that names its column, from 1, if it is one of several columns.
+    pub header_line: Option<usize>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }

@@ -99,10 +99,12 @@ pub enum GroundMotionError {
         quantity: &'static str,
     },
     /// Several series, of which none is chosen.
-    #[error("{file}: {} series are possible: {}", available.len(), list(available))]
+    #[error("{file}{}: {} series are possible: {}", place(*line), available.len(), list(available))]
     AmbiguousSeries {
         /// File.
         file: String,
+        /// Line that names them, from 1, if one does.
+        line: Option<usize>,
         /// What is there.
         available: Vec<String>,
     },
@@ -203,6 +205,11 @@ pub enum GroundMotionError {
     Invalid(String),
 }
 
+/// `:7` for line 7.
+fn place(line: Option<usize>) -> String {
+    line.map_or(String::new(), |line| format!(":{line}"))
+}
+
 /// The first series of a list; files have had hundreds.
 fn list(available: &[String]) -> String {
     let more = if available.len() > 12 { ", ..." } else { "" };
@@ -243,7 +250,7 @@ impl GroundMotionError {
                 "use the acceleration file of the same record (AT2 beside VT2 and DT2)".to_owned()
             }
             Self::AmbiguousSeries { .. } => {
-                "choose one with `component`: its name, azimuth or channel number".to_owned()
+                "choose one with `component` in [ground_motion] of a case, `--component` with `pounding motion`: its name, azimuth or channel number".to_owned()
             }
             Self::NoSuchSeries { .. } => "correct `component`".to_owned(),
             Self::Uneven { mean, .. } => format!(

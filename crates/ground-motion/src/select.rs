@@ -112,6 +112,7 @@ fn choose(
             chosen.extend(last);
             Err(GroundMotionError::AmbiguousSeries {
                 file: file.to_owned(),
+                line: chosen.first().and_then(|s| s.origin.header_line),
                 available: labels(&chosen),
             })
         }

@@ -218,3 +218,103 @@ fn names_without_units() {
         );
     }
 }
+
+/// A name of a component with its unit behind an underscore is one in brackets.
+#[test]
+fn components_behind_underscores() {
+    let text = "time_s,ns_g,ew_g\n0.00,0.1,0.2\n0.02,0.3,0.4\n";
+    let error = read(text).unwrap_err();
+    let shown = error.to_string();
+    assert!(shown.starts_with("r.csv:1: 2 series"), "{shown}");
+    assert!(
+        shown.contains("acceleration ns") && shown.contains("acceleration ew"),
+        "{shown}"
+    );
+    let help = error.help().unwrap();
+    assert!(
+        help.contains("`component`") && help.contains("`--component`"),
+        "{help}"
+    );
+    let options = ReadOptions {
+        component: Some("ew".to_owned()),
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("r", text.as_bytes(), &options).unwrap();
+    assert_eq!(record.samples(), [0.2 * G, 0.4 * G]);
+}
+
+/// A header that cannot be used is the reason, not a unit that stands there.
+#[test]
+fn headers_that_cannot_be_used_say_why() {
+    let rows = rows('.', ",");
+    let unit = ReadOptions {
+        unit: Some(AccelerationUnit::StandardGravity),
+        ..ReadOptions::default()
+    };
+    for (header, words, remedy, whatever_unit) in [
+        (
+            "time (min),acceleration (m/s2)",
+            ["unit \"min\"", "\"time (min)\""],
+            "s or ms",
+            true,
+        ),
+        (
+            "dt=0.01 s;a [m/s2]",
+            ["column 1, \"dt=0.01 s\"", "not understood"],
+            "# dt: 0.01 s",
+            false,
+        ),
+        (
+            "time_s;displacement_m",
+            [
+                "names no acceleration",
+                "\"displacement_m\" is a displacement",
+            ],
+            "no unit makes",
+            true,
+        ),
+        (
+            "# t (s), v (cm/s)",
+            ["names no acceleration", "is a velocity"],
+            "no unit makes",
+            true,
+        ),
+        (
+            "time_s,acceleration_(furlongs)",
+            ["unit \"furlongs\"", "not known"],
+            "cm/s2",
+            false,
+        ),
+    ] {
+        let text = format!("a title\n{header}\n{rows}");
+        let error = read(&text).unwrap_err();
+        let shown = error.to_string();
+        assert!(shown.starts_with("r.csv:2:1: "), "{header}: {shown}");
+        for word in words {
+            assert!(shown.contains(word), "{header}: {shown}");
+        }
+        let help = error.help().unwrap();
+        assert!(help.contains(remedy), "{header}: {help}");
+        let given = read_bytes("r.csv", text.as_bytes(), &unit);
+        assert_eq!(given.is_err(), whatever_unit, "{header}");
+    }
+    // A layout says what the columns are, but makes no acceleration of a displacement.
+    let layout = |header: &str| {
+        let options = ReadOptions {
+            layout: Some("-,a".to_owned()),
+            time_step: Some(0.02),
+            ..unit.clone()
+        };
+        let text = format!("{header}\n{rows}");
+        read_bytes("r.csv", text.as_bytes(), &options).map(|r| r.time_step())
+    };
+    assert_eq!(layout("time (min),acceleration (g)").unwrap(), 0.02);
+    assert!(layout("time_s;displacement_m").is_err());
+    // Prose before the rows says nothing of columns.
+    let prose = format!("Kobe, velocity and displacement of 1995\n{rows}");
+    assert!(read_bytes("r.csv", prose.as_bytes(), &unit).is_ok());
+    assert!(matches!(
+        read(&prose),
+        Err(GroundMotionError::MissingUnit { .. })
+    ));
+}

@@ -15,7 +15,7 @@ mod decimal;
 mod header;
 mod survey;
 
-use header::{Header, Role};
+use header::{Fault, Header, Role};
 use survey::{Arrangement, Survey};
 
 use super::pounding_csv::Keys;
@@ -54,6 +54,73 @@ fn header(source: &Source<'_>) -> Option<Header> {
     before.filter_map(|l| header::parse(&l)).last()
 }
 
+/// A line that names columns and could not be used.
+struct Faulty {
+    line: usize,
+    text: String,
+    fault: Fault,
+}
+
+/// The last such line before the rows, if no header follows it.
+fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
+    let first = rows(source).next()?.number;
+    let after = header.map_or(0, |h| h.line);
+    let before = source.lines().skip(source.options.skip_lines);
+    before
+        .take_while(|l| l.number < first)
+        .filter(|l| l.number > after)
+        .filter_map(|l| {
+            let (text, fault) = header::fault(&l)?;
+            Some(Faulty {
+                line: l.number,
+                text,
+                fault,
+            })
+        })
+        .last()
+}
+
+impl Faulty {
+    /// The error where what the user says cannot mend it: no unit makes an acceleration of a
+    /// displacement, and times in an unknown unit would pass for seconds unless the layout
+    /// says what the columns are.
+    fn refused(&self, source: &Source<'_>) -> Option<GroundMotionError> {
+        let refused = match self.fault {
+            Fault::NoAcceleration(..) => true,
+            Fault::TimeUnit(..) => source.options.layout.is_none(),
+            _ => false,
+        };
+        refused.then(|| self.error(source))
+    }
+
+    fn error(&self, source: &Source<'_>) -> GroundMotionError {
+        let Self { line, text, fault } = self;
+        let (message, remedy) = match fault {
+            Fault::NoAcceleration(quantity, name) => (
+                format!("the header \"{text}\" names no acceleration: \"{name}\" is a {quantity}"),
+                "give the accelerations of the same record: no unit makes an excitation of another quantity",
+            ),
+            Fault::TimeUnit(name, unit) => (
+                format!("the unit \"{unit}\" of the column \"{name}\" is not known"),
+                "write the times in s or ms, as in `time (s)`; or pass them over, e.g. with `layout = \"-,a\"`, and give `time_step` and `unit`",
+            ),
+            Fault::MotionUnit(name, unit) => (
+                format!("the unit \"{unit}\" of the column \"{name}\" is not known"),
+                "write g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2, as in `acceleration (m/s2)`; or give `layout`, e.g. \"t,a\", and `unit`",
+            ),
+            Fault::TwoTimes => (
+                format!("the header \"{text}\" names two columns of times"),
+                "name one of them otherwise, or give `layout`, e.g. \"t,-,a\", and `unit`",
+            ),
+            Fault::Column(number, name) => (
+                format!("the header \"{text}\" is not used: its column {number}, \"{name}\", is not understood"),
+                "name every column, as in `t [s];a [m/s2]` or `time (s),NS (g),EW (g)`; a time step stands in a line of its own before it, `# dt: 0.01 s`; or give `layout`, e.g. \"t,a\", and `unit`",
+            ),
+        };
+        source.error(*line, 0, message, remedy)
+    }
+}
+
 /// Damaged and touching values are numbers to detection: the reader names them.
 fn looks_numeric(field: &[u8]) -> bool {
     let part = |b: &u8| b.is_ascii_digit() || b"+-.eEdD*".contains(b);
@@ -70,9 +137,22 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let header = header(source);
+    let faulty = fault(source, header.as_ref());
+    if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
+        return Err(error);
+    }
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options);
-    let series = numbers(&pointed, header.as_ref())?;
+    let series = match (numbers(&pointed, header.as_ref()), faulty) {
+        // Unit and step may well be there: why they were not understood is the reason.
+        (
+            Err(
+                GroundMotionError::MissingUnit { .. } | GroundMotionError::MissingTimeStep { .. },
+            ),
+            Some(faulty),
+        ) => return Err(faulty.error(source)),
+        (series, _) => series?,
+    };
     for warning in pointed.warnings() {
         source.warn(&warning);
     }
@@ -224,6 +304,7 @@ fn headed(
     }
     let mut series = self::columns(source, survey, &columns, &keys)?;
     for one in &mut series {
+        one.origin.header_line = Some(header.line);
         keys.tell(&mut one.origin);
     }
     Ok(series)

@@ -102,8 +102,14 @@ fn motion_unit(text: &str) -> Option<SeriesUnit> {
     known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
 }
 
-/// The header, if every cell of the line names a column and one is an acceleration.
-pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
+/// A line cut into the names of columns.
+struct Cells {
+    text: String,
+    names: Vec<String>,
+    separator: Option<char>,
+}
+
+fn cells(line: &Line<'_>) -> Option<Cells> {
     if line.bytes.len() > LONGEST {
         return None;
     }
@@ -119,22 +125,158 @@ pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
         None => words(bare),
     };
     // A separator may close the line.
-    let cells = match cells.split_last() {
+    let names = match cells.split_last() {
         Some((last, rest)) if last.trim().is_empty() && !rest.is_empty() => rest.to_vec(),
         _ => cells,
     };
-    let columns: Vec<Role> = cells.iter().map(|c| role(c)).collect::<Option<_>>()?;
+    Some(Cells {
+        text: text.trim().to_owned(),
+        names,
+        separator,
+    })
+}
+
+/// The header, if every cell of the line names a column and one is an acceleration.
+pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
+    let cells = cells(line)?;
+    let columns: Vec<Role> = cells.names.iter().map(|c| role(c)).collect::<Option<_>>()?;
     let times = columns
         .iter()
         .filter(|c| matches!(c, Role::Time(_)))
         .count();
     let found = columns.iter().any(|c| matches!(c, Role::Acceleration(..)));
-    (found && times <= 1).then(|| Header {
+    (found && times <= 1).then_some(Header {
         line: line.number,
-        text: text.trim().to_owned(),
+        text: cells.text,
         columns,
-        separator,
+        separator: cells.separator,
     })
+}
+
+/// Why a line that names columns is not the header of an acceleration.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Fault {
+    /// Its columns are known, and none is an acceleration: the name of one that is not.
+    NoAcceleration(Quantity, String),
+    /// A column of times in a unit that is not known: name of the column, unit.
+    TimeUnit(String, String),
+    /// A column of motion in a unit that is not known: name of the column, unit.
+    MotionUnit(String, String),
+    /// Two columns of times.
+    TwoTimes,
+    /// A column of which nothing is known: its number from 1, its name.
+    Column(usize, String),
+}
+
+/// What is wrong with a line that names columns but is no header; `None` for prose, which
+/// names no column with a unit.
+pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
+    let cells = cells(line)?;
+    let names = &cells.names;
+    let roles: Vec<Option<Role>> = names.iter().map(|c| role(c)).collect();
+    let unknown_unit = names.iter().zip(&roles).find_map(|(name, role)| {
+        let (known, unit) = divided(name).filter(|_| role.is_none())?;
+        // What follows a blank is a word of a sentence unless it is known as a unit.
+        if !name.contains(['(', '[', '_']) {
+            return None;
+        }
+        let name = name.trim().to_owned();
+        if TIME.contains(&known.as_str()) {
+            return time_unit(&unit).is_none().then_some(Fault::TimeUnit(name, unit));
+        }
+        let moves =
+            ACCELERATION.contains(&known.as_str()) || MOTION.contains(&known.as_str());
+        (moves && motion_unit(&unit).is_none()).then_some(Fault::MotionUnit(name, unit))
+    });
+    let bare = |name: &String| {
+        let known = plain(name);
+        TIME.contains(&known.as_str()) || MOTION.contains(&known.as_str())
+    };
+    // Names between blanks that have no unit may be words of a sentence, as may one alone.
+    let with_unit = names.iter().zip(&roles).any(|(name, role)| {
+        role.is_some() && (divided(name).is_some() || cells.separator.is_some() && bare(name))
+    });
+    if names.len() < 2 || !(with_unit || unknown_unit.is_some()) {
+        return None;
+    }
+    let fault = if let Some(fault) = unknown_unit {
+        fault
+    } else if let Some(k) = roles.iter().position(Option::is_none) {
+        Fault::Column(k + 1, names[k].trim().to_owned())
+    } else if roles.iter().any(|r| matches!(r, Some(Role::Acceleration(..)))) {
+        // The header is wrong in that alone, or it is right.
+        let times = roles.iter().filter(|r| matches!(r, Some(Role::Time(_))));
+        (times.count() > 1).then_some(Fault::TwoTimes)?
+    } else {
+        let moving = |name: &String| Some((quantity(name)?, name.trim().to_owned()));
+        let (quantity, name) = names.iter().find_map(moving)?;
+        Fault::NoAcceleration(quantity, name)
+    };
+    Some((cells.text, fault))
+}
+
+/// Name, in lower case, and unit of a cell that has both.
+fn divided(cell: &str) -> Option<(String, String)> {
+    let cell = cell.trim().trim_matches(['"', '\'']).trim();
+    if let Some((name, rest)) = cell.split_once(['(', '[']) {
+        let unit = rest.strip_suffix([')', ']'])?;
+        return Some((plain(name.trim_end_matches('/')), unit.trim().to_owned()));
+    }
+    let (name, unit) = cell
+        .split_once(" in ")
+        .or_else(|| cell.split_once(['_', ' ', '/']))?;
+    let unit = unit.trim();
+    let known = plain(name);
+    let takes = |names: &[&str]| names.contains(&known.as_str());
+    let may = takes(&LONG) || takes(&MOTION) || is_component(&known);
+    (may && !unit.is_empty()).then(|| (known, unit.to_owned()))
+}
+
+/// What a column of velocities or displacements holds, by its unit or else by its name.
+fn quantity(cell: &str) -> Option<Quantity> {
+    if role(cell) != Some(Role::Other) {
+        return None;
+    }
+    let (known, unit) = divided(cell).unwrap_or_else(|| (plain(cell), String::new()));
+    let by_unit = motion_unit(&unit).map(|unit| unit.quantity);
+    let by_name = || {
+        let name = known.trim_start_matches("ground ");
+        match name.chars().next() {
+            _ if !MOTION.contains(&known.as_str()) => None,
+            Some('v') => Some(Quantity::Velocity),
+            _ => Some(Quantity::Displacement),
+        }
+    };
+    by_unit.or_else(by_name)
+}
+
+/// Whether a name is one of a component and of nothing else, so that what follows an
+/// underscore is its unit: `ns_g`, `up_m_s2`, `hne_gal`, `acc_x_g`. Single letters are not:
+/// `x_g` and `z_g` may be symbols of the ground's displacement.
+fn is_component(known: &str) -> bool {
+    const DIRECTIONS: [&str; 22] = [
+        "ns", "ew", "ud", "sn", "we", "n-s", "e-w", "u-d", "north", "east", "south", "west",
+        "up", "vert", "vertical", "north south", "east west", "h1", "h2", "longitudinal",
+        "transverse", "radial",
+    ];
+    let code = |name: &str| {
+        // Band, instrument and orientation of SEED.
+        let [band, instrument, orientation] = name.as_bytes() else {
+            return false;
+        };
+        b"hbesc".contains(band) && b"nlg".contains(instrument) && b"enz123".contains(orientation)
+    };
+    let azimuth = |name: &str| {
+        let digits = name.strip_suffix(" deg").unwrap_or(name);
+        (2..=3).contains(&digits.len()) && digits.parse().is_ok_and(|a: u16| a <= 360)
+    };
+    let own = |name: &str| DIRECTIONS.contains(&name) || code(name) || azimuth(name);
+    let single = |name: &str| ["x", "y", "z", "n", "e", "s", "w", "1", "2", "3"].contains(&name);
+    let of_motion = known
+        .split_once(' ')
+        .filter(|(motion, _)| ["a", "acc", "accel", "acceleration"].contains(motion))
+        .is_some_and(|(_, rest)| own(rest) || single(rest));
+    own(known) || of_motion
 }
 
 /// Names between blanks; a unit in brackets belongs to the name before it.
@@ -181,7 +323,10 @@ fn role(cell: &str) -> Option<Role> {
             let (name, unit) = (&cell[..at], &cell[at + 1..]);
             let known = plain(name);
             let takes = |names: &[&str]| names.contains(&known.as_str());
-            let may = takes(&LONG) || takes(&MOTION) || divider == "/" && takes(&ACCELERATION);
+            let may = takes(&LONG)
+                || takes(&MOTION)
+                || is_component(&known)
+                || divider == "/" && takes(&ACCELERATION);
             if may { named(name, unit) } else { None }
         })
 }
@@ -270,6 +415,65 @@ mod tests {
             Role::Acceleration("a_g".to_owned(), None)
         );
         assert_eq!(of("time,acceleration").unwrap()[0], Role::Time(1.0));
+    }
+
+    #[test]
+    fn components_with_units() {
+        for (text, name) in [
+            ("time_s,ns_g,ew_g", "ns"),
+            ("time_s;UP_m_s2", "UP"),
+            ("t [s],HNE_gal", "HNE"),
+            ("time_s,090_g", "090"),
+            ("time_s,acc_x_g", "acc_x"),
+            ("time_s,acceleration_ns_m_s2", "acceleration_ns"),
+        ] {
+            let found = of(text).unwrap_or_else(|| panic!("{text}"));
+            assert!(
+                matches!(&found[1], Role::Acceleration(found, Some(_)) if found == name),
+                "{text}: {found:?}"
+            );
+        }
+        // Displacements of the ground, or none known at all.
+        for text in ["time_s,x_g", "time_s,u_g", "time_s,station_g"] {
+            assert_eq!(of(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_header() {
+        let fault_of = |text: &str| {
+            let bytes = text.as_bytes();
+            fault(&Line { number: 1, bytes }).map(|f| f.1)
+        };
+        let unit = |name: &str, unit: &str| (name.to_owned(), unit.to_owned());
+        let (name, min) = unit("time (min)", "min");
+        let time = Some(Fault::TimeUnit(name, min));
+        assert_eq!(fault_of("time (min),acceleration (m/s2)"), time);
+        let (name, furlongs) = unit("acceleration_furlongs", "furlongs");
+        let motion = Some(Fault::MotionUnit(name, furlongs));
+        assert_eq!(fault_of("time_s,acceleration_furlongs"), motion);
+        let column = Some(Fault::Column(1, "dt=0.01 s".to_owned()));
+        assert_eq!(fault_of("dt=0.01 s;a [m/s2]"), column);
+        for (text, quantity, name) in [
+            ("time_s;displacement_m", Quantity::Displacement, "displacement_m"),
+            ("# t [s], u [mm]", Quantity::Displacement, "u [mm]"),
+            ("time,velocity", Quantity::Velocity, "velocity"),
+            ("t (s)  v (cm/s)", Quantity::Velocity, "v (cm/s)"),
+        ] {
+            let expected = Fault::NoAcceleration(quantity, name.to_owned());
+            assert_eq!(fault_of(text), Some(expected), "{text}");
+        }
+        assert_eq!(fault_of("t (s),t (s),a (g)"), Some(Fault::TwoTimes));
+        for text in [
+            "El Centro 1940, north-south",
+            "the velocity and the displacement at a time t",
+            "Unit: g",
+            "time_s,acceleration_g",
+            "t,a",
+            "0.0,0.1",
+        ] {
+            assert_eq!(fault_of(text), None, "{text}");
+        }
     }
 
     #[test]

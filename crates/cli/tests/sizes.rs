@@ -167,6 +167,24 @@ fn runs_that_would_not_end_are_refused_by_what_they_mean() {
         "\"2 s\"\nmethod = \"newmark\"\nstep = \"1e-12 s\"",
     );
     refused(&step, &["`step` is 1e-12 s", "raise `step`"]);
+    let contact = CASE.replace("93.5 MN/m", "1e300 MN/m");
+    refused(
+        &contact,
+        &["case.toml", "gap a-wall", "digits of the time", "units?"],
+    );
+    let law = "[[link]]\nbetween = [\"a\", \"wall\"]\nlevels = [1]\nmodel = \"bilinear\"\nstiffness = \"1e30 MN/m\"\nyield_force = \"1 MN\"\nhardening_ratio = 0.1\n[ground_motion]";
+    let link = CASE.replace("[ground_motion]", law);
+    refused(
+        &link,
+        &["case.toml", "a-wall level 1", "stiffness of the law"],
+    );
+}
+
+/// Damping of a contact beyond which next to nothing is given back.
+#[test]
+fn contacts_without_return_are_refused() {
+    let damped = CASE.replace("restitution = 0.65", "damping_ratio = 1e9");
+    refused(&damped, &["case.toml", "damping_ratio", "[0, 10000]"]);
 }
 
 #[test]
@@ -185,7 +203,7 @@ fn a_run_of_very_many_steps_is_named_by_check() {
     let output = pounding(folder.path(), &case, &["check", "case.toml"]);
     assert!(output.status.success(), "{}", one_line(&output.stderr));
     let text = one_line(&output.stdout);
-    for part in ["steps or more", "shortest period of building a"] {
+    for part in ["steps, or parts of steps", "shortest period of building a"] {
         assert_eq!(text.matches(part).count(), 1, "{text}");
     }
 }

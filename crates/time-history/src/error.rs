@@ -57,7 +57,7 @@ pub enum TimeHistoryError {
     },
     /// A run that would not end.
     #[error(
-        "the run would take {steps:.1e} steps over {} s, as {limit}; {:.0e} are the most", short(*duration),
+        "the run may take {steps:.1e} steps over {} s, as {limit}; {:.0e} are the most", short(*duration),
         MAXIMUM_STEPS
     )]
     TooManySteps {

@@ -184,7 +184,7 @@ impl fmt::Display for Warning {
             ),
             Self::ManySteps { steps, limit } => write!(
                 f,
-                "the run takes {steps:.1e} steps or more, as {limit}: {}",
+                "the run may take {steps:.1e} steps, or parts of steps in which peaks are looked for, as {limit}: {}",
                 limit.remedy()
             ),
             Self::Drift {

@@ -78,13 +78,21 @@ impl CaseError {
 /// A function that cannot return its value returns an error: a new one, or one that was
 /// recorded before, which is then not reported twice. So nothing is said of what only
 /// follows from another error.
+///
+/// A file is read to its end. Where a value is wrong, something else may stand in for it,
+/// after its error was recorded: then all that does not depend on it can be looked at, and
+/// what was read is given away by nobody but [`Errors::finish`], which refuses it.
 #[derive(Debug, Default)]
-pub struct Errors(RefCell<Vec<CaseError>>);
+pub struct Errors {
+    found: RefCell<Vec<CaseError>>,
+    /// Places of what could not be read whole, so that later errors there say nothing.
+    incomplete: RefCell<Vec<Range<usize>>>,
+}
 
 impl Errors {
     /// Records an error, with those that it brings.
     pub fn record(&self, error: CaseError) {
-        self.0.borrow_mut().extend(error.each());
+        self.found.borrow_mut().extend(error.each());
     }
 
     /// The value; `None` after recording the error.
@@ -122,7 +130,24 @@ impl Errors {
     /// An error recorded before: for a function that has no value because of it.
     #[must_use]
     pub fn recorded(&self) -> Option<CaseError> {
-        self.0.borrow().first().cloned()
+        self.found.borrow().first().cloned()
+    }
+
+    /// How many were recorded so far.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.found.borrow().len()
+    }
+
+    /// Says that what stands here was not read whole.
+    pub fn incomplete(&self, place: Range<usize>) {
+        self.incomplete.borrow_mut().push(place);
+    }
+
+    /// Places of what was not read whole.
+    #[must_use]
+    pub fn all_incomplete(&self) -> Vec<Range<usize>> {
+        self.incomplete.borrow().clone()
     }
 
     /// The value, unless anything was wrong.
@@ -131,7 +156,7 @@ impl Errors {
     /// All that was recorded, and this error, as one.
     pub fn finish<T>(self, result: Result<T, CaseError>) -> Result<T, CaseError> {
         let value = self.keep(result);
-        match (CaseError::of_all(self.0.into_inner()), value) {
+        match (CaseError::of_all(self.found.into_inner()), value) {
             (None, Some(value)) => Ok(value),
             (Some(error), _) => Err(error),
             (None, None) => Err(CaseError::new(

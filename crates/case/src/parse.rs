@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use crate::error::{CaseError, Errors};
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{Analysis, Building, Case, Gap, Link, Located, Separation};
+use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Separation};
 use crate::units::Dimension;
 
 mod building;
@@ -21,7 +21,7 @@ mod separation;
 pub use ground_motion::process_steps;
 pub(crate) use separation::keys as separation_keys;
 
-pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
+pub(crate) fn case(source: &str, file: &Path) -> Result<Case, (CaseError, Option<Box<Draft>>)> {
     let name = file.display().to_string();
     let errors = Errors::default();
     let read = whole(
@@ -32,10 +32,28 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, CaseError> {
         },
         file,
     );
-    errors.finish(read)
+    let draft = errors.keep(read);
+    let incomplete = errors.all_incomplete();
+    match (errors.finish(Ok(())), draft) {
+        (Ok(()), Some(draft)) => Ok(draft.case),
+        (Err(error), draft) => {
+            let draft = draft.map(|draft| {
+                Box::new(Draft {
+                    incomplete,
+                    ..draft
+                })
+            });
+            Err((error, draft))
+        }
+        // Without a draft there is an error, which was recorded.
+        (Ok(()), None) => {
+            let error = CaseError::new(&name, source, 0..0, "the file cannot be read", None);
+            Err((error, None))
+        }
+    }
 }
 
-fn whole(reader: Reader<'_>, file: &Path) -> Result<Case, CaseError> {
+fn whole(reader: Reader<'_>, file: &Path) -> Result<Draft, CaseError> {
     let tree = reader.document("see the example in the README")?;
     let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE);
     let keep = reader.errors;
@@ -43,35 +61,36 @@ fn whole(reader: Reader<'_>, file: &Path) -> Result<Case, CaseError> {
     let row = buildings(&reader, &root);
     let gaps = gaps(&reader, &root, &row);
     let links = links(&reader, &root, &row);
+    let before = keep.count();
     let ground_motion = keep.keep(
         root.required("ground_motion")
             .and_then(|v| ground_motion::ground_motion(&reader, v)),
     );
-    let analysis = match root.get("analysis") {
-        Some(value) => keep.keep(analysis(&reader, value)),
-        None => Some(default_analysis()),
-    };
+    let motion_is_known = keep.count() == before;
+    let ground_motion = ground_motion.unwrap_or_else(ground_motion::unknown);
+    let analysis = root.get("analysis");
+    let analysis = analysis.and_then(|value| keep.keep(analysis_of(&reader, value)));
+    let analysis = analysis.unwrap_or_else(default_analysis);
     let separation = match root.get("separation") {
         Some(value) if row.count > 0 => {
             keep.or_default(separation::separation(&reader, value, row.count))
         }
         _ => Separation::default(),
     };
-    let (Some(buildings), Some(ground_motion), Some(analysis)) =
-        (row.buildings, ground_motion, analysis)
-    else {
-        return Err(reader.lost());
-    };
-    Ok(Case {
-        title: title.map_or(String::new(), |t| t.value),
-        buildings,
-        gaps,
-        links,
-        ground_motion,
-        analysis,
-        separation,
-        source: reader.source.to_owned(),
-        file: file.to_owned(),
+    Ok(Draft {
+        case: Case {
+            title: title.map_or(String::new(), |t| t.value),
+            buildings: row.readable,
+            gaps,
+            links,
+            ground_motion,
+            analysis,
+            separation,
+            source: reader.source.to_owned(),
+            file: file.to_owned(),
+        },
+        incomplete: Vec::new(),
+        motion_is_known,
     })
 }
 
@@ -81,8 +100,10 @@ pub(super) struct Row {
     count: usize,
     /// Their names, if all are sound.
     names: Option<Vec<String>>,
-    /// The buildings, if all are sound.
-    buildings: Option<Vec<Building>>,
+    /// The buildings that could be read, with stand-ins for values that are wrong.
+    readable: Vec<Building>,
+    /// Whether these are all, and their storey heights sound.
+    heights: bool,
 }
 
 impl Row {
@@ -91,9 +112,13 @@ impl Row {
         self.names.as_deref().ok_or_else(|| reader.lost())
     }
 
-    /// The buildings.
+    /// The buildings: sound as far as names and storey heights go.
     fn buildings(&self, reader: &Reader<'_>) -> Result<&[Building], CaseError> {
-        self.buildings.as_deref().ok_or_else(|| reader.lost())
+        if self.heights {
+            Ok(&self.readable)
+        } else {
+            Err(reader.lost())
+        }
     }
 }
 
@@ -105,7 +130,8 @@ fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Row {
         keep.record(root.misspelt("building").unwrap_or_else(none));
     }
     let mut names: Vec<Option<Located<String>>> = Vec::new();
-    let mut buildings = Vec::new();
+    let mut readable = Vec::new();
+    let mut heights = !values.is_empty();
     for value in &values {
         let (name, building) = building::building(reader, value);
         let twice = name.as_ref().and_then(|name| {
@@ -122,23 +148,30 @@ fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Row {
         });
         let unique = twice.map(|e| keep.record(e)).is_none();
         names.push(name.filter(|_| unique));
-        buildings.push(keep.keep(building));
+        let building = keep.keep(building);
+        heights &= building.as_ref().is_some_and(|(_, heights)| *heights);
+        readable.extend(building.map(|(building, _)| building));
     }
     let sound = !values.is_empty();
     let names = names.into_iter().map(|n| Some(n?.value)).collect();
-    let buildings = buildings.into_iter().collect();
     Row {
         count: values.len(),
         names: if sound { names } else { None },
-        buildings: if sound { buildings } else { None },
+        readable,
+        heights,
     }
 }
 
 fn gaps(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Gap> {
     let keep = reader.errors;
     let mut gaps: Vec<(Gap, Range<usize>)> = Vec::new();
+    let mut without_place = Vec::new();
     for value in keep.or_default(tables(root, "gap")) {
         let Some((gap, span)) = keep.keep(gap::gap(reader, value, row)) else {
+            continue;
+        };
+        let Some(span) = span else {
+            without_place.push(gap);
             continue;
         };
         if let Some((_, first)) = gaps.iter().find(|(g, _)| g.between == gap.between) {
@@ -164,14 +197,20 @@ fn gaps(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Gap> {
             gaps.push((gap, span));
         }
     }
-    gaps.into_iter().map(|(gap, _)| gap).collect()
+    let gaps = gaps.into_iter().map(|(gap, _)| gap);
+    gaps.chain(without_place).collect()
 }
 
 fn links(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Link> {
     let keep = reader.errors;
     let mut links: Vec<(Link, Range<usize>)> = Vec::new();
+    let mut without_place = Vec::new();
     for value in keep.or_default(tables(root, "link")) {
         let Some((link, span)) = keep.keep(law::link(reader, value, row)) else {
+            continue;
+        };
+        let Some(span) = span else {
+            without_place.push(link);
             continue;
         };
         if let Some((_, first)) = links.iter().find(|(l, _)| l.name == link.name) {
@@ -188,7 +227,8 @@ fn links(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Link> {
             links.push((link, span));
         }
     }
-    links.into_iter().map(|(link, _)| link).collect()
+    let links = links.into_iter().map(|(link, _)| link);
+    links.chain(without_place).collect()
 }
 
 /// Refuses names that cannot stand in messages or as a group of the result file.
@@ -298,19 +338,28 @@ fn default_analysis() -> Analysis {
     }
 }
 
-fn analysis(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseError> {
+/// A step (s) in place of one that could not be read.
+const STEP: f64 = 1.0e-3;
+
+fn analysis_of(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseError> {
     let table = reader.section(value, "[analysis]", schema::ANALYSIS)?;
     let keep = reader.errors;
     let default = default_analysis();
     let positive = |key: &str, dimension| keep.or_default(table.optional_positive(key, dimension));
     let number = |key: &str| keep.or_default(table.optional_number(key));
+    // Any step stands in for one that is wrong: a method that needs one has it.
+    let step = match keep.keep(table.optional_positive("step", Dimension::TIME)) {
+        Some(None) => table.misspelt("step").map(|_| STEP),
+        Some(step) => step,
+        None => Some(STEP),
+    };
     Ok(Analysis {
         method: keep
             .or_default(table.optional_text("method"))
             .unwrap_or(default.method),
         duration: positive("duration", Dimension::TIME),
         output_step: positive("output_step", Dimension::TIME).unwrap_or(default.output_step),
-        step: positive("step", Dimension::TIME),
+        step,
         beta: number("beta"),
         gamma: number("gamma"),
         alpha: number("alpha"),

@@ -44,6 +44,20 @@ pub struct Case {
     pub file: PathBuf,
 }
 
+/// A case in which something is wrong, as far as it could be read, for whoever wants to say
+/// what else is wrong in it. No run can be made of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    /// The case; stand-ins are in place of values that are wrong. Gaps and links whose
+    /// neighbours or levels are not known lie between walls.
+    pub case: Case,
+    /// Places of models, laws and dampings of which not all is known: what is found wrong
+    /// there may follow from an error that is reported already.
+    pub incomplete: Vec<Range<usize>>,
+    /// Whether all was read that says how the record is to be read.
+    pub motion_is_known: bool,
+}
+
 /// A building: one value a storey, bottom first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Building {
@@ -454,6 +468,17 @@ impl Case {
     /// All that is wrong in it, each with line, column and remedy: the first error with the
     /// others.
     pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
+        Self::parse_or_draft(source, file).map_err(|(error, _)| error)
+    }
+
+    /// The same; what is wrong comes with what could be read all the same.
+    ///
+    /// # Errors
+    /// As [`Case::parse`]; no draft of a text that is no case file at all.
+    pub fn parse_or_draft(
+        source: &str,
+        file: &Path,
+    ) -> Result<Self, (CaseError, Option<Box<Draft>>)> {
         crate::parse::case(source, file)
     }
 

@@ -6,6 +6,7 @@
 mod arguments;
 mod commands;
 mod failure;
+mod faults;
 mod interruption;
 mod json;
 mod plot;

@@ -94,6 +94,136 @@ fn the_case_itself_is_sound() {
     no_part_file(folder.path());
 }
 
+/// What the three parts of the file say wrongly is told at once, in the order of the file:
+/// one part does not hide another, and nothing is said that only follows.
+#[test]
+fn errors_of_all_sections_are_told_together() {
+    let told = |changes: &[(&str, &str)], wanted: &[&str]| {
+        let mut case = CASE.to_owned();
+        for (from, to) in changes {
+            assert!(case.contains(from), "{from}");
+            case = case.replacen(from, to, 1);
+        }
+        let folder = tempfile::tempdir().unwrap();
+        for command in ["check", "run", "gap"] {
+            let output = run_in(folder.path(), &case, &record(), &[command, "case.toml"]);
+            let text = message(&output);
+            assert_eq!(output.status.code(), Some(2), "{text}");
+            let mut from = 0;
+            for part in wanted {
+                let at = text[from..].find(part);
+                from += at.unwrap_or_else(|| panic!("\"{part}\" after {from} in: {text}"));
+            }
+            assert_eq!(text.matches("help:").count(), wanted.len(), "{text}");
+            let count = format!("{} errors", wanted.len());
+            assert!(text.contains(&count), "{text}");
+        }
+    };
+    let method = (
+        "duration = \"2 s\"",
+        "duration = \"2 s\"\nmethod = \"adaptif\"",
+    );
+    let width = ("20 mm", "20 mn");
+    told(
+        &[width, method],
+        &["case.toml:19:9", "case.toml:27:10: unknown method"],
+    );
+    told(
+        &[
+            ("duration = \"2 s\"", "duration = \"2 x\""),
+            ("anagnostopoulos_2004", "nosuch"),
+        ],
+        &["case.toml:20:9: unknown impact model", "case.toml:26:12"],
+    );
+    told(
+        &[("record.csv", "no.csv"), method],
+        &["case.toml:24:8: cannot read the record", "case.toml:27:10"],
+    );
+    told(
+        &[
+            ("25 t", "25 q"),
+            width,
+            ("anagnostopoulos_2004", "jankowsky_2005"),
+            ("restitution = 0.65", "restitution = 1.5"),
+            method,
+        ],
+        &[
+            "case.toml:6:8",
+            "case.toml:19:9",
+            "case.toml:20:9: unknown impact model",
+            "case.toml:27:10",
+        ],
+    );
+    told(
+        &[
+            ("25 t", "25 q"),
+            width,
+            ("restitution = 0.65", "restitution = 1.5"),
+            method,
+        ],
+        &[
+            "case.toml:6:8",
+            "case.toml:19:9",
+            "case.toml:22:15",
+            "case.toml:27:10",
+        ],
+    );
+    // A stiffness whose unit is wrong is not missing, and a step neither.
+    told(
+        &[
+            ("93.5 MN/m", "93.5 MN/x"),
+            ("restitution = 0.65", "restitution = 1.5"),
+            (
+                "duration = \"2 s\"",
+                "method = \"newmark\"\nstep = \"1 mn\"",
+            ),
+        ],
+        &["case.toml:21:13", "case.toml:22:15", "case.toml:27:8"],
+    );
+    // Laws of storeys whose stiffness is wrong, and floors that are not level.
+    told(
+        &[
+            (
+                "stiffness = \"3.46 MN/m\"",
+                "stiffness = \"3.46 MN\"\nlaw = { model = \"bilinaer\", yield_force = \"1 kN\" }",
+            ),
+            ("record.csv", "no.csv"),
+            ("height = \"3 m\"", "height = \"3.5 m\""),
+            ("width = ", "levels = [[1, 1], [2, 2]]\nwidth = "),
+        ],
+        &[
+            "case.toml:7:13",
+            "case.toml:8:17: unknown hysteresis law",
+            "case.toml:20:11",
+            "case.toml:26:8: cannot read the record",
+        ],
+    );
+}
+
+/// A gap has no law that pulls; a storey is named by the number of those that there are.
+#[test]
+fn laws_of_links_and_storeys_that_are_not_there() {
+    refused(
+        &CASE.replace("anagnostopoulos_2004", "tension_only"),
+        &record(),
+        &[
+            "unknown impact model \"tension_only\"",
+            "[[link]] with model = \"gap_hook\"",
+        ],
+    );
+    for storey in ["0", "-1", "3", "200000"] {
+        refused(
+            &CASE.replace("width = ", &format!("levels = [[{storey}, 1]]\nwidth = ")),
+            &record(),
+            &[
+                "case.toml:19:12",
+                &format!("\"a\" has no storey {storey}"),
+                "name one from 1 to 2",
+            ],
+        );
+    }
+}
+
 #[test]
 fn unknown_key() {
     refused(

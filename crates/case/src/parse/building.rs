@@ -10,11 +10,11 @@ use crate::schema;
 use crate::types::{Building, Damping, Located};
 use crate::units::Dimension;
 
-/// Reads a building; its name also where the rest is wrong.
+/// Reads a building, and whether its heights are sound; its name also where the rest is wrong.
 pub(super) fn building(
     reader: &Reader<'_>,
     value: &Value<'_>,
-) -> (Option<Located<String>>, Result<Building, CaseError>) {
+) -> (Option<Located<String>>, Result<(Building, bool), CaseError>) {
     let table = match reader.section(value, "[[building]]", schema::BUILDING) {
         Ok(table) => table,
         Err(e) => return (None, Err(e)),
@@ -44,7 +44,7 @@ fn named(
     reader: &Reader<'_>,
     table: &Table<'_, '_>,
     name: Option<Located<String>>,
-) -> Result<Building, CaseError> {
+) -> Result<(Building, bool), CaseError> {
     let keep = reader.errors;
     let read = |key: &str, dimension| {
         let value = table.required(key);
@@ -67,61 +67,91 @@ fn named(
     let stated = keep.keep(stated.transpose());
     let p_delta = keep.or_default(table.flag("p_delta"));
     let damped = keep.keep(table.required("damping"));
-    let (Some(mass), Some(stiffness), Some(height), Some(stated)) =
-        (mass, stiffness, height, stated)
-    else {
-        return Err(reader.lost());
-    };
-    let mut lists = vec![
+    let sound = [&mass, &stiffness, &height].iter().all(|l| l.is_some());
+    let lists: Vec<(&str, &List)> = [
         ("mass", &mass),
         ("stiffness", &stiffness),
         ("height", &height),
-    ];
-    lists.extend(displacement.iter().map(|l| ("initial_displacement", l)));
-    lists.extend(velocity.iter().map(|l| ("initial_velocity", l)));
-    let storeys = storeys(table, stated, &lists)?;
+        ("initial_displacement", &displacement),
+        ("initial_velocity", &velocity),
+    ]
+    .into_iter()
+    .filter_map(|(key, list)| Some((key, list.as_ref()?)))
+    .collect();
+    let storeys = match storeys(table, stated.flatten(), &lists)? {
+        Some(storeys) => storeys,
+        // One of the values that are wrong may say it.
+        None if !sound || stated.is_none() => return Err(reader.lost()),
+        None => {
+            return Err(table.misspelt("storeys").unwrap_or_else(|| {
+                table.reader.error(
+                    table.span.clone(),
+                    "the building does not say how many storeys it has",
+                    "add `storeys = ...`",
+                )
+            }));
+        }
+    };
     let all = |list: List| match list.values {
         Values::Scalar(x) => vec![x; storeys],
         Values::List(values) => values,
     };
-    let at_start = |list: Option<List>| list.map_or_else(|| vec![0.0; storeys], all);
+    let or = |list: Option<List>, stand_in: f64| list.map_or_else(|| vec![stand_in; storeys], all);
     let laws = match table.get("law") {
         Some(value) => keep.or_default(storey_laws(reader, value, storeys)),
         None => Vec::new(),
     };
+    if stiffness.is_none() {
+        // A law is held against the stiffness of its storey.
+        for law in &laws {
+            keep.incomplete(law.model.span.clone());
+        }
+    }
     let damping = damped.and_then(|value| {
         Some(Located {
             value: keep.keep(damping(reader, value, storeys))?,
             span: value.span(),
         })
     });
-    let (Some(name), Some(damping)) = (name, damping) else {
-        return Err(reader.lost());
-    };
-    Ok(Building {
+    let name = name.unwrap_or_else(|| Located {
+        value: String::new(),
+        span: table.span.clone(),
+    });
+    // With stand-ins for masses or stiffnesses, damping and gravity would say nothing.
+    let damping = damping.filter(|_| sound).unwrap_or_else(|| {
+        keep.incomplete(table.span.clone());
+        Located {
+            value: Damping::MassProportional { ratio: 0.0 },
+            span: table.span.clone(),
+        }
+    });
+    let heights = height.is_some();
+    let building = Building {
         initial_displacement: Located {
             span: displacement
                 .as_ref()
                 .map_or_else(|| name.span.clone(), |l| l.span.clone()),
-            value: at_start(displacement),
+            value: or(displacement, 0.0),
         },
-        initial_velocity: at_start(velocity),
+        initial_velocity: or(velocity, 0.0),
         name,
-        mass: all(mass),
-        stiffness: all(stiffness),
-        height: all(height),
+        mass: or(mass, 1.0),
+        stiffness: or(stiffness, 1.0),
+        height: or(height, 1.0),
         laws,
-        p_delta,
+        p_delta: p_delta && sound,
         damping,
-    })
+    };
+    Ok((building, heights))
 }
 
-/// The number of storeys, on which `storeys` and all lists must agree.
+/// The number of storeys, on which `storeys` and all lists must agree; `None` if nothing
+/// says it.
 fn storeys(
     table: &Table<'_, '_>,
     stated: Option<usize>,
     lists: &[(&str, &List)],
-) -> Result<usize, CaseError> {
+) -> Result<Option<usize>, CaseError> {
     let mut known = stated.map(|n| ("storeys", n));
     for &(key, list) in lists {
         let Values::List(values) = &list.values else {
@@ -142,15 +172,7 @@ fn storeys(
             Some(_) => {}
         }
     }
-    known.map(|(_, n)| n).ok_or_else(|| {
-        table.misspelt("storeys").unwrap_or_else(|| {
-            table.reader.error(
-                table.span.clone(),
-                "the building does not say how many storeys it has",
-                "add `storeys = ...`",
-            )
-        })
-    })
+    Ok(known.map(|(_, n)| n))
 }
 
 fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Damping, CaseError> {

@@ -9,17 +9,18 @@ use toml::de::DeValue;
 
 use super::{Row, check_name, not_negative, spread};
 use crate::error::CaseError;
-use crate::reader::{Reader, Table, Value, distance};
+use crate::reader::{List, Reader, Table, Value, distance};
 use crate::schema;
 use crate::types::{Building, ContactLevel, Gap, Located, Parameter, Side};
 use crate::units::Dimension;
 
-/// Reads a gap; also returns where its `between` stands.
+/// Reads a gap; also returns where its `between` stands. Where neighbours, levels or widths
+/// are wrong there is no such place, and the gap lies between walls: its model can be judged.
 pub(super) fn gap(
     reader: &Reader<'_>,
     value: &Value<'_>,
     row: &Row,
-) -> Result<(Gap, Range<usize>), CaseError> {
+) -> Result<(Gap, Option<Range<usize>>), CaseError> {
     let table = reader.section(value, "[[gap]]", schema::GAP)?;
     let keep = reader.errors;
     let parameters = parameters(&table);
@@ -33,6 +34,51 @@ pub(super) fn gap(
     );
     let separation = keep.or_default(table.optional_text("separation"));
     let name = keep.or_default(name(&table, "gap"));
+    let placed = keep.keep(placed(&table, row, width));
+    let Some(model) = model else {
+        return Err(reader.lost());
+    };
+    let (parameters, whole) = parameters;
+    if !whole {
+        keep.incomplete(model.span.clone());
+    }
+    let (place, place_in_row) = placed.unzip();
+    let place_in_row = place_in_row.unwrap_or(Placed {
+        between: [Side::Wall; 2],
+        names: Default::default(),
+        levels: Vec::new(),
+        tolerance: ELEVATION_TOLERANCE,
+        floor_to_floor: false,
+    });
+    let gap = Gap {
+        name: name.unwrap_or_else(|| place_in_row.names.join("-")),
+        between: place_in_row.between,
+        levels: place_in_row.levels,
+        elevation_tolerance: place_in_row.tolerance,
+        floor_to_floor: place_in_row.floor_to_floor,
+        model,
+        separation,
+        parameters,
+    };
+    Ok((gap, place))
+}
+
+/// Where a gap lies, and how wide it is.
+struct Placed {
+    between: [Side; 2],
+    names: [String; 2],
+    levels: Vec<ContactLevel>,
+    tolerance: f64,
+    floor_to_floor: bool,
+}
+
+/// Reads where a gap lies; also returns where its `between` stands.
+fn placed(
+    table: &Table<'_, '_>,
+    row: &Row,
+    width: Option<List>,
+) -> Result<(Range<usize>, Placed), CaseError> {
+    let reader = &table.reader;
     let place = table.required("between")?;
     let (between, names) = between(reader, place, row)?;
     let buildings = row.buildings(reader)?;
@@ -40,11 +86,9 @@ pub(super) fn gap(
         pairs,
         listed,
         tolerance,
-    } = levels(&table, between, buildings, place.span())?;
-    let floor_to_floor = floor_to_floor(&table, between, listed)?;
-    let (Some(width), Some(model)) = (width, model) else {
-        return Err(reader.lost());
-    };
+    } = levels(table, between, buildings, place.span())?;
+    let floor_to_floor = floor_to_floor(table, between, listed)?;
+    let width = width.ok_or_else(|| reader.lost())?;
     let widths = spread(reader, width, pairs.len(), "contact level")?;
     let mut levels: Vec<ContactLevel> = pairs
         .into_iter()
@@ -57,17 +101,14 @@ pub(super) fn gap(
         })
         .collect();
     levels.sort_by_key(|level| (level.left, level.right));
-    let gap = Gap {
-        name: name.unwrap_or_else(|| names.join("-")),
+    let placed = Placed {
         between,
+        names,
         levels,
-        elevation_tolerance: tolerance,
+        tolerance,
         floor_to_floor,
-        model,
-        separation,
-        parameters,
     };
-    Ok((gap, place.span()))
+    Ok((place.span(), placed))
 }
 
 /// The name of a gap or link, if it states one.
@@ -77,13 +118,15 @@ pub(super) fn name(table: &Table<'_, '_>, what: &str) -> Result<Option<String>, 
     Ok(name.transpose()?.map(|name| name.value))
 }
 
-/// All keys but those of the gap itself.
-fn parameters(table: &Table<'_, '_>) -> Vec<Parameter> {
+/// All keys but those of the gap itself, and whether all of them could be read.
+fn parameters(table: &Table<'_, '_>) -> (Vec<Parameter>, bool) {
     let reader = &table.reader;
+    let mut whole = true;
     let mut parameters = Vec::new();
     for (key, value) in table.entries() {
         let own = schema::GAP.iter().any(|k| k.name == key.value);
         if own || table.is_unknown(&key.value) {
+            whole &= own;
             continue;
         }
         if let Some(quantity) = reader.errors.keep(reader.any_quantity(value, &key.value)) {
@@ -94,9 +137,11 @@ fn parameters(table: &Table<'_, '_>) -> Vec<Parameter> {
                     span: value.span(),
                 },
             });
+        } else {
+            whole = false;
         }
     }
-    parameters
+    (parameters, whole)
 }
 
 pub(super) fn between(
@@ -424,15 +469,22 @@ fn pair(
     let storey = |value: &Value<'_>, side: Side| match side {
         Side::Wall => Ok(None),
         Side::Building(b) => {
-            let n = reader.count(value, "levels", 1)?;
-            if n <= buildings[b].mass.len() {
-                Ok(Some(n - 1))
-            } else {
-                Err(reader.error(
-                    value.span(),
-                    format!("\"{}\" has no storey {n}", buildings[b].name.value),
-                    format!("it has {} storeys", buildings[b].mass.len()),
-                ))
+            let storeys = buildings[b].mass.len();
+            let given = match value.get_ref() {
+                DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok(),
+                _ => return Err(reader.wrong_type(value, "levels", "a whole number")),
+            };
+            let given = given.and_then(|n| usize::try_from(n).ok());
+            match given.filter(|n| (1..=storeys).contains(n)) {
+                Some(n) => Ok(Some(n - 1)),
+                None => {
+                    let text = reader.source.get(value.span()).unwrap_or_default();
+                    Err(reader.error(
+                        value.span(),
+                        format!("\"{}\" has no storey {text}", buildings[b].name.value),
+                        format!("it has {storeys} storeys: name one from 1 to {storeys}"),
+                    ))
+                }
             }
         }
     };

@@ -22,6 +22,37 @@ const SENSITIVITY: Dimension = Dimension {
     time: 2.0,
 };
 
+/// In place of a motion of which nothing could be read.
+pub(super) fn unknown() -> GroundMotion {
+    GroundMotion {
+        file: no_file(),
+        format: None,
+        time_step: None,
+        unit: None,
+        layout: None,
+        component: None,
+        rotation: None,
+        quantity: None,
+        skip_lines: 0,
+        skip_columns: 0,
+        prepend_zero: false,
+        lenient: false,
+        sensitivity: None,
+        gravity: None,
+        offset: Offset::Automatic,
+        process: Vec::new(),
+        scale: Scale::None,
+    }
+}
+
+/// In place of a file name that could not be read.
+fn no_file() -> Located<PathBuf> {
+    Located {
+        value: PathBuf::new(),
+        span: 0..0,
+    }
+}
+
 pub(crate) fn ground_motion(
     reader: &Reader<'_>,
     value: &Value<'_>,
@@ -39,11 +70,8 @@ pub(crate) fn ground_motion(
     let scale = table
         .get("scale")
         .map_or(Ok(Scale::None), |v| scale(reader, v));
-    let motion = GroundMotion {
-        file: Located {
-            value: PathBuf::new(),
-            span: 0..0,
-        },
+    Ok(GroundMotion {
+        file: file.unwrap_or_else(no_file),
         format: text("format"),
         time_step: positive("time_step", Dimension::TIME),
         unit: text("unit"),
@@ -62,9 +90,7 @@ pub(crate) fn ground_motion(
             .unwrap_or(Offset::Automatic),
         process: keep.or_default(process).unwrap_or_default(),
         scale: keep.keep(scale).unwrap_or(Scale::None),
-    };
-    let file = file.ok_or_else(|| reader.lost())?;
-    Ok(GroundMotion { file, ..motion })
+    })
 }
 
 /// Reads a text `process = [...]`, the same list as in a case file: for programs that

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::gap::{Faced, between, levels, name, useless_tolerance};
+use super::gap::{Faced, Pair, between, levels, name, useless_tolerance};
 use super::{Row, one_each};
 use crate::error::CaseError;
 use crate::reader::{Reader, Table, Value};
 use crate::schema::{self, Key};
-use crate::types::{LawParameter, Link, Located, StoreyLaw};
+use crate::types::{LawParameter, Link, Located, Side, StoreyLaw};
 
 /// Reads `law` of a building: one table, or several that name their storeys.
 pub(super) fn storey_laws(
@@ -56,16 +56,23 @@ fn storey_law(
         .required("model")
         .and_then(|v| reader.text(v, "model"));
     let model = reader.errors.keep(model);
-    table.misspelt("storeys").map_or(Ok(()), Err)?;
-    let listed = match table.get("storeys") {
-        None => (0..storeys).collect(),
-        Some(value) => listed_storeys(reader, value, storeys)?,
+    let listed = match (table.misspelt("storeys"), table.get("storeys")) {
+        (Some(error), _) => Err(error),
+        (None, None) => Ok((0..storeys).collect()),
+        (None, Some(value)) => listed_storeys(reader, value, storeys),
     };
-    let parameters = parameters(table, schema::STOREY_LAW, listed.len());
+    let listed: Option<Vec<usize>> = reader.errors.keep(listed);
+    let count = listed.as_ref().map(Vec::len);
+    let (parameters, whole) = parameters(table, schema::STOREY_LAW, count);
+    let model = model.ok_or_else(|| reader.lost())?;
+    if !whole {
+        reader.errors.incomplete(model.span.clone());
+    }
     Ok(StoreyLaw {
         parameters,
-        storeys: listed,
-        model: model.ok_or_else(|| reader.lost())?,
+        // Without its storeys a law can be judged by its name.
+        storeys: listed.unwrap_or_default(),
+        model,
     })
 }
 
@@ -99,12 +106,13 @@ fn listed_storeys(
     Ok(listed)
 }
 
-/// Reads a link.
+/// Reads a link; also returns where its `between` stands. Where neighbours or levels are
+/// wrong there is no such place, and the link lies between walls: its law can be judged.
 pub(super) fn link(
     reader: &Reader<'_>,
     value: &Value<'_>,
     row: &Row,
-) -> Result<(Link, Range<usize>), CaseError> {
+) -> Result<(Link, Option<Range<usize>>), CaseError> {
     let table = reader.section(value, "[[link]]", schema::LINK)?;
     let keep = reader.errors;
     let model = keep.keep(
@@ -113,10 +121,44 @@ pub(super) fn link(
             .and_then(|v| reader.text(v, "model")),
     );
     let name = keep.or_default(name(&table, "link"));
+    let placed = keep.keep(placed(&table, row));
+    let levels = placed.as_ref().map(|p| p.levels.len());
+    let (parameters, whole) = parameters(&table, schema::LINK, levels);
+    let model = model.ok_or_else(|| reader.lost())?;
+    if !whole {
+        keep.incomplete(model.span.clone());
+    }
+    let place = placed.as_ref().map(|p| p.place.clone());
+    let placed = placed.unwrap_or(Placed {
+        place: 0..0,
+        between: [Side::Wall; 2],
+        names: Default::default(),
+        levels: vec![(None, None)],
+    });
+    let link = Link {
+        name: name.unwrap_or_else(|| placed.names.join("-")),
+        between: placed.between,
+        parameters,
+        levels: placed.levels,
+        model,
+    };
+    Ok((link, place))
+}
+
+/// Where a link lies.
+struct Placed {
+    /// Where its `between` stands.
+    place: Range<usize>,
+    between: [Side; 2],
+    names: [String; 2],
+    levels: Vec<Pair>,
+}
+
+fn placed(table: &Table<'_, '_>, row: &Row) -> Result<Placed, CaseError> {
+    let reader = &table.reader;
     let place = table.required("between")?;
     let (between, names) = between(reader, place, row)?;
-    let Faced { pairs, listed, .. } =
-        levels(&table, between, row.buildings(reader)?, place.span())?;
+    let Faced { pairs, listed, .. } = levels(table, between, row.buildings(reader)?, place.span())?;
     // A link may join floors at any elevations.
     if let (Some(value), true) = (table.get("elevation_tolerance"), listed) {
         return Err(useless_tolerance(
@@ -127,23 +169,29 @@ pub(super) fn link(
     }
     let mut levels: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
     levels.sort_unstable();
-    let link = Link {
-        name: name.unwrap_or_else(|| names.join("-")),
+    Ok(Placed {
+        place: place.span(),
         between,
-        parameters: parameters(&table, schema::LINK, levels.len()),
+        names,
         levels,
-        model: model.ok_or_else(|| reader.lost())?,
-    };
-    Ok((link, place.span()))
+    })
 }
 
-/// All keys but those of the table itself: one value for each of `count` places.
-fn parameters(table: &Table<'_, '_>, keys: &[Key], count: usize) -> Vec<LawParameter> {
+/// All keys but those of the table itself, and whether all of them could be read: one value
+/// for each of `count` places, or for one where their number is not known.
+fn parameters(
+    table: &Table<'_, '_>,
+    keys: &[Key],
+    count: Option<usize>,
+) -> (Vec<LawParameter>, bool) {
     let reader = &table.reader;
+    let mut whole = true;
     let keep = reader.errors;
     let mut parameters = Vec::new();
     for (key, value) in table.entries() {
-        if keys.iter().any(|k| k.name == key.value) || table.is_unknown(&key.value) {
+        let own = keys.iter().any(|k| k.name == key.value);
+        if own || table.is_unknown(&key.value) {
+            whole &= own;
             continue;
         }
         let one = |v: &Value<'_>| {
@@ -155,11 +203,18 @@ fn parameters(table: &Table<'_, '_>, keys: &[Key], count: usize) -> Vec<LawParam
         let values = match value.get_ref() {
             DeValue::Array(items) => {
                 let values = keep.all(items.iter().map(one));
-                keep.keep(values.and_then(|v| one_each(reader, v, value.span(), count)))
+                keep.keep(values.and_then(|v| match count {
+                    Some(count) => one_each(reader, v, value.span(), count),
+                    None => Ok(v),
+                }))
             }
-            _ => keep.keep(one(value)).map(|value| vec![value; count]),
+            _ => keep
+                .keep(one(value))
+                .map(|value| vec![value; count.unwrap_or(1)]),
         };
+        let values = values.filter(|values| !values.is_empty());
+        whole &= values.is_some();
         parameters.extend(values.map(|values| LawParameter { key, values }));
     }
-    parameters
+    (parameters, whole)
 }

@@ -2,23 +2,27 @@
 
 use std::path::Path;
 
-use pounding_time_history::assemble;
 use serde_json::json;
 
-use super::run::read_case;
+use super::progress::Progress;
 use super::{pretty, print};
 use crate::failure::Failure;
+use crate::faults::{assembled, read_case};
 use crate::json::add_place;
 use crate::tables;
 
 /// Validates a case, reads its record, and prints both in SI units.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let case = read_case(path)?;
+    let case = read_case(path, true)?;
     let failed = |e| Failure::of_case(e, &case);
-    let assembly = assemble(&case).map_err(failed)?;
+    let storeys: usize = case.buildings.iter().map(|b| b.mass.len()).sum();
+    let progress = Progress::working(format!("computing the modes of {storeys} storeys"))?;
+    let assembly = assembled(&case)?;
     assembly.check_recording().map_err(failed)?;
     if !as_json {
-        return print(&tables::understood(&case, &assembly));
+        let text = tables::understood(&case, &assembly);
+        drop(progress);
+        return print(&text);
     }
     let system = &assembly.system;
     let buildings: Vec<_> = system
@@ -70,6 +74,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         })
         .collect();
     let record = &assembly.accelerogram;
+    drop(progress);
     print(&pretty(&json!({
         "buildings": buildings, "gaps": gaps, "links": links,
         "ground_motion": {

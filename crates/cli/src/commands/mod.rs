@@ -17,6 +17,8 @@ mod stiffness;
 mod sweep;
 mod verify;
 
+pub use gap::failure as gap_failure;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

@@ -12,6 +12,8 @@ use crate::failure::Failure;
 
 /// Time between lines where there is no terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
+/// Time that a command whose progress cannot be told takes before it says that it works.
+const QUIET: Duration = Duration::from_secs(2);
 /// The environment's key for another time (s).
 const KEY: &str = "POUNDING_PROGRESS_SECONDS";
 
@@ -81,6 +83,60 @@ impl Progress {
         Ok(Self {
             shown: Shown::Lines {
                 now,
+                end: Some(end),
+                thread,
+            },
+        })
+    }
+
+    /// Begins to wait for a computation that does not tell how far it is: one that takes
+    /// long says what it does, and for how long it has done so.
+    ///
+    /// # Errors
+    /// A value of the environment that is no time.
+    pub fn working(what: String) -> Result<Self, Failure> {
+        let between = between_lines()?;
+        let now = Now {
+            unit: Unit::Part,
+            done: 0,
+            total: 0,
+            more: String::new(),
+        };
+        let (end, ended) = channel::<()>();
+        let began = Instant::now();
+        let thread = std::thread::Builder::new()
+            .name("progress".to_owned())
+            .spawn(move || {
+                let goes_on =
+                    |time| matches!(ended.recv_timeout(time), Err(RecvTimeoutError::Timeout));
+                if !goes_on(QUIET.min(between)) {
+                    return;
+                }
+                if std::io::stderr().is_terminal() {
+                    let bar = ProgressBar::new_spinner().with_elapsed(began.elapsed());
+                    if let Ok(style) = ProgressStyle::with_template("{elapsed:>4} {spinner} {msg}")
+                    {
+                        bar.set_style(style);
+                    }
+                    bar.set_message(what);
+                    bar.enable_steady_tick(Duration::from_millis(200));
+                    // Until the other end is dropped.
+                    let _ = ended.recv();
+                    return bar.finish_and_clear();
+                }
+                loop {
+                    let elapsed = time(began.elapsed().as_secs_f64());
+                    // Whoever closed the stream wants to see nothing.
+                    let _ = writeln!(std::io::stderr().lock(), "{what}, {elapsed} elapsed");
+                    if !goes_on(between) {
+                        return;
+                    }
+                }
+            })
+            .ok();
+        Ok(Self {
+            shown: Shown::Lines {
+                now: Arc::new(Mutex::new(now)),
                 end: Some(end),
                 thread,
             },

@@ -3,29 +3,29 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use pounding_case::Case;
 use pounding_files::FileUse;
 use pounding_time_history::{
-    Assembly, GridRecorder, Outcome, Recorder, RunRecord, TimeHistoryError, assemble,
-    run as integrate, write_result,
+    Assembly, GridRecorder, Outcome, Recorder, RunRecord, TimeHistoryError, run as integrate,
+    write_result,
 };
 
 use super::progress::{Progress, Unit};
 use super::{have_a_place, pretty, print, reads_too};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
+use crate::faults::{assembled, read_case};
 use crate::{json, plot, tables};
 
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
-    let case = read_case(&arguments.case)?;
+    let case = read_case(&arguments.case, true)?;
     let failed = |e| Failure::of_case(e, &case);
     let output = (!arguments.no_output).then(|| output_path(arguments));
     if let (Some(path), None) = (&output, &arguments.output) {
         files.writes("result", path);
     }
     reads_too(&mut files, case.files())?;
-    let assembly = assemble(&case).map_err(failed)?;
+    let assembly = assembled(&case)?;
     have_a_place([output.as_deref(), arguments.plot.as_deref()])?;
     assembly.check_recording().map_err(failed)?;
     let started = Instant::now();
@@ -66,13 +66,6 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         ));
     }
     print(&text)
-}
-
-/// Reads and validates a case file.
-pub fn read_case(path: &Path) -> Result<Case, Failure> {
-    // Read once: a pipe has nothing to give a second time.
-    let source = pounding_case::read_text(path, "case").map_err(|e| Failure::case(e, ""))?;
-    Case::parse(&source, path).map_err(|e| Failure::case(e, &source))
 }
 
 fn output_path(arguments: &RunArguments) -> PathBuf {

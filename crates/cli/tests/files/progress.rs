@@ -15,10 +15,27 @@ fn short_commands_are_silent() {
         "compare case.toml --models anagnostopoulos_2004",
         "sweep study.toml -o b.h5",
         "ida study.toml -o c.h5",
+        "check case.toml",
     ] {
         let silent = fixture.run(&words.split_whitespace().collect::<Vec<_>>());
         assert!(silent.stderr.is_empty(), "{words}: {}", message(&silent));
     }
+}
+
+/// `check` cannot say how far it is, but that it works.
+#[test]
+fn modes_of_tall_buildings_are_computed_aloud() {
+    let fixture = Fixture::new();
+    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
+    let case = case.replace("storeys = 1\n", "storeys = 400\n");
+    std::fs::write(fixture.path("tall.toml"), case).unwrap();
+    let mut command = fixture.command(&["check", "tall.toml"]);
+    command.env("POUNDING_PROGRESS_SECONDS", "0.01");
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", message(&output));
+    let said = message(&output);
+    assert!(said.starts_with("computing the modes of"), "{said}");
+    assert!(said.contains("storeys, 0 s elapsed"), "{said}");
 }
 
 /// A long one says how far it is, line by line, on the stream of errors; here every

@@ -10,20 +10,21 @@ use pounding_study::gap_check::under_records;
 
 use super::gap::failure;
 use super::progress::{Progress, Unit, threads};
-use super::run::read_case;
 use super::{have_a_place, pretty, print, reads_too};
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
 use crate::failure::Failure;
+use crate::faults::{of_records, read_case};
 use crate::plot;
 
 /// Runs every model on every record. Models that fail are listed with their diagnosis;
 /// if none is left, the computation failed.
 pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failure> {
-    let case = read_case(&arguments.case)?;
+    let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| failure(e, &case);
     let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
     reads_too(&mut files, case.files())?;
-    let records = under_records(&case, &given).map_err(failed)?;
+    let records =
+        under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;
     reads_too(
         &mut files,
         records.iter().map(|r| ("record", r.file.clone())),

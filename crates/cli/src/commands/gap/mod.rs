@@ -16,10 +16,10 @@ use pounding_study::gap_check::{
 };
 
 use super::progress::{Progress, Unit, threads};
-use super::run::read_case;
 use super::{have_a_place, pretty, print, reads_too};
 use crate::arguments::{GapArguments, OutputPath};
 use crate::failure::Failure;
+use crate::faults::{of_records, read_case};
 use crate::plot;
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
@@ -27,13 +27,14 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let Some(path) = arguments.case.as_deref().filter(|_| !arguments.list) else {
         return provisions::list(arguments.json);
     };
-    let case = read_case(path)?;
+    let case = read_case(path, arguments.records.is_empty())?;
     let separation = separation(&case, arguments)?;
     let options = options(arguments)?;
     let failed = |e| failure(e, &case);
     let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
     reads_too(&mut files, case.files())?;
-    let records = under_records(&case, &given).map_err(failed)?;
+    let records =
+        under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;
     reads_too(
         &mut files,
         records.iter().map(|r| ("record", r.file.clone())),

@@ -8,7 +8,8 @@ use pounding_case::Case;
 use pounding_gap_element::Verification;
 use pounding_time_history::{Assembly, ContactLevel, LevelOutcome, Peak, RunRecord};
 
-pub use width::Table;
+use elements::kilojoules;
+pub use width::{Table, paragraphs};
 
 const G: f64 = 9.80665;
 
@@ -143,7 +144,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
                 _ if rigid => format!("{:.2}", l.impulse_max * 1e-3),
                 _ => format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time),
             },
-            format!("{:.2}", l.energy_dissipated * 1e-3),
+            elements::signless(format!("{:.2}", l.energy_dissipated * 1e-3)),
             or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
         ]);
     }
@@ -204,18 +205,18 @@ fn energy(record: &RunRecord<'_>) -> String {
     let hysteretic = if record.assembly.system.elements().is_empty() {
         String::new()
     } else {
-        format!("hysteretic {:.3} + ", e.end.hysteretic * 1e-3)
+        format!("hysteretic {} + ", kilojoules(e.end.hysteretic))
     };
     format!(
-        "\nEnergy at {} s (kJ): input {:.3} = viscous {:.3} + {}impact {:.3} + kinetic {:.3} + {} {:.3}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
+        "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
         record.outcome.end_time,
-        e.end.input * 1e-3,
-        e.end.viscous * 1e-3,
+        kilojoules(e.end.input),
+        kilojoules(e.end.viscous),
         hysteretic,
-        e.end.impact * 1e-3,
-        e.end.kinetic * 1e-3,
+        kilojoules(e.end.impact),
+        kilojoules(e.end.kinetic),
         strain,
-        e.end.strain * 1e-3,
+        kilojoules(e.end.strain),
         e.residual_ratio,
         record.outcome.method.title,
         statistics.steps,

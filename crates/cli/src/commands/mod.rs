@@ -27,6 +27,7 @@ use pounding_files::{FileUse, PartFile};
 
 use crate::arguments::{Arguments, Command, ImpactCommand};
 use crate::failure::Failure;
+use crate::tables::paragraphs;
 
 /// Carries a command out. `files` are those of its arguments, held against one another
 /// already; a command that reads or writes more adds them and checks again.
@@ -59,7 +60,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Completions { shell } => {
             let mut bytes = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "pounding", &mut bytes);
-            print(&String::from_utf8_lossy(&bytes))
+            print_as_it_is(&String::from_utf8_lossy(&bytes))
         }
     }
 }
@@ -86,8 +87,19 @@ pub fn have_a_place<'p>(
     Ok(())
 }
 
-/// Prints to standard output. A reader that closed the pipe has seen enough.
+/// Prints to standard output: a text for people, whose lines are broken where the terminal
+/// ends, or JSON, as it is.
 pub fn print(text: &str) -> Result<(), Failure> {
+    if text.starts_with(['{', '[']) {
+        print_as_it_is(text)
+    } else {
+        print_as_it_is(&paragraphs(text))
+    }
+}
+
+/// Prints to standard output what programs read. A reader that closed the pipe has seen
+/// enough.
+pub fn print_as_it_is(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),

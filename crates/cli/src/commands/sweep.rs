@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use super::progress::{Progress, Unit};
 use super::separate::{Reading, reading, warn, warnings};
 use super::stiffness::value;
-use super::{pretty, print, reads_too};
+use super::{pretty, print, print_as_it_is, reads_too};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::interruption;
@@ -27,7 +27,7 @@ use crate::tables::warning_lines;
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
     if let Some(run) = arguments.show {
-        return print(&case_of_run(&study, run)?);
+        return print_as_it_is(&case_of_run(&study, run)?);
     }
     if arguments.plan {
         return plan::plan(&study, arguments);

@@ -35,12 +35,15 @@ pub(super) fn storeys(record: &RunRecord<'_>, index: usize) -> String {
 }
 
 /// Energy in kJ; what is round-off has no sign.
-fn kilojoules(energy: f64) -> String {
-    let text = format!("{:.3}", energy * 1e-3);
-    if text == "-0.000" {
-        "0.000".to_owned()
-    } else {
-        text
+pub(super) fn kilojoules(energy: f64) -> String {
+    signless(format!("{:.3}", energy * 1e-3))
+}
+
+/// A number that was rounded to zero has no sign.
+pub(super) fn signless(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),
+        _ => text,
     }
 }
 
@@ -75,7 +78,7 @@ pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
             ),
             format!("{:.1} @{:.2}", l.force.value * 1e-3, l.force.time),
             ratio(l.ductility),
-            format!("{:.2}", l.final_deformation * 1e3),
+            signless(format!("{:.2}", l.final_deformation * 1e3)),
             kilojoules(l.energy_dissipated),
         ]);
     }
@@ -178,4 +181,18 @@ pub(super) fn links(system: &System) -> String {
         text.push_str(&sources(cards));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_has_no_sign() {
+        for (energy, text) in [(-1e-9, "0.000"), (0.4, "0.000"), (-2.0, "-0.002")] {
+            assert_eq!(kilojoules(energy), text);
+        }
+        assert_eq!(signless(format!("{:.2}", -0.001)), "0.00");
+        assert_eq!(signless(format!("{:.2}", -0.01)), "-0.01");
+    }
 }

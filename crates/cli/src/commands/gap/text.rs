@@ -306,6 +306,7 @@ fn provided(check: &GapCheck) -> String {
         "absolute acceleration",
         "impacts",
     ]);
+    table.set_keys(2);
     let listed = check.records.len() <= LISTED;
     let mut failures = String::new();
     for record in &check.records {

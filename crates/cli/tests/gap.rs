@@ -470,6 +470,59 @@ fn alike_buildings_are_told_the_widest_gap_of_a_rule() {
     assert!(!shown.contains("inf"), "{shown}");
 }
 
+/// The numbers of `docs/how-to/seven-records-one-code.md`.
+#[test]
+fn seven_records_one_code() {
+    let motions = (1..=7).map(|i| format!("examples/synthetic_suite/motion_{i}.csv"));
+    let motions: Vec<String> = motions.collect();
+    let mut arguments = vec!["--records"];
+    arguments.extend(motions.iter().map(String::as_str));
+    let provisions = [
+        "--provisions",
+        "en_1998_1_2004_between",
+        "nbcc_2015_between",
+    ];
+    arguments.extend(provisions);
+    arguments.extend(["--probability", "0.1", "--points", "0"]);
+    let output = gap("gap_check", &arguments);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let page = root().join("docs/how-to/seven-records-one-code.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    for (rule, numbers) in [
+        ("absolute_sum", ["154.9 to 161.2", "1.076", "0 of 7"]),
+        (
+            "square_root_of_sum_of_squares",
+            ["136.1 to 142.3", "0.946", "4 of 7"],
+        ),
+        ("double_difference", ["136.1 to 142.2", "0.945", "4 of 7"]),
+        (
+            "en_1998_1_2004_between",
+            ["95.3 to 99.6", "0.662", "7 of 7"],
+        ),
+        ("nbcc_2015_between", ["136.1 to 142.3", "0.946", "4 of 7"]),
+    ] {
+        for text in [&shown, &page] {
+            let row = text
+                .lines()
+                .find(|l| l.starts_with('|') && l.contains(rule));
+            let row = row.unwrap_or_else(|| panic!("{rule} is not in {text}"));
+            let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+            for number in numbers {
+                assert!(cells.contains(&number), "{number} is not in {row}");
+            }
+        }
+    }
+    for number in [
+        "147.32 mm by count",
+        "152.59 mm",
+        "144.29 to 172.81 mm",
+        "TOO SMALL",
+    ] {
+        assert!(shown.contains(number), "{number} is not in {shown}");
+    }
+}
+
 #[test]
 fn mistakes() {
     for (arguments, says) in [

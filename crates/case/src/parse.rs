@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use crate::error::{CaseError, Errors};
 use crate::reader::{List, Reader, Table, Value, Values};
 use crate::schema;
-use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Separation};
+use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Refusal, Separation};
 use crate::units::Dimension;
 
 mod building;
@@ -21,7 +21,7 @@ mod separation;
 pub use ground_motion::process_steps;
 pub(crate) use separation::keys as separation_keys;
 
-pub(crate) fn case(source: &str, file: &Path) -> Result<Case, (CaseError, Option<Box<Draft>>)> {
+pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
     let name = file.display().to_string();
     let errors = Errors::default();
     let read = whole(
@@ -37,18 +37,16 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, (CaseError, Option
     match (errors.finish(Ok(())), draft) {
         (Ok(()), Some(draft)) => Ok(draft.case),
         (Err(error), draft) => {
-            let draft = draft.map(|draft| {
-                Box::new(Draft {
-                    incomplete,
-                    ..draft
-                })
+            let draft = draft.map(|draft| Draft {
+                incomplete,
+                ..draft
             });
-            Err((error, draft))
+            Err(Box::new(Refusal { error, draft }))
         }
         // Without a draft there is an error, which was recorded.
         (Ok(()), None) => {
             let error = CaseError::new(&name, source, 0..0, "the file cannot be read", None);
-            Err((error, None))
+            Err(Box::new(Refusal { error, draft: None }))
         }
     }
 }

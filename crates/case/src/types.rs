@@ -58,6 +58,15 @@ pub struct Draft {
     pub motion_is_known: bool,
 }
 
+/// Why a text is no case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// All that is wrong in it.
+    pub error: CaseError,
+    /// What could be read all the same; nothing of a text that is no case file at all.
+    pub draft: Option<Draft>,
+}
+
 /// A building: one value a storey, bottom first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Building {
@@ -468,17 +477,14 @@ impl Case {
     /// All that is wrong in it, each with line, column and remedy: the first error with the
     /// others.
     pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
-        Self::parse_or_draft(source, file).map_err(|(error, _)| error)
+        Self::parse_or_draft(source, file).map_err(|refusal| refusal.error)
     }
 
     /// The same; what is wrong comes with what could be read all the same.
     ///
     /// # Errors
-    /// As [`Case::parse`]; no draft of a text that is no case file at all.
-    pub fn parse_or_draft(
-        source: &str,
-        file: &Path,
-    ) -> Result<Self, (CaseError, Option<Box<Draft>>)> {
+    /// As [`Case::parse`].
+    pub fn parse_or_draft(source: &str, file: &Path) -> Result<Self, Box<Refusal>> {
         crate::parse::case(source, file)
     }
 

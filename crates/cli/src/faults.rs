@@ -27,9 +27,9 @@ const MOST_STOREYS: usize = 200;
 pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
     // Read once: a pipe has nothing to give a second time.
     let source = pounding_case::read_text(path, "case").map_err(|e| Failure::case(e, ""))?;
-    Case::parse_or_draft(&source, path).map_err(|(error, draft)| {
-        let more = draft.map(|draft| later(&draft, own_record));
-        Failure::case(joined(error, more.unwrap_or_default()), &source)
+    Case::parse_or_draft(&source, path).map_err(|refusal| {
+        let more = refusal.draft.map(|draft| later(&draft, own_record));
+        Failure::case(joined(refusal.error, more.unwrap_or_default()), &source)
     })
 }
 

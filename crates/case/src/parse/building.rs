@@ -10,11 +10,11 @@ use crate::schema;
 use crate::types::{Building, Damping, Located};
 use crate::units::Dimension;
 
-/// Reads a building, and whether its heights are sound; its name also where the rest is wrong.
-pub(super) fn building(
-    reader: &Reader<'_>,
-    value: &Value<'_>,
-) -> (Option<Located<String>>, Result<(Building, bool), CaseError>) {
+/// A building, and whether its heights are sound.
+type Read = Result<(Building, bool), CaseError>;
+
+/// Reads a building; its name also where the rest is wrong.
+pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> (Option<Located<String>>, Read) {
     let table = match reader.section(value, "[[building]]", schema::BUILDING) {
         Ok(table) => table,
         Err(e) => return (None, Err(e)),
@@ -40,11 +40,7 @@ fn name(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Located<String>, C
     Ok(name)
 }
 
-fn named(
-    reader: &Reader<'_>,
-    table: &Table<'_, '_>,
-    name: Option<Located<String>>,
-) -> Result<(Building, bool), CaseError> {
+fn named(reader: &Reader<'_>, table: &Table<'_, '_>, name: Option<Located<String>>) -> Read {
     let keep = reader.errors;
     let read = |key: &str, dimension| {
         let value = table.required(key);

@@ -390,9 +390,8 @@ fn provisions_are_listed_with_their_status() {
     assert!(line.unwrap().contains(" R "), "{shown}");
 }
 
-/// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
-#[test]
-fn alike_buildings_need_no_sweep() {
+/// A folder with a case of two buildings that are alike, a gap of this width apart.
+fn alike_buildings(width: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
     let records = root().join("ground_motions").display().to_string();
@@ -400,16 +399,27 @@ fn alike_buildings_need_no_sweep() {
         .unwrap()
         .replace("\"1000 t\"", "\"25 t\"")
         .replace("\"2215 MN/m\"", "\"3.46 MN/m\"")
+        .replace("\"20 mm\"", &format!("\"{width}\""))
+        .replace("\"31 s\"", "\"10 s\"")
         .replace("../../ground_motions", &records);
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let call = |arguments: &[&str]| {
-        Command::new(env!("CARGO_BIN_EXE_pounding"))
-            .args(["gap", "case.toml"])
-            .args(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap()
-    };
+    folder
+}
+
+fn gap_in(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(["gap", "case.toml"])
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+/// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
+#[test]
+fn alike_buildings_need_no_sweep() {
+    let folder = alike_buildings("20 mm");
+    let call = |arguments: &[&str]| gap_in(folder.path(), arguments);
     let output = call(&["--csv", "x.csv", "--plot", "x.svg"]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -434,27 +444,9 @@ fn alike_buildings_need_no_sweep() {
 /// verdict beside it and `--json` mean too.
 #[test]
 fn alike_buildings_are_told_the_widest_gap_of_a_rule() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
-    let records = root().join("ground_motions").display().to_string();
-    let case = case
-        .unwrap()
-        .replace("\"1000 t\"", "\"25 t\"")
-        .replace("\"2215 MN/m\"", "\"3.46 MN/m\"")
-        .replace("\"20 mm\"", "\"150 mm\"")
-        .replace("\"31 s\"", "\"10 s\"")
-        .replace("../../ground_motions", &records);
-    std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let call = |arguments: &[&str]| {
-        Command::new(env!("CARGO_BIN_EXE_pounding"))
-            .args(["gap", "case.toml", "--points", "0"])
-            .args(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap()
-    };
-    let shown = text(&call(&[]).stdout);
-    let report = json(&call(&["--json"]));
+    let folder = alike_buildings("150 mm");
+    let shown = text(&gap_in(folder.path(), &["--points", "0"]).stdout);
+    let report = json(&gap_in(folder.path(), &["--points", "0", "--json"]));
     for (rule, told) in [
         ("absolute_sum", "228.4"),
         ("square_root_of_sum_of_squares", "161.5"),

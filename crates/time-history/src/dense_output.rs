@@ -4,7 +4,7 @@
 
 use crate::contact::Contacts;
 use crate::dynamics::Layout;
-use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span};
+use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
 use crate::error::TimeHistoryError;
 use crate::free_flight::{
     FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring, step_over,
@@ -322,11 +322,7 @@ impl ModalStep<'_> {
                 }
             }
             for touch in scene.touches {
-                let row = &self.rows.levels[touch.level];
-                let delta = row.dot(&room.displacement) - touch.width;
-                let rate = row.dot(&room.velocity);
-                let level = &self.system.levels()[touch.level];
-                let force = touch.contact.force(level, delta, rate).value;
+                let (force, rate) = self.force(touch, room);
                 room.state[layout.work(touch.level)] += time * force * rate;
             }
         }
@@ -334,15 +330,20 @@ impl ModalStep<'_> {
         let (q, p) = (&room.displacement, &room.velocity);
         restoring(&self.constants.modes, q, p, &mut room.absolute);
         for touch in scene.touches {
-            let row = &self.rows.levels[touch.level];
-            let delta = row.dot(&room.displacement) - touch.width;
-            let rate = row.dot(&room.velocity);
-            let level = &self.system.levels()[touch.level];
-            let force = touch.contact.force(level, delta, rate).value;
-            row.add(-force, &mut room.absolute);
+            let (force, _) = self.force(touch, room);
+            self.rows.levels[touch.level].add(-force, &mut room.absolute);
             room.forces[touch.level] = force;
         }
         (input, viscous)
+    }
+
+    /// Force (N) and rate of penetration (m/s) of a closed level at the motion in `room`.
+    fn force(&self, touch: &Touch, room: &Room) -> (f64, f64) {
+        let row = &self.rows.levels[touch.level];
+        let delta = row.dot(&room.displacement) - touch.width;
+        let rate = row.dot(&room.velocity);
+        let level = &self.system.levels()[touch.level];
+        (touch.contact.force(level, delta, rate).value, rate)
     }
 
     /// Constants of the exact step over a part of a sample.

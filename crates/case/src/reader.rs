@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use pounding_catalogue::suggestion;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -325,10 +326,11 @@ impl<'v, 'a> Table<'v, 'a> {
             if known().any(|k| k == text) {
                 continue;
             }
-            let farthest = if open { 2 } else { 1 + text.len() / 3 };
-            let nearest = known()
-                .min_by_key(|k| distance(text, k))
-                .filter(|k| distance(text, k) <= farthest);
+            let nearest = if open {
+                suggestion::nearest(text, known()).filter(|k| suggestion::is_within(text, k, 2))
+            } else {
+                suggestion::misspelt(text, known())
+            };
             if open && nearest.is_none() {
                 continue;
             }
@@ -423,20 +425,4 @@ impl<'v, 'a> Table<'v, 'a> {
         self.get(key)
             .map_or(Ok(false), |v| self.reader.boolean(v, key))
     }
-}
-
-/// Levenshtein distance.
-pub(crate) fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

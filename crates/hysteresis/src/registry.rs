@@ -1,5 +1,7 @@
 //! All laws by name.
 
+use pounding_catalogue::suggestion;
+
 use crate::descriptor::LawDescriptor;
 use crate::error::HysteresisError;
 use crate::law::HysteresisLaw;
@@ -91,34 +93,15 @@ fn by_word(name: &str) -> Option<&'static str> {
 /// The nearest known name: one that is misspelt, else one by a word that means it.
 fn nearest(name: &str) -> &'static str {
     let spelt = by_spelling(name);
-    if edit_distance(name, spelt) <= 1 + name.chars().count() / 4 {
+    if suggestion::is_within(name, spelt, 1 + name.chars().count() / 4) {
         return spelt;
     }
     by_word(name).unwrap_or(spelt)
 }
 
 fn by_spelling(name: &str) -> &'static str {
-    laws::ALL
-        .iter()
-        .flat_map(|card| names(card))
-        .min_by_key(|known| edit_distance(name, known))
-        .unwrap_or("bilinear")
-}
-
-/// Levenshtein distance.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
+    let known = laws::ALL.iter().flat_map(|card| names(card));
+    suggestion::nearest(name, known).unwrap_or("bilinear")
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! All provisions by name.
 
+use pounding_catalogue::suggestion;
+
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 use crate::error::SeparationError;
 use crate::provisions;
@@ -26,26 +28,11 @@ pub fn find(name: &str) -> Result<&'static ProvisionDescriptor, SeparationError>
         let part = all
             .iter()
             .find(|p| !name.is_empty() && p.name.contains(name));
-        let nearest = part.or(all.iter().min_by_key(|p| edit_distance(name, p.name)));
+        let names = all.iter().map(|p| p.name);
+        let nearest = part.map(|p| p.name).or(suggestion::nearest(name, names));
         SeparationError::UnknownProvision {
             name: name.to_owned(),
-            nearest: nearest.map_or("", |p| p.name),
+            nearest: nearest.unwrap_or(""),
         }
     })
-}
-
-/// Levenshtein distance.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

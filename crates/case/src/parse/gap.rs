@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use pounding_catalogue::suggestion;
 use pounding_shear_building::{ELEVATION_TOLERANCE, are_level};
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Row, check_name, not_negative, spread};
 use crate::error::CaseError;
-use crate::reader::{List, Reader, Table, Value, distance};
+use crate::reader::{List, Reader, Table, Value};
 use crate::schema;
 use crate::types::{Building, ContactLevel, Gap, Located, Parameter, Side};
 use crate::units::Dimension;
@@ -215,10 +216,7 @@ fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bo
 }
 
 fn unknown_building(reader: &Reader<'_>, name: &Located<String>, names: &[String]) -> CaseError {
-    let guess = names
-        .iter()
-        .min_by_key(|n| distance(n, &name.value))
-        .filter(|n| distance(n, &name.value) <= 1 + name.value.chars().count() / 3)
+    let guess = suggestion::misspelt(&name.value, names)
         .map_or_else(String::new, |n| format!("did you mean \"{n}\"? "));
     reader.error(
         name.span.clone(),

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use pounding_catalogue::suggestion;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -205,10 +206,7 @@ fn name_of(value: &Value<'_>) -> Option<String> {
 }
 
 fn unknown(place: &Path, key: &str, known: &[String]) -> Lost {
-    let nearest = known
-        .iter()
-        .min_by_key(|k| strsim::levenshtein(k, key))
-        .filter(|k| strsim::levenshtein(k, key) <= 1 + key.len() / 3);
+    let nearest = suggestion::misspelt(key, known);
     let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
     (
         format!("`{place}` of the case has no `{key}`"),

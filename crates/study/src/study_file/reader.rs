@@ -4,6 +4,7 @@ use std::num::IntErrorKind;
 use std::ops::Range;
 
 use pounding_case::{CaseError, Dimension, Errors, Quantity, parse_quantity};
+use pounding_catalogue::suggestion;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -244,10 +245,7 @@ impl<'v, 'a> Table<'v, 'a> {
             if keys.contains(&text) {
                 continue;
             }
-            let nearest = keys
-                .iter()
-                .min_by_key(|k| strsim::levenshtein(text, k))
-                .filter(|k| strsim::levenshtein(text, k) <= 1 + text.len() / 3);
+            let nearest = suggestion::misspelt(text, keys);
             let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
             let message = format!("unknown key `{text}` in {name}");
             let help = format!("{guess}known keys: {}", keys.join(", "));

@@ -1,6 +1,7 @@
 //! Which models, with which parameters.
 
 use pounding_case::{Quantity, parse_quantity};
+use pounding_catalogue::suggestion;
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
     ParameterUnit, SeparationRule, Verification, registry,
@@ -131,9 +132,7 @@ fn unknown(
     let mut known: Vec<_> = known.collect();
     known.sort_unstable();
     known.dedup();
-    let nearest = known
-        .iter()
-        .min_by_key(|name| strsim::levenshtein(name, key));
+    let nearest = suggestion::nearest(key, &known);
     let guess = nearest.map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
     let who = match asked {
         [one] => format!("model {} has no parameter \"{key}\"", one.name),

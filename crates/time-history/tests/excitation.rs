@@ -111,7 +111,7 @@ fn the_result_tells_the_steps() {
         assembly: &assembly,
         outcome: &outcome,
         isolated: &outcome,
-        samples: &[],
+        history: &pounding_time_history::History::default(),
         wall_time: 0.0,
     };
     let folder = tempfile::tempdir().unwrap();

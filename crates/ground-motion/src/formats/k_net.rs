@@ -85,7 +85,11 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         && !source.options.lenient
     {
         let found = samples.len() as f64 / frequency;
-        let rest = if duration.fract() == 0.0 { 1.0 } else { 1.5 / frequency };
+        let rest = if duration.fract() == 0.0 {
+            1.0
+        } else {
+            1.5 / frequency
+        };
         if found > 1.01 * duration && found > duration + rest {
             return Err(source.error(
                 end,

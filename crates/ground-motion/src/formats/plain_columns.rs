@@ -113,7 +113,9 @@ impl Faulty {
                 "name one of them otherwise, or give `layout`, e.g. \"t,-,a\", and `unit`",
             ),
             Fault::Column(number, name) => (
-                format!("the header \"{text}\" is not used: its column {number}, \"{name}\", is not understood"),
+                format!(
+                    "the header \"{text}\" is not used: its column {number}, \"{name}\", is not understood"
+                ),
                 "name every column, as in `t [s];a [m/s2]` or `time (s),NS (g),EW (g)`; a time step stands in a line of its own before it, `# dt: 0.01 s`; or give `layout`, e.g. \"t,a\", and `unit`",
             ),
         };
@@ -146,9 +148,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let series = match (numbers(&pointed, header.as_ref()), faulty) {
         // Unit and step may well be there: why they were not understood is the reason.
         (
-            Err(
-                GroundMotionError::MissingUnit { .. } | GroundMotionError::MissingTimeStep { .. },
-            ),
+            Err(GroundMotionError::MissingUnit { .. } | GroundMotionError::MissingTimeStep { .. }),
             Some(faulty),
         ) => return Err(faulty.error(source)),
         (series, _) => series?,

@@ -182,10 +182,11 @@ pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
         }
         let name = name.trim().to_owned();
         if TIME.contains(&known.as_str()) {
-            return time_unit(&unit).is_none().then_some(Fault::TimeUnit(name, unit));
+            return time_unit(&unit)
+                .is_none()
+                .then_some(Fault::TimeUnit(name, unit));
         }
-        let moves =
-            ACCELERATION.contains(&known.as_str()) || MOTION.contains(&known.as_str());
+        let moves = ACCELERATION.contains(&known.as_str()) || MOTION.contains(&known.as_str());
         (moves && motion_unit(&unit).is_none()).then_some(Fault::MotionUnit(name, unit))
     });
     let bare = |name: &String| {
@@ -203,7 +204,10 @@ pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
         fault
     } else if let Some(k) = roles.iter().position(Option::is_none) {
         Fault::Column(k + 1, names[k].trim().to_owned())
-    } else if roles.iter().any(|r| matches!(r, Some(Role::Acceleration(..)))) {
+    } else if roles
+        .iter()
+        .any(|r| matches!(r, Some(Role::Acceleration(..))))
+    {
         // The header is wrong in that alone, or it is right.
         let times = roles.iter().filter(|r| matches!(r, Some(Role::Time(_))));
         (times.count() > 1).then_some(Fault::TwoTimes)?
@@ -255,9 +259,28 @@ fn quantity(cell: &str) -> Option<Quantity> {
 /// `x_g` and `z_g` may be symbols of the ground's displacement.
 fn is_component(known: &str) -> bool {
     const DIRECTIONS: [&str; 22] = [
-        "ns", "ew", "ud", "sn", "we", "n-s", "e-w", "u-d", "north", "east", "south", "west",
-        "up", "vert", "vertical", "north south", "east west", "h1", "h2", "longitudinal",
-        "transverse", "radial",
+        "ns",
+        "ew",
+        "ud",
+        "sn",
+        "we",
+        "n-s",
+        "e-w",
+        "u-d",
+        "north",
+        "east",
+        "south",
+        "west",
+        "up",
+        "vert",
+        "vertical",
+        "north south",
+        "east west",
+        "h1",
+        "h2",
+        "longitudinal",
+        "transverse",
+        "radial",
     ];
     let code = |name: &str| {
         // Band, instrument and orientation of SEED.
@@ -455,7 +478,11 @@ mod tests {
         let column = Some(Fault::Column(1, "dt=0.01 s".to_owned()));
         assert_eq!(fault_of("dt=0.01 s;a [m/s2]"), column);
         for (text, quantity, name) in [
-            ("time_s;displacement_m", Quantity::Displacement, "displacement_m"),
+            (
+                "time_s;displacement_m",
+                Quantity::Displacement,
+                "displacement_m",
+            ),
             ("# t [s], u [mm]", Quantity::Displacement, "u [mm]"),
             ("time,velocity", Quantity::Velocity, "velocity"),
             ("t (s)  v (cm/s)", Quantity::Velocity, "v (cm/s)"),

@@ -135,6 +135,20 @@ enum Mute {
     Step,
 }
 
+impl Mute {
+    /// Whether an event so long (s) after the start of the step does not count, at a level
+    /// that had this many at the present instant.
+    fn hides(self, time: f64, at_once: usize) -> bool {
+        match self {
+            Self::No => false,
+            // Round-off may put an event that comes again and again a trifle later.
+            Self::Start if at_once > EVENTS_AT_ONCE => time <= SIMULTANEOUS,
+            Self::Start => time == 0.0,
+            Self::Step => true,
+        }
+    }
+}
+
 struct Driver<'a> {
     system: &'a System,
     options: &'a RunOptions,
@@ -375,13 +389,7 @@ impl<'a> Driver<'a> {
             &mut context,
             self.method.as_ref(),
             (tau, step),
-            |level, theta| match mute[level] {
-                Mute::No => false,
-                // Round-off may put an event that comes again and again a trifle later.
-                Mute::Start if at_once[level] > EVENTS_AT_ONCE => theta * step <= SIMULTANEOUS,
-                Mute::Start => theta == 0.0,
-                Mute::Step => true,
-            },
+            |level, theta| mute[level].hides(theta * step, at_once[level]),
         )
     }
 

@@ -83,13 +83,13 @@ impl Driver<'_> {
         e.series.end(modes, q, p, &mut e.absolute);
         closings(&e.rows, q, &mut e.closings);
         let over = 0.125 * constants.rows.bound(&e.series.bend);
-        let mute = &self.mute;
+        let (mute, at_once) = (&self.mute, &self.at_once);
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
             (&e.series, &e.touches),
             (&e.closings, over, &flight.penetration),
             &mut self.finder.candidates,
-            |level, theta| is_muted(mute[level], theta),
+            |level, theta| mute[level].hides(theta * whole, at_once[level]),
         );
         let mut step = whole;
         if let Some(event) = event {
@@ -284,7 +284,7 @@ impl Driver<'_> {
         clock: &Clock,
         longest: f64,
     ) -> Option<(Candidate, f64)> {
-        let (mute, whole) = (&self.mute, clock.offset(1.0));
+        let (mute, at_once, whole) = (&self.mute, &self.at_once, clock.offset(1.0));
         let candidates = &mut self.finder.candidates;
         let span = Span {
             start: &pair.start,
@@ -297,7 +297,7 @@ impl Driver<'_> {
             &span,
             &flight.penetration,
             candidates,
-            |level, theta| is_muted(mute[level], theta),
+            |level, theta| mute[level].hides(clock.offset(theta), at_once[level]),
         );
         for candidate in candidates.iter_mut() {
             candidate.theta = clock.offset(candidate.theta) / whole;
@@ -340,15 +340,6 @@ fn begin(scene: &Scene<'_>, pair: &Pair, flight: &mut Flight, absolute: &mut [La
     }
     begin_acceleration(scene.constants, absolute, &mut flight.tracks(), start);
     flight.acceleration_known = true;
-}
-
-/// Whether an event of a level does not count.
-fn is_muted(mute: Mute, theta: f64) -> bool {
-    match mute {
-        Mute::No => false,
-        Mute::Start => theta == 0.0,
-        Mute::Step => true,
-    }
 }
 
 /// Takes the peaks of one closed level.

@@ -6,8 +6,10 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
+use pounding_assembly::assemble;
 use pounding_case::Case;
-use pounding_time_history::{GridRecorder, Recorder, RunRecord, assemble, run, write_result};
+use pounding_results::{RunRecord, write_result};
+use pounding_time_history::{GridRecorder, Recorder, run};
 
 /// Runs `tests/python/open_result.py` with the interpreter named by
 /// `POUNDING_PYTHON`, as `scripts/test` does. Without it there is no Python to
@@ -30,12 +32,15 @@ fn a_result_opens_in_python() {
         let outcome = run(&assembly.system, options, &mut recorders, &mut |_| {}).unwrap();
         let isolated = run(&assembly.system.isolated(), options, &mut [], &mut |_| {}).unwrap();
         assert_eq!(recorder.history.len(), 3101);
+        let warnings = assembly.with_those_of_the_record(&outcome.warnings);
         let record = RunRecord {
             title: &case.title,
             case: &case.source,
             version: "test",
             build: "test",
-            assembly: &assembly,
+            system: &assembly.system,
+            accelerogram: &assembly.accelerogram,
+            warnings: &warnings,
             outcome: &outcome,
             isolated: &isolated,
             history: &recorder.history,

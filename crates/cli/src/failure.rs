@@ -5,12 +5,14 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use pounding_assembly::AssemblyError;
 use pounding_case::{Case, CaseError};
 use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
+use pounding_results::WriteError;
 use pounding_time_history::TimeHistoryError;
 
 use crate::interruption::EXIT_CODE;
@@ -128,16 +130,10 @@ impl Failure {
 
     /// An error of assembly or run of a case: with its line where it stands in one, else with
     /// the name of the file.
-    pub fn of_case(error: TimeHistoryError, case: &Case) -> Self {
-        let placed = matches!(
-            error,
-            TimeHistoryError::Case(_) | TimeHistoryError::GroundMotion(_)
-        );
-        let failure = Self::time_history(error, &case.source);
-        if placed {
-            failure
-        } else {
-            failure.about(&case.file)
+    pub fn of_case(error: impl Into<AssemblyError>, case: &Case) -> Self {
+        match error.into() {
+            AssemblyError::System(error) => Self::from(error).about(&case.file),
+            error => Self::assembly(error, &case.source),
         }
     }
 
@@ -151,12 +147,23 @@ impl Failure {
         }
     }
 
-    /// An error of assembly, run or result file.
-    pub fn time_history(error: TimeHistoryError, source: &str) -> Self {
+    /// An error of assembly, in the text of a case where it has a place there.
+    pub fn assembly(error: AssemblyError, source: &str) -> Self {
+        match error {
+            AssemblyError::Case(error) => Self::case(error, source),
+            AssemblyError::System(error) => Self::from(error),
+            error => {
+                let help = error.help();
+                Self::input(error.to_string(), help)
+            }
+        }
+    }
+}
+
+impl From<TimeHistoryError> for Failure {
+    fn from(error: TimeHistoryError) -> Self {
         let help = error.help();
         match error {
-            TimeHistoryError::Case(error) => Self::case(error, source),
-            TimeHistoryError::GroundMotion(error) => Self::input(error.to_string(), help),
             error @ (TimeHistoryError::GapDefinition { .. }
             | TimeHistoryError::LinkDefinition { .. }
             | TimeHistoryError::NotLinear { .. }
@@ -167,11 +174,14 @@ impl Failure {
             | TimeHistoryError::TooManySteps { .. }
             | TimeHistoryError::RecordingTooLarge { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
-            error @ TimeHistoryError::ResultFile { .. } => {
-                Self::Output(plain(error.to_string(), help))
-            }
             error => Self::Computation(plain(error.to_string(), help)),
         }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::unwritten(error.to_string(), Some(error.help()))
     }
 }
 

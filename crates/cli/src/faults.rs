@@ -6,15 +6,16 @@
 
 use std::path::Path;
 
+use pounding_assembly::{
+    Assembly, AssemblyError, assemble, assemble_with_record, read_record, regap, scale_record,
+};
 use pounding_case::{
     Analysis, Building, Case, CaseError, Damping, Draft, Located, Parameter, Quantity,
 };
 use pounding_gap_element::registry;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
 use pounding_study::gap_check::CheckError;
-use pounding_time_history::{
-    Assembly, TimeHistoryError, assemble, assemble_with_record, read_record, regap, scale_record,
-};
+use pounding_time_history::TimeHistoryError;
 
 use crate::commands::gap_failure;
 use crate::failure::Failure;
@@ -39,10 +40,10 @@ pub fn assembled(case: &Case) -> Result<Assembly, Failure> {
 }
 
 /// What kept a case from being assembled, with all else that is wrong in it.
-pub fn of_assembly(error: TimeHistoryError, case: &Case, own_record: bool) -> Failure {
+pub fn of_assembly(error: AssemblyError, case: &Case, own_record: bool) -> Failure {
     let error = match error {
-        TimeHistoryError::Case(error) => error,
-        TimeHistoryError::GroundMotion(error) if own_record => of_record(case, &error),
+        AssemblyError::Case(error) => error,
+        AssemblyError::GroundMotion(error) if own_record => of_record(case, &error),
         error => return Failure::of_case(error, case),
     };
     let draft = Draft {
@@ -63,7 +64,7 @@ pub fn of_records(error: CheckError, case: &Case, own_record: bool) -> Failure {
     match error {
         CheckError::Case(error) => of_assembly(error.into(), case, own_record),
         CheckError::Record { source, .. }
-            if own_record && matches!(*source, TimeHistoryError::GroundMotion(_)) =>
+            if own_record && matches!(*source, AssemblyError::GroundMotion(_)) =>
         {
             of_assembly(*source, case, own_record)
         }
@@ -157,7 +158,7 @@ fn options(case: &Case) -> Vec<CaseError> {
     alone.links.clear();
     alone.buildings = vec![plain_building()];
     match assembly(&alone) {
-        Err(error @ TimeHistoryError::Option { option, .. }) => {
+        Err(AssemblyError::System(error @ TimeHistoryError::Option { option, .. })) => {
             let method = &case.analysis.method.span;
             let help = error.help();
             let help = help.or_else(|| Some(format!("correct `{option}` in [analysis]")));
@@ -237,7 +238,7 @@ fn record(draft: &Draft) -> Vec<CaseError> {
             Err(error) => Some(error),
         };
         match error {
-            Some(TimeHistoryError::Case(error)) => {
+            Some(AssemblyError::Case(error)) => {
                 let motion = &mut case.ground_motion;
                 let words = [&mut motion.format, &mut motion.unit, &mut motion.quantity];
                 let at = |w: &&mut Option<Located<String>>| {
@@ -252,7 +253,7 @@ fn record(draft: &Draft) -> Vec<CaseError> {
                 known = false;
                 errors.push(error);
             }
-            Some(TimeHistoryError::GroundMotion(error)) => {
+            Some(AssemblyError::GroundMotion(error)) => {
                 if known || matches!(error, GroundMotionError::Io { .. }) {
                     errors.push(of_record(&case, &error));
                 }
@@ -269,15 +270,15 @@ fn of_record(case: &Case, error: &GroundMotionError) -> CaseError {
     case.error(place, error.to_string(), error.help())
 }
 
-fn assembly(case: &Case) -> Result<Assembly, TimeHistoryError> {
+fn assembly(case: &Case) -> Result<Assembly, AssemblyError> {
     let unit = AccelerationUnit::MetrePerSecondSquared;
     let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
     assemble_with_record(case, &rest)
 }
 
-fn of_case<T>(result: Result<T, TimeHistoryError>) -> Vec<CaseError> {
+fn of_case<T>(result: Result<T, AssemblyError>) -> Vec<CaseError> {
     match result {
-        Err(TimeHistoryError::Case(error)) => error.each().collect(),
+        Err(AssemblyError::Case(error)) => error.each().collect(),
         _ => Vec::new(),
     }
 }

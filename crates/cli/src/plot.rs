@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pounding_report::ReportError;
 pub use pounding_report::{Curve, Panel, Reference};
-use pounding_time_history::RunRecord;
+use pounding_results::RunRecord;
 
 use crate::failure::Failure;
 
@@ -34,7 +34,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
 
 /// Draws roof displacements above, contact forces of the highest levels below.
 pub fn responses(path: &Path, record: &RunRecord<'_>) -> Result<(), Failure> {
-    let system = &record.assembly.system;
+    let system = record.system;
     let history = record.history;
     let curve = |name: &str, (values, column): (&[f64], usize), factor: f64| {
         let values = history.column(values, column);

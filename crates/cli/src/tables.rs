@@ -4,9 +4,11 @@ mod elements;
 mod width;
 
 use comfy_table::CellAlignment;
+use pounding_assembly::Assembly;
 use pounding_case::Case;
 use pounding_gap_element::Verification;
-use pounding_time_history::{Assembly, ContactLevel, LevelOutcome, Peak, RunRecord};
+use pounding_results::RunRecord;
+use pounding_time_history::{ContactLevel, LevelOutcome, Peak};
 
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
@@ -19,10 +21,10 @@ pub fn report(record: &RunRecord<'_>) -> String {
     if !record.title.is_empty() {
         text.push_str(&format!("{}\n", record.title));
     }
-    for line in record.assembly.accelerogram.echo() {
+    for line in record.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    text.push_str(&warning_lines(&record.warnings()));
+    text.push_str(&warning_lines(record.warnings));
     for index in 0..record.outcome.buildings.len() {
         text.push_str(&building(record, index));
         text.push_str(&elements::storeys(record, index));
@@ -108,7 +110,7 @@ fn building(record: &RunRecord<'_>, index: usize) -> String {
 
 fn gap(record: &RunRecord<'_>, index: usize) -> String {
     let outcome = &record.outcome.gaps[index];
-    let system = &record.assembly.system;
+    let system = record.system;
     let gap = &system.gaps()[index];
     let levels = system.levels_of(gap);
     let model = levels.first().map_or("", |l| l.model.descriptor().name);
@@ -193,7 +195,7 @@ fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String 
 
 fn energy(record: &RunRecord<'_>) -> String {
     let (e, statistics) = (record.outcome.energy, record.outcome.statistics);
-    let gravity = record.assembly.system.buildings().iter();
+    let gravity = record.system.buildings().iter();
     let gravity = gravity
         .flat_map(|b| b.geometric_stiffness())
         .any(|k| *k > 0.0);
@@ -202,7 +204,7 @@ fn energy(record: &RunRecord<'_>) -> String {
     } else {
         "strain"
     };
-    let hysteretic = if record.assembly.system.elements().is_empty() {
+    let hysteretic = if record.system.elements().is_empty() {
         String::new()
     } else {
         format!("hysteretic {} + ", kilojoules(e.end.hysteretic))

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use pounding_hdf5::OpenError;
+use pounding_results::OpenError;
 use thiserror::Error;
 
 /// Why a page could not be made.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Group, H5Type, Location};
 use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
-use pounding_hdf5::{ResultFile, number, read_all, text, texts, values};
+use pounding_results::{ResultFile, number, read_all, text, texts, values};
 
 use crate::error::ReportError;
 use crate::result::{

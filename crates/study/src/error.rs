@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use pounding_assembly::AssemblyError;
 use pounding_case::CaseError;
 use pounding_ground_motion::GroundMotionError;
-use pounding_hdf5::OpenError;
-use pounding_time_history::TimeHistoryError;
+use pounding_results::OpenError;
 
 /// A study that cannot be read, run, written or evaluated. A run that fails is none: it
 /// is recorded with its diagnosis.
@@ -22,7 +22,7 @@ pub enum StudyError {
     },
     /// The case of the study cannot be assembled.
     #[error(transparent)]
-    Base(#[from] TimeHistoryError),
+    Base(#[from] AssemblyError),
     /// A motion cannot be made or measured.
     #[error(transparent)]
     GroundMotion(#[from] GroundMotionError),

@@ -4,13 +4,14 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{
     Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
     Value, case_of_run, sweep,
 };
-use pounding_time_history::{assemble, run};
+use pounding_time_history::run;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,20 +1,12 @@
 //! What can go wrong, with where and when.
 
-use std::path::PathBuf;
-
 use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short};
 use crate::warnings::APPROACH_VELOCITY;
 
-/// Failure of an assembly, a run, or a result file.
+/// Failure of a system's definition or of a run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimeHistoryError {
-    /// The case says something that cannot be.
-    #[error(transparent)]
-    Case(#[from] pounding_case::CaseError),
-    /// The record cannot be read or used.
-    #[error(transparent)]
-    GroundMotion(#[from] pounding_ground_motion::GroundMotionError),
     /// A gap of the system is not well defined.
     #[error("gap {gap}: {reason}")]
     GapDefinition {
@@ -193,14 +185,6 @@ pub enum TimeHistoryError {
     /// A recorder refused a step.
     #[error("recorder: {0}")]
     Recorder(String),
-    /// The result file could not be written.
-    #[error("cannot write {path}: {reason}")]
-    ResultFile {
-        /// The file asked for.
-        path: PathBuf,
-        /// What the file system or HDF5 said.
-        reason: String,
-    },
 }
 
 impl TimeHistoryError {
@@ -208,8 +192,6 @@ impl TimeHistoryError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let text = match self {
-            Self::Case(error) => return error.help.clone(),
-            Self::GroundMotion(error) => return error.help(),
             Self::TooManySteps { limit, .. } => limit.remedy(),
             Self::RecordingTooLarge { .. } => {
                 "raise `output_step` in [analysis], or shorten `duration`; peaks and impacts do not depend on `output_step`"
@@ -243,9 +225,6 @@ impl TimeHistoryError {
             }
             Self::EnergyResidual { .. } => {
                 "use a smaller `step` or `relative_tolerance`; a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"
-            }
-            Self::ResultFile { .. } => {
-                "check that the folder exists, may be written to and has room, or name another file with -o"
             }
             _ => return None,
         };

@@ -5,7 +5,6 @@ use std::fmt;
 
 use pounding_gap_element::{Memory, Phase};
 
-use crate::assemble::Assembly;
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
 use crate::options::MethodChoice;
@@ -218,30 +217,4 @@ pub(crate) fn short(x: f64) -> String {
             x.to_string()
         }
     })
-}
-
-impl Assembly {
-    /// Refuses responses on the output grid that would not fit into
-    /// [`MAXIMUM_RECORDING`], before a run begins.
-    ///
-    /// # Errors
-    /// [`TimeHistoryError::RecordingTooLarge`].
-    pub fn check_recording(&self) -> Result<(), TimeHistoryError> {
-        let system = &self.system;
-        let duration = self.options.duration;
-        let duration = duration.unwrap_or_else(|| system.record_duration());
-        let samples = duration / self.output_step;
-        let floors = 4 * system.degrees_of_freedom();
-        let numbers = floors + 2 * system.levels().len() + 3 * system.elements().len();
-        // A sample has nine lists, each with a header of three words, and ten numbers.
-        let bytes = samples * 8.0 * (numbers + 37) as f64;
-        if bytes <= MAXIMUM_RECORDING {
-            return Ok(());
-        }
-        Err(TimeHistoryError::RecordingTooLarge {
-            samples,
-            duration,
-            bytes,
-        })
-    }
 }

@@ -1,13 +1,11 @@
-//! Time integration of buildings in a row: event location, energy ledger, recorders, HDF5 result.
+//! Time integration of buildings in a row: event location, energy ledger, recorders.
 
-mod assemble;
 mod bands;
 mod batch;
 mod bernstein;
 mod complementarity;
 mod contact;
 mod dense_output;
-mod dimension;
 mod driver;
 mod dynamics;
 mod elements;
@@ -15,7 +13,6 @@ mod engagement;
 mod error;
 mod estimate;
 mod events;
-mod excitation;
 mod free_flight;
 mod impacts;
 mod ledger;
@@ -27,27 +24,22 @@ mod polynomial;
 mod rates;
 mod recorder;
 mod relative_displacement;
-mod result_file;
 mod small_solver;
 mod system;
 mod warnings;
 
-pub use assemble::{Assembly, assemble, assemble_with_record, regap};
 pub use batch::run_many;
-pub use dimension::{law_parameter_dimension, parameter_dimension};
 pub use driver::run;
 pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;
 pub use estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepEstimate, StepLimit};
-pub use excitation::{processing_step, read_record, scale_record};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, History, Recorder, Sample, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
-pub use result_file::{RunRecord, dimension_scales, write_result};
 pub use system::{
     ContactLevel, Floor, Gap, GroundAcceleration, LevelPlace, Link, LinkedPair, System,
-    UnequalFloors,
+    UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

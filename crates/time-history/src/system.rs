@@ -15,7 +15,7 @@ pub use level_place::LevelPlace;
 use links::storeys;
 pub use links::{Link, LinkedPair};
 pub use unequal_floors::UnequalFloors;
-pub(crate) use unequal_floors::first_of;
+pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
 use crate::elements::Element;

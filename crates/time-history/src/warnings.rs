@@ -8,11 +8,10 @@ use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
 use pounding_shear_building::{Damping, DampingMatrix, Modes, ShearBuilding};
 
-use crate::assemble::Assembly;
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome};
-use crate::system::{ContactLevel, System, first_of};
+use crate::system::{ContactLevel, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
@@ -134,7 +133,7 @@ impl fmt::Display for Warning {
             } => write!(
                 f,
                 "gap {gap}: floors at different elevations act on each other as if they were level (floor_to_floor): {floors}, {difference} m apart{}; the columns that such floors hit are not modelled",
-                first_of(*pairs)
+                more_pairs(*pairs)
             ),
             Self::GroundAcceleration { peak } => write!(
                 f,
@@ -281,23 +280,6 @@ impl Warning {
             }
         }
         warnings
-    }
-}
-
-impl Assembly {
-    /// Warnings of the record, then those of the system, before a run.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let ours = Warning::before(&self.system, &self.options);
-        self.with_those_of_the_record(&ours)
-    }
-
-    /// The warnings of the record before these.
-    #[must_use]
-    pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {
-        let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
-        let record = record.unwrap_or_default().iter().cloned();
-        record.chain(ours.iter().map(Warning::to_string)).collect()
     }
 }
 

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use pounding_assembly::Assembly;
 use pounding_files::FileUse;
-use pounding_time_history::{
-    Assembly, GridRecorder, Outcome, Recorder, RunRecord, TimeHistoryError, run as integrate,
-    write_result,
-};
+use pounding_results::{RunRecord, write_result};
+use pounding_time_history::{GridRecorder, Outcome, Recorder, TimeHistoryError, run as integrate};
 
 use super::progress::{Progress, Unit};
 use super::{have_a_place, pretty, print, reads_too};
@@ -33,19 +32,22 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     let (outcome, isolated, recorder) = integrate_both(&assembly, &progress).map_err(failed)?;
     drop(progress);
     let wall_time = started.elapsed().as_secs_f64();
+    let warnings = assembly.with_those_of_the_record(&outcome.warnings);
     let record = RunRecord {
         title: &case.title,
         case: &case.source,
         version: env!("CARGO_PKG_VERSION"),
         build: pounding_study::BUILD,
-        assembly: &assembly,
+        system: &assembly.system,
+        accelerogram: &assembly.accelerogram,
+        warnings: &warnings,
         outcome: &outcome,
         isolated: &isolated,
         history: &recorder.history,
         wall_time,
     };
     if let Some(path) = &output {
-        write_result(path, &record).map_err(failed)?;
+        write_result(path, &record)?;
     }
     if let Some(path) = &arguments.plot {
         plot::responses(path, &record)?;
@@ -55,7 +57,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             &assembly.system,
             &outcome,
             &isolated,
-            &record.warnings(),
+            &warnings,
         )));
     }
     let mut text = tables::report(&record);

@@ -269,7 +269,7 @@ impl From<StudyError> for Failure {
         let help = error.help();
         match error {
             StudyError::Text { error, source_text } => Self::case(*error, &source_text),
-            StudyError::Base(error) => Self::time_history(error, ""),
+            StudyError::Base(error) => Self::assembly(error, ""),
             e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
                 Self::unwritten(e.to_string(), help)
             }

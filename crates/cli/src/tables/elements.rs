@@ -2,8 +2,9 @@
 
 use pounding_case::Case;
 use pounding_hysteresis::{LawDescriptor, Verification};
+use pounding_results::RunRecord;
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Element, Peak, RunRecord, System};
+use pounding_time_history::{Element, Peak, System};
 
 use super::new_table;
 
@@ -30,7 +31,7 @@ pub(super) fn storeys(record: &RunRecord<'_>, index: usize) -> String {
             kilojoules(s.hysteretic_energy),
         ]);
     }
-    let building = &record.assembly.system.buildings()[index];
+    let building = &record.system.buildings()[index];
     format!("{table}\n{}", sources(cards(building)))
 }
 
@@ -57,7 +58,7 @@ fn ratio(peak: Option<Peak>) -> String {
 /// What a link went through.
 pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
     let outcome = &record.outcome.links[index];
-    let system = &record.assembly.system;
+    let system = record.system;
     let mut table = new_table(&[
         "level",
         "elevations (m)",

@@ -1,7 +1,8 @@
 //! Demand of each record, and what pounding does at the provided gap.
 
 use pounding_time_history::{
-    BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, System, isolated_demand, run,
+    BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, System, TimeHistoryError, isolated_demand,
+    run,
 };
 
 use super::error::CheckError;
@@ -123,9 +124,9 @@ pub(crate) fn demands(
 
 fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
     let (system, options) = (&record.assembly.system, &record.assembly.options);
-    let failed = |source| CheckError::Record {
+    let failed = |source: TimeHistoryError| CheckError::Record {
         record: record.name.clone(),
-        source: Box::new(source),
+        source: Box::new(source.into()),
     };
     // Observers change nothing: where nothing touches, peaks are those of the runs with gaps to
     // the last bit, and amplifications are exactly one.

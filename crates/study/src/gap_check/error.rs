@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use pounding_assembly::AssemblyError;
 use pounding_case::CaseError;
 use pounding_separation::SeparationError;
-use pounding_time_history::TimeHistoryError;
 
 /// What keeps a check from an answer.
 #[derive(Debug, thiserror::Error)]
@@ -19,7 +19,7 @@ pub enum CheckError {
         /// Record.
         record: String,
         /// Why.
-        source: Box<TimeHistoryError>,
+        source: Box<AssemblyError>,
     },
     /// The run with the gaps' own laws failed under a record, so that models have no
     /// reference.

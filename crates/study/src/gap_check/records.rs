@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::{Case, GroundMotion, Located, Offset};
-use pounding_time_history::{Assembly, TimeHistoryError, assemble};
 
 use super::error::CheckError;
 
@@ -158,7 +158,7 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
 
 fn assembled(case: &Case, file: &Path) -> Result<Assembly, CheckError> {
     assemble(case).map_err(|e| match e {
-        TimeHistoryError::Case(error) => CheckError::Case(error),
+        AssemblyError::Case(error) => CheckError::Case(error),
         source => CheckError::Record {
             record: file.display().to_string(),
             source: Box::new(source),

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, File, Group, H5Type, Location};
-use pounding_hdf5::{CHECKSUM, CHECKSUM_FORM};
-use pounding_time_history::dimension_scales::attach;
+use pounding_results::dimension_scales::attach;
+use pounding_results::{CHECKSUM, CHECKSUM_FORM};
 use serde_json::json;
 
 use super::Description;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
-use pounding_hdf5::{OpenError, ResultFile, dataset, number, text, texts, values};
+use pounding_results::{OpenError, ResultFile, dataset, number, text, texts, values};
 
 use super::writing::Id;
 use super::{Coordinate, Description};

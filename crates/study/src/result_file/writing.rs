@@ -6,7 +6,7 @@ use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
 use pounding_files::{PartFile, checksum};
-use pounding_time_history::dimension_scales::make_scale;
+use pounding_results::dimension_scales::make_scale;
 
 use super::Description;
 use super::datasets::{

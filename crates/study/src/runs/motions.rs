@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use pounding_assembly::read_record;
 use pounding_ground_motion::Accelerogram;
-use pounding_time_history::read_record;
 use sha2::{Digest, Sha256};
 
 use crate::case_text::hexadecimal;

@@ -3,11 +3,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use pounding_assembly::{AssemblyError, assemble_with_record, regap, scale_record};
 use pounding_case::{Case, Scale};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, RunOptions, System, TimeHistoryError, assemble_with_record,
-    isolated_demand, regap, run, scale_record,
+    GroundAcceleration, RunOptions, System, TimeHistoryError, isolated_demand, run,
 };
 use sha2::{Digest, Sha256};
 
@@ -194,7 +194,7 @@ impl<'s> Runner<'s> {
         motion: &Motion,
         factor: Option<f64>,
     ) -> Result<(Vec<f64>, Ending), String> {
-        let said = |e: TimeHistoryError| e.to_string();
+        let said = |e: AssemblyError| e.to_string();
         let case = Case::parse(text, &self.study.base.file).map_err(|e| e.to_string())?;
         let record = scaled(&case, motion, factor)?;
         let key = key(self.study, point);
@@ -229,7 +229,7 @@ impl<'s> Runner<'s> {
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
             Ok(outcome) => Ok(outcome),
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
-            Err(e) => return Err(said(e)),
+            Err(e) => return Err(e.to_string()),
         };
         let demand = if self.study.isolated_demand {
             let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();

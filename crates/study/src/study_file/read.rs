@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use pounding_assembly::{AssemblyError, assemble_with_record};
 use pounding_case::{Case, CaseError, Errors};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
-use pounding_time_history::assemble_with_record;
 use toml::de::DeTable;
 
 use super::reader::{Reader, Result, Table, Value};
@@ -132,7 +132,7 @@ fn base(root: &Table<'_, '_>, folder: &Path) -> Result<Case> {
     };
     let case = Case::parse(&source, &path).map_err(error)?;
     match assemble_with_record(&case, &two_samples()?) {
-        Err(pounding_time_history::TimeHistoryError::Case(e)) => Err(error(e)),
+        Err(AssemblyError::Case(e)) => Err(error(e)),
         Err(e) => Err(e.into()),
         Ok(_) => Ok(case),
     }

@@ -2,9 +2,9 @@
 
 use std::path::Path as FilePath;
 
+use pounding_assembly::{AssemblyError, assemble_with_record, parameter_dimension};
 use pounding_case::{Case, CaseError, Dimension};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
-use pounding_time_history::{TimeHistoryError, assemble_with_record, parameter_dimension};
 
 use super::intensity::{FirstPeriods, intensity};
 use super::reader::{Reader, Result, Table, Value};
@@ -303,7 +303,7 @@ impl Trial<'_, '_> {
         let case = Case::parse(&text, &self.base.file).map_err(of_text)?;
         match assemble_with_record(&case, &at_rest()?) {
             Ok(_) => Ok(case),
-            Err(TimeHistoryError::Case(e)) => Err(of_text(e)),
+            Err(AssemblyError::Case(e)) => Err(of_text(e)),
             Err(e) => Err(refused(e.to_string(), e.help())),
         }
     }

@@ -35,8 +35,9 @@ impl UnequalFloors {
     }
 }
 
-/// Says of the first of some pairs that there are more.
-pub(crate) fn first_of(pairs: usize) -> String {
+/// What to say behind the first of so many pairs of unequal floors: that there are more.
+#[must_use]
+pub fn more_pairs(pairs: usize) -> String {
     match pairs {
         1 => String::new(),
         n => format!(" (the first of {n} such pairs in this gap)"),

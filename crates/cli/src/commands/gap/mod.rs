@@ -66,7 +66,7 @@ pub fn failure(error: CheckError, case: &Case) -> Failure {
     let help = error.help();
     match error {
         CheckError::Case(error) => Failure::case(error, &case.source),
-        CheckError::Record { source, record } => match Failure::time_history(*source, "") {
+        CheckError::Record { source, record } => match Failure::assembly(*source, "") {
             Failure::Input(report) => Failure::Input(report.wrap_err(format!("record {record}"))),
             Failure::Inputs(reports) => Failure::Inputs(
                 reports

@@ -1,12 +1,12 @@
 //! A law with its parameters.
 
+use pounding_assembly::law_parameter_dimension;
 use pounding_case::parse_quantity;
 use pounding_hysteresis::iwan::IwanDensity;
 use pounding_hysteresis::{
     HysteresisError, HysteresisLaw, LawDescriptor, LawParameters, ParameterDescriptor,
     ParameterUnit, build,
 };
-use pounding_time_history::law_parameter_dimension;
 use serde_json::{Map, Value, json};
 
 use super::card::verification;

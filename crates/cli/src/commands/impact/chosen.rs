@@ -1,12 +1,12 @@
 //! Which models, with which parameters.
 
+use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
 use pounding_catalogue::suggestion;
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
     ParameterUnit, SeparationRule, Verification, registry,
 };
-use pounding_time_history::parameter_dimension;
 use serde_json::{Map, Value, json};
 
 use super::setting::refused;

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_assembly::processing_step;
 use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
-use pounding_time_history::processing_step;
 use serde_json::json;
 
 use super::words::Words;

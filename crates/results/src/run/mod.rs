@@ -5,22 +5,19 @@
 
 mod buildings;
 mod datasets;
-pub mod dimension_scales;
 mod elements;
 mod gaps;
 mod levels;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hdf5::{Dataset, Group};
 use pounding_files::{PartFile, checksum};
-use pounding_hdf5::{CHECKSUM, CHECKSUM_FORM};
+use pounding_ground_motion::Accelerogram;
+use pounding_time_history::{Energy, History, Outcome, System};
 use sha2::{Digest, Sha256};
 
-use crate::assemble::Assembly;
-use crate::error::TimeHistoryError;
-use crate::outcome::{Energy, Outcome};
-use crate::recorder::History;
+use crate::{CHECKSUM, CHECKSUM_FORM, dimension_scales};
 use datasets::{series, text};
 
 /// Everything that goes into a result file.
@@ -34,8 +31,12 @@ pub struct RunRecord<'a> {
     pub version: &'a str,
     /// What the program was built of and for.
     pub build: &'a str,
-    /// System, options, record.
-    pub assembly: &'a Assembly,
+    /// Buildings, gaps, links.
+    pub system: &'a System,
+    /// The record, scaled, with its origin.
+    pub accelerogram: &'a Accelerogram,
+    /// Warnings of the record and of the run.
+    pub warnings: &'a [String],
     /// Result of the run.
     pub outcome: &'a Outcome,
     /// Result of the same buildings without gaps.
@@ -46,12 +47,22 @@ pub struct RunRecord<'a> {
     pub wall_time: f64,
 }
 
-impl RunRecord<'_> {
-    /// Warnings of the record, then those of the run.
+/// A result file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {path}: {reason}")]
+pub struct WriteError {
+    /// The file asked for.
+    pub path: PathBuf,
+    /// What the file system or HDF5 said.
+    pub reason: String,
+}
+
+impl WriteError {
+    /// What to try.
     #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        self.assembly
-            .with_those_of_the_record(&self.outcome.warnings)
+    pub fn help(&self) -> String {
+        "check that the folder exists, may be written to and has room, or name another file with -o"
+            .to_owned()
     }
 }
 
@@ -60,13 +71,10 @@ type Result<T> = hdf5::Result<T>;
 /// Writes the result of a run.
 ///
 /// # Errors
-/// [`TimeHistoryError::ResultFile`] if the file cannot be written; what
-/// stood under its name before is untouched then.
-pub fn write_result(
-    path: &Path,
-    record: &RunRecord<'_>,
-) -> std::result::Result<(), TimeHistoryError> {
-    let failed = |reason: String| TimeHistoryError::ResultFile {
+/// [`WriteError`] if the file cannot be written; what stood under its name before is
+/// untouched then.
+pub fn write_result(path: &Path, record: &RunRecord<'_>) -> std::result::Result<(), WriteError> {
+    let failed = |reason: String| WriteError {
         path: path.to_owned(),
         reason,
     };
@@ -86,7 +94,7 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     text(&file, CHECKSUM, CHECKSUM_FORM)?;
     text(&file, "case", record.case)?;
     text(&file, "case_sha256", &sha256(record.case))?;
-    let origin = record.assembly.accelerogram.origin();
+    let origin = record.accelerogram.origin();
     text(
         &file,
         "record_sha256",
@@ -107,7 +115,7 @@ fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
     )?;
     dimension_scales::attach(&a, &time, 0)?;
     // A text here ends at a NUL, which titles of damaged headers may have.
-    let echo = record.assembly.accelerogram.echo().join("\n");
+    let echo = record.accelerogram.echo().join("\n");
     text(&ground, "record", &echo.replace('\0', " "))?;
     buildings::buildings(&file, record, &time)?;
     gaps::gaps(&file, record, &time)?;
@@ -162,8 +170,11 @@ fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<(
 fn run(file: &hdf5::File, record: &RunRecord<'_>) -> Result<()> {
     let group = file.create_group("run")?;
     text(&group, "method", record.outcome.method.title)?;
-    let warnings = record.warnings();
-    text(&group, "warnings", &warnings.join("\n").replace('\0', " "))?;
+    text(
+        &group,
+        "warnings",
+        &record.warnings.join("\n").replace('\0', " "),
+    )?;
     let statistics = record.outcome.statistics;
     for (name, value) in [
         ("steps", statistics.steps),

@@ -1,4 +1,4 @@
-//! From a case to a system: the place where words meet physics.
+//! Buildings, models, gaps, links and options of a case, put together.
 
 mod again;
 mod laws;
@@ -13,12 +13,14 @@ use pounding_gap_element::{
 };
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ShearBuilding, ShearBuildingError};
+use pounding_time_history::{
+    DEFAULT_RELATIVE_TOLERANCE, Floor, GroundAcceleration, MAXIMUM_RECORDING, MethodChoice,
+    RunOptions, System, TimeHistoryError, Warning, more_pairs,
+};
 
 use crate::dimension::parameter_dimension;
-use crate::error::TimeHistoryError;
+use crate::error::AssemblyError;
 use crate::excitation::accelerogram;
-use crate::options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
-use crate::system::{Floor, GroundAcceleration, System, first_of};
 
 /// All that a run needs, made from a case.
 #[derive(Debug, Clone)]
@@ -33,12 +35,53 @@ pub struct Assembly {
     pub accelerogram: Accelerogram,
 }
 
+impl Assembly {
+    /// Warnings of the record, then those of the system, before a run.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let ours = Warning::before(&self.system, &self.options);
+        self.with_those_of_the_record(&ours)
+    }
+
+    /// The warnings of the record before these.
+    #[must_use]
+    pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {
+        let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
+        let record = record.unwrap_or_default().iter().cloned();
+        record.chain(ours.iter().map(Warning::to_string)).collect()
+    }
+
+    /// Refuses responses on the output grid that would not fit into
+    /// [`MAXIMUM_RECORDING`], before a run begins.
+    ///
+    /// # Errors
+    /// [`TimeHistoryError::RecordingTooLarge`].
+    pub fn check_recording(&self) -> Result<(), TimeHistoryError> {
+        let system = &self.system;
+        let duration = self.options.duration;
+        let duration = duration.unwrap_or_else(|| system.record_duration());
+        let samples = duration / self.output_step;
+        let floors = 4 * system.degrees_of_freedom();
+        let numbers = floors + 2 * system.levels().len() + 3 * system.elements().len();
+        // A sample has nine lists, each with a header of three words, and ten numbers.
+        let bytes = samples * 8.0 * (numbers + 37) as f64;
+        if bytes <= MAXIMUM_RECORDING {
+            return Ok(());
+        }
+        Err(TimeHistoryError::RecordingTooLarge {
+            samples,
+            duration,
+            bytes,
+        })
+    }
+}
+
 /// Reads the record and builds the system of a case.
 ///
 /// # Errors
 /// What the case says of models, methods or the record cannot be: with its place
 /// in the case file, or in the record.
-pub fn assemble(case: &Case) -> Result<Assembly, TimeHistoryError> {
+pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
     let parts = Parts::of(case)?;
     let accelerogram = accelerogram(case)?;
     let Parts {
@@ -103,7 +146,7 @@ fn with_gaps(
     case: &Case,
     models: &[Arc<dyn ImpactModel>],
     mut system: System,
-) -> Result<System, TimeHistoryError> {
+) -> Result<System, AssemblyError> {
     for (gap, model) in case.gaps.iter().zip(models) {
         let floor = |side: Side, storey: Option<usize>| match (side, storey) {
             (Side::Building(b), Some(s)) => Floor::Storey(b, s),
@@ -153,7 +196,7 @@ fn refuse_unequal_floors(case: &Case, gap: &Gap, system: &System) -> Result<(), 
             first.floors(),
             first.difference,
             gap.elevation_tolerance,
-            first_of(unequal.len())
+            more_pairs(unequal.len())
         ),
         Some("name floors at equal elevation, or correct the storey heights; `floor_to_floor = true` in this gap lets these floors act on each other as if they were level, a simplification that leaves out the columns which they hit".to_owned()),
     ))

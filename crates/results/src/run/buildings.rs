@@ -3,12 +3,13 @@
 use hdf5::{Dataset, Group};
 
 use super::datasets::{matrix, series};
-use super::{Result, RunRecord, dimension_scales, elements, share_time};
-use crate::outcome::{Peak, StoreyPeaks};
+use super::{Result, RunRecord, elements, share_time};
+use crate::dimension_scales;
+use pounding_time_history::{Peak, StoreyPeaks};
 
 pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
     let all = file.create_group("building")?;
-    let system = &record.assembly.system;
+    let system = record.system;
     for (index, building) in system.buildings().iter().enumerate() {
         let group = all.create_group(building.name())?;
         share_time(&group)?;

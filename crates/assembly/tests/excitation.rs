@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
+use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
-use pounding_time_history::{Assembly, RunRecord, TimeHistoryError, assemble, run, write_result};
 
 const START: &str = r#"[[building]]
 name = "a"
@@ -38,7 +38,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn assembled(keys: &str) -> Result<Assembly, TimeHistoryError> {
+fn assembled(keys: &str) -> Result<Assembly, AssemblyError> {
     let folder = folder();
     let case = Case::parse(&format!("{START}{keys}"), &folder.path().join("case.toml")).unwrap();
     assemble(&case)
@@ -97,33 +97,6 @@ fn process_then_scale() {
     assert!(echo.contains("offset: offset 0.1 m/s2"), "{echo}");
 }
 
-/// The result says what was read and what was done to it.
-#[test]
-fn the_result_tells_the_steps() {
-    let keys = format!("{TWO}{NORTH}process = [{{ remove_offset = \"mean\" }}]");
-    let assembly = assembled(&keys).unwrap();
-    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
-    let record = RunRecord {
-        title: "",
-        case: "",
-        version: "0",
-        build: "test",
-        assembly: &assembly,
-        outcome: &outcome,
-        isolated: &outcome,
-        history: &pounding_time_history::History::default(),
-        wall_time: 0.0,
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("r.h5");
-    write_result(&path, &record).unwrap();
-    let file = hdf5::File::open(&path).unwrap();
-    let told = file.group("ground").unwrap().attr("record").unwrap();
-    let told: hdf5::types::VarLenUnicode = told.read_scalar().unwrap();
-    assert_eq!(told.as_str(), assembly.accelerogram.echo().join("\n"));
-    assert!(told.contains("offset: offset 0.0"), "{told}");
-}
-
 /// The scaled record has what was asked for.
 #[test]
 fn scales_reach_their_targets() {
@@ -144,7 +117,7 @@ fn scales_reach_their_targets() {
 
 fn refused(keys: &str) -> pounding_case::CaseError {
     match assembled(&format!("{TWO}component = \"ns\"\n{keys}")).unwrap_err() {
-        TimeHistoryError::Case(error) => error,
+        AssemblyError::Case(error) => error,
         error => panic!("{error}"),
     }
 }

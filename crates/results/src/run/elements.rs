@@ -3,9 +3,10 @@
 use hdf5::{Dataset, Group};
 
 use super::datasets::{matrix, series, text};
-use super::{Result, RunRecord, dimension_scales, levels, share_time};
-use crate::elements::ElementPlace;
-use crate::outcome::{LinkLevelOutcome, Peak};
+use super::{Result, RunRecord, levels, share_time};
+use crate::dimension_scales;
+use pounding_time_history::ElementPlace;
+use pounding_time_history::{LinkLevelOutcome, Peak};
 
 /// Energy dissipated in every storey over time, ductility and what stays, for a building
 /// that has laws.
@@ -21,7 +22,7 @@ pub(super) fn storeys(
     }
     let storeys = outcome.yielding.len();
     let mut place = vec![None; storeys];
-    for (e, element) in record.assembly.system.elements().iter().enumerate() {
+    for (e, element) in record.system.elements().iter().enumerate() {
         if let ElementPlace::Storey { building, storey } = element.place
             && building == index
         {
@@ -30,7 +31,7 @@ pub(super) fn storeys(
     }
     let history = record.history;
     let mut rows = Vec::with_capacity(storeys * history.len());
-    let width = record.assembly.system.elements().len();
+    let width = record.system.elements().len();
     for row in history.element_dissipated.chunks_exact(width) {
         rows.extend(place.iter().map(|e| e.map_or(0.0, |e| row[e])));
     }
@@ -74,7 +75,7 @@ pub(super) fn storeys(
 
 /// All links.
 pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
-    let system = &record.assembly.system;
+    let system = record.system;
     if system.links().is_empty() {
         return Ok(());
     }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use pounding_case::{Building, Case, CaseError, Errors, LawParameter, Link, Located, Side};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, build, find};
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
+use pounding_time_history::{Floor, LinkedPair, System};
 
 use crate::dimension::law_parameter_dimension;
-use crate::error::TimeHistoryError;
-use crate::system::{Floor, LinkedPair, System};
+use crate::error::AssemblyError;
 
 /// Puts the laws of the case into the storeys of a building.
 pub(super) fn with_storey_laws(
@@ -71,11 +71,7 @@ fn check_stiffness(
 }
 
 /// Adds a link of the case to the system.
-pub(super) fn add_link(
-    case: &Case,
-    link: &Link,
-    system: &mut System,
-) -> Result<(), TimeHistoryError> {
+pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<(), AssemblyError> {
     let laws = laws_of_link(case, link)?;
     let floor = |side: Side, storey: Option<usize>| match (side, storey) {
         (Side::Building(b), Some(s)) => Floor::Storey(b, s),
@@ -96,7 +92,7 @@ pub(super) fn add_link(
         Side::Building(b) => case.buildings[b].name.value.clone(),
         Side::Wall => "wall".to_owned(),
     });
-    system.add_link(&link.name, names, pairs)
+    Ok(system.add_link(&link.name, names, pairs)?)
 }
 
 /// The law of each level of a link.

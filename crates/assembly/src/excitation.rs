@@ -13,10 +13,10 @@ use pounding_ground_motion::{
     processing,
 };
 
-use crate::error::TimeHistoryError;
+use crate::error::AssemblyError;
 
 /// The ground acceleration of a case.
-pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
+pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
     scale_record(case, read_record(case)?)
 }
 
@@ -25,7 +25,7 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, TimeHistoryError
 /// # Errors
 /// An unknown unit or format, with its place in the case, or a record that cannot be
 /// read or processed.
-pub fn read_record(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
+pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
     let motion = &case.ground_motion;
     let options = read_options(case)?;
     let file = case.resolve(&motion.file.value);
@@ -53,7 +53,7 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, TimeHistoryError> {
 ///
 /// # Errors
 /// A target spectrum that cannot be read, or a scale that the record does not allow.
-pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, TimeHistoryError> {
+pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, AssemblyError> {
     let folder = |path: &Path| case.resolve(path);
     match scale_of(&case.ground_motion.scale, &folder)? {
         None => Ok(record),

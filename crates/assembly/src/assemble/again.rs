@@ -3,11 +3,10 @@
 
 use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
+use pounding_time_history::{RunOptions, System};
 
 use super::{Assembly, Parts, ground, models, options, with_gaps};
-use crate::error::TimeHistoryError;
-use crate::options::RunOptions;
-use crate::system::System;
+use crate::error::AssemblyError;
 
 /// Builds the system of a case under this motion, which is taken as it is: neither the
 /// record nor the scale of the case is looked at.
@@ -17,7 +16,7 @@ use crate::system::System;
 pub fn assemble_with_record(
     case: &Case,
     accelerogram: &Accelerogram,
-) -> Result<Assembly, TimeHistoryError> {
+) -> Result<Assembly, AssemblyError> {
     let Parts {
         buildings,
         models,
@@ -41,7 +40,7 @@ pub fn assemble_with_record(
 ///
 /// # Errors
 /// What the case says of models, gaps or options cannot be.
-pub fn regap(case: &Case, base: &System) -> Result<(System, RunOptions), TimeHistoryError> {
+pub fn regap(case: &Case, base: &System) -> Result<(System, RunOptions), AssemblyError> {
     let models = models(case)?;
     let options = options(case)?;
     let rest = vec![0.0; base.degrees_of_freedom()];

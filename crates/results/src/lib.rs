@@ -1,4 +1,5 @@
-//! Reading of result files in HDF5, of runs and of studies: layer 1.
+//! Result files in HDF5: those of runs are written here, those of runs and of studies are
+//! read here.
 //!
 //! [`ResultFile::open`] is the only way to a result file: the checksum at its end is
 //! compared before the HDF5 library sees the file. What is then read has the type that was
@@ -6,12 +7,15 @@
 //! damaged type or a lost piece would otherwise be read as zeros.
 
 mod chunks;
+pub mod dimension_scales;
+mod run;
 mod values;
 
 use std::path::Path;
 
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 
+pub use run::{RunRecord, WriteError, write_result};
 pub use values::{dataset, number, read_all, text, texts, values};
 
 /// Name of the root attribute of a file that was written with a checksum.

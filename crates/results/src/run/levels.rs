@@ -2,9 +2,10 @@
 
 use hdf5::{Dataset, Group};
 
+use super::Result;
 use super::datasets::{labels, series};
-use super::{Result, dimension_scales};
-use crate::system::LevelPlace;
+use crate::dimension_scales;
+use pounding_time_history::LevelPlace;
 
 /// Names of the coordinates beside `level`, as the attribute `coordinates` lists them.
 pub(super) const COORDINATES: &str = "left_storey right_storey left_elevation right_elevation";

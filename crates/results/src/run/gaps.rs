@@ -3,9 +3,10 @@
 use hdf5::{Dataset, H5Type};
 
 use super::datasets::{matrix, series, table as rows_of, text};
-use super::{Result, RunRecord, dimension_scales, levels, share_time};
-use crate::outcome::Impact;
-use crate::system::LevelPlace;
+use super::{Result, RunRecord, levels, share_time};
+use crate::dimension_scales;
+use pounding_time_history::Impact;
+use pounding_time_history::LevelPlace;
 
 /// One impact as a row of the compound table.
 #[derive(Debug, Clone, Copy, H5Type)]
@@ -46,7 +47,7 @@ impl ImpactRow {
 
 pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
     let all = file.create_group("gap")?;
-    let system = &record.assembly.system;
+    let system = record.system;
     for (index, gap) in system.gaps().iter().enumerate() {
         let group = all.create_group(&gap.name)?;
         let range = gap.first_level..gap.first_level + gap.levels;

@@ -1,0 +1,32 @@
+//! From a case to the system that the solver integrates: the place where words meet physics.
+//!
+//! [`assemble`] reads the record of a [`Case`](pounding_case::Case), processes and scales it,
+//! finds impact models and laws by their names, checks units against what each parameter
+//! wants, and builds the [`System`](pounding_time_history::System).
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use pounding_assembly::assemble;
+//! use pounding_case::Case;
+//! use pounding_time_history::run;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+//! let case = Case::read(&examples.join("three_storey_pair/case.toml"))?;
+//! let assembly = assemble(&case)?;
+//! let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {})?;
+//! assert_eq!(outcome.gaps[0].levels[2].impacts, 26);
+//! # Ok(())
+//! # }
+//! ```
+
+mod assemble;
+mod dimension;
+mod error;
+mod excitation;
+
+pub use assemble::{Assembly, assemble, assemble_with_record, regap};
+pub use dimension::{law_parameter_dimension, parameter_dimension};
+pub use error::AssemblyError;
+pub use excitation::{processing_step, read_record, scale_record};

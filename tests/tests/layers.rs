@@ -1,0 +1,126 @@
+//! Which crate may import which: the table of CONTRIBUTING.md, from the bottom up, against
+//! what cargo resolves.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+/// Names and dependencies (normal and build) of the packages that cargo resolves.
+struct Packages(BTreeMap<String, BTreeSet<String>>);
+
+impl Packages {
+    fn resolved() -> Self {
+        // What this machine builds is here; other platforms would be downloaded.
+        let rustc = Command::new("rustc").arg("-vV").output().unwrap();
+        let rustc = String::from_utf8(rustc.stdout).unwrap();
+        let host = rustc.lines().find_map(|l| l.strip_prefix("host: "));
+        let platform = format!("--filter-platform={}", host.unwrap());
+        let output = Command::new(env!("CARGO"))
+            .args(["metadata", "--format-version=1", "--locked", "--offline"])
+            .arg(platform)
+            .current_dir(root())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let text = |value: &Value| value.as_str().unwrap().to_owned();
+        let packages = metadata["packages"].as_array().unwrap();
+        let name: BTreeMap<String, String> = packages
+            .iter()
+            .map(|p| (text(&p["id"]), text(&p["name"])))
+            .collect();
+        let nodes = metadata["resolve"]["nodes"].as_array().unwrap();
+        let needed = |node: &Value| -> BTreeSet<String> {
+            let all = node["deps"].as_array().unwrap().iter();
+            let is_for_tests = |kind: &Value| kind["kind"] == "dev";
+            all.filter(|d| !d["dep_kinds"].as_array().unwrap().iter().all(is_for_tests))
+                .map(|d| name[&text(&d["pkg"])].clone())
+                .collect()
+        };
+        let nodes = nodes
+            .iter()
+            .map(|n| (name[&text(&n["id"])].clone(), needed(n)));
+        let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for (package, needs) in nodes {
+            // Two versions of one crate count as one.
+            all.entry(package).or_default().extend(needs);
+        }
+        Self(all)
+    }
+
+    /// All that a package needs, and what these need.
+    fn tree(&self, package: &str) -> BTreeSet<String> {
+        let mut found = BTreeSet::new();
+        let mut open = vec![package.to_owned()];
+        while let Some(next) = open.pop() {
+            for needed in &self.0[&next] {
+                if found.insert(needed.clone()) {
+                    open.push(needed.clone());
+                }
+            }
+        }
+        found
+    }
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Crates in the order of the table.
+fn table() -> Vec<String> {
+    let text = std::fs::read_to_string(root().join("CONTRIBUTING.md")).unwrap();
+    let rows = text.lines().filter_map(|l| l.strip_prefix("| `crates/"));
+    rows.map(|row| row.split('`').next().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn imports_point_upwards_in_the_table() {
+    let table = table();
+    let folders = std::fs::read_dir(root().join("crates")).unwrap();
+    let folders: BTreeSet<String> = folders
+        .map(|f| f.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert_eq!(
+        folders,
+        table.iter().cloned().collect(),
+        "crates in the table"
+    );
+    let packages = Packages::resolved();
+    let package = |folder: &str| match folder {
+        "pounding" => folder.to_owned(),
+        other => format!("pounding-{other}"),
+    };
+    for (place, folder) in table.iter().enumerate() {
+        let needs = &packages.0[&package(folder)];
+        for other in &table[place..] {
+            assert!(
+                !needs.contains(&package(other)),
+                "crates/{folder} imports crates/{other}, which stands below it"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_solver_needs_no_files() {
+    let tree = Packages::resolved().tree("pounding-time-history");
+    assert!(tree.contains("pounding-gap-element"), "{tree:?}");
+    for none in [
+        "hdf5-metno",
+        "hdf5-metno-sys",
+        "toml",
+        "csv",
+        "parquet",
+        "serde_json",
+        "pounding-case",
+        "pounding-files",
+        "pounding-ground-motion",
+    ] {
+        assert!(!tree.contains(none), "the solver needs {none}");
+    }
+}

@@ -40,7 +40,7 @@ fn recorded(system: &System, options: &RunOptions, grid: f64) -> (Outcome, Histo
             assert!(error < 1e-9, "approach {} for {expected}", seen.value);
         }
     }
-    (outcome, recorder.history)
+    (outcome, recorder.responses)
 }
 
 /// Every number of a run, as text with all its digits.

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use pounding_assembly::assemble;
 use pounding_case::Case;
-use pounding_results::{RunRecord, write_result};
+use pounding_results::{RunEnding, RunHead, RunWriter};
 use pounding_time_history::{GridRecorder, Recorder, run};
 
 /// Runs `tests/python/open_result.py` with the interpreter named by
@@ -26,27 +26,30 @@ fn a_result_opens_in_python() {
         let case = Case::parse(&source, &file).unwrap();
         assert_eq!(case.buildings[0].elevations(), [3.3, 6.6, 9.9]);
         let assembly = assemble(&case).unwrap();
-        let mut recorder = GridRecorder::new(assembly.output_step).unwrap();
-        let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
-        let options = &assembly.options;
-        let outcome = run(&assembly.system, options, &mut recorders, &mut |_| {}).unwrap();
-        let isolated = run(&assembly.system.isolated(), options, &mut [], &mut |_| {}).unwrap();
-        assert_eq!(recorder.history.len(), 3101);
-        let warnings = assembly.with_those_of_the_record(&outcome.warnings);
-        let record = RunRecord {
+        let head = RunHead {
             title: &case.title,
             case: &case.source,
             version: "test",
             build: "test",
             system: &assembly.system,
             accelerogram: &assembly.accelerogram,
-            warnings: &warnings,
+        };
+        let writer = RunWriter::begin(path, &head).unwrap();
+        let mut writer = GridRecorder::into_sink(assembly.output_step, writer).unwrap();
+        let mut memory = GridRecorder::new(assembly.output_step).unwrap();
+        let mut recorders: [&mut dyn Recorder; 2] = [&mut writer, &mut memory];
+        let options = &assembly.options;
+        let outcome = run(&assembly.system, options, &mut recorders, &mut |_| {}).unwrap();
+        let isolated = run(&assembly.system.isolated(), options, &mut [], &mut |_| {}).unwrap();
+        assert_eq!(memory.responses.len(), 3101);
+        let warnings = assembly.with_those_of_the_record(&outcome.warnings);
+        let ending = RunEnding {
             outcome: &outcome,
             isolated: &isolated,
-            history: &recorder.history,
+            warnings: &warnings,
             wall_time: 0.0,
         };
-        write_result(path, &record).unwrap();
+        writer.responses.finish(&ending).unwrap();
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("result.h5");

@@ -12,7 +12,7 @@ use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
-use pounding_results::WriteError;
+use pounding_results::{ResponsesTooLarge, WriteError};
 use pounding_time_history::TimeHistoryError;
 
 use crate::interruption::EXIT_CODE;
@@ -172,10 +172,15 @@ impl From<TimeHistoryError> for Failure {
             | TimeHistoryError::NoClearance { .. }
             | TimeHistoryError::ContactTooShort { .. }
             | TimeHistoryError::TooManySteps { .. }
-            | TimeHistoryError::RecordingTooLarge { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error => Self::Computation(plain(error.to_string(), help)),
         }
+    }
+}
+
+impl From<ResponsesTooLarge> for Failure {
+    fn from(error: ResponsesTooLarge) -> Self {
+        Self::input(error.to_string(), Some(error.help()))
     }
 }
 

@@ -7,35 +7,56 @@ use comfy_table::CellAlignment;
 use pounding_assembly::Assembly;
 use pounding_case::Case;
 use pounding_gap_element::Verification;
-use pounding_results::RunRecord;
-use pounding_time_history::{ContactLevel, LevelOutcome, Peak};
+use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
 
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
 
 const G: f64 = 9.80665;
 
-/// The report at the end of a run.
-pub fn report(record: &RunRecord<'_>) -> String {
-    let mut text = String::new();
-    if !record.title.is_empty() {
-        text.push_str(&format!("{}\n", record.title));
+/// A run that has ended, to be shown.
+pub struct Run<'a> {
+    /// What was asked for.
+    pub case: &'a Case,
+    /// What was made of it.
+    pub assembly: &'a Assembly,
+    /// Result of the run.
+    pub outcome: &'a Outcome,
+    /// Result of the same buildings without gaps.
+    pub isolated: &'a Outcome,
+    /// Warnings of the record and of the run.
+    pub warnings: &'a [String],
+    /// Wall-clock time of the run (s).
+    pub wall_time: f64,
+}
+
+impl Run<'_> {
+    fn system(&self) -> &System {
+        &self.assembly.system
     }
-    for line in record.accelerogram.echo() {
+}
+
+/// The report at the end of a run.
+pub fn report(run: &Run<'_>) -> String {
+    let mut text = String::new();
+    if !run.case.title.is_empty() {
+        text.push_str(&format!("{}\n", run.case.title));
+    }
+    for line in run.assembly.accelerogram.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    text.push_str(&warning_lines(record.warnings));
-    for index in 0..record.outcome.buildings.len() {
-        text.push_str(&building(record, index));
-        text.push_str(&elements::storeys(record, index));
+    text.push_str(&warning_lines(run.warnings));
+    for index in 0..run.outcome.buildings.len() {
+        text.push_str(&building(run, index));
+        text.push_str(&elements::storeys(run, index));
     }
-    for index in 0..record.outcome.gaps.len() {
-        text.push_str(&gap(record, index));
+    for index in 0..run.outcome.gaps.len() {
+        text.push_str(&gap(run, index));
     }
-    for index in 0..record.outcome.links.len() {
-        text.push_str(&elements::link(record, index));
+    for index in 0..run.outcome.links.len() {
+        text.push_str(&elements::link(run, index));
     }
-    text.push_str(&energy(record));
+    text.push_str(&energy(run));
     text
 }
 
@@ -81,10 +102,10 @@ fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
     format!("{value} @{:.2} {ratio}", p.time)
 }
 
-fn building(record: &RunRecord<'_>, index: usize) -> String {
+fn building(run: &Run<'_>, index: usize) -> String {
     let (with, alone) = (
-        &record.outcome.buildings[index],
-        &record.isolated.buildings[index],
+        &run.outcome.buildings[index],
+        &run.isolated.buildings[index],
     );
     let mut table = new_table(&[
         "storey",
@@ -108,9 +129,9 @@ fn building(record: &RunRecord<'_>, index: usize) -> String {
     )
 }
 
-fn gap(record: &RunRecord<'_>, index: usize) -> String {
-    let outcome = &record.outcome.gaps[index];
-    let system = record.system;
+fn gap(run: &Run<'_>, index: usize) -> String {
+    let outcome = &run.outcome.gaps[index];
+    let system = run.system();
     let gap = &system.gaps()[index];
     let levels = system.levels_of(gap);
     let model = levels.first().map_or("", |l| l.model.descriptor().name);
@@ -193,9 +214,9 @@ fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String 
     text
 }
 
-fn energy(record: &RunRecord<'_>) -> String {
-    let (e, statistics) = (record.outcome.energy, record.outcome.statistics);
-    let gravity = record.system.buildings().iter();
+fn energy(run: &Run<'_>) -> String {
+    let (e, statistics) = (run.outcome.energy, run.outcome.statistics);
+    let gravity = run.system().buildings().iter();
     let gravity = gravity
         .flat_map(|b| b.geometric_stiffness())
         .any(|k| *k > 0.0);
@@ -204,14 +225,14 @@ fn energy(record: &RunRecord<'_>) -> String {
     } else {
         "strain"
     };
-    let hysteretic = if record.system.elements().is_empty() {
+    let hysteretic = if run.system().elements().is_empty() {
         String::new()
     } else {
         format!("hysteretic {} + ", kilojoules(e.end.hysteretic))
     };
     format!(
         "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
-        record.outcome.end_time,
+        run.outcome.end_time,
         kilojoules(e.end.input),
         kilojoules(e.end.viscous),
         hysteretic,
@@ -220,11 +241,11 @@ fn energy(record: &RunRecord<'_>) -> String {
         strain,
         kilojoules(e.end.strain),
         e.residual_ratio,
-        record.outcome.method.title,
+        run.outcome.method.title,
         statistics.steps,
         statistics.rejected,
         statistics.events,
-        record.wall_time,
+        run.wall_time,
     )
 }
 

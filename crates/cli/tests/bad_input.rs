@@ -529,9 +529,12 @@ fn a_case_file_without_end_is_refused() {
 }
 
 #[test]
-fn a_recording_that_would_fill_the_memory_is_refused() {
-    let endless = CASE.replace("duration = \"2 s\"", "duration = \"1e6 s\"");
-    refused(&endless, &record(), &["GB of memory", "output_step"]);
+fn responses_that_no_disk_has_room_for_are_refused() {
+    let endless = CASE.replace(
+        "duration = \"2 s\"",
+        "duration = \"1e6 s\"\noutput_step = \"1e-4 s\"",
+    );
+    refused(&endless, &record(), &["a result of", "GB", "output_step"]);
 }
 
 #[test]

@@ -188,9 +188,9 @@ fn contacts_without_return_are_refused() {
 }
 
 #[test]
-fn a_recording_that_would_fill_the_memory_is_refused_by_check_as_well() {
+fn responses_that_no_disk_has_room_for_are_refused_by_check_as_well() {
     let dense = CASE.replace("\"2 s\"", "\"2 s\"\noutput_step = \"1e-12 s\"");
-    refused(&dense, &["GB of memory", "output_step"]);
+    refused(&dense, &["a result of", "GB", "output_step"]);
 }
 
 /// A long run is possible: it is named, with its steps and the period that is to blame.

@@ -15,7 +15,9 @@ use std::path::Path;
 
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 
-pub use run::{RunRecord, WriteError, write_result};
+pub use run::{
+    MAXIMUM_RESPONSES, ResponsesTooLarge, RunEnding, RunHead, RunWriter, WriteError, check_size,
+};
 pub use values::{dataset, number, read_all, text, texts, values};
 
 /// Name of the root attribute of a file that was written with a checksum.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use pounding_assembly::assemble;
 use pounding_case::Case;
-use pounding_results::{RunRecord, write_result};
-use pounding_time_history::{History, run};
+use pounding_results::{RunEnding, RunHead, RunWriter};
+use pounding_time_history::run;
 
 const CASE: &str = r#"[[building]]
 name = "a"
@@ -34,21 +34,23 @@ fn the_steps_of_processing_stand_in_the_result() {
     let case = Case::parse(CASE, Path::new(&folder.path().join("case.toml"))).unwrap();
     let assembly = assemble(&case).unwrap();
     let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
-    let record = RunRecord {
+    let path = folder.path().join("r.h5");
+    let head = RunHead {
         title: "",
         case: "",
         version: "0",
         build: "test",
         system: &assembly.system,
         accelerogram: &assembly.accelerogram,
-        warnings: &[],
+    };
+    let ending = RunEnding {
         outcome: &outcome,
         isolated: &outcome,
-        history: &History::default(),
+        warnings: &[],
         wall_time: 0.0,
     };
-    let path = folder.path().join("r.h5");
-    write_result(&path, &record).unwrap();
+    let writer = RunWriter::begin(&path, &head).unwrap();
+    writer.finish(&ending).unwrap();
     let file = hdf5::File::open(&path).unwrap();
     let steps = file.group("ground").unwrap().attr("record").unwrap();
     let steps: hdf5::types::VarLenUnicode = steps.read_scalar().unwrap();

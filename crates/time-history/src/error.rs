@@ -1,6 +1,6 @@
 //! What can go wrong, with where and when.
 
-use crate::estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short};
+use crate::estimate::{MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short};
 use crate::warnings::APPROACH_VELOCITY;
 
 /// Failure of a system's definition or of a run.
@@ -59,19 +59,6 @@ pub enum TimeHistoryError {
         duration: f64,
         /// What makes them so many.
         limit: StepLimit,
-    },
-    /// Responses on the output grid that would fill the memory.
-    #[error(
-        "{} samples of the responses over {} s would take {} GB of memory; {:.0} GB are the most",
-        short(*samples), short(*duration), short(bytes * 1e-9), MAXIMUM_RECORDING * 1e-9
-    )]
-    RecordingTooLarge {
-        /// Samples.
-        samples: f64,
-        /// Duration (s).
-        duration: f64,
-        /// Memory (bytes).
-        bytes: f64,
     },
     /// The method treats rigid impacts only.
     #[error("method moreau_jean treats rigid impacts only, but gap {gap} has model {model}")]
@@ -193,9 +180,6 @@ impl TimeHistoryError {
     pub fn help(&self) -> Option<String> {
         let text = match self {
             Self::TooManySteps { limit, .. } => limit.remedy(),
-            Self::RecordingTooLarge { .. } => {
-                "raise `output_step` in [analysis], or shorten `duration`; peaks and impacts do not depend on `output_step`"
-            }
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
             }

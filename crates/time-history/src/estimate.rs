@@ -1,4 +1,4 @@
-//! What a run will need, before it begins: steps, and memory of recorded responses.
+//! What a run will need, before it begins: steps.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -14,10 +14,6 @@ use crate::warnings::APPROACH_VELOCITY;
 
 /// Steps of a run at most: more than a day at a microsecond each.
 pub const MAXIMUM_STEPS: f64 = 1.0e11;
-
-/// Recorded responses of a run at most (bytes): far more than any record needs, and less
-/// than most machines have.
-pub const MAXIMUM_RECORDING: f64 = 2.0e9;
 
 /// Product of rate and step that the series of the event-driven method takes at most.
 pub(crate) const SERIES: f64 = 0.35;
@@ -208,7 +204,8 @@ pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
 }
 
 /// Three significant digits, without zeros at the end.
-pub(crate) fn short(x: f64) -> String {
+#[must_use]
+pub fn short(x: f64) -> String {
     let text = format!("{x:.2e}");
     text.parse::<f64>().map_or(text, |x| {
         if x != 0.0 && !(1.0e-4..1.0e6).contains(&x.abs()) {

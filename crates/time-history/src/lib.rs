@@ -32,11 +32,11 @@ pub use batch::run_many;
 pub use driver::run;
 pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;
-pub use estimate::{MAXIMUM_RECORDING, MAXIMUM_STEPS, StepEstimate, StepLimit};
+pub use estimate::{MAXIMUM_STEPS, StepEstimate, StepLimit, short};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
-pub use recorder::{GridRecorder, History, Recorder, Sample, StepView};
+pub use recorder::{GridRecorder, History, Recorder, Sample, SampleSink, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 pub use system::{
     ContactLevel, Floor, Gap, GroundAcceleration, LevelPlace, Link, LinkedPair, System,

@@ -307,6 +307,26 @@ impl History {
         self.time.is_empty()
     }
 
+    /// Removes all rows; what they took of memory is kept for others.
+    pub fn clear(&mut self) {
+        for list in [
+            &mut self.time,
+            &mut self.ground_acceleration,
+            &mut self.displacement,
+            &mut self.velocity,
+            &mut self.acceleration_absolute,
+            &mut self.penetration,
+            &mut self.force,
+            &mut self.storey_shear,
+            &mut self.element_deformation,
+            &mut self.element_force,
+            &mut self.element_dissipated,
+        ] {
+            list.clear();
+        }
+        self.energy.clear();
+    }
+
     /// Some columns of one of the lists, row after row.
     #[must_use]
     pub fn columns(&self, values: &[f64], range: Range<usize>) -> Vec<f64> {
@@ -325,7 +345,8 @@ impl History {
         self.columns(values, index..index + 1)
     }
 
-    fn push(&mut self, sample: &Sample) {
+    /// Appends a row to every list.
+    pub fn push(&mut self, sample: &Sample) {
         self.time.push(sample.time);
         self.ground_acceleration.push(sample.ground_acceleration);
         for (list, row) in [
@@ -348,26 +369,62 @@ impl History {
     }
 }
 
-/// Records responses on an even grid of times, from zero to the end of the run.
+/// What takes responses one after another, in order of time.
+pub trait SampleSink {
+    /// Takes the next one.
+    ///
+    /// # Errors
+    /// Whatever keeps the sink from taking it; it ends the run.
+    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError>;
+}
+
+impl SampleSink for History {
+    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
+        self.push(sample);
+        Ok(())
+    }
+}
+
+impl<S: SampleSink + ?Sized> SampleSink for &mut S {
+    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
+        (**self).take(sample)
+    }
+}
+
+/// Gives responses on an even grid of times, from zero to the end of the run, to a sink: to a
+/// [`History`] in memory, or to what writes them to a file.
 #[derive(Debug, Clone)]
-pub struct GridRecorder {
+pub struct GridRecorder<S = History> {
     step: f64,
-    /// Responses in order of time.
-    pub history: History,
-    /// Room for one of them.
+    /// Responses taken.
+    count: usize,
+    /// What takes them.
+    pub responses: S,
+    /// Work space for one of them.
     sample: Sample,
 }
 
 impl GridRecorder {
-    /// A recorder with this output step (s).
+    /// A recorder into memory with this output step (s).
     ///
     /// # Errors
     /// If the step is not positive and finite.
     pub fn new(step: f64) -> Result<Self, TimeHistoryError> {
+        Self::into_sink(step, History::default())
+    }
+}
+
+impl<S: SampleSink> GridRecorder<S> {
+    /// A recorder with this output step (s) into a sink.
+    ///
+    /// # Errors
+    /// If the step is not positive and finite.
+    pub fn into_sink(step: f64, sink: S) -> Result<Self, TimeHistoryError> {
         if step.is_finite() && step > 0.0 {
             Ok(Self {
                 step,
-                history: History::default(),
+                count: 0,
+                responses: sink,
                 sample: Sample::default(),
             })
         } else {
@@ -380,10 +437,10 @@ impl GridRecorder {
     }
 }
 
-impl Recorder for GridRecorder {
+impl<S: SampleSink> Recorder for GridRecorder<S> {
     fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
-        self.history.push(start);
-        Ok(())
+        self.count = 1;
+        self.responses.take(start)
     }
 
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
@@ -395,12 +452,13 @@ impl Recorder for GridRecorder {
             0.0
         };
         loop {
-            let time = self.history.len() as f64 * self.step;
+            let time = self.count as f64 * self.step;
             if time > step.end() + slack {
                 return Ok(());
             }
             step.sample(time, &mut self.sample);
-            self.history.push(&self.sample);
+            self.count += 1;
+            self.responses.take(&self.sample)?;
         }
     }
 }

@@ -217,8 +217,8 @@ impl Case {
         };
         let mut grid = GridRecorder::new(self.time_step).unwrap();
         let outcome = run(&self.system(), &options, &mut [&mut grid], &mut |_| {}).unwrap();
-        assert!(grid.history.len() >= self.ground.len());
-        let seen = grid.history.column(&grid.history.penetration, 0);
+        assert!(grid.responses.len() >= self.ground.len());
+        let seen = grid.responses.column(&grid.responses.penetration, 0);
         let greatest = seen.into_iter().fold(f64::NEG_INFINITY, f64::max);
         (outcome, greatest)
     }

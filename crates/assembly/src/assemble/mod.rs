@@ -14,8 +14,8 @@ use pounding_gap_element::{
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
-    DEFAULT_RELATIVE_TOLERANCE, Floor, GroundAcceleration, MAXIMUM_RECORDING, MethodChoice,
-    RunOptions, System, TimeHistoryError, Warning, more_pairs,
+    DEFAULT_RELATIVE_TOLERANCE, Floor, GroundAcceleration, MethodChoice, RunOptions, System,
+    Warning, more_pairs,
 };
 
 use crate::dimension::parameter_dimension;
@@ -49,30 +49,6 @@ impl Assembly {
         let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
         let record = record.unwrap_or_default().iter().cloned();
         record.chain(ours.iter().map(Warning::to_string)).collect()
-    }
-
-    /// Refuses responses on the output grid that would not fit into
-    /// [`MAXIMUM_RECORDING`], before a run begins.
-    ///
-    /// # Errors
-    /// [`TimeHistoryError::RecordingTooLarge`].
-    pub fn check_recording(&self) -> Result<(), TimeHistoryError> {
-        let system = &self.system;
-        let duration = self.options.duration;
-        let duration = duration.unwrap_or_else(|| system.record_duration());
-        let samples = duration / self.output_step;
-        let floors = 4 * system.degrees_of_freedom();
-        let numbers = floors + 2 * system.levels().len() + 3 * system.elements().len();
-        // A sample has nine lists, each with a header of three words, and ten numbers.
-        let bytes = samples * 8.0 * (numbers + 37) as f64;
-        if bytes <= MAXIMUM_RECORDING {
-            return Ok(());
-        }
-        Err(TimeHistoryError::RecordingTooLarge {
-            samples,
-            duration,
-            bytes,
-        })
     }
 }
 

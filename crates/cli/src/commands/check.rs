@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::progress::Progress;
+use super::run::responses_fit;
 use super::{pretty, print};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
@@ -14,11 +15,10 @@ use crate::tables;
 /// Validates a case, reads its record, and prints both in SI units.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let case = read_case(path, true)?;
-    let failed = |e| Failure::of_case(e, &case);
     let storeys: usize = case.buildings.iter().map(|b| b.mass.len()).sum();
     let progress = Progress::working(format!("computing the modes of {storeys} storeys"))?;
     let assembly = assembled(&case)?;
-    assembly.check_recording().map_err(failed)?;
+    responses_fit(&assembly, &case)?;
     if !as_json {
         let text = tables::understood(&case, &assembly);
         drop(progress);

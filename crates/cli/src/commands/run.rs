@@ -4,9 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use pounding_assembly::Assembly;
+use pounding_case::Case;
 use pounding_files::FileUse;
-use pounding_results::{RunRecord, write_result};
-use pounding_time_history::{GridRecorder, Outcome, Recorder, TimeHistoryError, run as integrate};
+use pounding_results::{RunEnding, RunHead, RunWriter, check_size};
+use pounding_time_history::{
+    GridRecorder, Outcome, Recorder, SampleSink, TimeHistoryError, run as integrate,
+};
 
 use super::progress::{Progress, Unit};
 use super::{have_a_place, pretty, print, reads_too};
@@ -18,7 +21,7 @@ use crate::{json, plot, tables};
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case, true)?;
-    let failed = |e| Failure::of_case(e, &case);
+    let failed = |e: TimeHistoryError| Failure::of_case(e, &case);
     let output = (!arguments.no_output).then(|| output_path(arguments));
     if let (Some(path), None) = (&output, &arguments.output) {
         files.writes("result", path);
@@ -26,31 +29,45 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     reads_too(&mut files, case.files())?;
     let assembly = assembled(&case)?;
     have_a_place([output.as_deref(), arguments.plot.as_deref()])?;
-    assembly.check_recording().map_err(failed)?;
+    if output.is_some() {
+        responses_fit(&assembly, &case)?;
+    }
     let started = Instant::now();
     let progress = Progress::begin(Unit::Part)?;
-    let (outcome, isolated, recorder) = integrate_both(&assembly, &progress).map_err(failed)?;
-    drop(progress);
-    let wall_time = started.elapsed().as_secs_f64();
-    let warnings = assembly.with_those_of_the_record(&outcome.warnings);
-    let record = RunRecord {
+    let head = RunHead {
         title: &case.title,
         case: &case.source,
         version: env!("CARGO_PKG_VERSION"),
         build: pounding_study::BUILD,
         system: &assembly.system,
         accelerogram: &assembly.accelerogram,
-        warnings: &warnings,
-        outcome: &outcome,
-        isolated: &isolated,
-        history: &recorder.history,
-        wall_time,
     };
-    if let Some(path) = &output {
-        write_result(path, &record)?;
+    let writer = output.as_deref().map(|path| RunWriter::begin(path, &head));
+    let mut writer = recorder(&assembly, writer.transpose()?).map_err(failed)?;
+    let picture = arguments.plot.as_ref();
+    let picture = picture.map(|_| plot::Responses::of(&assembly.system));
+    let mut picture = recorder(&assembly, picture).map_err(failed)?;
+    let mut recorders: Vec<&mut dyn Recorder> = Vec::new();
+    recorders.extend(writer.as_mut().map(|w| w as &mut dyn Recorder));
+    recorders.extend(picture.as_mut().map(|p| p as &mut dyn Recorder));
+    let outcomes = integrate_both(&assembly, &mut recorders, &progress);
+    let (outcome, isolated) = outcomes.map_err(|error| {
+        let written = writer.as_ref().and_then(|w| w.responses.failure());
+        written.map_or_else(|| failed(error), Failure::from)
+    })?;
+    drop(progress);
+    let wall_time = started.elapsed().as_secs_f64();
+    let warnings = assembly.with_those_of_the_record(&outcome.warnings);
+    if let Some(writer) = writer {
+        writer.responses.finish(&RunEnding {
+            outcome: &outcome,
+            isolated: &isolated,
+            warnings: &warnings,
+            wall_time,
+        })?;
     }
-    if let Some(path) = &arguments.plot {
-        plot::responses(path, &record)?;
+    if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
+        picture.responses.draw(path)?;
     }
     if arguments.json {
         return print(&pretty(&json::outcome(
@@ -60,7 +77,14 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             &warnings,
         )));
     }
-    let mut text = tables::report(&record);
+    let mut text = tables::report(&tables::Run {
+        case: &case,
+        assembly: &assembly,
+        outcome: &outcome,
+        isolated: &isolated,
+        warnings: &warnings,
+        wall_time,
+    });
     if let Some(path) = &output {
         text.push_str(&format!(
             "\nStorey responses written to {}\n",
@@ -68,6 +92,22 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         ));
     }
     print(&text)
+}
+
+/// Refuses a grid of output times that no disk has room for.
+pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
+    let duration = assembly.options.duration;
+    check_size(&assembly.system, duration, assembly.output_step)
+        .map_err(|e| Failure::from(e).about(&case.file))
+}
+
+/// A recorder on the grid of the case for a sink, if there is one.
+fn recorder<S: SampleSink>(
+    assembly: &Assembly,
+    sink: Option<S>,
+) -> Result<Option<GridRecorder<S>>, TimeHistoryError> {
+    sink.map(|s| GridRecorder::into_sink(assembly.output_step, s))
+        .transpose()
 }
 
 fn output_path(arguments: &RunArguments) -> PathBuf {
@@ -91,25 +131,15 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
 /// The run, and the same buildings without gaps.
 fn integrate_both(
     assembly: &Assembly,
+    recorders: &mut [&mut dyn Recorder],
     progress: &Progress,
-) -> Result<(Outcome, Outcome, GridRecorder), TimeHistoryError> {
-    let mut recorder = GridRecorder::new(assembly.output_step)?;
-    let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
-    let outcome = integrate(
-        &assembly.system,
-        &assembly.options,
-        &mut recorders,
-        &mut |done| {
-            progress.show((done * 900.0) as usize, 1000, "");
-        },
-    )?;
-    let isolated = integrate(
-        &assembly.system.isolated(),
-        &assembly.options,
-        &mut [],
-        &mut |done| {
-            progress.show(900 + (done * 100.0) as usize, 1000, "");
-        },
-    )?;
-    Ok((outcome, isolated, recorder))
+) -> Result<(Outcome, Outcome), TimeHistoryError> {
+    let (system, options) = (&assembly.system, &assembly.options);
+    let outcome = integrate(system, options, recorders, &mut |done| {
+        progress.show((done * 900.0) as usize, 1000, "");
+    })?;
+    let isolated = integrate(&system.isolated(), options, &mut [], &mut |done| {
+        progress.show(900 + (done * 100.0) as usize, 1000, "");
+    })?;
+    Ok((outcome, isolated))
 }

@@ -2,15 +2,14 @@
 
 use pounding_case::Case;
 use pounding_hysteresis::{LawDescriptor, Verification};
-use pounding_results::RunRecord;
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, Peak, System};
 
-use super::new_table;
+use super::{Run, new_table};
 
 /// What the storeys with laws of a building went through; empty without any.
-pub(super) fn storeys(record: &RunRecord<'_>, index: usize) -> String {
-    let outcome = &record.outcome.buildings[index];
+pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
+    let outcome = &run.outcome.buildings[index];
     if outcome.yielding.iter().all(Option::is_none) {
         return String::new();
     }
@@ -31,7 +30,7 @@ pub(super) fn storeys(record: &RunRecord<'_>, index: usize) -> String {
             kilojoules(s.hysteretic_energy),
         ]);
     }
-    let building = &record.system.buildings()[index];
+    let building = &run.system().buildings()[index];
     format!("{table}\n{}", sources(cards(building)))
 }
 
@@ -56,9 +55,9 @@ fn ratio(peak: Option<Peak>) -> String {
 }
 
 /// What a link went through.
-pub(super) fn link(record: &RunRecord<'_>, index: usize) -> String {
-    let outcome = &record.outcome.links[index];
-    let system = record.system;
+pub(super) fn link(run: &Run<'_>, index: usize) -> String {
+    let outcome = &run.outcome.links[index];
+    let system = run.system();
     let mut table = new_table(&[
         "level",
         "elevations (m)",

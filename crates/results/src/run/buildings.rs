@@ -1,15 +1,21 @@
 //! Storey responses, peaks and modes of every building.
 
 use hdf5::{Dataset, Group};
+use pounding_time_history::{Peak, StoreyPeaks, System};
 
-use super::datasets::{matrix, series};
-use super::{Result, RunRecord, elements, share_time};
+use super::datasets::series;
+use super::tables::{Content, Tables};
+use super::{Result, RunEnding, elements, share_time};
 use crate::dimension_scales;
-use pounding_time_history::{Peak, StoreyPeaks};
 
-pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
+/// Creates the groups of all buildings, with coordinates, modes, and the datasets that grow.
+pub(super) fn begin(
+    file: &hdf5::File,
+    system: &System,
+    tables: &mut Tables,
+    time: &Dataset,
+) -> Result<()> {
     let all = file.create_group("building")?;
-    let system = record.system;
     for (index, building) in system.buildings().iter().enumerate() {
         let group = all.create_group(building.name())?;
         share_time(&group)?;
@@ -22,70 +28,46 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             building.elevations(),
         )?;
         dimension_scales::make_scale(&storey, "storey")?;
-        let history = record.history;
-        let table = |name: &str, units: &str, long_name: &str, rows: &[f64]| {
-            let data = matrix(&group, name, units, long_name, rows, range.len())?;
+        let of_floors = |list| Content::Columns(list, range.clone());
+        for (names, content) in [
+            (
+                (
+                    "displacement",
+                    "m",
+                    "floor displacement relative to the ground",
+                ),
+                of_floors(|h| &h.displacement),
+            ),
+            (
+                ("velocity", "m s-1", "floor velocity relative to the ground"),
+                of_floors(|h| &h.velocity),
+            ),
+            (
+                (
+                    "acceleration_absolute",
+                    "m s-2",
+                    "absolute floor acceleration",
+                ),
+                of_floors(|h| &h.acceleration_absolute),
+            ),
+            (
+                ("drift_ratio", "1", "storey drift over storey height"),
+                Content::DriftRatios(range.clone(), building.height().to_vec()),
+            ),
+            (
+                (
+                    "storey_shear",
+                    "N",
+                    "storey shear, elastic or by the storey's law",
+                ),
+                of_floors(|h| &h.storey_shear),
+            ),
+        ] {
+            let data = tables.add(&group, names, content)?;
             dimension_scales::attach(&data, time, 0)?;
-            dimension_scales::attach(&data, &storey, 1)
-        };
-        let columns = |values: &[f64]| history.columns(values, range.clone());
-        let drift_ratios = || -> Vec<f64> {
-            let displacements = columns(&history.displacement);
-            let rows = displacements.chunks_exact(range.len());
-            rows.flat_map(|row| {
-                let mut below = 0.0;
-                let drifts = row
-                    .iter()
-                    .map(move |u| u - std::mem::replace(&mut below, *u));
-                drifts.zip(building.height()).map(|(d, h)| d * (1.0 / h))
-            })
-            .collect()
-        };
-        table(
-            "displacement",
-            "m",
-            "floor displacement relative to the ground",
-            &columns(&history.displacement),
-        )?;
-        table(
-            "velocity",
-            "m s-1",
-            "floor velocity relative to the ground",
-            &columns(&history.velocity),
-        )?;
-        table(
-            "acceleration_absolute",
-            "m s-2",
-            "absolute floor acceleration",
-            &columns(&history.acceleration_absolute),
-        )?;
-        table(
-            "drift_ratio",
-            "1",
-            "storey drift over storey height",
-            &drift_ratios(),
-        )?;
-        table(
-            "storey_shear",
-            "N",
-            "storey shear, elastic or by the storey's law",
-            &columns(&history.storey_shear),
-        )?;
-        let peaks = group.create_group("peak")?;
-        group.link_hard("storey", "peak/storey")?;
-        storey_peaks(
-            &peaks,
-            "",
-            &record.outcome.buildings[index].storeys,
-            &storey,
-        )?;
-        storey_peaks(
-            &peaks,
-            "isolated_",
-            &record.isolated.buildings[index].storeys,
-            &storey,
-        )?;
-        elements::storeys((&group, &peaks), record, index, (time, &storey))?;
+            dimension_scales::attach(&data, &storey, 1)?;
+        }
+        elements::begin_storeys(&group, system, index, tables, (time, &storey))?;
         let modes = building.modes();
         let period = series(&group, "period", "s", "natural periods", &modes.period)?;
         dimension_scales::make_scale(&period, "mode")?;
@@ -97,6 +79,30 @@ pub(super) fn buildings(file: &hdf5::File, record: &RunRecord<'_>, time: &Datase
             &modes.damping_ratio,
         )?;
         dimension_scales::attach(&ratio, &period, 0)?;
+    }
+    Ok(())
+}
+
+/// Adds peaks and what remains of the storeys of all buildings.
+pub(super) fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>) -> Result<()> {
+    for (index, building) in system.buildings().iter().enumerate() {
+        let group = file.group("building")?.group(building.name())?;
+        let storey = group.dataset("storey")?;
+        let peaks = group.create_group("peak")?;
+        group.link_hard("storey", "peak/storey")?;
+        storey_peaks(
+            &peaks,
+            "",
+            &ending.outcome.buildings[index].storeys,
+            &storey,
+        )?;
+        storey_peaks(
+            &peaks,
+            "isolated_",
+            &ending.isolated.buildings[index].storeys,
+            &storey,
+        )?;
+        elements::finish_storeys((&group, &peaks), &ending.outcome.buildings[index], &storey)?;
     }
     Ok(())
 }

@@ -7,9 +7,9 @@ use hdf5::{Dataset, Group, H5Type, Location};
 
 use super::Result;
 
-/// Rows of a chunk: a few hundred kilobytes for tall buildings, few chunks for
+/// Rows of a chunk at most: a few hundred kilobytes for tall buildings, few chunks for
 /// short runs.
-const CHUNK_ROWS: usize = 1024;
+pub(super) const CHUNK_ROWS: usize = 1024;
 
 /// A one-dimensional dataset with units and long name.
 pub(super) fn series<T: H5Type>(
@@ -35,29 +35,6 @@ pub(super) fn series<T: H5Type>(
     if !values.is_empty() {
         data.write_raw(values)?;
     }
-    describe(&data, units, long_name)?;
-    Ok(data)
-}
-
-/// A dataset of rows by columns with units and long name.
-pub(super) fn matrix(
-    group: &Group,
-    name: &str,
-    units: &str,
-    long_name: &str,
-    values: &[f64],
-    columns: usize,
-) -> Result<Dataset> {
-    let rows = values.len() / columns.max(1);
-    let data = group
-        .new_dataset::<f64>()
-        .chunk((CHUNK_ROWS.min(rows).max(1), columns.max(1)))
-        .shuffle()
-        .deflate(1)
-        .fletcher32()
-        .shape((rows, columns))
-        .create(name)?;
-    data.write_raw(values)?;
     describe(&data, units, long_name)?;
     Ok(data)
 }
@@ -101,7 +78,7 @@ fn unicode(name: &str, value: &str) -> Result<VarLenUnicode> {
     VarLenUnicode::from_str(value).map_err(|e| hdf5::Error::from(format!("{name}: {e}")))
 }
 
-fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
+pub(super) fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
     text(data, "units", units)?;
     text(data, "long_name", long_name)
 }

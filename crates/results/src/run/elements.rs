@@ -1,44 +1,52 @@
 //! What storeys with laws and links add to the result.
 
 use hdf5::{Dataset, Group};
+use pounding_time_history::{
+    BuildingOutcome, ElementPlace, LinkLevelOutcome, Outcome, Peak, System,
+};
 
-use super::datasets::{matrix, series, text};
-use super::{Result, RunRecord, levels, share_time};
+use super::datasets::{series, text};
+use super::tables::{Content, Tables};
+use super::{Result, levels, share_time};
 use crate::dimension_scales;
-use pounding_time_history::ElementPlace;
-use pounding_time_history::{LinkLevelOutcome, Peak};
 
-/// Energy dissipated in every storey over time, ductility and what stays, for a building
-/// that has laws.
-pub(super) fn storeys(
-    (group, peaks): (&Group, &Group),
-    record: &RunRecord<'_>,
+/// Creates the dataset of the energy that storeys dissipate over time, for a building that
+/// has laws.
+pub(super) fn begin_storeys(
+    group: &Group,
+    system: &System,
     index: usize,
+    tables: &mut Tables,
     (time, storey): (&Dataset, &Dataset),
 ) -> Result<()> {
-    let outcome = &record.outcome.buildings[index];
-    if outcome.yielding.iter().all(Option::is_none) {
-        return Ok(());
-    }
-    let storeys = outcome.yielding.len();
-    let mut place = vec![None; storeys];
-    for (e, element) in record.system.elements().iter().enumerate() {
+    let mut places = vec![None; system.buildings()[index].mass().len()];
+    for (e, element) in system.elements().iter().enumerate() {
         if let ElementPlace::Storey { building, storey } = element.place
             && building == index
         {
-            place[storey] = Some(e);
+            places[storey] = Some(e);
         }
     }
-    let history = record.history;
-    let mut rows = Vec::with_capacity(storeys * history.len());
-    let width = record.system.elements().len();
-    for row in history.element_dissipated.chunks_exact(width) {
-        rows.extend(place.iter().map(|e| e.map_or(0.0, |e| row[e])));
+    if places.iter().all(Option::is_none) {
+        return Ok(());
     }
     let long_name = "energy dissipated by the law of the storey so far";
-    let data = matrix(group, "hysteretic_energy", "J", long_name, &rows, storeys)?;
+    let names = ("hysteretic_energy", "J", long_name);
+    let content = Content::Chosen(|h| &h.element_dissipated, places);
+    let data = tables.add(group, names, content)?;
     dimension_scales::attach(&data, time, 0)?;
-    dimension_scales::attach(&data, storey, 1)?;
+    dimension_scales::attach(&data, storey, 1)
+}
+
+/// Adds laws, ductility and what stays, for a building that has laws.
+pub(super) fn finish_storeys(
+    (group, peaks): (&Group, &Group),
+    outcome: &BuildingOutcome,
+    storey: &Dataset,
+) -> Result<()> {
+    if outcome.yielding.iter().all(Option::is_none) {
+        return Ok(());
+    }
     let names: Vec<&str> = outcome
         .yielding
         .iter()
@@ -73,9 +81,13 @@ pub(super) fn storeys(
     Ok(())
 }
 
-/// All links.
-pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
-    let system = record.system;
+/// Creates the groups of all links, with coordinates and the datasets that grow.
+pub(super) fn begin_links(
+    file: &hdf5::File,
+    system: &System,
+    tables: &mut Tables,
+    time: &Dataset,
+) -> Result<()> {
     if system.links().is_empty() {
         return Ok(());
     }
@@ -85,36 +97,44 @@ pub(super) fn links(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -
         let range = link.first_element..link.first_element + link.levels;
         share_time(&group)?;
         let level = levels::coordinates(&group, &system.link_levels(index))?;
-        let outcome = &record.outcome.links[index];
-        text(&group, "law", outcome.law)?;
-        let history = record.history;
-        let quantities: [(&str, &str, &str, &[f64]); 3] = [
+        let of_levels = |list| Content::Columns(list, range.clone());
+        for (names, content) in [
             (
-                "deformation",
-                "m",
-                "displacement of the right floor less that of the left",
-                &history.element_deformation,
+                (
+                    "deformation",
+                    "m",
+                    "displacement of the right floor less that of the left",
+                ),
+                of_levels(|h| &h.element_deformation),
             ),
             (
-                "force",
-                "N",
-                "force of the link, positive in tension",
-                &history.element_force,
+                ("force", "N", "force of the link, positive in tension"),
+                of_levels(|h| &h.element_force),
             ),
             (
-                "energy_dissipated",
-                "J",
-                "energy dissipated by the link so far",
-                &history.element_dissipated,
+                (
+                    "energy_dissipated",
+                    "J",
+                    "energy dissipated by the link so far",
+                ),
+                of_levels(|h| &h.element_dissipated),
             ),
-        ];
-        for (name, units, long_name, values) in quantities {
-            let rows = history.columns(values, range.clone());
-            let data = matrix(&group, name, units, long_name, &rows, range.len())?;
+        ] {
+            let data = tables.add(&group, names, content)?;
             text(&data, "coordinates", levels::COORDINATES)?;
             dimension_scales::attach(&data, time, 0)?;
             dimension_scales::attach(&data, &level, 1)?;
         }
+    }
+    Ok(())
+}
+
+/// Adds laws and peaks of all links.
+pub(super) fn finish_links(file: &hdf5::File, system: &System, outcome: &Outcome) -> Result<()> {
+    for (link, outcome) in system.links().iter().zip(&outcome.links) {
+        let group = file.group("link")?.group(&link.name)?;
+        text(&group, "law", outcome.law)?;
+        let level = group.dataset("level")?;
         link_peaks(&group.create_group("peak")?, &outcome.levels, &level)?;
         group.link_hard("level", "peak/level")?;
     }

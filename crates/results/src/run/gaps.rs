@@ -1,12 +1,12 @@
 //! Contact levels and impacts of every gap.
 
 use hdf5::{Dataset, H5Type};
+use pounding_time_history::{Impact, LevelPlace, Outcome, System};
 
-use super::datasets::{matrix, series, table as rows_of, text};
-use super::{Result, RunRecord, levels, share_time};
+use super::datasets::{series, table as rows_of, text};
+use super::tables::{Content, Tables};
+use super::{Result, levels, share_time};
 use crate::dimension_scales;
-use pounding_time_history::Impact;
-use pounding_time_history::LevelPlace;
 
 /// One impact as a row of the compound table.
 #[derive(Debug, Clone, Copy, H5Type)]
@@ -45,10 +45,15 @@ impl ImpactRow {
     }
 }
 
-pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
+/// Creates the groups of all gaps, with coordinates, models, and the datasets that grow.
+pub(super) fn begin(
+    file: &hdf5::File,
+    system: &System,
+    tables: &mut Tables,
+    time: &Dataset,
+) -> Result<()> {
     let all = file.create_group("gap")?;
-    let system = record.system;
-    for (index, gap) in system.gaps().iter().enumerate() {
+    for gap in system.gaps() {
         let group = all.create_group(&gap.name)?;
         let range = gap.first_level..gap.first_level + gap.levels;
         let contact_levels = system.levels_of(gap);
@@ -56,47 +61,53 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
         let places: Vec<LevelPlace> = contact_levels.iter().map(|l| l.place).collect();
         let level = levels::coordinates(&group, &places)?;
         let width: Vec<f64> = contact_levels.iter().map(|l| l.width).collect();
-        dimension_scales::attach(
-            &series(&group, "width", "m", "width of the gap at rest", &width)?,
-            &level,
-            0,
-        )?;
-        let widened: Vec<f64> = record.outcome.gaps[index]
-            .levels
-            .iter()
-            .map(|l| l.gap_widening)
-            .collect();
+        let width = series(&group, "width", "m", "width of the gap at rest", &width)?;
+        dimension_scales::attach(&width, &level, 0)?;
+        let of_levels = |list| Content::Columns(list, range.clone());
+        for (names, content) in [
+            (
+                (
+                    "penetration",
+                    "m",
+                    "penetration, negative while the gap is open",
+                ),
+                of_levels(|h| &h.penetration),
+            ),
+            (
+                ("force", "N", "contact force, positive pushes apart"),
+                of_levels(|h| &h.force),
+            ),
+        ] {
+            let data = tables.add(&group, names, content)?;
+            text(
+                &data,
+                "coordinates",
+                &format!("{} width", levels::COORDINATES),
+            )?;
+            dimension_scales::attach(&data, time, 0)?;
+            dimension_scales::attach(&data, &level, 1)?;
+        }
+        if let Some(first) = contact_levels.first() {
+            text(&group, "model", first.model.descriptor().name)?;
+            text(&group, "separation", first.model.separation().name())?;
+        }
+        text(&group, "between", &gap.between.join(" | "))?;
+    }
+    Ok(())
+}
+
+/// Adds widening and impacts of all gaps.
+pub(super) fn finish(file: &hdf5::File, system: &System, outcome: &Outcome) -> Result<()> {
+    for (index, gap) in system.gaps().iter().enumerate() {
+        let group = file.group("gap")?.group(&gap.name)?;
+        let level = group.dataset("level")?;
+        let levels = outcome.gaps[index].levels.iter();
+        let widened: Vec<f64> = levels.map(|l| l.gap_widening).collect();
         let long_name = "widening of the gap by plastic deformation over the run";
         let widening = series(&group, "widening", "m", long_name, &widened)?;
         dimension_scales::attach(&widening, &level, 0)?;
-        let coordinates = format!("{} width", levels::COORDINATES);
-        let history = record.history;
-        let table = |name: &str, units: &str, long_name: &str, values: &[f64]| {
-            let rows = history.columns(values, range.clone());
-            let data = matrix(&group, name, units, long_name, &rows, range.len())?;
-            text(&data, "coordinates", &coordinates)?;
-            dimension_scales::attach(&data, time, 0)?;
-            dimension_scales::attach(&data, &level, 1)
-        };
-        table(
-            "penetration",
-            "m",
-            "penetration, negative while the gap is open",
-            &history.penetration,
-        )?;
-        table(
-            "force",
-            "N",
-            "contact force, positive pushes apart",
-            &history.force,
-        )?;
-        let rows: Vec<ImpactRow> = record
-            .outcome
-            .impacts
-            .iter()
-            .filter(|i| i.gap == index)
-            .map(ImpactRow::new)
-            .collect();
+        let impacts = outcome.impacts.iter().filter(|i| i.gap == index);
+        let rows: Vec<ImpactRow> = impacts.map(ImpactRow::new).collect();
         let impacts = rows_of(&group, "impacts", &rows)?;
         if !rows.is_empty() {
             let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
@@ -109,19 +120,11 @@ pub(super) fn gaps(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) ->
             "long_name",
             "impacts in order of closure; level is the place in the dimension level, from 1; SI units",
         )?;
-        if let Some(first) = contact_levels.first() {
-            let names: Vec<_> = first
-                .model
-                .descriptor()
-                .constants
-                .iter()
-                .map(|c| c.name)
-                .collect();
+        if let Some(first) = system.levels_of(gap).first() {
+            let constants = first.model.descriptor().constants.iter();
+            let names: Vec<_> = constants.map(|c| c.name).collect();
             text(&impacts, "constants", &names.join(", "))?;
-            text(&group, "model", first.model.descriptor().name)?;
-            text(&group, "separation", first.model.separation().name())?;
         }
-        text(&group, "between", &gap.between.join(" | "))?;
     }
     Ok(())
 }

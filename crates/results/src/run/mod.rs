@@ -1,28 +1,33 @@
 //! The HDF5 result of a run, netCDF-4 style: dimension scales, units, long names.
 //!
 //! The layout is described in `docs/result-file.md`. The file is written as a
-//! part file beside its place, so that a reader never sees half of one.
+//! part file beside its place while the run goes on, so that memory does not grow with the
+//! duration, and a reader never sees half of it.
 
 mod buildings;
 mod datasets;
 mod elements;
 mod gaps;
 mod levels;
+mod size;
+mod tables;
 
 use std::path::{Path, PathBuf};
 
-use hdf5::{Dataset, Group};
+use hdf5::Group;
 use pounding_files::{PartFile, checksum};
 use pounding_ground_motion::Accelerogram;
-use pounding_time_history::{Energy, History, Outcome, System};
+use pounding_time_history::{Energy, Outcome, Sample, SampleSink, System, TimeHistoryError};
 use sha2::{Digest, Sha256};
 
 use crate::{CHECKSUM, CHECKSUM_FORM, dimension_scales};
-use datasets::{series, text};
+use datasets::text;
+pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
+use tables::{Content, Tables};
 
-/// Everything that goes into a result file.
+/// What is known of a run before it begins.
 #[derive(Debug, Clone, Copy)]
-pub struct RunRecord<'a> {
+pub struct RunHead<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The case's TOML text.
@@ -35,14 +40,17 @@ pub struct RunRecord<'a> {
     pub system: &'a System,
     /// The record, scaled, with its origin.
     pub accelerogram: &'a Accelerogram,
-    /// Warnings of the record and of the run.
-    pub warnings: &'a [String],
+}
+
+/// What is known of a run when it has ended.
+#[derive(Debug, Clone, Copy)]
+pub struct RunEnding<'a> {
     /// Result of the run.
     pub outcome: &'a Outcome,
     /// Result of the same buildings without gaps.
     pub isolated: &'a Outcome,
-    /// Responses on the output grid.
-    pub history: &'a History,
+    /// Warnings of the record and of the run.
+    pub warnings: &'a [String],
     /// Wall-clock time of the run (s); the only value that two runs do not share.
     pub wall_time: f64,
 }
@@ -68,74 +76,129 @@ impl WriteError {
 
 type Result<T> = hdf5::Result<T>;
 
-/// Writes the result of a run.
+/// Writes the result of a run: responses while it goes on, as the [`SampleSink`] of a
+/// [`GridRecorder`](pounding_time_history::GridRecorder), all else at its end.
 ///
-/// # Errors
-/// [`WriteError`] if the file cannot be written; what stood under its name before is
-/// untouched then.
-pub fn write_result(path: &Path, record: &RunRecord<'_>) -> std::result::Result<(), WriteError> {
-    let failed = |reason: String| WriteError {
-        path: path.to_owned(),
-        reason,
-    };
-    let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
-    write(part.path(), record).map_err(|e| failed(e.to_string()))?;
-    checksum::append(part.path()).map_err(|e| failed(e.to_string()))?;
-    part.finish().map_err(|e| failed(e.to_string()))
+/// Dropped before [`finish`](Self::finish), it leaves nothing behind, and what stood under
+/// the name of the result is untouched.
+pub struct RunWriter<'a> {
+    system: &'a System,
+    path: PathBuf,
+    file: hdf5::File,
+    tables: Tables,
+    failure: Option<String>,
+    /// Dropped after the file, which writes into it.
+    part: PartFile,
 }
 
-fn write(path: &Path, record: &RunRecord<'_>) -> Result<()> {
+impl<'a> RunWriter<'a> {
+    /// Begins a result file.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the file cannot be written.
+    pub fn begin(path: &Path, head: &RunHead<'a>) -> std::result::Result<Self, WriteError> {
+        let failed = |reason: String| WriteError {
+            path: path.to_owned(),
+            reason,
+        };
+        let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
+        let (file, tables) = begin(part.path(), head).map_err(|e| failed(e.to_string()))?;
+        Ok(Self {
+            system: head.system,
+            path: path.to_owned(),
+            file,
+            tables,
+            failure: None,
+            part,
+        })
+    }
+
+    /// What kept a sample from being written, and so ended the run.
+    #[must_use]
+    pub fn failure(&self) -> Option<WriteError> {
+        let reason = self.failure.clone()?;
+        let path = self.path.clone();
+        Some(WriteError { path, reason })
+    }
+
+    /// Adds peaks, impacts and statistics, brings the file to the disk and puts it in its
+    /// place.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the file cannot be written; what stood under its name before is
+    /// untouched then.
+    pub fn finish(self, ending: &RunEnding<'_>) -> std::result::Result<(), WriteError> {
+        let Self {
+            system,
+            path,
+            file,
+            mut tables,
+            part,
+            ..
+        } = self;
+        let written = tables
+            .write()
+            .and_then(|()| finish(&file, system, ending))
+            .and_then(|()| file.flush());
+        // HDF5 closes a file when its last dataset is closed.
+        drop((tables, file));
+        let failed = |reason: String| WriteError { path, reason };
+        if let Err(e) = written {
+            return Err(failed(e.to_string()));
+        }
+        checksum::append(part.path())
+            .and_then(|()| part.finish())
+            .map_err(|e| failed(e.to_string()))
+    }
+}
+
+impl SampleSink for RunWriter<'_> {
+    fn take(&mut self, sample: &Sample) -> std::result::Result<(), TimeHistoryError> {
+        self.tables.block.push(sample);
+        self.tables.write_if_full().map_err(|e| {
+            let failure = self.failure.insert(e.to_string());
+            TimeHistoryError::Recorder(failure.clone())
+        })
+    }
+}
+
+fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
     let file = hdf5::File::create(path)?;
     text(&file, "Conventions", "CF-1.10")?;
-    text(&file, "title", record.title)?;
+    text(&file, "title", head.title)?;
     text(&file, "program", "pounding")?;
-    text(&file, "version", record.version)?;
-    text(&file, "build", record.build)?;
+    text(&file, "version", head.version)?;
+    text(&file, "build", head.build)?;
     text(&file, CHECKSUM, CHECKSUM_FORM)?;
-    text(&file, "case", record.case)?;
-    text(&file, "case_sha256", &sha256(record.case))?;
-    let origin = record.accelerogram.origin();
+    text(&file, "case", head.case)?;
+    text(&file, "case_sha256", &sha256(head.case))?;
+    let origin = head.accelerogram.origin();
     text(
         &file,
         "record_sha256",
         origin.map_or("", |o| o.sha256.as_str()),
     )?;
-    text(&file, "status", "complete")?;
-    let history = record.history;
-    let time = series(&file, "time", "s", "time", &history.time)?;
+    let system = head.system;
+    let mut tables = Tables::new(size::numbers(system));
+    let time = Content::Number(|h| &h.time);
+    let time = tables.add(&file, ("time", "s", "time"), time)?;
     dimension_scales::make_scale(&time, "time")?;
     let ground = file.create_group("ground")?;
     share_time(&ground)?;
-    let a = series(
-        &ground,
-        "acceleration",
-        "m s-2",
-        "ground acceleration",
-        &history.ground_acceleration,
-    )?;
-    dimension_scales::attach(&a, &time, 0)?;
+    let acceleration = Content::Number(|h| &h.ground_acceleration);
+    let names = ("acceleration", "m s-2", "ground acceleration");
+    let acceleration = tables.add(&ground, names, acceleration)?;
+    dimension_scales::attach(&acceleration, &time, 0)?;
     // A text here ends at a NUL, which titles of damaged headers may have.
-    let echo = record.accelerogram.echo().join("\n");
+    let echo = head.accelerogram.echo().join("\n");
     text(&ground, "record", &echo.replace('\0', " "))?;
-    buildings::buildings(&file, record, &time)?;
-    gaps::gaps(&file, record, &time)?;
-    elements::links(&file, record, &time)?;
-    energy(&file, record, &time)?;
-    run(&file, record)?;
-    file.flush()
-}
-
-/// Puts the output times into a group, by a second name of the dataset `/time`: readers that
-/// open one group, as xarray does, look for the coordinates of its dimensions in it alone.
-fn share_time(group: &Group) -> Result<()> {
-    group.link_hard("/time", "time")
-}
-
-fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<()> {
-    let group = file.create_group("energy")?;
-    share_time(&group)?;
+    buildings::begin(&file, system, &mut tables, &time)?;
+    gaps::begin(&file, system, &mut tables, &time)?;
+    elements::begin_links(&file, system, &mut tables, &time)?;
+    let energy = file.create_group("energy")?;
+    share_time(&energy)?;
     type Pick = fn(&Energy) -> f64;
-    let entries: [(&str, &str, Pick); 7] = [
+    let parts: [(&str, &str, Pick); 7] = [
         (
             "input",
             "work of the ground motion, relative formulation",
@@ -158,24 +221,39 @@ fn energy(file: &hdf5::File, record: &RunRecord<'_>, time: &Dataset) -> Result<(
         ("impact", "dissipated in contacts", |e| e.impact),
         ("residual", "what the ledger misses", |e| e.residual),
     ];
-    for (name, long_name, pick) in entries {
-        let values: Vec<f64> = record.history.energy.iter().map(pick).collect();
-        let data = series(&group, name, "J", long_name, &values)?;
-        dimension_scales::attach(&data, time, 0)?;
+    for (name, long_name, part) in parts {
+        let data = tables.add(&energy, (name, "J", long_name), Content::Energy(part))?;
+        dimension_scales::attach(&data, &time, 0)?;
     }
-    let ratio = group.new_attr::<f64>().create("residual_ratio")?;
-    ratio.write_scalar(&record.outcome.energy.residual_ratio)
+    Ok((file, tables))
 }
 
-fn run(file: &hdf5::File, record: &RunRecord<'_>) -> Result<()> {
+fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>) -> Result<()> {
+    buildings::finish(file, system, ending)?;
+    gaps::finish(file, system, ending.outcome)?;
+    elements::finish_links(file, system, ending.outcome)?;
+    let ratio = file.group("energy")?.new_attr::<f64>();
+    let ratio = ratio.create("residual_ratio")?;
+    ratio.write_scalar(&ending.outcome.energy.residual_ratio)?;
+    run(file, ending)?;
+    text(file, "status", "complete")
+}
+
+/// Puts the output times into a group, by a second name of the dataset `/time`: readers that
+/// open one group, as xarray does, look for the coordinates of its dimensions in it alone.
+fn share_time(group: &Group) -> Result<()> {
+    group.link_hard("/time", "time")
+}
+
+fn run(file: &hdf5::File, ending: &RunEnding<'_>) -> Result<()> {
     let group = file.create_group("run")?;
-    text(&group, "method", record.outcome.method.title)?;
+    text(&group, "method", ending.outcome.method.title)?;
     text(
         &group,
         "warnings",
-        &record.warnings.join("\n").replace('\0', " "),
+        &ending.warnings.join("\n").replace('\0', " "),
     )?;
-    let statistics = record.outcome.statistics;
+    let statistics = ending.outcome.statistics;
     for (name, value) in [
         ("steps", statistics.steps),
         ("rejected", statistics.rejected),
@@ -187,7 +265,7 @@ fn run(file: &hdf5::File, record: &RunRecord<'_>) -> Result<()> {
         group.new_attr::<u64>().create(name)?.write_scalar(&value)?;
     }
     let wall = group.new_attr::<f64>().create("wall_time")?;
-    wall.write_scalar(&record.wall_time)
+    wall.write_scalar(&ending.wall_time)
 }
 
 fn sha256(text: &str) -> String {

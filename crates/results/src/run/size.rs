@@ -1,0 +1,60 @@
+//! How large the result of a run gets.
+
+use pounding_time_history::{System, short};
+
+/// Responses of a run at most (bytes before compression): what a disk may have room for.
+pub const MAXIMUM_RESPONSES: f64 = 1.0e11;
+
+/// Numbers of one sample of the responses in the file.
+pub(super) fn numbers(system: &System) -> usize {
+    let floors = 5 * system.degrees_of_freedom();
+    // Time, ground acceleration and the parts of the energy ledger.
+    floors + 2 * system.levels().len() + 3 * system.elements().len() + 9
+}
+
+/// Responses on the output grid that no disk would take.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{} samples of the responses over {} s would be a result of {} GB; {:.0} GB are the most",
+    short(*samples), short(*duration), short(bytes * 1e-9), MAXIMUM_RESPONSES * 1e-9
+)]
+pub struct ResponsesTooLarge {
+    /// Samples.
+    pub samples: f64,
+    /// Duration (s).
+    pub duration: f64,
+    /// Size before compression (bytes).
+    pub bytes: f64,
+}
+
+impl ResponsesTooLarge {
+    /// What to try.
+    #[must_use]
+    pub fn help(&self) -> String {
+        "raise `output_step` in [analysis], or shorten `duration`; peaks and impacts do not depend on `output_step`"
+            .to_owned()
+    }
+}
+
+/// Refuses responses on a grid of `output_step` (s) over `duration` (s; `None` for that of
+/// the record) that would not fit into [`MAXIMUM_RESPONSES`], before a run begins.
+///
+/// # Errors
+/// [`ResponsesTooLarge`].
+pub fn check_size(
+    system: &System,
+    duration: Option<f64>,
+    output_step: f64,
+) -> Result<(), ResponsesTooLarge> {
+    let duration = duration.unwrap_or_else(|| system.record_duration());
+    let samples = duration / output_step;
+    let bytes = samples * (size_of::<f64>() * numbers(system)) as f64;
+    if bytes <= MAXIMUM_RESPONSES {
+        return Ok(());
+    }
+    Err(ResponsesTooLarge {
+        samples,
+        duration,
+        bytes,
+    })
+}

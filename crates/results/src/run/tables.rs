@@ -1,0 +1,148 @@
+//! Datasets that grow with the run: a row for every time on the output grid.
+
+use std::ops::Range;
+
+use hdf5::{Dataset, Group};
+use ndarray::{ArrayView1, ArrayView2};
+use pounding_time_history::{Energy, History};
+
+use super::Result;
+use super::datasets::{CHUNK_ROWS, describe};
+
+/// Bytes of a block of rows at most.
+const BLOCK_BYTES: usize = 32 << 20;
+/// Rows of a block at least.
+const LEAST_ROWS: usize = 16;
+
+/// What stands in a dataset of a block of responses.
+pub(super) enum Content {
+    /// A number of every time.
+    Number(fn(&History) -> &[f64]),
+    /// Some columns of a list.
+    Columns(fn(&History) -> &[f64], Range<usize>),
+    /// Columns of a list in any order; a column that is none holds zeros.
+    Chosen(fn(&History) -> &[f64], Vec<Option<usize>>),
+    /// Drift ratios of a building: its floors, its storey heights (m).
+    DriftRatios(Range<usize>, Vec<f64>),
+    /// A part of the energy ledger.
+    Energy(fn(&Energy) -> f64),
+}
+
+/// A dataset and what it is filled with.
+struct Table {
+    data: Dataset,
+    content: Content,
+}
+
+/// The datasets, and the block of rows that is written next.
+pub(super) struct Tables {
+    all: Vec<Table>,
+    pub(super) block: History,
+    /// Rows of a block; chunks divide it.
+    rows: usize,
+    written: usize,
+}
+
+impl Tables {
+    /// For rows of this many numbers.
+    pub(super) fn new(width: usize) -> Self {
+        let mut rows = CHUNK_ROWS;
+        while rows > LEAST_ROWS && rows * width * size_of::<f64>() > BLOCK_BYTES {
+            rows /= 2;
+        }
+        Self {
+            all: Vec::new(),
+            block: History::default(),
+            rows,
+            written: 0,
+        }
+    }
+
+    /// Adds a dataset with units and long name, empty as yet.
+    pub(super) fn add(
+        &mut self,
+        group: &Group,
+        (name, units, long_name): (&str, &str, &str),
+        content: Content,
+    ) -> Result<Dataset> {
+        let builder = group.new_dataset::<f64>().shuffle().deflate(1).fletcher32();
+        let data = match content.columns() {
+            None => builder.chunk(self.rows).shape(0..).create(name)?,
+            Some(columns) => {
+                let chunk = (self.rows, columns.max(1));
+                builder.chunk(chunk).shape((0.., columns)).create(name)?
+            }
+        };
+        describe(&data, units, long_name)?;
+        let handle = data.clone();
+        self.all.push(Table { data, content });
+        Ok(handle)
+    }
+
+    /// Writes the block when it is full.
+    pub(super) fn write_if_full(&mut self) -> Result<()> {
+        if self.block.len() < self.rows {
+            return Ok(());
+        }
+        self.write()
+    }
+
+    /// Writes what the block holds.
+    pub(super) fn write(&mut self) -> Result<()> {
+        let place = self.written..self.written + self.block.len();
+        for table in &self.all {
+            let values = table.content.of(&self.block);
+            let rows = place.clone();
+            let Some(columns) = table.content.columns() else {
+                table.data.resize(place.end)?;
+                table.data.write_slice(ArrayView1::from(&values), rows)?;
+                continue;
+            };
+            table.data.resize((place.end, columns))?;
+            let view = ArrayView2::from_shape((place.len(), columns), &values);
+            let view = view.map_err(|e| hdf5::Error::from(e.to_string()))?;
+            table.data.write_slice(view, (rows, ..))?;
+        }
+        self.written = place.end;
+        self.block.clear();
+        Ok(())
+    }
+}
+
+impl Content {
+    /// Columns of the dataset; `None` where it has one dimension.
+    fn columns(&self) -> Option<usize> {
+        match self {
+            Self::Number(_) | Self::Energy(_) => None,
+            Self::Columns(_, range) | Self::DriftRatios(range, _) => Some(range.len()),
+            Self::Chosen(_, columns) => Some(columns.len()),
+        }
+    }
+
+    /// Values of a block, row after row.
+    fn of(&self, block: &History) -> Vec<f64> {
+        match self {
+            Self::Number(list) => list(block).to_vec(),
+            Self::Energy(part) => block.energy.iter().map(part).collect(),
+            Self::Columns(list, range) => block.columns(list(block), range.clone()),
+            Self::Chosen(list, columns) => {
+                let list = list(block);
+                let rows = list.chunks_exact((list.len() / block.len().max(1)).max(1));
+                let value = |row: &[f64], c: &Option<usize>| c.map_or(0.0, |c| row[c]);
+                rows.flat_map(|row| columns.iter().map(move |c| value(row, c)))
+                    .collect()
+            }
+            Self::DriftRatios(range, height) => {
+                let mut values = block.columns(&block.displacement, range.clone());
+                for row in values.chunks_exact_mut(range.len().max(1)) {
+                    let mut below = 0.0;
+                    for (u, h) in row.iter_mut().zip(height) {
+                        let drift = *u - below;
+                        below = std::mem::replace(u, drift * (1.0 / h));
+                    }
+                }
+                values
+            }
+        }
+    }
+}

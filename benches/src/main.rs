@@ -8,6 +8,7 @@ mod memory;
 mod methods;
 mod peers;
 mod precision;
+mod recording;
 mod report;
 mod scaling;
 mod sweep;
@@ -19,7 +20,8 @@ use std::process::ExitCode;
 use pounding_time_history::GroundAcceleration;
 use verification::{Failure, ReferenceCases, reference_cases, synthetic_motion};
 
-const USAGE: &str = "quick | full | prototype | scaling | sweeps | sweep RUNS | cases FOLDER";
+const USAGE: &str =
+    "quick | full | prototype | scaling | recording | sweeps | sweep RUNS | cases FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -51,6 +53,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         }
         ["prototype"] => report::prototype(&reference, &ground),
         ["scaling"] => report::only_scaling(reference, &ground),
+        ["recording"] => recording::ratios(&reference, &ground),
         ["sweeps"] => report::only_sweeps(&reference, &ground),
         ["sweep", runs] => report::one_sweep(&reference, &ground, runs.parse()?),
         ["cases", folder] => write_cases(&reference, &ground, Path::new(folder)),

@@ -27,7 +27,7 @@ pub use verification::*;
 /// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
 /// wide enough?
 #[derive(Debug, Parser)]
-#[command(version, about, arg_required_else_help = true)]
+#[command(name = "pounding", version, about, arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]

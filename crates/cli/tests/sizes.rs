@@ -190,7 +190,25 @@ fn contacts_without_return_are_refused() {
 #[test]
 fn responses_that_no_disk_has_room_for_are_refused_by_check_as_well() {
     let dense = CASE.replace("\"2 s\"", "\"2 s\"\noutput_step = \"1e-12 s\"");
-    refused(&dense, &["a result of", "GB", "output_step"]);
+    let folder = tempfile::tempdir().unwrap();
+    for command in [&["check", "case.toml"][..], &["run", "case.toml"]] {
+        let output = pounding(folder.path(), &dense, command);
+        let text = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{command:?}: {text}");
+        assert!(text.contains("100 GB are the most"), "{text}");
+        assert!(
+            text.contains("case.toml") && text.contains("output_step"),
+            "{text}"
+        );
+    }
+    // What is not written takes no room.
+    let output = pounding(folder.path(), &dense, &["run", "case.toml", "--no-output"]);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        one_line(&output.stderr)
+    );
 }
 
 /// A long run is possible: it is named, with its steps and the period that is to blame.

@@ -46,6 +46,46 @@ pub fn are_level(one: f64, other: f64, tolerance: f64) -> bool {
     (one - other).abs() <= tolerance * (1.0 + ROUND_OFF)
 }
 
+/// Pairs of floors (from zero) of two buildings that are level, from their elevations (m),
+/// bottom first.
+#[must_use]
+pub fn level_pairs(left: &[f64], right: &[f64], tolerance: f64) -> Vec<(usize, usize)> {
+    // Elevations rise, so the first that is not below the band is the only candidate.
+    let near = |x: f64| {
+        let at = right.partition_point(|y| *y < x && !are_level(*y, x, tolerance));
+        right
+            .get(at)
+            .is_some_and(|y| are_level(*y, x, tolerance))
+            .then_some(at)
+    };
+    let floors = left.iter().enumerate();
+    floors
+        .filter_map(|(i, x)| near(*x).map(|j| (i, j)))
+        .collect()
+}
+
+/// A floor below the roof of the lower building that none of these pairs holds: its side (0
+/// left, 1 right) and its number, from zero.
+#[must_use]
+pub fn floor_without_partner(
+    elevations: [&[f64]; 2],
+    pairs: &[(usize, usize)],
+    tolerance: f64,
+) -> Option<(usize, usize)> {
+    let roofs = elevations.map(|z| z.last().copied().unwrap_or(0.0));
+    let top = roofs[0].min(roofs[1]) + tolerance;
+    (0..2).find_map(|side| {
+        // Both floors of the pairs rise.
+        let paired = |floor| {
+            let found = pairs.binary_search_by_key(&floor, |p| [p.0, p.1][side]);
+            found.is_ok()
+        };
+        let mut floors = elevations[side].iter().enumerate();
+        let floor = floors.position(|(floor, z)| *z <= top && !paired(floor));
+        Some((side, floor?))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::{are_level, decimal, elevations};

@@ -14,7 +14,9 @@ mod tridiagonal_eigen;
 
 pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
 pub use damping::{Damping, DampingMatrix};
-pub use elevation::{ELEVATION_TOLERANCE, are_level, decimal, elevations};
+pub use elevation::{
+    ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
+};
 pub use error::ShearBuildingError;
 pub use modes::Modes;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

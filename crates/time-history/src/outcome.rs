@@ -5,8 +5,10 @@ use crate::warnings::Warning;
 
 /// A greatest absolute value and when it happened.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peak {
     /// Greatest absolute value, in the unit of the quantity.
+    #[cfg_attr(feature = "serde", serde(rename = "peak"))]
     pub value: f64,
     /// Time (s); zero if the quantity never left zero.
     pub time: f64,
@@ -22,6 +24,7 @@ impl Peak {
 
 /// Peaks of one storey. Found inside the steps, not on the output grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StoreyPeaks {
     /// Floor displacement relative to the ground (m).
     pub displacement: Peak,
@@ -35,6 +38,7 @@ pub struct StoreyPeaks {
 
 /// Peaks of one building, storeys from the bottom.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BuildingOutcome {
     /// Name in the case file.
     pub name: String,
@@ -80,6 +84,7 @@ impl YieldingStorey {
 
 /// What a storey with a law went through.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct YieldingStorey {
     /// Name of the law.
     pub law: &'static str,
@@ -95,6 +100,7 @@ pub struct YieldingStorey {
 
 /// What a level of a link went through.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LinkLevelOutcome {
     /// Greatest deformation (m).
     pub deformation: Peak,
@@ -111,6 +117,7 @@ pub struct LinkLevelOutcome {
 
 /// What a link went through, levels from the bottom.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LinkOutcome {
     /// Name of the link.
     pub name: String,
@@ -122,6 +129,7 @@ pub struct LinkOutcome {
 
 /// One impact: from a located closure to the located opening.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Impact {
     /// Index in [`crate::System::gaps`].
     pub gap: usize,
@@ -154,6 +162,7 @@ pub struct Impact {
 
 /// What happened at one contact level.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LevelOutcome {
     /// Number of impacts.
     pub impacts: usize,
@@ -185,6 +194,7 @@ pub struct LevelOutcome {
 
 /// What happened in one gap, levels from the bottom.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GapOutcome {
     /// Name of the gap.
     pub name: String,
@@ -194,6 +204,7 @@ pub struct GapOutcome {
 
 /// The energy ledger at one time (J), relative to the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Energy {
     /// Work of the ground motion on the buildings, `-sum m int v a_g dt`, and the
     /// energy that they had at time zero.
@@ -215,6 +226,7 @@ pub struct Energy {
 
 /// The closed ledger of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ledger {
     /// At the end of the run.
     pub end: Energy,
@@ -226,6 +238,7 @@ pub struct Ledger {
 
 /// Work done by the method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
@@ -243,6 +256,7 @@ pub struct Statistics {
 
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     /// The method used.
     pub method: Information,

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
-use pounding_shear_building::{ELEVATION_TOLERANCE, are_level};
+use pounding_shear_building::{ELEVATION_TOLERANCE, floor_without_partner, level_pairs};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -405,7 +405,7 @@ fn levels_at_equal_elevation(
     place: Range<usize>,
 ) -> Result<Vec<Pair>, CaseError> {
     let [a, b] = buildings.map(Building::elevations);
-    let pairs = equal_elevation(&a, &b, tolerance);
+    let pairs = level_pairs(&a, &b, tolerance);
     if pairs.is_empty() && matching_only {
         let [left, right] = buildings.map(|b| &b.name.value);
         let (a, b) = (shown(&a), shown(&b));
@@ -419,23 +419,10 @@ fn levels_at_equal_elevation(
     if matching_only {
         return Ok(faced(&pairs));
     }
-    // Below the roof of the lower building every floor must have a partner.
-    let roof = |x: &[f64]| x.last().copied().unwrap_or(0.0);
-    let top = roof(&a).min(roof(&b)) + tolerance;
-    let (mut left, mut right) = (vec![false; a.len()], vec![false; b.len()]);
-    for (i, j) in &pairs {
-        left[*i] = true;
-        right[*j] = true;
-    }
-    let unpaired = |elevations: &[f64], paired: &[bool]| {
-        let mut floors = elevations.iter().zip(paired);
-        floors.position(|(z, paired)| *z <= top && !paired)
-    };
-    let of_left = unpaired(&a, &left).map(|i| (buildings[0], i, a[i]));
-    let of_right = || unpaired(&b, &right).map(|j| (buildings[1], j, b[j]));
-    let Some((building, storey, elevation)) = of_left.or_else(of_right) else {
+    let Some((side, storey)) = floor_without_partner([&a, &b], &pairs, tolerance) else {
         return Ok(faced(&pairs));
     };
+    let (building, elevation) = (buildings[side], [&a, &b][side][storey]);
     Err(reader.error(
         place,
         format!("floor {} of \"{}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1, building.name.value),
@@ -499,19 +486,4 @@ fn pair(
             "pairs of storeys such as [1, 1], or storeys beside a wall",
         )),
     }
-}
-
-/// Floors at equal elevation, from zero.
-fn equal_elevation(a: &[f64], b: &[f64], tolerance: f64) -> Vec<(usize, usize)> {
-    // Elevations rise, so the first that is not below the band is the only candidate.
-    let near = |x: f64| {
-        let at = b.partition_point(|y| *y < x && !are_level(*y, x, tolerance));
-        b.get(at)
-            .is_some_and(|y| are_level(*y, x, tolerance))
-            .then_some(at)
-    };
-    a.iter()
-        .enumerate()
-        .filter_map(|(i, x)| near(*x).map(|j| (i, j)))
-        .collect()
 }

@@ -24,6 +24,7 @@ use crate::polynomial::Polynomial;
 
 /// What a method is and can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Information {
     /// Name in the case file.
     pub name: &'static str,

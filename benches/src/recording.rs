@@ -1,0 +1,61 @@
+//! What recording all responses costs beside the run alone.
+
+use std::fmt::Write as _;
+
+use pounding_time_history::{
+    GridRecorder, GroundAcceleration, MethodChoice, Recorder, RunOptions, System, run,
+};
+use verification::{Failure, REFERENCE_MODELS, ReferenceCases, reference_system};
+
+use crate::clock::{median, thread_seconds};
+
+/// Interleaved runs of each kind.
+const RUNS: usize = 15;
+/// Step of the output grid (s): that of the examples.
+const GRID: f64 = 0.01;
+
+/// Time of a run with all histories in memory over that of the run alone, for every case and
+/// model.
+pub(crate) fn ratios(
+    reference: &ReferenceCases,
+    ground: &GroundAcceleration,
+) -> Result<String, Failure> {
+    let mut text = String::from(
+        "| case | model | run (ms) | with histories (ms) | ratio |\n|---|---|---|---|---|\n",
+    );
+    for (name, case) in &reference.cases {
+        for model in REFERENCE_MODELS {
+            let system = reference_system(case, model, ground.clone(), 1.0)?;
+            let (alone, recorded) = times(&system)?;
+            writeln!(
+                text,
+                "| {name} | {model} | {:.3} | {:.3} | {:.2} |",
+                1e3 * alone,
+                1e3 * recorded,
+                recorded / alone
+            )?;
+        }
+    }
+    Ok(text)
+}
+
+fn times(system: &System) -> Result<(f64, f64), Failure> {
+    let options = RunOptions {
+        method: MethodChoice::EventDriven {
+            relative_tolerance: 1e-10,
+        },
+        ..RunOptions::default()
+    };
+    let (mut alone, mut recorded) = (Vec::new(), Vec::new());
+    for _ in 0..RUNS {
+        let start = thread_seconds();
+        run(system, &options, &mut [], &mut |_| {})?;
+        alone.push(thread_seconds() - start);
+        let start = thread_seconds();
+        let mut recorder = GridRecorder::new(GRID)?;
+        let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
+        run(system, &options, &mut recorders, &mut |_| {})?;
+        recorded.push(thread_seconds() - start);
+    }
+    Ok((median(&alone), median(&recorded)))
+}

@@ -1,0 +1,126 @@
+//! Gaps as a library user describes them.
+
+use std::sync::Arc;
+
+use pounding_gap_element::{ImpactModel, ModelParameters, registry};
+
+use crate::error::Error;
+use crate::units::Length;
+
+/// The name of a rigid wall at either end of the row.
+pub(crate) const WALL: &str = "wall";
+
+/// Which floors of a gap may touch.
+#[derive(Debug, Clone)]
+pub(crate) enum Levels {
+    /// All below the lower roof: each must have a partner at equal elevation.
+    All,
+    /// Those at equal elevation.
+    Matching,
+    /// These pairs of storeys, from 1; a wall has any number.
+    Pairs(Vec<(usize, usize)>),
+}
+
+/// What acts between floors.
+#[derive(Debug, Clone)]
+enum Model {
+    None,
+    Named(String, ModelParameters),
+    Own(Arc<dyn ImpactModel>),
+}
+
+/// A gap in the making: between a building and the next one on its right, or a wall.
+#[derive(Debug, Clone)]
+pub struct Gap {
+    pub(crate) between: [String; 2],
+    width: Option<Length>,
+    pub(crate) levels: Levels,
+    model: Model,
+}
+
+impl Gap {
+    /// A gap between the buildings of these names, the left one first. `"wall"` is a rigid
+    /// wall at an end of the row.
+    #[must_use]
+    pub fn between(left: impl Into<String>, right: impl Into<String>) -> Self {
+        Self {
+            between: [left.into(), right.into()],
+            width: None,
+            levels: Levels::All,
+            model: Model::None,
+        }
+    }
+
+    /// Clear width at rest, the same at all levels.
+    #[must_use]
+    pub fn width(mut self, width: Length) -> Self {
+        self.width = Some(width);
+        self
+    }
+
+    /// The impact model by its name, with its parameters in SI units by theirs: those of
+    /// `pounding models NAME`, or of its [descriptor](pounding_gap_element::registry::find).
+    #[must_use]
+    pub fn model<'p>(
+        mut self,
+        name: impl Into<String>,
+        parameters: impl IntoIterator<Item = (&'p str, f64)>,
+    ) -> Self {
+        let parameters: Vec<_> = parameters.into_iter().collect();
+        self.model = Model::Named(name.into(), ModelParameters::from_pairs(&parameters));
+        self
+    }
+
+    /// An impact model of one's own.
+    #[must_use]
+    pub fn impact_model(mut self, model: Arc<dyn ImpactModel>) -> Self {
+        self.model = Model::Own(model);
+        self
+    }
+
+    /// Lets only floors at equal elevation touch, whatever others there are.
+    #[must_use]
+    pub fn matching_floors_only(mut self) -> Self {
+        self.levels = Levels::Matching;
+        self
+    }
+
+    /// Lets these pairs of storeys touch, left and right, numbered from 1. Pairs at different
+    /// elevations act on each other as if they were level, with a warning. Beside a wall its
+    /// number is not looked at.
+    #[must_use]
+    pub fn levels(mut self, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        self.levels = Levels::Pairs(pairs.into_iter().collect());
+        self
+    }
+
+    /// Name: those of both sides.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.between.join("-")
+    }
+
+    pub(crate) fn built_width(&self) -> Result<f64, Error> {
+        self.width.map(Length::si).ok_or_else(|| Error::Incomplete {
+            gap: self.name(),
+            what: "width",
+        })
+    }
+
+    pub(crate) fn built_model(&self) -> Result<Arc<dyn ImpactModel>, Error> {
+        match &self.model {
+            Model::Own(model) => Ok(Arc::clone(model)),
+            Model::Named(name, parameters) => {
+                let model = registry::build(name, parameters).map_err(|source| Error::Model {
+                    gap: self.name(),
+                    source,
+                })?;
+                Ok(model.into())
+            }
+            Model::None => Err(Error::Incomplete {
+                gap: self.name(),
+                what: "model",
+            }),
+        }
+    }
+}

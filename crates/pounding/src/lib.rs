@@ -1,0 +1,122 @@
+//! Seismic pounding of adjacent buildings.
+//!
+//! Two buildings that stand too close collide in an earthquake. This library integrates their
+//! time history, locates every impact, closes an energy ledger, and answers how hard they hit
+//! and what that does to the storeys. It is what the program `pounding` is made of.
+//!
+//! # A pair, a gap, a run
+//!
+//! ```
+//! use pounding::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let storey = |mass, stiffness| Storey {
+//!     mass: Mass::tonnes(mass),
+//!     stiffness: Stiffness::meganewtons_per_metre(stiffness),
+//!     height: Length::metres(3.0),
+//! };
+//! let damping = Damping::StiffnessProportional { ratio: 0.05 };
+//! let light = Building::shear("light").storeys(3, storey(25.0, 3.46)).damping(damping.clone());
+//! let heavy = Building::shear("heavy").storeys(3, storey(1000.0, 2215.0)).damping(damping);
+//! let gap = Gap::between("light", "heavy")
+//!     .width(Length::millimetres(20.0))
+//!     .model("jankowski_2005", [("stiffness", 2.75e9), ("restitution", 0.65)]);
+//! # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../ground_motions/");
+//! # let record = format!("{folder}el_centro_1940_ns.csv");
+//! let motion = GroundMotion::read(&record)?.scaled_to(Acceleration::gravities(0.3))?;
+//! let model = Simulation::of([light, heavy]).gap(gap).ground_motion(motion).build()?;
+//! # let folder = tempfile::tempdir()?;
+//! # let result = folder.path().join("pair.h5");
+//! let outcome = model.run_to_file(&result)?;
+//! let roof = &outcome.gaps[0].levels[2];
+//! println!("{} impacts, {:.0} kN", roof.impacts, roof.peak_force.value / 1e3); // 22 impacts, 1163 kN
+//! # assert_eq!(roof.impacts, 22);
+//! # assert_eq!(format!("{:.0}", roof.peak_force.value / 1e3), "1163");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! All numbers of an [`Outcome`](prelude::Outcome) are SI; it implements `serde::Serialize`.
+//! The result file opens in h5py, xarray and MATLAB.
+//!
+//! # With and without the neighbour
+//!
+//! [`Model::isolated`] takes the gaps away; modes and exact steps are computed once for both.
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/three_storey_pair/case.toml");
+//! let model = Model::read(case)?;
+//! let (pounding, isolated) = (model.run()?, model.isolated().run()?);
+//! let roof = |outcome: &Outcome| outcome.buildings[0].storeys[2].displacement.value;
+//! assert!(roof(&pounding) < roof(&isolated));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Responses over time
+//!
+//! Recorders are served from the steps as they are taken, and change no bit of a run.
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/three_storey_pair/case.toml");
+//! # let model = Model::read(case)?;
+//! let mut recorder = GridRecorder::new(0.005)?;
+//! let outcome = model.run_with(&mut [&mut recorder])?;
+//! assert_eq!(outcome, model.run()?);
+//! let history = recorder.responses;
+//! let roof = history.column(&history.displacement, 2);
+//! let sampled = roof.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+//! // Peaks come from inside the steps.
+//! assert!(sampled <= outcome.buildings[0].storeys[2].displacement.value);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # What is where
+//!
+//! | crate | what |
+//! |---|---|
+//! | [`gap_element`] | impact models: [`registry::find`](gap_element::registry::find) names them, the trait [`ImpactModel`](gap_element::ImpactModel) is for one's own |
+//! | [`hysteresis`] | laws of storeys and links |
+//! | [`ground_motion`] | records in many formats, processing, spectra, synthetic motions |
+//! | [`shear_building`] | storeys, damping, modes |
+//! | [`separation`] | provisions of codes for the gap |
+//! | [`time_history`] | the solver: systems, methods, outcomes, recorders |
+//!
+//! Features: `hdf5` (results; needs libhdf5) and `toml` (case files), both on by default.
+//! Without them the library needs neither C libraries nor files.
+
+mod building;
+mod error;
+mod gap;
+mod record;
+mod simulation;
+pub mod units;
+
+pub use building::{Building, Storey};
+pub use error::Error;
+pub use gap::Gap;
+pub use record::GroundMotion;
+pub use simulation::{Model, Simulation};
+
+pub use pounding_gap_element as gap_element;
+pub use pounding_ground_motion as ground_motion;
+pub use pounding_hysteresis as hysteresis;
+pub use pounding_separation as separation;
+pub use pounding_shear_building as shear_building;
+pub use pounding_time_history as time_history;
+
+/// What most programs need.
+pub mod prelude {
+    pub use pounding_shear_building::Damping;
+    pub use pounding_time_history::{
+        GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink,
+    };
+
+    pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time};
+    pub use crate::{Building, Error, Gap, GroundMotion, Model, Simulation, Storey};
+}

@@ -1,0 +1,197 @@
+//! The library by itself: what is built by code is what a case file says, to the last bit;
+//! what is wrong is said with its place.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use pounding::gap_element::{ModelParameters, registry};
+use pounding::prelude::*;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn storey(mass: f64, stiffness: f64) -> Storey {
+    Storey {
+        mass: Mass::tonnes(mass),
+        stiffness: Stiffness::meganewtons_per_metre(stiffness),
+        height: Length::metres(3.0),
+    }
+}
+
+fn building(name: &str, mass: f64, stiffness: f64) -> Building {
+    Building::shear(name)
+        .storeys(3, storey(mass, stiffness))
+        .damping(Damping::StiffnessProportional { ratio: 0.05 })
+}
+
+fn gap() -> Gap {
+    Gap::between("light", "heavy")
+        .width(Length::millimetres(20.0))
+        .model(
+            "jankowski_2005",
+            [("stiffness", 2.75e9), ("damping_ratio", 0.35)],
+        )
+}
+
+fn el_centro() -> GroundMotion {
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let motion = GroundMotion::read(record).unwrap();
+    let peak = motion.accelerogram().peak().value.abs();
+    motion
+        .scaled_to(Acceleration::metres_per_second_squared(peak))
+        .unwrap()
+}
+
+fn pair() -> Simulation {
+    let buildings = [
+        building("light", 25.0, 3.46),
+        building("heavy", 1000.0, 2215.0),
+    ];
+    Simulation::of(buildings)
+        .gap(gap())
+        .ground_motion(el_centro())
+}
+
+#[test]
+fn code_and_case_file_say_the_same() {
+    let file = root().join("examples/three_storey_pair/case.toml");
+    let from_file = Model::read(file).unwrap().run().unwrap();
+    let outcome = pair().duration(Time::seconds(31.0)).run().unwrap();
+    assert!(outcome == from_file);
+    // A model that is handed over is the one of that name.
+    let parameters = ModelParameters::from_pairs(&[("stiffness", 2.75e9), ("damping_ratio", 0.35)]);
+    let model = registry::build("jankowski_2005", &parameters).unwrap();
+    let own = Gap::between("light", "heavy")
+        .width(Length::metres(0.02))
+        .impact_model(Arc::from(model))
+        .levels([(1, 1), (2, 2), (3, 3)]);
+    let buildings = [
+        building("light", 25.0, 3.46),
+        building("heavy", 1000.0, 2215.0),
+    ];
+    let simulation = Simulation::of(buildings)
+        .gap(own)
+        .ground_motion(el_centro());
+    let outcome = simulation.duration(Time::seconds(31.0)).run().unwrap();
+    assert!(outcome == from_file);
+}
+
+#[test]
+fn outcomes_serialize_with_all_their_numbers() {
+    let outcome = pair().duration(Time::seconds(4.0)).run().unwrap();
+    assert!(outcome.end_time == 4.0 && !outcome.impacts.is_empty());
+    let value = serde_json::to_value(&outcome).unwrap();
+    let level = &value["gaps"][0]["levels"][2];
+    assert_eq!(level["impacts"], outcome.gaps[0].levels[2].impacts);
+    let force = outcome.gaps[0].levels[2].peak_force;
+    assert_eq!(level["peak_force"]["peak"].as_f64(), Some(force.value));
+    assert_eq!(level["peak_force"]["time"].as_f64(), Some(force.time));
+    assert_eq!(value["method"]["name"], "event_driven");
+    assert_eq!(
+        value["impacts"].as_array().unwrap().len(),
+        outcome.impacts.len()
+    );
+}
+
+fn refused(simulation: &Simulation) -> (String, String) {
+    let error = simulation.build().unwrap_err();
+    (error.to_string(), error.help().unwrap_or_default())
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place_and_a_remedy() {
+    let lower = |height: f64| {
+        let storey = Storey {
+            height: Length::metres(height),
+            ..storey(1000.0, 2215.0)
+        };
+        Building::shear("heavy").storeys(3, storey)
+    };
+    let light = || building("light", 25.0, 3.46);
+    let of = |buildings: Vec<Building>, gap: Gap| {
+        Simulation::of(buildings)
+            .gap(gap)
+            .ground_motion(el_centro())
+    };
+    let (said, help) = refused(&of(vec![light(), lower(3.4)], gap()));
+    assert!(
+        said.contains("light-heavy") && said.contains("at 3 m"),
+        "{said}"
+    );
+    assert!(help.contains(".levels("), "{help}");
+    let heavy = || building("heavy", 1000.0, 2215.0);
+    let misspelt = Gap::between("light", "havy");
+    let (said, help) = refused(&of(vec![light(), heavy()], misspelt));
+    assert!(
+        said.contains("havy") && help.contains("\"heavy\""),
+        "{said} {help}"
+    );
+    let (said, help) = refused(&of(vec![heavy(), light()], gap()));
+    assert!(
+        said.contains("light-heavy") && help.contains("left"),
+        "{said} {help}"
+    );
+    let bare = Gap::between("light", "heavy").width(Length::metres(0.1));
+    let (said, help) = refused(&of(vec![light(), heavy()], bare));
+    assert!(
+        said.contains("no model") && help.contains(".model("),
+        "{said} {help}"
+    );
+    let unknown = gap().model("jankowsky_2005", []);
+    let (said, help) = refused(&of(vec![light(), heavy()], unknown));
+    assert!(said.contains("jankowsky"), "{said}");
+    assert!(help.contains("jankowski_2005"), "{help}");
+    let (said, _) = refused(&of(vec![light(), heavy()], gap().levels([(4, 3)])));
+    assert!(said.contains("storey 4"), "{said}");
+    let (said, _) = refused(&of(vec![light(), heavy()], gap().levels([(0, 3)])));
+    assert!(said.contains("storey 0"), "{said}");
+    let still = Simulation::of([light(), heavy()]).gap(gap());
+    let (said, help) = refused(&still);
+    assert!(said.contains("no ground motion") && help.contains(".ground_motion("));
+    let (said, _) = refused(&of(vec![Building::shear("light"), heavy()], gap()));
+    assert!(said.contains("light"), "{said}");
+}
+
+/// A wall on either side has all floors, and a gap that is wide enough leaves the buildings
+/// as if they were isolated.
+#[test]
+fn walls_and_wide_gaps() {
+    let buildings = || [building("light", 25.0, 3.46)];
+    let wall = |left: &str, right: &str, width: f64| {
+        Gap::between(left, right)
+            .width(Length::metres(width))
+            .model("hertz_1882", [("stiffness", 2.75e9)])
+    };
+    let walled = Simulation::of(buildings())
+        .gap(wall("wall", "light", 0.02))
+        .gap(wall("light", "wall", 0.02))
+        .ground_motion(el_centro())
+        .build()
+        .unwrap();
+    let outcome = walled.run().unwrap();
+    assert!(outcome.gaps.iter().all(|g| g.levels.len() == 3));
+    assert!(outcome.gaps.iter().all(|g| g.levels[2].impacts > 0));
+    let isolated = walled.isolated().run().unwrap();
+    let wide = Simulation::of(buildings())
+        .gap(wall("light", "wall", 2.0))
+        .ground_motion(el_centro());
+    assert_eq!(wide.run().unwrap().buildings, isolated.buildings);
+}
+
+#[test]
+fn storeys_follow_laws() {
+    let yielding = building("light", 25.0, 3.46).law(
+        "bilinear",
+        [("yield_force", 20.0e3), ("hardening_ratio", 0.05)],
+    );
+    let buildings = [yielding, building("heavy", 1000.0, 2215.0)];
+    let simulation = Simulation::of(buildings)
+        .gap(gap())
+        .ground_motion(el_centro());
+    let outcome = simulation.duration(Time::seconds(8.0)).run().unwrap();
+    let storeys = outcome.buildings[0].inelastic_storeys();
+    assert!(!storeys.is_empty());
+    assert!(outcome.energy.end.hysteretic > 0.0);
+}

@@ -210,15 +210,19 @@ fn outer_product(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> 
         }
     }
     let mut out = DMatrix::zeros(n, n);
-    for (a, left) in rows.chunks_exact(n).enumerate() {
-        for (b, right) in rows.chunks_exact(n).enumerate().take(a + 1) {
-            let product = tile(left, right);
-            for (r, column) in product.iter().enumerate() {
-                for (l, x) in column.iter().enumerate() {
-                    let (p, q) = (a * WIDTH + l, b * WIDTH + r);
-                    if p < n && q < n {
-                        out[(p, q)] = *x;
-                        out[(q, p)] = *x;
+    // All columns for a few rows, which stay in the cache, before the next ones.
+    for first in (0..blocks).step_by(WIDTH) {
+        let end = blocks.min(first + WIDTH);
+        for (b, right) in rows.chunks_exact(n).enumerate().take(end) {
+            for a in first.max(b)..end {
+                let product = tile(&rows[a * n..(a + 1) * n], right);
+                for (r, column) in product.iter().enumerate() {
+                    for (l, x) in column.iter().enumerate() {
+                        let (p, q) = (a * WIDTH + l, b * WIDTH + r);
+                        if p < n && q < n {
+                            out[(p, q)] = *x;
+                            out[(q, p)] = *x;
+                        }
                     }
                 }
             }

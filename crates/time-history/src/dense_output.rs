@@ -7,8 +7,8 @@ use crate::dynamics::Layout;
 use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
 use crate::error::TimeHistoryError;
 use crate::free_flight::{
-    FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring, step_over,
-    transform,
+    Four, FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring,
+    step_over, transform_fours,
 };
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{Recorder, Sample, StepView, fill};
@@ -32,7 +32,9 @@ pub(crate) struct Room {
     displacement: Vec<Lane>,
     velocity: Vec<Lane>,
     absolute: Vec<Lane>,
-    floors: Vec<Lane>,
+    /// The same of the floors, and room for a fourth.
+    floors: [Vec<Lane>; 4],
+    all: Vec<bool>,
     /// The whole state.
     state: Vec<f64>,
     /// Contact forces of all levels (N).
@@ -55,7 +57,8 @@ impl Room {
             displacement: zeros(),
             velocity: zeros(),
             absolute: zeros(),
-            floors: zeros(),
+            floors: std::array::from_fn(|_| zeros()),
+            all: vec![true; lanes],
             state: vec![0.0; layout.dimension()],
             forces: vec![0.0; layout.levels],
             series: Series::new(lanes, layout.levels),
@@ -150,13 +153,18 @@ impl ModalStep<'_> {
         };
         room.state[layout.input()] += works.0;
         room.state[layout.viscous()] += works.1;
-        for (modal, place) in [(&room.displacement, 0), (&room.velocity, n)] {
-            transform(&self.constants.shapes, modal, &mut room.floors);
-            gather(&room.floors, &mut room.state[place..place + n]);
-        }
-        transform(&self.constants.shapes, &room.absolute, &mut room.floors);
+        let (q, p, a) = (&room.displacement, &room.velocity, &room.absolute);
+        let four = Four {
+            modal: [q, p, a, a],
+            floors: &mut room.floors,
+            wanted: &room.all,
+        };
+        transform_fours(&self.constants.shapes, &mut [four]);
+        let [displacement, velocity, absolute, _] = &room.floors;
+        gather(displacement, &mut room.state[..n]);
+        gather(velocity, &mut room.state[n..2 * n]);
         out.acceleration_absolute.resize(n, 0.0);
-        gather(&room.floors, &mut out.acceleration_absolute);
+        gather(absolute, &mut out.acceleration_absolute);
         let ground = self.ground.0 + self.ground.1 * offset;
         let motion = (room.state.as_slice(), room.forces.as_slice());
         fill(self.system, self.contacts, (time, ground), motion, out);

@@ -235,15 +235,11 @@ impl<'a> Dynamics<'a> {
             let carried = element.carried * element.relative(u);
             element.pull(force - carried, &mut self.net);
         }
-        self.stuck.clear();
+        self.list_stuck(contacts);
         for &l in contacts.closed() {
-            let Some(contact) = contacts.contact(l) else {
+            let Some(contact) = contacts.contact(l).filter(|c| !c.is_stuck()) else {
                 continue;
             };
-            if contact.is_stuck() {
-                self.stuck.push(l);
-                continue;
-            }
             let level = &self.system.levels()[l];
             let force = contact
                 .force(
@@ -303,13 +299,84 @@ impl<'a> Dynamics<'a> {
         Some(force / system.mass()[i] - ground)
     }
 
-    /// Adds the forces that keep the relative accelerations of stuck levels zero.
-    fn hold(&mut self, accelerations: &mut [f64]) {
+    /// Contact forces of the levels that are stuck, into [`Dynamics::forces`], from the
+    /// components `at` of the state that their own floors call for: the bits of
+    /// [`Dynamics::accelerations`] for little of its work where damping couples many floors.
+    /// Returns false, and does nothing, where it would not be so.
+    pub(crate) fn hold_alone(
+        &mut self,
+        contacts: &Contacts,
+        ground: f64,
+        at: &impl Fn(usize) -> f64,
+    ) -> bool {
+        let system = self.system;
+        if !system.elements().is_empty() || system.bands().is_some() {
+            return false;
+        }
+        self.list_stuck(contacts);
+        self.solve_holding(|dynamics, level| {
+            level.relative_of(|i| dynamics.released_acceleration_of(contacts, (i, ground), at))
+        });
+        true
+    }
+
+    /// Acceleration of floor `i` alone relative to the ground (m/s2) while levels are stuck,
+    /// after [`Dynamics::hold_alone`] at the same place.
+    pub(crate) fn held_acceleration_of(
+        &self,
+        contacts: &Contacts,
+        (i, ground): (usize, f64),
+        at: &impl Fn(usize) -> f64,
+    ) -> f64 {
+        let mut net = 0.0;
+        for &l in &self.stuck {
+            push_floor(&self.system.levels()[l], self.forces[l], i, &mut net);
+        }
+        self.released_acceleration_of(contacts, (i, ground), at) + net / self.system.mass()[i]
+    }
+
+    /// Acceleration of floor `i` without the forces that hold stuck levels.
+    fn released_acceleration_of(
+        &self,
+        contacts: &Contacts,
+        (i, ground): (usize, f64),
+        at: &impl Fn(usize) -> f64,
+    ) -> f64 {
+        let (n, system) = (self.layout.dofs, self.system);
+        let rate = |j: usize| at(n + j);
+        let mut net = 0.0;
+        for &l in contacts.closed() {
+            let level = &system.levels()[l];
+            if level.left != Some(i) && level.right != Some(i) {
+                continue;
+            }
+            if let Some(contact) = contacts.contact(l).filter(|c| !c.is_stuck()) {
+                let penetration = level.relative_of(at) - contacts.width(l);
+                let force = contact.force(level, penetration, level.relative_of(rate));
+                push_floor(level, force.value, i, &mut net);
+            }
+        }
+        (-system.resistance_of(i, at, &rate) + net) / system.mass()[i] - ground
+    }
+
+    /// Collects the levels that are stuck.
+    fn list_stuck(&mut self, contacts: &Contacts) {
+        let stuck = |l: &usize| contacts.contact(*l).is_some_and(|c| c.is_stuck());
+        self.stuck.clear();
+        let levels = contacts.closed().iter().copied();
+        self.stuck.extend(levels.filter(stuck));
+    }
+
+    /// Solves for the forces that keep the relative accelerations of stuck levels zero, from
+    /// those that they would have without them.
+    fn solve_holding(&mut self, relative: impl Fn(&Self, &ContactLevel) -> f64) {
         let (levels, mass) = (self.system.levels(), self.system.mass());
         self.matrix.clear();
         self.right.clear();
-        for &l in &self.stuck {
-            self.right.push(levels[l].relative(accelerations));
+        for k in 0..self.stuck.len() {
+            let l = self.stuck[k];
+            let right = relative(self, &levels[l]);
+            self.right.push(right);
             for &m in &self.stuck {
                 self.matrix.push(coupling(&levels[l], &levels[m], mass));
             }
@@ -319,10 +386,18 @@ impl<'a> Dynamics<'a> {
         if !self.solver.solve(&self.matrix, &mut self.right) {
             self.right.fill(f64::NAN);
         }
+        for (l, force) in self.stuck.iter().zip(&self.right) {
+            self.forces[*l] = *force;
+        }
+    }
+
+    /// Adds the forces that keep the relative accelerations of stuck levels zero.
+    fn hold(&mut self, accelerations: &mut [f64]) {
+        self.solve_holding(|_, level| level.relative(accelerations));
+        let (levels, mass) = (self.system.levels(), self.system.mass());
         self.net.fill(0.0);
-        for (k, &l) in self.stuck.iter().enumerate() {
-            self.forces[l] = self.right[k];
-            push_apart(&levels[l], self.right[k], &mut self.net);
+        for &l in &self.stuck {
+            push_apart(&levels[l], self.forces[l], &mut self.net);
         }
         for ((a, f), m) in accelerations.iter_mut().zip(&self.net).zip(mass) {
             *a += f / m;
@@ -339,6 +414,16 @@ pub(crate) fn push_apart(level: &ContactLevel, force: f64, net: &mut [f64]) {
     }
     if let Some(r) = level.right {
         net[r] += force;
+    }
+}
+
+/// The same for floor `i` alone.
+fn push_floor(level: &ContactLevel, force: f64, i: usize, net: &mut f64) {
+    if level.left == Some(i) {
+        *net -= force;
+    }
+    if level.right == Some(i) {
+        *net += force;
     }
 }
 

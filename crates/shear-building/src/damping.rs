@@ -267,3 +267,22 @@ fn not_negative(name: &str, value: f64) -> Result<(), String> {
         Err(format!("{name} = {value} must be zero or more"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// More rows than are kept together, and a number that lanes do not divide.
+    #[test]
+    fn products_in_blocks_have_the_bits_of_plain_sums() {
+        let n = 2 * WIDTH * WIDTH + 21;
+        let entry = |p: usize, j: usize| ((3 * p + 7 * j) as f64).sin();
+        let product = outer_product(n, entry);
+        for p in 0..n {
+            for q in 0..n {
+                let sum = (0..n).fold(0.0, |sum, j| sum + entry(p, j) * entry(q, j));
+                assert_eq!(product[(p, q)].to_bits(), f64::to_bits(sum), "{p}, {q}");
+            }
+        }
+    }
+}

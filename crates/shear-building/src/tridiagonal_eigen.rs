@@ -366,4 +366,27 @@ mod tests {
         }
         assert!(orthogonality(&vectors) < 1.0e-11);
     }
+
+    /// The last group takes part with copies of itself where groups run out.
+    #[test]
+    fn eigenvalues_do_not_depend_on_those_bisected_at_the_same_time() {
+        let mut seed = 11;
+        let n = 8 * WIDTH * GROUPS + 2 * WIDTH + 3;
+        let storeys: Vec<f64> = (0..n).map(|_| 1.5 + random(&mut seed)).collect();
+        let matrix = SymmetricTridiagonal::chain(&storeys);
+        let squares: Vec<f64> = matrix.off_diagonal.iter().map(|e| e * e).collect();
+        let bounds = gershgorin(&matrix);
+        let norm = bounds.1;
+        let values = eigenvalues(&matrix, bounds, norm);
+        let slack = 2.0 * f64::EPSILON * norm;
+        for (group, values) in values.chunks(WIDTH).enumerate() {
+            let index = std::array::from_fn(|l| (group * WIDTH + l).min(n - 1) as f64);
+            let mut alone = Bracket::new(index, (bounds.0 - slack, bounds.1 + slack));
+            while alone.open {
+                let shifts = [alone.middle; GROUPS];
+                alone.halve(&counts_below(&matrix.diagonal, &squares, &shifts, norm)[0]);
+            }
+            assert_eq!(values, &alone.middle[..values.len()]);
+        }
+    }
 }

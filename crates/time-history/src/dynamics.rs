@@ -437,3 +437,93 @@ pub(crate) fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 
     (term(a.left, b.left, 1.0) + term(a.right, b.right, 1.0))
         + (term(a.left, b.right, -1.0) + term(a.right, b.left, -1.0))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use std::sync::Arc;
+
+    use pounding_gap_element::{Memory, ModelParameters, Phase, registry};
+    use pounding_shear_building::{Damping, ShearBuilding};
+
+    use super::*;
+    use crate::contact::Contact;
+    use crate::system::{Floor, GroundAcceleration};
+
+    /// Two buildings with modal damping and a wall on the right: levels 0 and 2 of the gap
+    /// and that of the wall are stuck, level 1 of the gap is in approach, level 3 is open.
+    fn held(storeys: [usize; 2]) -> (System, Contacts) {
+        let building = |name: &str, n: usize| {
+            let of = |base: f64, step: f64| (0..n).map(|i| base + step * i as f64).collect();
+            let damping = Damping::Modal { ratios: vec![0.05] };
+            let (mass, stiffness) = (of(45.0e3, 117.0), of(5.482e6, -3019.0));
+            let heights = vec![3.0; n];
+            Arc::new(ShearBuilding::new(name.into(), mass, stiffness, heights, damping).unwrap())
+        };
+        let buildings = vec![building("left", storeys[0]), building("right", storeys[1])];
+        let ground = GroundAcceleration {
+            samples: vec![0.0; 2].into(),
+            time_step: 0.01,
+        };
+        let mut system = System::new(buildings, ground);
+        let parameters =
+            ModelParameters::from_pairs(&[("stiffness", 93.5e6), ("restitution", 0.65)]);
+        let model: Arc<dyn pounding_gap_element::ImpactModel> =
+            registry::build("anagnostopoulos_1988", &parameters)
+                .unwrap()
+                .into();
+        let pair = |left, right| (left, right, 0.01, Arc::clone(&model));
+        let across = (0..4).map(|s| pair(Floor::Storey(0, s), Floor::Storey(1, s)));
+        let names = |a: &str, b: &str| [a.to_owned(), b.to_owned()];
+        system
+            .add_gap("gap", names("left", "right"), across.collect())
+            .unwrap();
+        let last = vec![pair(Floor::Storey(1, 2), Floor::Wall)];
+        system.add_gap("end", names("right", "wall"), last).unwrap();
+        let mut contacts = Contacts::all_open(&system);
+        for (level, phase) in [
+            (0, Phase::Stuck),
+            (1, Phase::Approach),
+            (2, Phase::Stuck),
+            (4, Phase::Stuck),
+        ] {
+            let mass = system.levels()[level].effective_mass;
+            let contact = Contact {
+                phase,
+                collision: model.begin(0.3, mass),
+                memory: Memory::default(),
+            };
+            contacts.close(level, contact);
+        }
+        (system, contacts)
+    }
+
+    #[test]
+    fn floors_that_are_held_have_the_same_bits_each_alone_as_together() {
+        for storeys in [[13, 9], [150, 37]] {
+            let (system, contacts) = held(storeys);
+            let mut dynamics = Dynamics::new(&system);
+            let n = dynamics.layout.dofs;
+            let state: Vec<f64> = (0..dynamics.layout.dimension())
+                .map(|k| 0.02 * ((3 * k) as f64).sin())
+                .collect();
+            let ground = -1.37;
+            let mut together = vec![0.0; n];
+            let now = Instant::committed(ground);
+            dynamics.accelerations(&contacts, now, &state, &mut together);
+            let forces = dynamics.forces.clone();
+            assert!(forces[0].abs() > 1.0 && forces[4].abs() > 1.0, "{forces:?}");
+            dynamics.forces.fill(f64::NAN);
+            let at = |k: usize| state[k];
+            assert!(dynamics.hold_alone(&contacts, ground, &at));
+            for l in [0, 2, 4] {
+                assert_eq!(dynamics.forces[l].to_bits(), forces[l].to_bits(), "{l}");
+            }
+            for (i, together) in together.iter().enumerate() {
+                let alone = dynamics.held_acceleration_of(&contacts, (i, ground), &at);
+                assert_eq!(alone.to_bits(), together.to_bits(), "floor {i}");
+            }
+        }
+    }
+}

@@ -109,7 +109,7 @@ fn integrate_both(
         })
     };
     std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().spawn_scoped(scope, &without);
+        let thread = std::thread::Builder::new().spawn_scoped(scope, without);
         let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
         let outcome = integrate(
             &assembly.system,

@@ -5,12 +5,15 @@
 //! Handbook for Automatic Computation II (1971), II/18; LAPACK `dstebz` and `dstein`):
 //! work that grows with the square of the size, and the same bits on every processor.
 
+use multiversion::multiversion;
 use nalgebra::DMatrix;
 
 use crate::tridiagonal::SymmetricTridiagonal;
 
 /// Eigenvalues bisected side by side.
 const WIDTH: usize = 8;
+/// Groups of so many that are bisected at the same time.
+const GROUPS: usize = 4;
 /// Solutions of inverse iteration: the first leaves the start behind, and each further one
 /// gains as many digits as the eigenvalue has.
 const SOLUTIONS: usize = 4;
@@ -75,56 +78,112 @@ fn eigenvalues(matrix: &SymmetricTridiagonal, bounds: (f64, f64), norm: f64) -> 
     let n = matrix.diagonal.len();
     let squares: Vec<f64> = matrix.off_diagonal.iter().map(|e| e * e).collect();
     let slack = 2.0 * f64::EPSILON * norm;
-    let mut values = Vec::with_capacity(n);
-    for first in (0..n).step_by(WIDTH) {
-        let index: [usize; WIDTH] = std::array::from_fn(|l| (first + l).min(n - 1));
-        let (mut low, mut high) = ([bounds.0 - slack; WIDTH], [bounds.1 + slack; WIDTH]);
-        loop {
-            let middle: [f64; WIDTH] = std::array::from_fn(|l| 0.5 * (low[l] + high[l]));
-            let open = |l: usize| {
-                let scale = low[l].abs().max(high[l].abs());
-                high[l] - low[l] > f64::EPSILON * scale + f64::MIN_POSITIVE
-                    && low[l] < middle[l]
-                    && middle[l] < high[l]
-            };
-            if !(0..WIDTH).any(open) {
-                values.extend_from_slice(&middle[..WIDTH.min(n - first)]);
-                break;
-            }
-            let below = count_below(&matrix.diagonal, &squares, &middle, norm);
-            for l in 0..WIDTH {
-                if below[l] > index[l] as f64 {
-                    high[l] = middle[l];
-                } else {
-                    low[l] = middle[l];
-                }
+    let start = (bounds.0 - slack, bounds.1 + slack);
+    let groups = n.div_ceil(WIDTH);
+    let mut values = vec![0.0; groups * WIDTH];
+    for first in (0..groups).step_by(GROUPS) {
+        let mut brackets: [Bracket; GROUPS] = std::array::from_fn(|g| {
+            // What is beyond the last is bisected with it.
+            let group = (first + g).min(groups - 1);
+            let index = std::array::from_fn(|l| (group * WIDTH + l).min(n - 1) as f64);
+            Bracket::new(index, start)
+        });
+        while brackets.iter().any(|b| b.open) {
+            let middles = brackets.each_ref().map(|b| b.middle);
+            let below = counts_below(&matrix.diagonal, &squares, &middles, norm);
+            for (bracket, below) in brackets.iter_mut().zip(&below) {
+                bracket.halve(below);
             }
         }
+        for (values, bracket) in values.chunks_mut(WIDTH).skip(first).zip(&brackets) {
+            values.copy_from_slice(&bracket.middle);
+        }
     }
+    values.truncate(n);
     values
 }
 
-/// Number of eigenvalues below each shift: that of negative pivots.
-fn count_below(
+/// Intervals of eigenvalues that are bisected until the last of them is narrow.
+struct Bracket {
+    index: [f64; WIDTH],
+    low: [f64; WIDTH],
+    high: [f64; WIDTH],
+    middle: [f64; WIDTH],
+    open: bool,
+}
+
+impl Bracket {
+    fn new(index: [f64; WIDTH], (low, high): (f64, f64)) -> Self {
+        let mut this = Self {
+            index,
+            low: [low; WIDTH],
+            high: [high; WIDTH],
+            middle: [0.0; WIDTH],
+            open: true,
+        };
+        this.look();
+        this
+    }
+
+    /// Takes the numbers of eigenvalues below the middles, unless all intervals are narrow.
+    fn halve(&mut self, below: &[f64; WIDTH]) {
+        if !self.open {
+            return;
+        }
+        for l in 0..WIDTH {
+            if below[l] > self.index[l] {
+                self.high[l] = self.middle[l];
+            } else {
+                self.low[l] = self.middle[l];
+            }
+        }
+        self.look();
+    }
+
+    fn look(&mut self) {
+        let (low, high) = (&self.low, &self.high);
+        let middle: [f64; WIDTH] = std::array::from_fn(|l| 0.5 * (low[l] + high[l]));
+        let open = |l: usize| {
+            let scale = low[l].abs().max(high[l].abs());
+            high[l] - low[l] > f64::EPSILON * scale + f64::MIN_POSITIVE
+                && low[l] < middle[l]
+                && middle[l] < high[l]
+        };
+        self.open = (0..WIDTH).any(open);
+        self.middle = middle;
+    }
+}
+
+/// Number of eigenvalues below each shift: that of negative pivots. Groups of shifts are
+/// independent, so that the processor need not wait for the divisions of one.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn counts_below(
     diagonal: &[f64],
     squares: &[f64],
-    shifts: &[f64; WIDTH],
+    shifts: &[[f64; WIDTH]; GROUPS],
     norm: f64,
-) -> [f64; WIDTH] {
+) -> [[f64; WIDTH]; GROUPS] {
     let smallest = f64::MIN_POSITIVE * norm.max(1.0);
-    let mut count = [0.0; WIDTH];
-    let mut pivot = [1.0; WIDTH];
+    let mut count = [[0.0; WIDTH]; GROUPS];
+    let mut pivot = [[1.0; WIDTH]; GROUPS];
     for (i, d) in diagonal.iter().enumerate() {
         let square = if i > 0 { squares[i - 1] } else { 0.0 };
-        for l in 0..WIDTH {
-            let next = d - shifts[l] - square / pivot[l];
-            let next = if next.abs() < smallest {
-                -smallest
-            } else {
-                next
-            };
-            pivot[l] = next;
-            count[l] += if next < 0.0 { 1.0 } else { 0.0 };
+        for g in 0..GROUPS {
+            for l in 0..WIDTH {
+                let next = d - shifts[g][l] - square / pivot[g][l];
+                let next = if next.abs() < smallest {
+                    -smallest
+                } else {
+                    next
+                };
+                pivot[g][l] = next;
+                count[g][l] += if next < 0.0 { 1.0 } else { 0.0 };
+            }
         }
     }
     count
@@ -306,5 +365,28 @@ mod tests {
             assert!((a - b).abs() < 1.0e-13, "{a} {b}");
         }
         assert!(orthogonality(&vectors) < 1.0e-11);
+    }
+
+    /// The last group takes part with copies of itself where groups run out.
+    #[test]
+    fn eigenvalues_do_not_depend_on_those_bisected_at_the_same_time() {
+        let mut seed = 11;
+        let n = 8 * WIDTH * GROUPS + 2 * WIDTH + 3;
+        let storeys: Vec<f64> = (0..n).map(|_| 1.5 + random(&mut seed)).collect();
+        let matrix = SymmetricTridiagonal::chain(&storeys);
+        let squares: Vec<f64> = matrix.off_diagonal.iter().map(|e| e * e).collect();
+        let bounds = gershgorin(&matrix);
+        let norm = bounds.1;
+        let values = eigenvalues(&matrix, bounds, norm);
+        let slack = 2.0 * f64::EPSILON * norm;
+        for (group, values) in values.chunks(WIDTH).enumerate() {
+            let index = std::array::from_fn(|l| (group * WIDTH + l).min(n - 1) as f64);
+            let mut alone = Bracket::new(index, (bounds.0 - slack, bounds.1 + slack));
+            while alone.open {
+                let shifts = [alone.middle; GROUPS];
+                alone.halve(&counts_below(&matrix.diagonal, &squares, &shifts, norm)[0]);
+            }
+            assert_eq!(values, &alone.middle[..values.len()]);
+        }
     }
 }

@@ -7,8 +7,8 @@ use crate::dynamics::Layout;
 use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
 use crate::error::TimeHistoryError;
 use crate::free_flight::{
-    FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring, step_over,
-    transform,
+    Four, FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring,
+    step_over, transform_fours,
 };
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{Recorder, Sample, StepView, fill};
@@ -16,6 +16,11 @@ use crate::system::System;
 
 /// Lengths of parts of a sample whose exact steps are kept.
 const PARTS: usize = 64;
+
+/// Times whose floors are worked out together.
+pub(crate) const AT_ONCE: usize = 4;
+/// Displacement, velocity and absolute acceleration.
+const QUANTITIES: usize = 3;
 
 /// What observers of a run need beside the step: room, and who they are.
 pub(crate) struct Observers<'a, 'b> {
@@ -32,7 +37,10 @@ pub(crate) struct Room {
     displacement: Vec<Lane>,
     velocity: Vec<Lane>,
     absolute: Vec<Lane>,
-    floors: Vec<Lane>,
+    /// What is to be filled in for the times asked for, and the floors' motion then.
+    kept: [Kept; AT_ONCE],
+    floors: [[Vec<Lane>; 4]; QUANTITIES],
+    all: Vec<bool>,
     /// The whole state.
     state: Vec<f64>,
     /// Contact forces of all levels (N).
@@ -46,6 +54,14 @@ pub(crate) struct Room {
     oldest: usize,
 }
 
+/// Motion of the modes, works and contact forces at one time.
+#[derive(Debug)]
+struct Kept {
+    modal: [Vec<Lane>; QUANTITIES],
+    works: Vec<f64>,
+    forces: Vec<f64>,
+}
+
 impl Room {
     pub(crate) fn new(system: &System) -> Self {
         let layout = Layout::of(system);
@@ -55,7 +71,13 @@ impl Room {
             displacement: zeros(),
             velocity: zeros(),
             absolute: zeros(),
-            floors: zeros(),
+            kept: std::array::from_fn(|_| Kept {
+                modal: std::array::from_fn(|_| zeros()),
+                works: vec![0.0; layout.dimension() - 2 * layout.dofs],
+                forces: vec![0.0; layout.levels],
+            }),
+            floors: std::array::from_fn(|_| std::array::from_fn(|_| zeros())),
+            all: vec![true; lanes],
             state: vec![0.0; layout.dimension()],
             forces: vec![0.0; layout.levels],
             series: Series::new(lanes, layout.levels),
@@ -136,9 +158,71 @@ impl<'a, 'b> Observers<'a, 'b> {
 }
 
 impl ModalStep<'_> {
-    /// Responses at a time inside the step.
-    pub(crate) fn sample(&self, time: f64, room: &mut Room, out: &mut Sample) {
-        let offset = (time - self.start).clamp(0.0, self.length);
+    /// Responses at times inside the step.
+    pub(crate) fn samples(&self, times: &[f64], room: &mut Room, out: &mut [Sample]) {
+        let groups = times.chunks(AT_ONCE).zip(out.chunks_mut(AT_ONCE));
+        for (times, out) in groups {
+            self.few_samples(times, room, out);
+        }
+    }
+
+    /// The same at [`AT_ONCE`] times at most, with one pass over the mode shapes.
+    fn few_samples(&self, times: &[f64], room: &mut Room, out: &mut [Sample]) {
+        let n = Layout::of(self.system).dofs;
+        for (k, time) in times.iter().enumerate() {
+            self.move_to(self.offset(*time), room);
+            let kept = &mut room.kept[k];
+            let [q, p, a] = &mut kept.modal;
+            std::mem::swap(q, &mut room.displacement);
+            std::mem::swap(p, &mut room.velocity);
+            std::mem::swap(a, &mut room.absolute);
+            kept.works.copy_from_slice(&room.state[2 * n..]);
+            kept.forces.copy_from_slice(&room.forces);
+        }
+        self.to_floors(times.len(), room);
+        for (k, (time, out)) in times.iter().zip(out).enumerate() {
+            let [displacement, velocity, absolute] = std::array::from_fn(|quantity| {
+                let column = k * QUANTITIES + quantity;
+                &room.floors[column / 4][column % 4]
+            });
+            gather(displacement, &mut room.state[..n]);
+            gather(velocity, &mut room.state[n..2 * n]);
+            out.acceleration_absolute.resize(n, 0.0);
+            gather(absolute, &mut out.acceleration_absolute);
+            let kept = &room.kept[k];
+            room.state[2 * n..].copy_from_slice(&kept.works);
+            let ground = self.ground.0 + self.ground.1 * self.offset(*time);
+            let motion = (room.state.as_slice(), kept.forces.as_slice());
+            fill(self.system, self.contacts, (*time, ground), motion, out);
+        }
+    }
+
+    fn offset(&self, time: f64) -> f64 {
+        (time - self.start).clamp(0.0, self.length)
+    }
+
+    /// The floors' motion at so many of the times that are kept.
+    fn to_floors(&self, times: usize, room: &mut Room) {
+        let Room {
+            kept, floors, all, ..
+        } = room;
+        let last = times * QUANTITIES - 1;
+        let [first, second, third] = floors;
+        let four = |number: usize, floors| Four {
+            modal: std::array::from_fn(|v| {
+                // What is left of the last four repeats the last column.
+                let column = (4 * number + v).min(last);
+                kept[column / QUANTITIES].modal[column % QUANTITIES].as_slice()
+            }),
+            floors,
+            wanted: all,
+        };
+        let mut fours = [four(0, first), four(1, second), four(2, third)];
+        transform_fours(&self.constants.shapes, &mut fours[..=last / 4]);
+    }
+
+    /// Motion of the modes, works and contact forces `offset` (s) after the start.
+    fn move_to(&self, offset: f64, room: &mut Room) {
         let layout = Layout::of(self.system);
         let n = layout.dofs;
         room.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
@@ -150,16 +234,6 @@ impl ModalStep<'_> {
         };
         room.state[layout.input()] += works.0;
         room.state[layout.viscous()] += works.1;
-        for (modal, place) in [(&room.displacement, 0), (&room.velocity, n)] {
-            transform(&self.constants.shapes, modal, &mut room.floors);
-            gather(&room.floors, &mut room.state[place..place + n]);
-        }
-        transform(&self.constants.shapes, &room.absolute, &mut room.floors);
-        out.acceleration_absolute.resize(n, 0.0);
-        gather(&room.floors, &mut out.acceleration_absolute);
-        let ground = self.ground.0 + self.ground.1 * offset;
-        let motion = (room.state.as_slice(), room.forces.as_slice());
-        fill(self.system, self.contacts, (time, ground), motion, out);
     }
 
     /// Greatest value above `floor` that the displacement of the left floor less that of the

@@ -235,15 +235,11 @@ impl<'a> Dynamics<'a> {
             let carried = element.carried * element.relative(u);
             element.pull(force - carried, &mut self.net);
         }
-        self.stuck.clear();
+        self.list_stuck(contacts);
         for &l in contacts.closed() {
-            let Some(contact) = contacts.contact(l) else {
+            let Some(contact) = contacts.contact(l).filter(|c| !c.is_stuck()) else {
                 continue;
             };
-            if contact.is_stuck() {
-                self.stuck.push(l);
-                continue;
-            }
             let level = &self.system.levels()[l];
             let force = contact
                 .force(
@@ -303,13 +299,84 @@ impl<'a> Dynamics<'a> {
         Some(force / system.mass()[i] - ground)
     }
 
-    /// Adds the forces that keep the relative accelerations of stuck levels zero.
-    fn hold(&mut self, accelerations: &mut [f64]) {
+    /// Contact forces of the levels that are stuck, into [`Dynamics::forces`], from the
+    /// components `at` of the state that their own floors call for: the bits of
+    /// [`Dynamics::accelerations`] for little of its work where damping couples many floors.
+    /// Returns false, and does nothing, where it would not be so.
+    pub(crate) fn hold_alone(
+        &mut self,
+        contacts: &Contacts,
+        ground: f64,
+        at: &impl Fn(usize) -> f64,
+    ) -> bool {
+        let system = self.system;
+        if !system.elements().is_empty() || system.bands().is_some() {
+            return false;
+        }
+        self.list_stuck(contacts);
+        self.solve_holding(|dynamics, level| {
+            level.relative_of(|i| dynamics.released_acceleration_of(contacts, (i, ground), at))
+        });
+        true
+    }
+
+    /// Acceleration of floor `i` alone relative to the ground (m/s2) while levels are stuck,
+    /// after [`Dynamics::hold_alone`] at the same place.
+    pub(crate) fn held_acceleration_of(
+        &self,
+        contacts: &Contacts,
+        (i, ground): (usize, f64),
+        at: &impl Fn(usize) -> f64,
+    ) -> f64 {
+        let mut net = 0.0;
+        for &l in &self.stuck {
+            push_floor(&self.system.levels()[l], self.forces[l], i, &mut net);
+        }
+        self.released_acceleration_of(contacts, (i, ground), at) + net / self.system.mass()[i]
+    }
+
+    /// Acceleration of floor `i` without the forces that hold stuck levels.
+    fn released_acceleration_of(
+        &self,
+        contacts: &Contacts,
+        (i, ground): (usize, f64),
+        at: &impl Fn(usize) -> f64,
+    ) -> f64 {
+        let (n, system) = (self.layout.dofs, self.system);
+        let rate = |j: usize| at(n + j);
+        let mut net = 0.0;
+        for &l in contacts.closed() {
+            let level = &system.levels()[l];
+            if level.left != Some(i) && level.right != Some(i) {
+                continue;
+            }
+            if let Some(contact) = contacts.contact(l).filter(|c| !c.is_stuck()) {
+                let penetration = level.relative_of(at) - contacts.width(l);
+                let force = contact.force(level, penetration, level.relative_of(rate));
+                push_floor(level, force.value, i, &mut net);
+            }
+        }
+        (-system.resistance_of(i, at, &rate) + net) / system.mass()[i] - ground
+    }
+
+    /// Collects the levels that are stuck.
+    fn list_stuck(&mut self, contacts: &Contacts) {
+        let stuck = |l: &usize| contacts.contact(*l).is_some_and(|c| c.is_stuck());
+        self.stuck.clear();
+        let levels = contacts.closed().iter().copied();
+        self.stuck.extend(levels.filter(stuck));
+    }
+
+    /// Solves for the forces that keep the relative accelerations of stuck levels zero, from
+    /// those that they would have without them.
+    fn solve_holding(&mut self, relative: impl Fn(&Self, &ContactLevel) -> f64) {
         let (levels, mass) = (self.system.levels(), self.system.mass());
         self.matrix.clear();
         self.right.clear();
-        for &l in &self.stuck {
-            self.right.push(levels[l].relative(accelerations));
+        for k in 0..self.stuck.len() {
+            let l = self.stuck[k];
+            let right = relative(self, &levels[l]);
+            self.right.push(right);
             for &m in &self.stuck {
                 self.matrix.push(coupling(&levels[l], &levels[m], mass));
             }
@@ -319,10 +386,18 @@ impl<'a> Dynamics<'a> {
         if !self.solver.solve(&self.matrix, &mut self.right) {
             self.right.fill(f64::NAN);
         }
+        for (l, force) in self.stuck.iter().zip(&self.right) {
+            self.forces[*l] = *force;
+        }
+    }
+
+    /// Adds the forces that keep the relative accelerations of stuck levels zero.
+    fn hold(&mut self, accelerations: &mut [f64]) {
+        self.solve_holding(|_, level| level.relative(accelerations));
+        let (levels, mass) = (self.system.levels(), self.system.mass());
         self.net.fill(0.0);
-        for (k, &l) in self.stuck.iter().enumerate() {
-            self.forces[l] = self.right[k];
-            push_apart(&levels[l], self.right[k], &mut self.net);
+        for &l in &self.stuck {
+            push_apart(&levels[l], self.forces[l], &mut self.net);
         }
         for ((a, f), m) in accelerations.iter_mut().zip(&self.net).zip(mass) {
             *a += f / m;
@@ -342,6 +417,16 @@ pub(crate) fn push_apart(level: &ContactLevel, force: f64, net: &mut [f64]) {
     }
 }
 
+/// The same for floor `i` alone.
+fn push_floor(level: &ContactLevel, force: f64, i: usize, net: &mut f64) {
+    if level.left == Some(i) {
+        *net -= force;
+    }
+    if level.right == Some(i) {
+        *net += force;
+    }
+}
+
 /// Relative acceleration at level `a` caused by a unit force that pulls the
 /// floors of level `b` together: `g_a' M^-1 g_b`.
 pub(crate) fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 {
@@ -351,4 +436,94 @@ pub(crate) fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 
     };
     (term(a.left, b.left, 1.0) + term(a.right, b.right, 1.0))
         + (term(a.left, b.right, -1.0) + term(a.right, b.left, -1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use std::sync::Arc;
+
+    use pounding_gap_element::{Memory, ModelParameters, Phase, registry};
+    use pounding_shear_building::{Damping, ShearBuilding};
+
+    use super::*;
+    use crate::contact::Contact;
+    use crate::system::{Floor, GroundAcceleration};
+
+    /// Two buildings with modal damping and a wall on the right: levels 0 and 2 of the gap
+    /// and that of the wall are stuck, level 1 of the gap is in approach, level 3 is open.
+    fn held(storeys: [usize; 2]) -> (System, Contacts) {
+        let building = |name: &str, n: usize| {
+            let of = |base: f64, step: f64| (0..n).map(|i| base + step * i as f64).collect();
+            let damping = Damping::Modal { ratios: vec![0.05] };
+            let (mass, stiffness) = (of(45.0e3, 117.0), of(5.482e6, -3019.0));
+            let heights = vec![3.0; n];
+            Arc::new(ShearBuilding::new(name.into(), mass, stiffness, heights, damping).unwrap())
+        };
+        let buildings = vec![building("left", storeys[0]), building("right", storeys[1])];
+        let ground = GroundAcceleration {
+            samples: vec![0.0; 2].into(),
+            time_step: 0.01,
+        };
+        let mut system = System::new(buildings, ground);
+        let parameters =
+            ModelParameters::from_pairs(&[("stiffness", 93.5e6), ("restitution", 0.65)]);
+        let model: Arc<dyn pounding_gap_element::ImpactModel> =
+            registry::build("anagnostopoulos_1988", &parameters)
+                .unwrap()
+                .into();
+        let pair = |left, right| (left, right, 0.01, Arc::clone(&model));
+        let across = (0..4).map(|s| pair(Floor::Storey(0, s), Floor::Storey(1, s)));
+        let names = |a: &str, b: &str| [a.to_owned(), b.to_owned()];
+        system
+            .add_gap("gap", names("left", "right"), across.collect())
+            .unwrap();
+        let last = vec![pair(Floor::Storey(1, 2), Floor::Wall)];
+        system.add_gap("end", names("right", "wall"), last).unwrap();
+        let mut contacts = Contacts::all_open(&system);
+        for (level, phase) in [
+            (0, Phase::Stuck),
+            (1, Phase::Approach),
+            (2, Phase::Stuck),
+            (4, Phase::Stuck),
+        ] {
+            let mass = system.levels()[level].effective_mass;
+            let contact = Contact {
+                phase,
+                collision: model.begin(0.3, mass),
+                memory: Memory::default(),
+            };
+            contacts.close(level, contact);
+        }
+        (system, contacts)
+    }
+
+    #[test]
+    fn floors_that_are_held_have_the_same_bits_each_alone_as_together() {
+        for storeys in [[13, 9], [150, 37]] {
+            let (system, contacts) = held(storeys);
+            let mut dynamics = Dynamics::new(&system);
+            let n = dynamics.layout.dofs;
+            let state: Vec<f64> = (0..dynamics.layout.dimension())
+                .map(|k| 0.02 * ((3 * k) as f64).sin())
+                .collect();
+            let ground = -1.37;
+            let mut together = vec![0.0; n];
+            let now = Instant::committed(ground);
+            dynamics.accelerations(&contacts, now, &state, &mut together);
+            let forces = dynamics.forces.clone();
+            assert!(forces[0].abs() > 1.0 && forces[4].abs() > 1.0, "{forces:?}");
+            dynamics.forces.fill(f64::NAN);
+            let at = |k: usize| state[k];
+            assert!(dynamics.hold_alone(&contacts, ground, &at));
+            for l in [0, 2, 4] {
+                assert_eq!(dynamics.forces[l].to_bits(), forces[l].to_bits(), "{l}");
+            }
+            for (i, together) in together.iter().enumerate() {
+                let alone = dynamics.held_acceleration_of(&contacts, (i, ground), &at);
+                assert_eq!(alone.to_bits(), together.to_bits(), "floor {i}");
+            }
+        }
+    }
 }

@@ -202,7 +202,7 @@ impl Finder {
         if upper { high - holding } else { holding - low }
     }
 
-    /// Contact force of a level at `theta` of the step, by a full evaluation.
+    /// Holding force of a level that is stuck, at `theta` of the step.
     pub(crate) fn force_at(
         &mut self,
         context: &mut Context<'_, '_>,
@@ -214,10 +214,12 @@ impl Finder {
             *y = value(method.polynomial(i), theta);
         }
         let ground = context.segment.ground(tau + theta * step);
-        let now = Instant::within(ground, method.information().implicit, theta * step);
-        context
-            .dynamics
-            .accelerations(context.contacts, now, &self.state, &mut self.acceleration);
+        let (contacts, state) = (context.contacts, &self.state);
+        if !context.dynamics.hold_alone(contacts, ground, &|k| state[k]) {
+            let now = Instant::within(ground, method.information().implicit, theta * step);
+            let out = &mut self.acceleration;
+            context.dynamics.accelerations(contacts, now, state, out);
+        }
         context.dynamics.forces[level]
     }
 }

@@ -238,6 +238,13 @@ impl Peaks {
                 peak.raise((own + ground).abs(), time);
                 return;
             }
+            if context.dynamics.hold_alone(contacts, ground, &at) {
+                let floor = (i, ground);
+                let own = (context.dynamics).held_acceleration_of(contacts, floor, &at);
+                let peak = &mut self.storeys[i].acceleration_absolute;
+                peak.raise((own + ground).abs(), time);
+                return;
+            }
         }
         if theta != self.at[place] {
             self.at[place] = theta;

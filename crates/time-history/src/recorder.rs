@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::contact::Contacts;
-use crate::dense_output::{ModalStep, Room};
+use crate::dense_output::{AT_ONCE, ModalStep, Room};
 use crate::dynamics::{Dynamics, Instant, Layout};
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
@@ -104,9 +104,19 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
     /// Responses at a time inside the step, by the method's interpolant;
     /// accelerations and forces by the equations of motion there.
     pub fn sample(&mut self, time: f64, out: &mut Sample) {
+        self.samples(&[time], std::slice::from_mut(out));
+    }
+
+    /// The same at several times, into as many samples: less work than one after another
+    /// where buildings are tall.
+    pub fn samples(&mut self, times: &[f64], out: &mut [Sample]) {
         match &mut self.source {
-            Source::Method(step) => step.sample(time, out),
-            Source::Modes(step, room) => step.sample(time, room, out),
+            Source::Method(step) => {
+                for (time, out) in times.iter().zip(out) {
+                    step.sample(*time, out);
+                }
+            }
+            Source::Modes(step, room) => step.samples(times, room, out),
         }
     }
 
@@ -400,8 +410,8 @@ pub struct GridRecorder<S = History> {
     count: usize,
     /// What takes them.
     pub responses: S,
-    /// Work space for one of them.
-    sample: Sample,
+    /// Work space for a few of them.
+    samples: [Sample; AT_ONCE],
 }
 
 impl GridRecorder {
@@ -425,7 +435,7 @@ impl<S: SampleSink> GridRecorder<S> {
                 step,
                 count: 0,
                 responses: sink,
-                sample: Sample::default(),
+                samples: Default::default(),
             })
         } else {
             Err(TimeHistoryError::Option {
@@ -451,14 +461,20 @@ impl<S: SampleSink> Recorder for GridRecorder<S> {
         } else {
             0.0
         };
+        let end = step.end() + slack;
         loop {
-            let time = self.count as f64 * self.step;
-            if time > step.end() + slack {
+            let next = self.count;
+            let times: [f64; AT_ONCE] = std::array::from_fn(|k| (next + k) as f64 * self.step);
+            let within = times.iter().take_while(|time| !(**time > end)).count();
+            if within == 0 {
                 return Ok(());
             }
-            step.sample(time, &mut self.sample);
-            self.count += 1;
-            self.responses.take(&self.sample)?;
+            let samples = &mut self.samples[..within];
+            step.samples(&times[..within], samples);
+            self.count += within;
+            for sample in samples {
+                self.responses.take(sample)?;
+            }
         }
     }
 }

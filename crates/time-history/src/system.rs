@@ -451,10 +451,15 @@ impl System {
 impl ContactLevel {
     /// Left minus right of any quantity given per degree of freedom.
     pub(crate) fn relative(&self, x: &[f64]) -> f64 {
+        self.relative_of(|i| x[i])
+    }
+
+    /// The same, which calls for no more of the quantity than it needs.
+    pub(crate) fn relative_of(&self, x: impl Fn(usize) -> f64) -> f64 {
         match (self.left, self.right) {
-            (Some(l), Some(r)) => x[l] - x[r],
-            (Some(l), None) => x[l],
-            (None, Some(r)) => -x[r],
+            (Some(l), Some(r)) => x(l) - x(r),
+            (Some(l), None) => x(l),
+            (None, Some(r)) => -x(r),
             (None, None) => 0.0,
         }
     }

@@ -70,6 +70,35 @@ impl ModalRow {
         total(&sum)
     }
 
+    /// Its values for displacements that stand one after another, so many lanes each.
+    pub(crate) fn dot_all(&self, x: &[Lane], lanes: usize, out: &mut [f64]) {
+        dot_all(self, x, lanes, out);
+    }
+
+    /// Four values in the time of one, with the bits of [`ModalRow::dot`].
+    #[inline(always)]
+    fn dot_four(&self, [a, b, c, d]: [&[Lane]; 4]) -> [f64; 4] {
+        let mut sums = [Lane::ZERO; 4];
+        let end = self.first_lane + self.weights.len();
+        let within = self.first_lane..end;
+        let (a, b) = (&a[within.clone()], &b[within.clone()]);
+        let (c, d) = (&c[within.clone()], &d[within]);
+        for (i, w) in self.weights.iter().enumerate() {
+            let (w, x) = (*w, [a[i], b[i], c[i], d[i]]);
+            for v in 0..4 {
+                for l in 0..WIDTH {
+                    sums[v][l] += w[l] * x[v][l];
+                }
+            }
+        }
+        [
+            total(&sums[0]),
+            total(&sums[1]),
+            total(&sums[2]),
+            total(&sums[3]),
+        ]
+    }
+
     /// Product of two rows.
     pub(crate) fn product(&self, other: &Self) -> f64 {
         let ends = [self, other].map(|r| r.first_lane + r.weights.len());
@@ -120,6 +149,26 @@ pub(crate) fn total(x: &Lane) -> f64 {
     let half: [f64; 4] = std::array::from_fn(|l| x[l] + x[l + 4]);
     let quarter = [half[0] + half[2], half[1] + half[3]];
     quarter[0] + quarter[1]
+}
+
+/// Values of a row for displacements that stand one after another.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn dot_all(row: &ModalRow, x: &[Lane], lanes: usize, out: &mut [f64]) {
+    let mut place = 0;
+    let at = |k: usize| &x[k * lanes..(k + 1) * lanes];
+    while place + 4 <= out.len() {
+        let four = [at(place), at(place + 1), at(place + 2), at(place + 3)];
+        out[place..place + 4].copy_from_slice(&row.dot_four(four));
+        place += 4;
+    }
+    for k in place..out.len() {
+        out[k] = row.dot(at(k));
+    }
 }
 
 /// Closings of all levels (m) at these displacements of the modes.
@@ -214,5 +263,29 @@ impl LevelRows {
         };
         let levels: Vec<_> = system.levels().iter().map(row).collect();
         Self { levels }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_values_of_a_row_have_the_bits_of_one_after_another() {
+        let lane = |seed: usize| Lane::from_fn(|l| ((seed * WIDTH + l) as f64).sin());
+        let lanes = 53;
+        let x: Vec<Lane> = (0..lanes * 23).map(|c| lane(c + 7)).collect();
+        let row = ModalRow {
+            first_lane: 5,
+            weights: (0..31).map(lane).collect(),
+        };
+        for count in [1, 4, 6, 23] {
+            let mut all = vec![f64::NAN; count];
+            row.dot_all(&x, lanes, &mut all);
+            for (k, value) in all.iter().enumerate() {
+                let one = row.dot(&x[k * lanes..(k + 1) * lanes]);
+                assert_eq!(value.to_bits(), one.to_bits(), "{k} of {count}");
+            }
+        }
     }
 }

@@ -317,9 +317,7 @@ impl Series {
 
     fn along(&self, row: &ModalRow, terms: &[Lane]) -> Terms {
         let mut out = [0.0; TERMS];
-        for (out, lanes) in out[..=self.last].iter_mut().zip(terms.chunks(self.lanes)) {
-            *out = row.dot(lanes);
-        }
+        row.dot_all(terms, self.lanes, &mut out[..=self.last]);
         out
     }
 

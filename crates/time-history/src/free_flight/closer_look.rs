@@ -4,7 +4,7 @@
 use super::candidates::Quantity;
 use super::constants::{Fine, FreeFlight};
 use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
-use super::transform::transform_four;
+use super::transform::{Four, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
@@ -13,7 +13,8 @@ use crate::polynomial::{Polynomial, difference, septic};
 struct Point {
     modes: [Vec<Lane>; 5],
     floors: [Vec<Lane>; 4],
-    /// Absolute acceleration with three derivatives.
+    /// Absolute acceleration with three derivatives, of the modes and of the floors.
+    restoring: [Vec<Lane>; 4],
     absolute: [Vec<Lane>; 4],
     absolute_known: bool,
 }
@@ -24,7 +25,6 @@ pub(super) struct CloserLook {
     start: Point,
     end: Point,
     step: f64,
-    modal: [Vec<Lane>; 4],
     fresh: bool,
     /// Lanes of floors whose displacements, or accelerations, are asked for.
     wanted: [Vec<bool>; 2],
@@ -36,14 +36,15 @@ impl Point {
         Self {
             modes: std::array::from_fn(|_| zeros()),
             floors: std::array::from_fn(|_| zeros()),
+            restoring: std::array::from_fn(|_| zeros()),
             absolute: std::array::from_fn(|_| zeros()),
             absolute_known: false,
         }
     }
 
-    /// Derivatives from displacements and velocities of the modes by the equation of
+    /// Derivatives of the modes from their displacements and velocities by the equation of
     /// motion and its derivatives.
-    fn derive(&mut self, constants: &FreeFlight, (ground, slope): (f64, f64), wanted: &[bool]) {
+    fn derive(&mut self, constants: &FreeFlight, (ground, slope): (f64, f64)) {
         for (c, m) in constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let (damping, gamma) = (m.damping[l], m.participation[l]);
@@ -56,29 +57,34 @@ impl Point {
                 self.modes[4][c][l] = -damping * third - stiffness * second;
             }
         }
-        let [a, b, c, d, _] = &self.modes;
-        let floors = &mut self.floors;
-        transform_four(&constants.shapes, [a, b, c, d], floors, wanted);
         self.absolute_known = false;
     }
 
-    fn derive_absolute(
-        &mut self,
-        constants: &FreeFlight,
-        modal: &mut [Vec<Lane>; 4],
-        wanted: &[bool],
-    ) {
-        if self.absolute_known {
-            return;
-        }
+    /// The same of absolute acceleration.
+    fn derive_absolute(&mut self, constants: &FreeFlight) {
         for k in 0..4 {
             let (q, p) = (&self.modes[k], &self.modes[k + 1]);
-            restoring(&constants.modes, q, p, &mut modal[k]);
+            restoring(&constants.modes, q, p, &mut self.restoring[k]);
         }
-        let [a, b, c, d] = &*modal;
-        let floors = &mut self.absolute;
-        transform_four(&constants.shapes, [a, b, c, d], floors, wanted);
         self.absolute_known = true;
+    }
+
+    /// What is to be transformed for the floors: their motion, and their absolute
+    /// acceleration.
+    fn fours<'a>(&'a mut self, [moving, absolute]: [&'a [bool]; 2]) -> [Four<'a>; 2] {
+        let [a, b, c, d, _] = &self.modes;
+        let motion = Four {
+            modal: [a, b, c, d],
+            floors: &mut self.floors,
+            wanted: moving,
+        };
+        let [a, b, c, d] = &self.restoring;
+        let absolute = Four {
+            modal: [a, b, c, d],
+            floors: &mut self.absolute,
+            wanted: absolute,
+        };
+        [motion, absolute]
     }
 }
 
@@ -88,7 +94,6 @@ impl CloserLook {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
-            modal: std::array::from_fn(|_| vec![Lane::ZERO; lanes]),
             fresh: false,
             wanted: [vec![false; lanes], vec![false; lanes]],
         }
@@ -120,10 +125,9 @@ impl CloserLook {
 
     /// Goes on by one fine step.
     pub(super) fn advance(&mut self, constants: &FreeFlight, fine: &Fine, ground: Ground) {
-        if self.fresh {
-            let load = (ground.start, ground.slope);
-            self.end.derive(constants, load, &self.wanted[0]);
-            self.fresh = false;
+        let fresh = std::mem::take(&mut self.fresh);
+        if fresh {
+            self.end.derive(constants, (ground.start, ground.slope));
         }
         std::mem::swap(&mut self.start, &mut self.end);
         for (c, m) in fine.modes.iter().enumerate() {
@@ -134,9 +138,40 @@ impl CloserLook {
             );
             (self.end.modes[0][c], self.end.modes[1][c]) = (q, p);
         }
-        let load = (ground.end, ground.slope);
-        self.end.derive(constants, load, &self.wanted[0]);
+        self.end.derive(constants, (ground.end, ground.slope));
         self.step = fine.step;
+        let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
+        let shapes = &constants.shapes;
+        if !fresh {
+            let [motion, _] = self.end.fours([moving, absolute]);
+            transform_fours(shapes, &mut [motion]);
+            return;
+        }
+        // Both ends in one pass, with the accelerations that are sure to be asked for.
+        let accelerations = absolute.contains(&true);
+        if accelerations {
+            self.start.derive_absolute(constants);
+            self.end.derive_absolute(constants);
+        }
+        let [first, second] = self.start.fours([moving, absolute]);
+        let [third, fourth] = self.end.fours([moving, absolute]);
+        if accelerations {
+            transform_fours(shapes, &mut [first, second, third, fourth]);
+        } else {
+            transform_fours(shapes, &mut [first, third]);
+        }
+    }
+
+    /// Absolute accelerations at both ends, where they are not known.
+    fn derive_absolute(&mut self, constants: &FreeFlight) {
+        let wanted = [&self.wanted[0], &self.wanted[1]].map(Vec::as_slice);
+        for point in [&mut self.start, &mut self.end] {
+            if !point.absolute_known {
+                point.derive_absolute(constants);
+                let [_, absolute] = point.fours(wanted);
+                transform_fours(&constants.shapes, &mut [absolute]);
+            }
+        }
     }
 
     fn polynomial(&self, floor: usize) -> Polynomial {
@@ -172,9 +207,7 @@ impl CloserLook {
                 }
             }
             Quantity::Acceleration => {
-                let (modal, wanted) = (&mut self.modal, &self.wanted[1]);
-                self.start.derive_absolute(constants, modal, wanted);
-                self.end.derive_absolute(constants, modal, wanted);
+                self.derive_absolute(constants);
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
                 septic(at(&self.start), at(&self.end))
             }

@@ -25,4 +25,4 @@ pub(crate) use lanes::{
     Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
     restoring, scale, spread,
 };
-pub(crate) use transform::{to_floors, transform, transform_four};
+pub(crate) use transform::{Four, to_floors, transform, transform_fours};

@@ -36,39 +36,156 @@ pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
     }
 }
 
-/// Four at once, for the lanes of floors that are wanted; the others are left as they are.
+/// Four transformations that have their lanes of floors in common.
+pub(crate) struct Four<'a> {
+    pub modal: [&'a [Lane]; 4],
+    pub floors: &'a mut [Vec<Lane>; 4],
+    /// Lanes of floors that are wanted; the others are left as they are.
+    pub wanted: &'a [bool],
+}
+
+/// Fours at once.
+const FOURS: usize = 4;
+/// Modes that all floors take before the next ones: their columns then stay in the cache
+/// until all fours have them.
+const STRIP: usize = 64;
+
+/// Modal values of a strip, four after four for every mode.
+type Packed = [[[f64; 4]; FOURS]; STRIP];
+
+/// Many transformations in one pass, each with the bits of [`transform`]: the mode shapes of a
+/// tall building are larger than the cache, so that reading them is most of the work of one.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn transform_four(
-    shapes: &[Shapes],
-    modal: [&[Lane]; 4],
-    floors: &mut [Vec<Lane>; 4],
-    wanted: &[bool],
-) {
-    for floors in floors.iter_mut() {
-        for (lane, _) in floors.iter_mut().zip(wanted).filter(|(_, w)| **w) {
-            *lane = Lane::ZERO;
+pub(crate) fn transform_fours(shapes: &[Shapes], fours: &mut [Four<'_>]) {
+    for four in fours.iter_mut() {
+        for floors in four.floors.iter_mut() {
+            for (lane, _) in floors.iter_mut().zip(four.wanted).filter(|(_, w)| **w) {
+                *lane = Lane::ZERO;
+            }
         }
     }
-    for building in shapes {
-        for k in (0..building.lanes).filter(|k| wanted[building.first_lane + k]) {
-            let columns = &building.columns[k * building.modes..(k + 1) * building.modes];
-            let lane = building.first_lane + k;
-            let mut sums: [Lane; 4] = std::array::from_fn(|v| floors[v][lane]);
-            for (j, column) in columns.iter().enumerate() {
-                for (sum, modal) in sums.iter_mut().zip(modal) {
-                    let x = at(modal, building.first_mode + j);
-                    for l in 0..WIDTH {
-                        sum[l] += column[l] * x;
+    let mut packed: Packed = [[[0.0; 4]; FOURS]; STRIP];
+    for fours in fours.chunks_mut(FOURS) {
+        for building in shapes {
+            for first in (0..building.modes).step_by(STRIP) {
+                let modes = first..building.modes.min(first + STRIP);
+                for (packed, mode) in packed.iter_mut().zip(modes.clone()) {
+                    for (packed, four) in packed.iter_mut().zip(fours.iter()) {
+                        for v in 0..4 {
+                            packed[v] = at(four.modal[v], building.first_mode + mode);
+                        }
+                    }
+                }
+                for k in 0..building.lanes {
+                    let row = &building.columns[k * building.modes..(k + 1) * building.modes];
+                    let lane = building.first_lane + k;
+                    for (place, four) in fours.iter_mut().enumerate() {
+                        if four.wanted[lane] {
+                            add_strip(&row[modes.clone()], &packed, place, lane, four);
+                        }
                     }
                 }
             }
-            for (floors, sum) in floors.iter_mut().zip(sums) {
-                floors[lane] = sum;
+        }
+    }
+}
+
+/// Adds the columns of a strip of modes to one lane of floors.
+#[inline(always)]
+fn add_strip(columns: &[Lane], packed: &Packed, place: usize, lane: usize, four: &mut Four<'_>) {
+    let mut sums = [Lane::ZERO; 4];
+    for v in 0..4 {
+        sums[v] = four.floors[v][lane];
+    }
+    for (column, packed) in columns.iter().zip(packed) {
+        let (column, modal) = (*column, packed[place]);
+        for v in 0..4 {
+            for l in 0..WIDTH {
+                sums[v][l] += column[l] * modal[v];
+            }
+        }
+    }
+    for v in 0..4 {
+        four.floors[v][lane] = sums[v];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two buildings that share a lane, taller than a strip.
+    fn shapes(counts: [usize; 2]) -> Vec<Shapes> {
+        let mut first = 0;
+        let building = |modes: usize| {
+            let (first_mode, first_lane) = (first, first / WIDTH);
+            let lanes = (first + modes).div_ceil(WIDTH) - first_lane;
+            let within = first..first + modes;
+            let columns = (0..lanes * modes).map(|c| {
+                Lane::from_fn(|l| {
+                    let floor = (first_lane + c / modes) * WIDTH + l;
+                    let entry = ((floor * 7 + c % modes * 13) as f64).sin();
+                    if within.contains(&floor) { entry } else { 0.0 }
+                })
+            });
+            let columns = columns.collect();
+            first += modes;
+            Shapes {
+                first_lane,
+                lanes,
+                first_mode,
+                modes,
+                columns,
+            }
+        };
+        counts.map(building).into()
+    }
+
+    #[test]
+    fn many_at_once_have_the_bits_of_one_after_another() {
+        let counts = [150_usize, 221];
+        let lanes = (counts[0] + counts[1]).div_ceil(WIDTH);
+        let shapes = shapes(counts);
+        let modal: Vec<Vec<Lane>> = (0..20)
+            .map(|v| {
+                let value = |c: usize, l: usize| ((c * WIDTH + l + 31 * v) as f64).cos();
+                (0..lanes).map(|c| Lane::from_fn(|l| value(c, l))).collect()
+            })
+            .collect();
+        let kept = Lane::from_fn(|_| 0.25);
+        let mut floors: Vec<[Vec<Lane>; 4]> = (0..5)
+            .map(|_| std::array::from_fn(|_| vec![kept; lanes]))
+            .collect();
+        let wanted: Vec<Vec<bool>> = (0..5)
+            .map(|four| {
+                (0..lanes)
+                    .map(|c| four == 0 || (c + four) % 3 > 0)
+                    .collect()
+            })
+            .collect();
+        let mut fours: Vec<Four<'_>> = floors
+            .iter_mut()
+            .zip(&wanted)
+            .enumerate()
+            .map(|(four, (floors, wanted))| Four {
+                modal: std::array::from_fn(|v| modal[4 * four + v].as_slice()),
+                floors,
+                wanted,
+            })
+            .collect();
+        transform_fours(&shapes, &mut fours);
+        let mut one = vec![Lane::ZERO; lanes];
+        for (v, modal) in modal.iter().enumerate() {
+            transform(&shapes, modal, &mut one);
+            for (c, one) in one.iter().enumerate() {
+                let expected = if wanted[v / 4][c] { *one } else { kept };
+                let bits = |lane: Lane| lane.0.map(f64::to_bits);
+                assert_eq!(bits(floors[v / 4][v % 4][c]), bits(expected), "{v}, {c}");
             }
         }
     }

@@ -4,7 +4,9 @@
 
 use super::chain::{AffineContact, Sums, TERMS};
 use crate::engagement::LevelRows;
-use crate::free_flight::{FreeFlight, Lane, WIDTH, gather, spread, transform, transform_four};
+use crate::free_flight::{
+    Four, FreeFlight, Lane, WIDTH, gather, spread, transform, transform_fours,
+};
 use crate::polynomial::{Polynomial, septic, value};
 use crate::system::System;
 
@@ -35,7 +37,7 @@ pub(crate) struct ModalSeries {
     term: [Vec<Lane>; 2],
     acceleration: Vec<Lane>,
     sums: [Vec<Lane>; SUMS],
-    floors: [Vec<Lane>; 4],
+    floors: [[Vec<Lane>; 4]; 2],
     all: Vec<bool>,
     /// Velocity of every mode over the step, and its `2 zeta omega`.
     speed: Vec<Polynomial>,
@@ -62,7 +64,7 @@ impl ModalSeries {
             term: [zeros(), zeros()],
             acceleration: zeros(),
             sums: std::array::from_fn(|_| zeros()),
-            floors: std::array::from_fn(|_| zeros()),
+            floors: std::array::from_fn(|_| std::array::from_fn(|_| zeros())),
             all: vec![true; lanes],
             speed: vec![Polynomial::default(); n],
             damping: (0..n)
@@ -110,8 +112,8 @@ impl ModalSeries {
             let known = &mut self.known[0];
             known.floors.copy_from_slice(start);
             for (modes, floors) in known.modes.iter_mut().zip(start.chunks(n)) {
-                spread(floors, &mut self.floors[0]);
-                transform(&constants.inverse, &self.floors[0], modes);
+                spread(floors, &mut self.floors[0][0]);
+                transform(&constants.inverse, &self.floors[0][0], modes);
             }
         }
         let [q, p] = &self.known[0].modes;
@@ -183,27 +185,36 @@ impl ModalSeries {
         let [d, v, integral, s0, s1, s2, e0, e1, e2] = &self.sums;
         let shapes = &constants.shapes;
         let ([os0, os1, os2], [oe0, oe1, oe2]) = (&mut out.start, &mut out.end);
-        let floors = &mut self.floors;
-        for (modal, out) in [
-            (
-                [d, v, integral, s0],
-                [
-                    &mut out.displacement,
-                    &mut out.velocity,
-                    &mut out.integral,
-                    os0,
-                ],
-            ),
-            ([s1, s2, e0, e1], [os1, os2, oe0, oe1]),
-        ] {
-            let modal = modal.map(Vec::as_slice);
-            transform_four(shapes, modal, floors, &self.all);
-            for (floors, out) in floors.iter().zip(out) {
-                gather(floors, out);
-            }
+        let wanted = self.all.as_slice();
+        let [first, second] = &mut self.floors;
+        let fours = &mut [
+            Four {
+                modal: [d, v, integral, s0],
+                floors: &mut *first,
+                wanted,
+            },
+            Four {
+                modal: [s1, s2, e0, e1],
+                floors: &mut *second,
+                wanted,
+            },
+        ];
+        transform_fours(shapes, fours);
+        let outs = [
+            &mut out.displacement,
+            &mut out.velocity,
+            &mut out.integral,
+            os0,
+            os1,
+            os2,
+            oe0,
+            oe1,
+        ];
+        for (floors, out) in first.iter().chain(second.iter()).zip(outs) {
+            gather(floors, out);
         }
-        transform(shapes, e2, &mut floors[0]);
-        gather(&floors[0], oe2);
+        transform(shapes, e2, &mut first[0]);
+        gather(&first[0], oe2);
     }
 
     fn interpolate(&mut self) {

@@ -10,7 +10,7 @@ use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
-use pounding_hysteresis::HysteresisError;
+use pounding_hysteresis::{HysteresisError, help_among_gaps};
 use pounding_time_history::TimeHistoryError;
 
 use crate::interruption::EXIT_CODE;
@@ -211,6 +211,10 @@ impl From<GapElementError> for Failure {
         match error {
             GapElementError::Unfinished { .. } => {
                 Self::Computation(plain(error.to_string(), error.help()))
+            }
+            GapElementError::UnknownModel { ref name, .. } => {
+                let help = help_among_gaps(name).or(error.help());
+                Self::input(error.to_string(), help)
             }
             _ => Self::input(error.to_string(), error.help()),
         }

@@ -1,8 +1,10 @@
 //! From the TOML tree to a case.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
+use pounding_catalogue::wording::{agreeing, counted};
 use toml::de::DeValue;
 
 use crate::error::{CaseError, Errors};
@@ -294,7 +296,12 @@ fn spread(
         Values::List(values) if values.len() == count => Ok(values),
         Values::List(values) => Err(reader.error(
             list.span,
-            format!("{} values where there are {count} {place}s", values.len()),
+            format!(
+                "{} where there {} {}",
+                counted(values.len(), "value"),
+                agreeing(&count, "is", "are"),
+                counted(count, place)
+            ),
             format!("give one value a {place}, or a single value for all"),
         )),
     }
@@ -313,7 +320,12 @@ fn one_each<T>(
     }
     Err(reader.error(
         span,
-        format!("{} values where there are {count} places", values.len()),
+        format!(
+            "{} where there {} {}",
+            counted(values.len(), "value"),
+            agreeing(&count, "is", "are"),
+            counted(count, "place")
+        ),
         "give one value a storey or level of this law, or a single value without brackets for all",
     ))
 }
@@ -333,6 +345,7 @@ fn default_analysis() -> Analysis {
         theta: None,
         relative_tolerance: None,
         energy_tolerance: None,
+        places: BTreeMap::new(),
     }
 }
 
@@ -364,5 +377,10 @@ fn analysis_of(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseE
         theta: number("theta"),
         relative_tolerance: positive("relative_tolerance", Dimension::NUMBER),
         energy_tolerance: positive("energy_tolerance", Dimension::NUMBER),
+        places: table
+            .entries()
+            .into_iter()
+            .map(|(key, value)| (key.value, value.span()))
+            .collect(),
     })
 }

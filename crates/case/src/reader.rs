@@ -156,6 +156,17 @@ impl<'a> Reader<'a> {
 
     /// A number or a text with unit.
     pub(crate) fn any_quantity(&self, value: &Value<'_>, key: &str) -> Result<Quantity, CaseError> {
+        self.quantity_for(value, key, None)
+    }
+
+    /// The same where one dimension is wanted, which is not checked: a unit that is not known
+    /// leads to one that gives it.
+    fn quantity_for(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        wanted: Option<Dimension>,
+    ) -> Result<Quantity, CaseError> {
         // What is no number here is refused below as not finite.
         let number = |text: &str, value: Option<f64>| Quantity {
             value: value.unwrap_or(f64::NAN),
@@ -169,8 +180,9 @@ impl<'a> Reader<'a> {
                 number(i.as_str(), whole.ok().map(|n| n as f64))
             }
             DeValue::Float(f) => number(f.as_str(), f.as_str().parse().ok()),
-            DeValue::String(text) => parse_quantity(text)
-                .map_err(|e| self.error(value.span(), format!("`{key}`: {e}"), e.help()))?,
+            DeValue::String(text) => parse_quantity(text).map_err(|e| {
+                self.error(value.span(), format!("`{key}`: {e}"), e.help_for(wanted))
+            })?,
             _ => return Err(self.wrong_type(value, key, "a number, or a text with unit")),
         };
         if quantity.value.is_finite() {
@@ -191,7 +203,7 @@ impl<'a> Reader<'a> {
         key: &str,
         wanted: Dimension,
     ) -> Result<f64, CaseError> {
-        let quantity = self.any_quantity(value, key)?;
+        let quantity = self.quantity_for(value, key, Some(wanted))?;
         match quantity.dimension {
             Some(found) if found != wanted => Err(self.error(
                 value.span(),

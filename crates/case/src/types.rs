@@ -2,6 +2,7 @@
 
 mod laws;
 
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -307,6 +308,17 @@ pub struct Analysis {
     pub relative_tolerance: Option<f64>,
     /// Allowed energy residual.
     pub energy_tolerance: Option<f64>,
+    /// Where the values of the keys that are given stand, by key.
+    pub places: BTreeMap<String, Range<usize>>,
+}
+
+impl Analysis {
+    /// Where the value of a key of `[analysis]` stands; that of the method, if the key is not
+    /// given.
+    #[must_use]
+    pub fn span_of(&self, option: &str) -> Range<usize> {
+        self.places.get(option).unwrap_or(&self.method.span).clone()
+    }
 }
 
 /// What provisions for the gap need to know beside the buildings themselves; lists

@@ -1,6 +1,9 @@
 //! Quantities with units, at the file boundary only.
 
 use std::fmt;
+use std::ops::Range;
+
+use pounding_catalogue::suggestion::letters_to_change;
 
 /// Powers of kilogram, metre and second. Powers of a length may be fractions, as
 /// in the contact stiffness N/m^1.5. Two dimensions are equal if their powers
@@ -177,21 +180,26 @@ pub enum UnitError {
 }
 
 impl UnitError {
-    /// What to do about it.
+    /// What to do about it, where any dimension may stand.
     #[must_use]
     pub fn help(&self) -> String {
+        self.help_for(None)
+    }
+
+    /// What to do about it, where this dimension is wanted: a unit that is not known leads to
+    /// one that gives it.
+    #[must_use]
+    pub fn help_for(&self, wanted: Option<Dimension>) -> String {
         match self {
             Self::Comma { .. } => {
                 "write a decimal point, and nothing between thousands: 3.46, 25000".to_owned()
             }
             Self::NotFinite { .. } => "correct the number".to_owned(),
-            Self::UnknownUnit { symbol, .. } => {
-                let known: Vec<&str> = UNITS.iter().map(|u| u.symbol).collect();
-                let guess = known
-                    .iter()
-                    .find(|k| k.eq_ignore_ascii_case(symbol))
-                    .map_or_else(String::new, |k| format!("did you mean \"{k}\"? "));
-                format!("{guess}known units: {}", known.join(", "))
+            Self::UnknownUnit { text, .. } => {
+                let guess = meant(text, wanted);
+                let guess =
+                    guess.map_or_else(String::new, |unit| format!("did you mean \"{unit}\"? "));
+                format!("{guess}{}", known_units(wanted))
             }
             Self::Power { .. } => "write powers as in m/s^2, N/m^1.5".to_owned(),
             Self::Incomplete { .. } => {
@@ -263,6 +271,96 @@ const UNITS: &[Unit] = &[
     unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
     unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
 ];
+
+/// The units that give a dimension, or all where it takes several.
+fn known_units(wanted: Option<Dimension>) -> String {
+    let symbols = |wanted: Option<Dimension>| -> Vec<&str> {
+        let fits = |u: &&Unit| wanted.is_none_or(|d| d == u.dimension);
+        UNITS.iter().filter(fits).map(|u| u.symbol).collect()
+    };
+    match (symbols(wanted), wanted) {
+        (fitting, Some(wanted)) if !fitting.is_empty() => {
+            format!("units of {wanted}: {}", fitting.join(", "))
+        }
+        _ => format!("known units: {}", symbols(None).join(", ")),
+    }
+}
+
+/// Unknown symbols in one unit up to which a correction is looked for.
+const MOST_CORRECTED: usize = 3;
+
+/// What was probably meant by the unit of a text in which symbols are not known: those that
+/// make it a unit of the wanted dimension with the fewest letters changed, upper and lower
+/// case apart. The symbol alone where one is wrong, else the whole unit.
+fn meant(text: &str, wanted: Option<Dimension>) -> Option<String> {
+    let plain = text.trim();
+    let unit = normal(plain[number_length(plain)..].trim());
+    let unknown = unknown_symbols(&unit);
+    if unknown.is_empty() || unknown.len() > MOST_CORRECTED {
+        return None;
+    }
+    // Every choice of a symbol for each of the first few places, with what it changes.
+    let mut choices = vec![(0, unit.clone())];
+    // From the end, so that the places before it stay where they are.
+    for place in unknown.iter().rev() {
+        let near = near_symbols(&unit[place.clone()]);
+        let put = |(cost, unit): &(usize, String)| {
+            let with = |&(more, symbol): &(usize, &str)| {
+                let mut unit = unit.clone();
+                unit.replace_range(place.clone(), symbol);
+                (cost + more, unit)
+            };
+            near.iter().map(with).collect::<Vec<_>>()
+        };
+        choices = choices.iter().flat_map(put).collect();
+    }
+    let fits = |unit: &str| {
+        let found = parse_unit(unit, unit).ok();
+        found.is_some_and(|(_, _, found)| wanted.is_none_or(|wanted| wanted == found))
+    };
+    let fitting = choices.into_iter().filter(|(_, unit)| fits(unit));
+    let (_, corrected) = fitting.min_by_key(|(cost, _)| *cost)?;
+    match unknown.as_slice() {
+        [one] => {
+            let after = unit.len() - one.end;
+            Some(corrected[one.start..corrected.len() - after].to_owned())
+        }
+        _ => Some(corrected),
+    }
+}
+
+/// Places of the symbols in a unit that are none.
+fn unknown_symbols(unit: &str) -> Vec<Range<usize>> {
+    let separates = |c: char| matches!(c, '*' | '/') || c.is_whitespace();
+    let mut found = Vec::new();
+    let mut start = 0;
+    for term in unit.split_inclusive(separates) {
+        let symbol = split_power(term.trim_end_matches(separates)).map_or("", |(symbol, _)| symbol);
+        let known = symbol.is_empty() || symbol == "1" || UNITS.iter().any(|u| u.symbol == symbol);
+        if !known {
+            found.push(start..start + symbol.len());
+        }
+        start += term.len();
+    }
+    found
+}
+
+/// The known symbols that are like one, each with how far it is from it.
+fn near_symbols(symbol: &str) -> Vec<(usize, &'static str)> {
+    let lower = symbol.to_lowercase();
+    let letters = lower.chars().count();
+    let near = |u: &Unit| {
+        let known = u.symbol.to_lowercase();
+        let changed = letters_to_change(&lower, &known);
+        // A single letter that is another one says nothing.
+        let like = changed < letters && changed <= 1 + letters / 3;
+        // Of equals one that begins alike, then one that is as long.
+        let begins = usize::from(known.chars().next() != lower.chars().next());
+        let length = known.chars().count().abs_diff(letters);
+        like.then_some((100 * changed + 10 * begins + length, u.symbol))
+    };
+    UNITS.iter().filter_map(near).collect()
+}
 
 /// Largest power of a unit; larger ones are slips of the pen.
 const LARGEST_POWER: f64 = 9.0;
@@ -340,10 +438,7 @@ fn number_length(text: &str) -> usize {
 fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitError> {
     let text = || text.to_owned();
     let (mut up, mut down, mut dimension) = (1.0, 1.0, Dimension::NUMBER);
-    let normal = symbols
-        .replace('²', "^2")
-        .replace('³', "^3")
-        .replace('·', "*");
+    let normal = normal(symbols);
     for (i, part) in normal.split('/').enumerate() {
         // "1/s": a one stands for an absent numerator, and for nothing else.
         if i == 0 && part.trim() == "1" && normal.contains('/') {
@@ -379,6 +474,11 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
         }
     }
     Ok((up, down, dimension))
+}
+
+/// A unit with powers and products in plain signs.
+fn normal(unit: &str) -> String {
+    unit.replace('²', "^2").replace('³', "^3").replace('·', "*")
 }
 
 /// `m^1.5` and `s2` into symbol and power; `None` for a power that is none.

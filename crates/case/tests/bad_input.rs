@@ -300,3 +300,62 @@ proptest! {
         }
     }
 }
+
+/// A unit that is not known leads to one of the dimension that is wanted at its key, whether
+/// letters or only upper and lower case are wrong.
+#[test]
+fn units_are_suggested_by_the_dimension_that_is_wanted() {
+    use pounding_case::Dimension;
+    for (text, wanted, unit) in [
+        ("20 mn", Dimension::LENGTH, Some("mm")),
+        ("20 mn", Dimension::FORCE, Some("MN")),
+        ("20 Mm", Dimension::LENGTH, Some("mm")),
+        ("20 MM", Dimension::LENGTH, Some("mm")),
+        ("5 M/s", Dimension::VELOCITY, Some("m")),
+        ("5 m/S", Dimension::VELOCITY, Some("s")),
+        ("5 M/S", Dimension::VELOCITY, Some("m/s")),
+        ("5 M/S2", Dimension::ACCELERATION, Some("m/s2")),
+        ("3 mn/mm", Dimension::STIFFNESS, Some("MN")),
+        ("3 KN/MM", Dimension::STIFFNESS, Some("kN/mm")),
+        ("25 KG", Dimension::MASS, Some("kg")),
+        ("25 kgs", Dimension::MASS, Some("kg")),
+        ("0.3 G", Dimension::ACCELERATION, Some("g")),
+        ("2 seconds", Dimension::TIME, None),
+        ("2 T", Dimension::TIME, None),
+        ("25 x", Dimension::MASS, None),
+    ] {
+        let help = parse_quantity(text).unwrap_err().help_for(Some(wanted));
+        match unit {
+            Some(unit) => {
+                let said = format!("did you mean \"{unit}\"? ");
+                assert!(help.starts_with(&said), "{text}: {help}");
+            }
+            None => assert!(!help.contains("did you mean"), "{text}: {help}"),
+        }
+    }
+    let help = |text: &str, wanted| parse_quantity(text).unwrap_err().help_for(wanted);
+    assert_eq!(
+        help("20 mn", Some(Dimension::LENGTH)),
+        "did you mean \"mm\"? units of a length (m): m, km, cm, mm, in, ft"
+    );
+    // Without a dimension every unit may be meant.
+    assert!(help("20 mn", None).starts_with("did you mean \"MN\"? known units: %, rad, "));
+    let help = help("3 x/m", Some(Dimension::STIFFNESS));
+    assert!(help.starts_with("known units: %, rad, "), "{help}");
+}
+
+/// The key says what is wanted.
+#[test]
+fn units_of_a_case_are_suggested_for_their_key() {
+    for (from, to, unit) in [
+        ("\"20 mm\"", "\"20 mn\"", "mm"),
+        ("\"25 t\"", "\"25 T\"", "t"),
+    ] {
+        let text = CASE.replacen(from, to, 1);
+        assert_ne!(text, CASE);
+        let error = Case::parse(&text, Path::new("case.toml")).unwrap_err();
+        let help = error.help.unwrap();
+        let said = format!("did you mean \"{unit}\"? units of ");
+        assert!(help.starts_with(&said), "{help}");
+    }
+}

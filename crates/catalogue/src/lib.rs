@@ -1,5 +1,5 @@
-//! What models, laws, provisions and record formats have in common. They are found by name,
-//! and a name that is not known leads to the one that was probably meant:
+//! What models, laws, provisions and record formats have in common, and the sentences that
+//! speak of them ([`wording`]). They are found by name, and a name that is not known leads to the one that was probably meant:
 //!
 //! ```
 //! use pounding_catalogue::suggestion;
@@ -11,3 +11,4 @@
 //! ```
 
 pub mod suggestion;
+pub mod wording;

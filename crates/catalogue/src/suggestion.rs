@@ -2,7 +2,7 @@
 
 /// The known name with the fewest letters to change; the first of equals.
 pub fn nearest<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
-    let distance = |known: &T| strsim::levenshtein(name, known.as_ref());
+    let distance = |known: &T| letters_to_change(name, known.as_ref());
     known.into_iter().min_by_key(distance)
 }
 
@@ -16,7 +16,13 @@ pub fn misspelt<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -
 /// Whether at most this many letters have to be changed.
 #[must_use]
 pub fn is_within(name: &str, known: &str, letters: usize) -> bool {
-    strsim::levenshtein(name, known) <= letters
+    letters_to_change(name, known) <= letters
+}
+
+/// How many letters have to be inserted, removed or replaced (Levenshtein's distance).
+#[must_use]
+pub fn letters_to_change(name: &str, known: &str) -> usize {
+    strsim::levenshtein(name, known)
 }
 
 #[cfg(test)]

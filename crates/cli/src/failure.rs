@@ -11,7 +11,7 @@ use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_ground_motion::GroundMotionError;
-use pounding_hysteresis::HysteresisError;
+use pounding_hysteresis::{HysteresisError, help_among_gaps};
 use pounding_results::{ResponsesTooLarge, WriteError};
 use pounding_time_history::TimeHistoryError;
 
@@ -226,6 +226,10 @@ impl From<GapElementError> for Failure {
         match error {
             GapElementError::Unfinished { .. } => {
                 Self::Computation(plain(error.to_string(), error.help()))
+            }
+            GapElementError::UnknownModel { ref name, .. } => {
+                let help = help_among_gaps(name).or(error.help());
+                Self::input(error.to_string(), help)
             }
             _ => Self::input(error.to_string(), error.help()),
         }

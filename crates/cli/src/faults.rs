@@ -14,7 +14,8 @@ use pounding_case::{
 };
 use pounding_gap_element::registry;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
-use pounding_study::gap_check::CheckError;
+use pounding_hysteresis::help_among_gaps;
+use pounding_study::gap_check::{CheckError, unknown_words};
 use pounding_time_history::TimeHistoryError;
 
 use crate::commands::gap_failure;
@@ -28,10 +29,30 @@ const MOST_STOREYS: usize = 200;
 pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
     // Read once: a pipe has nothing to give a second time.
     let source = pounding_case::read_text(path, "case").map_err(|e| Failure::case(e, ""))?;
-    Case::parse_or_draft(&source, path).map_err(|refusal| {
+    let case = Case::parse_or_draft(&source, path).map_err(|refusal| {
         let more = refusal.draft.map(|draft| later(&draft, own_record));
         Failure::case(joined(refusal.error, more.unwrap_or_default()), &source)
-    })
+    })?;
+    // Only `gap` needs these words, but a case in which they are wrong is wrong everywhere.
+    match CaseError::of_all(unknown_words(&case)) {
+        None => Ok(case),
+        Some(error) => {
+            let draft = sound(&case);
+            Err(Failure::case(
+                joined(error, later(&draft, own_record)),
+                &source,
+            ))
+        }
+    }
+}
+
+/// A case in which nothing was found wrong by reading it.
+fn sound(case: &Case) -> Draft {
+    Draft {
+        case: case.clone(),
+        incomplete: Vec::new(),
+        motion_is_known: true,
+    }
 }
 
 /// The system of a case under its own record.
@@ -44,13 +65,14 @@ pub fn of_assembly(error: AssemblyError, case: &Case, own_record: bool) -> Failu
     let error = match error {
         AssemblyError::Case(error) => error,
         AssemblyError::GroundMotion(error) if own_record => of_record(case, &error),
+        AssemblyError::System(TimeHistoryError::Option {
+            option,
+            value,
+            reason,
+        }) if case.analysis.places.contains_key(option) => of_option(case, option, value, reason),
         error => return Failure::of_case(error, case),
     };
-    let draft = Draft {
-        case: case.clone(),
-        incomplete: Vec::new(),
-        motion_is_known: true,
-    };
+    let draft = sound(case);
     let error = CaseError::of_all(error.each().map(|e| hinted(case, e)).collect());
     let more = later(&draft, own_record);
     match error {
@@ -83,6 +105,7 @@ fn later(draft: &Draft, own_record: bool) -> Vec<CaseError> {
     let mut errors = words(draft);
     errors.extend(options(&draft.case));
     errors.extend(floors(&draft.case));
+    errors.extend(unknown_words(&draft.case));
     if own_record {
         errors.extend(record(draft));
     }
@@ -136,18 +159,7 @@ fn hinted(case: &Case, mut error: CaseError) -> CaseError {
     let Some(name) = unknown_model(case, &error) else {
         return error;
     };
-    let plain = name.to_lowercase().replace(['-', ' '], "_");
-    let pulls = ["tension", "hook", "cable", "tie", "slack"];
-    let link = match pounding_hysteresis::find(name) {
-        Ok(law) => Some(law.name),
-        Err(_) if plain.split('_').any(|word| pulls.contains(&word)) => Some("gap_hook"),
-        Err(_) => None,
-    };
-    if let Some(law) = link {
-        error.help = Some(format!(
-            "a gap pushes and never pulls; for a law of a link write [[link]] with model = \"{law}\"; `pounding models` lists the models of gaps"
-        ));
-    }
+    error.help = help_among_gaps(name).or(error.help);
     error
 }
 
@@ -158,14 +170,20 @@ fn options(case: &Case) -> Vec<CaseError> {
     alone.links.clear();
     alone.buildings = vec![plain_building()];
     match assembly(&alone) {
-        Err(AssemblyError::System(error @ TimeHistoryError::Option { option, .. })) => {
-            let method = &case.analysis.method.span;
-            let help = error.help();
-            let help = help.or_else(|| Some(format!("correct `{option}` in [analysis]")));
-            vec![case.error(method.clone(), error.to_string(), help)]
-        }
+        Err(AssemblyError::System(TimeHistoryError::Option {
+            option,
+            value,
+            reason,
+        })) => vec![of_option(case, option, value, reason)],
         other => of_case(other),
     }
+}
+
+/// An option out of range, where the case gives it.
+fn of_option(case: &Case, option: &str, value: f64, reason: &str) -> CaseError {
+    let message = format!("`{option}` = {value} is out of range: {reason}");
+    let help = format!("correct `{option}` in [analysis]");
+    case.error(case.analysis.span_of(option), message, Some(help))
 }
 
 /// Floors that face one another.

@@ -6,6 +6,7 @@ mod width;
 use comfy_table::CellAlignment;
 use pounding_assembly::Assembly;
 use pounding_case::Case;
+use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
 
@@ -171,7 +172,8 @@ fn gap(run: &Run<'_>, index: usize) -> String {
             or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
         ]);
     }
-    let mut text = format!("\nGap {} ({model}): {total} impacts\n{table}\n", gap.name);
+    let total = counted(total, "impact");
+    let mut text = format!("\nGap {} ({model}): {total}\n{table}\n", gap.name);
     text.push_str(&secondary_sources(levels));
     if rigid {
         text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
@@ -198,8 +200,8 @@ fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String 
         let level = at.place;
         if l.sticks > 0 {
             text.push_str(&format!(
-                "Level {level}: floors held together {} times, greatest contact force {:.1} kN at {:.2} s\n",
-                l.sticks,
+                "Level {level}: floors held together {}, greatest contact force {:.1} kN at {:.2} s\n",
+                counted(l.sticks, "time"),
                 l.peak_force.value * 1e-3,
                 l.peak_force.time
             ));
@@ -231,7 +233,7 @@ fn energy(run: &Run<'_>) -> String {
         format!("hysteretic {} + ", kilojoules(e.end.hysteretic))
     };
     format!(
-        "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {} steps, {} rejected, {} events; {:.2} s\n",
+        "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {}, {} rejected, {}; {:.2} s\n",
         run.outcome.end_time,
         kilojoules(e.end.input),
         kilojoules(e.end.viscous),
@@ -242,9 +244,9 @@ fn energy(run: &Run<'_>) -> String {
         kilojoules(e.end.strain),
         e.residual_ratio,
         run.outcome.method.title,
-        statistics.steps,
+        counted(statistics.steps, "step"),
         statistics.rejected,
-        statistics.events,
+        counted(statistics.events, "event"),
         run.wall_time,
     )
 }

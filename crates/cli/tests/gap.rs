@@ -228,7 +228,10 @@ fn wide_enough_is_exit_code_zero() {
     let sum = named(&rules["combinations"], "rule", "absolute_sum");
     assert_eq!(sum["satisfied"], false);
     let shown = text(&output.stdout);
-    assert!(shown.contains("WIDE ENOUGH - 0 of 1 records"), "{shown}");
+    assert!(
+        shown.contains("WIDE ENOUGH - 0 of 1 record closes it"),
+        "{shown}"
+    );
     assert!(
         shown.contains("from memory"),
         "unverified provisions are labelled"
@@ -338,7 +341,7 @@ fn codes_are_marked_where_buildings_yield() {
     assert_eq!(storeys[0]["storey"], 1);
     let ductility = storeys[0]["ductility"].as_f64().unwrap();
     assert!(ductility > 1.2, "{ductility}");
-    let said = format!("light under 1 of 1 records (maximum ductility {ductility:.2}, storey 1");
+    let said = format!("light under 1 of 1 record (maximum ductility {ductility:.2}, storey 1");
     assert!(shown.contains(&said), "{said}: {shown}");
     assert!(shown.contains("these widths decide nothing"), "{shown}");
 
@@ -534,4 +537,101 @@ fn mistakes() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(plain.contains(says), "{arguments:?}: {said}");
     }
+}
+
+fn gap_of_folder(command: &str, folder: &Path) -> Output {
+    let mut arguments = vec![command, "examples/gap_check/case.toml", "--records"];
+    let folder = folder.display().to_string();
+    arguments.push(&folder);
+    arguments.push("--json");
+    if command == "gap" {
+        arguments.extend(["--points", "0"]);
+    } else {
+        arguments.extend(["--models", "hertz_1882"]);
+    }
+    Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(arguments)
+        .current_dir(root())
+        .env_remove("COLUMNS")
+        .output()
+        .unwrap()
+}
+
+/// Of a folder the records are taken, and what is none is named.
+#[test]
+fn a_folder_of_records_may_hold_other_files() {
+    let output = gap_of_folder("gap", &root().join("examples/synthetic_suite"));
+    assert!(
+        matches!(output.status.code(), Some(0 | 1)),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(json(&output)["records"].as_array().unwrap().len(), 7);
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("make_suite is a script, not a record"),
+        "{said}"
+    );
+    assert!(said.contains("README.md is a text, not a record"), "{said}");
+
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::copy(
+        root().join("ground_motions/el_centro_1940_ns.csv"),
+        at("b.csv"),
+    )
+    .unwrap();
+    // Without an ending it is a record all the same.
+    std::fs::copy(
+        root().join("examples/synthetic_suite/motion_1.csv"),
+        at("a"),
+    )
+    .unwrap();
+    for (name, content) in [
+        ("README", "these are two records\n"),
+        ("make.sh", "echo\n"),
+        ("make", "#!/bin/sh\n"),
+        ("case.toml", "title = \"\"\n"),
+        ("result.H5", "\u{89}HDF"),
+        ("page.html", "<html>\n"),
+        (".hidden", "1 2\n"),
+    ] {
+        std::fs::write(at(name), content).unwrap();
+    }
+    for command in ["gap", "compare"] {
+        let output = gap_of_folder(command, folder.path());
+        assert!(
+            matches!(output.status.code(), Some(0 | 1)),
+            "{}",
+            text(&output.stderr)
+        );
+        let records = &json(&output)["records"];
+        assert_eq!(records.as_array().unwrap().len(), 2, "{records}");
+        let said = text(&output.stderr);
+        assert_eq!(said.matches("not a record").count(), 7, "{said}");
+    }
+    // A file that may be a record is not passed over because it cannot be read.
+    std::fs::write(at("c.csv"), "nothing\n").unwrap();
+    let output = gap_of_folder("gap", folder.path());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("c.csv"));
+    // What is named itself is taken as a record whatever it is called.
+    let output = gap_of_folder("gap", &at("make"));
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+
+    for name in ["a", "b.csv", "c.csv"] {
+        std::fs::remove_file(at(name)).unwrap();
+    }
+    let output = gap_of_folder("gap", folder.path());
+    let said = text(&output.stderr).replace(['\n', '│'], " ");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("make is a script, make.sh is a script"),
+        "{said}"
+    );
+    assert!(
+        said.contains("name record files, or a folder of them"),
+        "{said}"
+    );
 }

@@ -480,3 +480,216 @@ fn closed_outputs_keep_the_exit_code() {
         }
     }
 }
+
+/// A unit that is not known leads to one that its key takes.
+#[test]
+fn units_are_suggested_for_their_key() {
+    let folder = bench();
+    for (from, to, said) in [
+        (
+            "\"20 mm\"",
+            "\"20 mn\"",
+            "did you mean \"mm\"? units of a length (m)",
+        ),
+        (
+            "\"20 mm\"",
+            "\"20 MM\"",
+            "did you mean \"mm\"? units of a length (m)",
+        ),
+        ("\"30 MN/m\"", "\"30 mn/M\"", "did you mean \"MN/m\"?"),
+        (
+            "\"1 s\"",
+            "\"1 S\"",
+            "did you mean \"s\"? units of a time (s)",
+        ),
+    ] {
+        std::fs::write(folder.path().join("bad.toml"), changed(CASE, &[(from, to)])).unwrap();
+        let message = message(&run(folder.path(), "check bad.toml"));
+        assert!(message.contains(said), "{message}");
+    }
+    for (arguments, said) in [
+        ("gap case.toml --from 20mn --to 1m", "did you mean \"mm\"?"),
+        (
+            "compare case.toml --approach-velocity 5M/s",
+            "did you mean \"m\"?",
+        ),
+        (
+            "sweep study.toml --store-every 5S -o a.h5",
+            "did you mean \"s\"?",
+        ),
+    ] {
+        let output = run(folder.path(), arguments);
+        let message = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(said), "{arguments}: {message}");
+    }
+}
+
+/// An option out of range is shown where it stands, with whatever else is wrong.
+#[test]
+fn options_are_shown_where_they_stand() {
+    let folder = bench();
+    let last = CASE.lines().count();
+    for (method, option) in [
+        ("method = \"moreau_jean\"\nstep = \"1 ms\"", "theta = 7"),
+        ("method = \"newmark\"\nstep = \"1 ms\"", "beta = -1"),
+        ("method = \"hht_alpha\"\nstep = \"1 ms\"", "alpha = 0.5"),
+        ("method = \"adaptive\"\n", "relative_tolerance = 2"),
+    ] {
+        let (key, _) = option.split_once(" = ").unwrap();
+        let text = format!("{CASE}{method}\n{option}\n");
+        let place = format!("bad.toml:{}:{}: `{key}` = ", last + 3, key.len() + 4);
+        std::fs::write(folder.path().join("bad.toml"), &text).unwrap();
+        refused(&run(folder.path(), "check bad.toml"), &[&place]);
+        let text = changed(&text, &[("\"25 t\"", "\"25 kN\"")]);
+        std::fs::write(folder.path().join("bad.toml"), text).unwrap();
+        refused(
+            &run(folder.path(), "check bad.toml"),
+            &["bad.toml:5:8:", &place],
+        );
+    }
+}
+
+const SEPARATION: &str = r#"[separation]
+structural_system = ["frame", "timber"]
+soil_zone = "IV"
+provisions = ["asce_7_16_boundary", "asce_7", "no_such_code"]
+"#;
+
+/// Words of `[separation]` that are not known do not wait until all else is right.
+#[test]
+fn words_of_separation_come_with_the_others() {
+    let folder = bench();
+    let first = CASE.lines().count() + 1;
+    let words = |line: usize, column: usize, what: &str| {
+        format!("bad.toml:{}:{column}: {what}", first + line)
+    };
+    let wrong = [
+        words(1, 31, "unknown structural system \"timber\""),
+        words(2, 13, "unknown soil zone \"IV\""),
+        words(3, 37, "unknown provision \"asce_7\""),
+        words(3, 47, "unknown provision \"no_such_code\""),
+    ];
+    let wrong: Vec<&str> = wrong.iter().map(String::as_str).collect();
+    let case = format!("{CASE}{SEPARATION}");
+    for command in ["gap", "check"] {
+        std::fs::write(folder.path().join("bad.toml"), &case).unwrap();
+        refused(&run(folder.path(), &format!("{command} bad.toml")), &wrong);
+        // With what reading finds, and what putting it together finds.
+        for (from, to, place) in [
+            ("\"25 t\"", "\"25 kN\"", "bad.toml:5:8:"),
+            ("anagnostopoulos_2004", "no_such_model", "bad.toml:19:9:"),
+        ] {
+            let both = changed(&case, &[(from, to)]);
+            std::fs::write(folder.path().join("bad.toml"), both).unwrap();
+            let all = [&[place], wrong.as_slice()].concat();
+            refused(&run(folder.path(), &format!("{command} bad.toml")), &all);
+        }
+    }
+}
+
+/// Whoever looks for a law that pulls among the models of gaps is told where it belongs,
+/// wherever the model is named.
+#[test]
+fn laws_of_links_are_not_models_of_gaps() {
+    let folder = bench();
+    for arguments in [
+        "compare case.toml --models tension_only",
+        "compare case.toml --models hertz_1882,gap_hook",
+        "models tension_only",
+        "impact tension_only --example",
+    ] {
+        let output = run(folder.path(), arguments);
+        let said = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(
+            said.contains("[[link]] with model = \"gap_hook\""),
+            "{said}"
+        );
+        assert!(!said.contains("did you mean"), "{said}");
+    }
+    let said = message(&run(folder.path(), "compare case.toml --models hertz_1883"));
+    assert!(said.contains("did you mean \"hertz_1882\"?"), "{said}");
+}
+
+/// One of anything is not `1 gaps`.
+#[test]
+fn one_is_singular() {
+    let folder = bench();
+    let one_storey = changed(
+        CASE,
+        &[
+            ("storeys = 2", "storeys = 1"),
+            ("storeys = 2", "storeys = 1"),
+            (
+                "{ ratio = 0.05, modes = [1, 2] }",
+                "{ mass_proportional = 0.05 }",
+            ),
+        ],
+    );
+    let lists = changed(&one_storey, &[("\"100 t\"", "[\"100 t\", \"90 t\"]")]);
+    let levels = changed(&one_storey, &[("width =", "levels = [2]\nwidth =")]);
+    for (name, text) in [
+        ("one.toml", &one_storey),
+        ("lists.toml", &lists),
+        ("levels.toml", &levels),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let study = changed(STUDY, &[("\"0.1 g\", \"0.2 g\"", "\"0.1 g\"")]);
+    std::fs::write(folder.path().join("one_run.toml"), study).unwrap();
+    let mut all = String::new();
+    for arguments in [
+        "check one.toml",
+        "run one.toml -o one.h5",
+        "report one.h5 -o one.html",
+        "gap one.toml --points 2 --from 10mm --to 20mm",
+        "gap one.toml --all --points 0",
+        "compare one.toml --models hertz_1882",
+        "check lists.toml",
+        "check levels.toml",
+        "sweep one_run.toml --plan",
+        "sweep one_run.toml -o sweep.h5",
+    ] {
+        let output = run(folder.path(), arguments);
+        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        all.push_str(&format!("{arguments}\n{printed}\n{}\n", message(&output)));
+    }
+    all.push_str(&std::fs::read_to_string(folder.path().join("one.html")).unwrap());
+    let plural = all.lines().find(|line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let bare = |word: &str| word.trim_matches(|c: char| !c.is_alphanumeric()).to_owned();
+        let nouns = [
+            "gaps",
+            "storeys",
+            "impacts",
+            "runs",
+            "records",
+            "levels",
+            "buildings",
+            "models",
+            "widths",
+            "steps",
+            "events",
+            "values",
+            "times",
+            "errors",
+            "places",
+            "provisions",
+        ];
+        words.windows(2).any(|pair| {
+            pair[0].trim_matches(['(', ',']) == "1" && nouns.contains(&bare(pair[1]).as_str())
+        })
+    });
+    assert_eq!(plural, None, "{all}");
+    for said in [
+        "2 buildings, 1 gap, ",
+        "under 1 record",
+        "of 1 record",
+        "1 model, calibrated alike",
+        "1 run in sweep.h5",
+        "1 run, stored",
+    ] {
+        assert!(all.contains(said), "{said}: {all}");
+    }
+}

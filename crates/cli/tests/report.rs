@@ -34,7 +34,7 @@ fn three_storey_pair() {
     );
     let told: Value = serde_json::from_str(&told).unwrap();
     let said = text("report", &result);
-    assert!(said.contains("2 buildings, 1 gaps, 45 impacts"), "{said}");
+    assert!(said.contains("2 buildings, 1 gap, 45 impacts"), "{said}");
     let html = std::fs::read_to_string(folder.path().join("pair.html")).unwrap();
     assert!(html.contains("closes 45 times</strong> at 3 of 3 levels"));
     let peak = |value: &Value| value["peak"].as_f64().unwrap();

@@ -118,6 +118,12 @@ impl FileUse {
         self.written.push(named(role, path, true));
     }
 
+    /// The files that will be written, as they were given.
+    pub fn outputs(&self) -> impl Iterator<Item = &Path> {
+        let files = self.written.iter().filter(|named| !named.folder);
+        files.map(|named| named.path.as_path())
+    }
+
     /// Compares every output with every input and with every other output: by their paths
     /// with all links resolved, and by the files themselves, so that hard links and mounts
     /// deceive no one.

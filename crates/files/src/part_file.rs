@@ -1,5 +1,6 @@
 //! A file that is written beside its place.
 
+use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
 use std::io::{Error, Result, Write};
 use std::path::{Path, PathBuf};
@@ -41,26 +42,15 @@ impl PartFile {
     /// If the target is a folder or a device, or the folder does not exist or cannot be
     /// written to.
     pub fn beside(target: &Path) -> Result<Self> {
-        let target = match target.canonicalize() {
-            Ok(real) => real,
-            Err(_) => target.to_owned(),
-        };
+        let target = behind_links(target);
         // Renaming would put the file in the place of a device, such as /dev/stdout.
         if target.exists() && !target.is_file() {
             return Err(Error::other("it is not a regular file"));
         }
-        let folder = target
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
-        let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let mut end = name.len().min(NAME);
-        while !name.is_char_boundary(end) {
-            end -= 1;
-        }
-        let prefix = format!("{}.{}-", &name[..end], std::process::id());
+        let folder = folder_of(&target);
+        let prefix = format!("{}{}-", start_of_name(&target), std::process::id());
         let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(".part");
+        builder.prefix(&prefix).suffix(ENDING);
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
@@ -128,6 +118,76 @@ impl Drop for PartFile {
     }
 }
 
+/// Ending of part files.
+const ENDING: &str = ".part";
+
+/// What a path leads to, through links.
+fn behind_links(target: &Path) -> PathBuf {
+    target.canonicalize().unwrap_or_else(|_| target.to_owned())
+}
+
+fn folder_of(target: &Path) -> &Path {
+    let folder = target.parent().filter(|f| !f.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// How the names of all part files of a target begin: with its own, which is cut where it is
+/// long, and a point.
+fn start_of_name(target: &Path) -> String {
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let mut end = name.len().min(NAME);
+    while !name.is_char_boundary(end) {
+        end -= 1;
+    }
+    format!("{}.", &name[..end])
+}
+
+/// A part file whose process does not run on this machine.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOver {
+    /// The file.
+    pub path: PathBuf,
+    /// Number of the process that made it.
+    pub process: u32,
+}
+
+/// Part files beside a target that a killed process has probably left behind: no process of
+/// their number runs on this machine. They are named and never removed, as on a file system
+/// that several machines share the process may run on another one.
+#[must_use]
+pub fn left_over(target: &Path) -> Vec<LeftOver> {
+    let target = behind_links(target);
+    let start = start_of_name(&target);
+    let entries = std::fs::read_dir(folder_of(&target)).into_iter().flatten();
+    let names = entries.filter_map(|entry| entry.ok().map(|e| e.file_name()));
+    let left = |name: OsString| {
+        let path = target.with_file_name(&name);
+        let name = name.to_str()?;
+        let middle = name.strip_prefix(&start)?.strip_suffix(ENDING)?;
+        let (process, random) = middle.split_once('-')?;
+        let random = !random.is_empty() && random.bytes().all(|b| b.is_ascii_alphanumeric());
+        let process = process.parse().ok().filter(|_| random)?;
+        (!runs_here(process)).then_some(LeftOver { path, process })
+    };
+    let mut found: Vec<LeftOver> = names.filter_map(left).collect();
+    found.sort_by(|a, b| a.path.cmp(&b.path));
+    found
+}
+
+/// Whether a process of this number runs on this machine, whoever owns it.
+#[cfg(unix)]
+fn runs_here(process: u32) -> bool {
+    use rustix::process::{Pid, test_kill_process};
+    let number = i32::try_from(process).ok().and_then(Pid::from_raw);
+    number.is_some_and(|number| test_kill_process(number) != Err(rustix::io::Errno::SRCH))
+}
+
+/// Where this cannot be found out, any may run.
+#[cfg(not(unix))]
+fn runs_here(_: u32) -> bool {
+    true
+}
+
 /// Writes a whole file by a [`PartFile`].
 ///
 /// # Errors
@@ -157,6 +217,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::same_file;
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(folder).unwrap();
@@ -190,6 +251,39 @@ mod tests {
         finished.finish().unwrap();
         assert_eq!(std::fs::read(&target).unwrap(), b"after");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    /// Numbers of processes are below 2^22 on any system.
+    #[cfg(unix)]
+    #[test]
+    fn what_a_killed_process_left_is_found_and_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let target = at("a.h5");
+        let living = PartFile::beside(&target).unwrap();
+        for name in [
+            "a.h5.999999999-Ab12cd.part",
+            "b.h5.999999999-Ab12cd.part",
+            "a.h5.999999999-.part",
+            "a.h5.999999999-Ab12cd",
+            "a.h5.mine-Ab12cd.part",
+            "a.h5.part",
+        ] {
+            std::fs::write(at(name), "half").unwrap();
+        }
+        // The first process of the system, which is another user's, and this test.
+        std::fs::write(at("a.h5.1-Ab12cd.part"), "").unwrap();
+        let dead = at("a.h5.999999999-Ab12cd.part");
+        let found = left_over(&target);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].process, 999_999_999);
+        assert!(same_file(&found[0].path, &dead) && dead.exists());
+        drop(living);
+        let long = "a".repeat(255);
+        let part = format!("{}.999999999-Ab12cd.part", "a".repeat(200));
+        std::fs::write(at(&part), "half").unwrap();
+        assert_eq!(left_over(&at(&long)).len(), 1);
+        assert!(left_over(&at("none/a.h5")).is_empty());
     }
 
     #[test]

@@ -343,6 +343,22 @@ impl Draft {
 const DURATION_TOLERANCE: f64 = 0.01;
 
 impl Draft {
+    /// Adds a length in words that may be that of the record before it was processed, which
+    /// may have cut off an end. Where the header states both lengths (s) in numbers, and the
+    /// words repeat that of the `raw` record, they say nothing of the samples; else they must
+    /// be theirs.
+    pub(crate) fn state_in_words(
+        &mut self,
+        words: StatedDuration,
+        raw: Option<f64>,
+        own: Option<f64>,
+    ) {
+        let is_raw = |raw: f64| (raw - words.seconds).abs() <= DURATION_TOLERANCE * raw;
+        if !own.and(raw).is_some_and(is_raw) {
+            self.header_durations.push(words);
+        }
+    }
+
     /// Holds every duration in the header against count and step. Agencies count n or
     /// n - 1 steps and round the duration: one and a half steps are no difference.
     fn duration(

@@ -1,7 +1,7 @@
 //! The skeleton that the volumes of Caltech, USC, CDMG and CGS share: lines of
 //! text, 100 integers, 50 or 100 reals, blocks of data, a line that starts `/&`.
 
-use crate::draft::{DraftPeak, Printed};
+use crate::draft::{DraftPeak, Printed, StatedDuration};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number;
@@ -95,6 +95,29 @@ impl<'a> ChannelHeader<'a> {
             _ => String::new(),
         };
         (channel, name)
+    }
+
+    /// The length of the record in words: `RECORD LENGTH = 59.998 SEC`, `DURATION = 42.145`.
+    pub(crate) fn duration_in_words(&self) -> Option<StatedDuration> {
+        let keys = ["record length", "duration"];
+        let (line, seconds) = keys.into_iter().find_map(|key| {
+            let (line, text) = self.find_line(key)?;
+            Some((line, number::after(&text, key)?.0))
+        })?;
+        let stated = StatedDuration {
+            seconds,
+            line: Some(line),
+        };
+        (seconds > 0.0).then_some(stated)
+    }
+
+    /// Real `index` as a length of the record (s).
+    pub(crate) fn duration_in_numbers(&self, index: usize) -> Option<StatedDuration> {
+        let seconds = self.reals.positive(index)?;
+        Some(StatedDuration {
+            seconds,
+            line: Some(self.reals.line_of(index)),
+        })
     }
 
     /// Station and event.

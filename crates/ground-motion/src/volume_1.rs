@@ -326,18 +326,9 @@ fn rate_of_pairs(header: &ChannelHeader<'_>, times: &[f64], warnings: &mut Vec<S
 /// The lengths of the record in the header: real 3, and the text, which is printed apart
 /// from it and may have been changed alone.
 fn durations(header: &ChannelHeader<'_>) -> Vec<StatedDuration> {
-    let real = header.reals.positive(3).map(|seconds| StatedDuration {
-        seconds,
-        line: Some(header.reals.line_of(3)),
-    });
-    let text = ["record length", "duration"].into_iter().find_map(|key| {
-        let (line, text) = header.find_line(key)?;
-        let seconds = number::after(&text, key)?.0;
-        Some(StatedDuration {
-            seconds,
-            line: Some(line),
-        })
-    });
-    let text = text.filter(|stated| stated.seconds > 0.0);
-    text.into_iter().chain(real).collect()
+    let words = header.duration_in_words();
+    words
+        .into_iter()
+        .chain(header.duration_in_numbers(3))
+        .collect()
 }

@@ -11,6 +11,10 @@ use crate::volume::{ChannelHeader, Label, end_of_channel, peak_line};
 
 const TEXT_LINES: usize = 25;
 const REALS: usize = 100;
+/// Reals that hold the length (s) of the record as it was digitised and of the corrected
+/// series: processing may cut off an end.
+const RAW_LENGTH: usize = 3;
+const LENGTH: usize = 60;
 
 /// Reads all channels.
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -67,6 +71,11 @@ fn block(
     draft.title = header.title(7, 3);
     draft.start_time = header.start_time();
     draft.corners = (header.reals.positive(62), header.reals.positive(73));
+    draft.header_durations = header.duration_in_numbers(LENGTH).into_iter().collect();
+    if let Some(words) = header.duration_in_words() {
+        let [raw, own] = [RAW_LENGTH, LENGTH].map(|index| header.reals.positive(index));
+        draft.state_in_words(words, raw, own);
+    }
     let index = match label.quantity {
         Quantity::Acceleration => 53,
         Quantity::Velocity => 64,

@@ -49,4 +49,4 @@ pub use error::HysteresisError;
 pub use history::{History, MAXIMUM_INTERNAL_VARIABLES, Point};
 pub use law::*;
 pub use parameters::LawParameters;
-pub use registry::{build, descriptors, find};
+pub use registry::{build, descriptors, find, help_among_gaps};

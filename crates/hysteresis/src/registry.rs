@@ -90,6 +90,26 @@ fn by_word(name: &str) -> Option<&'static str> {
     found.map(|(_, law)| *law)
 }
 
+/// Words of what only pulls, or pulls as well: no impact model does.
+const PULLING: [&str; 6] = ["tension", "hook", "cable", "tie", "slack", "stopper"];
+
+/// Help for a name that was looked for among the models of gaps, if it is that of a law of
+/// links, or says that something pulls.
+#[must_use]
+pub fn help_among_gaps(name: &str) -> Option<String> {
+    let law = match find(name) {
+        Ok(law) => law.name,
+        Err(_) => {
+            let plain = name.to_lowercase().replace(['-', ' '], "_");
+            let pulls = plain.split('_').any(|word| PULLING.contains(&word));
+            pulls.then_some("gap_hook")?
+        }
+    };
+    Some(format!(
+        "a gap pushes and never pulls; for a law of a link write [[link]] with model = \"{law}\"; `pounding models` lists the models of gaps"
+    ))
+}
+
 /// The nearest known name: one that is misspelt, else one by a word that means it.
 fn nearest(name: &str) -> &'static str {
     let spelt = by_spelling(name);
@@ -129,6 +149,25 @@ mod tests {
         }
         for (_, law) in SYNONYMS {
             assert!(find(law).is_ok(), "{law}");
+        }
+    }
+
+    #[test]
+    fn what_pulls_is_no_gap() {
+        for (name, law) in [
+            ("tension_only", "gap_hook"),
+            ("Slack-Cable", "gap_hook"),
+            ("gap_hook", "gap_hook"),
+            ("viscous_damper", "viscous_damper"),
+        ] {
+            let help = help_among_gaps(name).unwrap_or_default();
+            assert!(
+                help.contains(&format!("model = \"{law}\"")),
+                "{name}: {help}"
+            );
+        }
+        for name in ["hertz", "kelvin_voigt", "no_such_model", "tiebreak"] {
+            assert_eq!(help_among_gaps(name), None, "{name}");
         }
     }
 }

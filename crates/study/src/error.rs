@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use pounding_assembly::AssemblyError;
 use pounding_case::CaseError;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_ground_motion::GroundMotionError;
 use pounding_results::OpenError;
 
@@ -27,7 +28,7 @@ pub enum StudyError {
     #[error(transparent)]
     GroundMotion(#[from] GroundMotionError),
     /// Records that cannot be read.
-    #[error("{count} of the {of} records cannot be read:\n{list}")]
+    #[error("{} cannot be read:\n{list}", unread(*count, *of))]
     Records {
         /// How many.
         count: usize,
@@ -48,7 +49,9 @@ pub enum StudyError {
     },
     /// A finished chunk cannot be stored; what was stored before stays.
     #[error(
-        "cannot store runs in {folder}: {source}; {stored} of {of} runs are stored there and intact"
+        "cannot store runs in {folder}: {source}; {stored} of {} {} stored there and intact",
+        counted(*of, "run"),
+        agreeing(of, "is", "are")
     )]
     Store {
         /// Folder of the finished chunks.
@@ -132,7 +135,11 @@ pub enum StudyError {
     #[error(transparent)]
     FileUse(#[from] pounding_files::FileUseError),
     /// The study was stopped; what had finished is stored.
-    #[error("interrupted: {stored} of {of} runs are stored")]
+    #[error(
+        "interrupted: {stored} of {} {} stored",
+        counted(*of, "run"),
+        agreeing(of, "is", "are")
+    )]
     Interrupted {
         /// Runs stored.
         stored: usize,
@@ -169,6 +176,14 @@ pub enum StudyError {
         /// Why it cannot be.
         reason: String,
     },
+}
+
+/// So many records of all.
+fn unread(count: usize, of: usize) -> String {
+    match of {
+        1 => "the record".to_owned(),
+        _ => format!("{count} of the {of} records"),
+    }
 }
 
 impl StudyError {

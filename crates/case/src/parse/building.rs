@@ -1,5 +1,6 @@
 //! Buildings: storeys and damping.
 
+use pounding_catalogue::wording::counted;
 use toml::de::DeValue;
 
 use super::law::storey_laws;
@@ -159,8 +160,9 @@ fn storeys(
                 return Err(table.reader.error(
                     list.span.clone(),
                     format!(
-                        "`{key}` has {} values, but `{other}` says {n} storeys",
-                        values.len()
+                        "`{key}` has {}, but `{other}` says {}",
+                        counted(values.len(), "value"),
+                        counted(n, "storey")
                     ),
                     "give one value a storey, or a single value for all",
                 ));

@@ -467,7 +467,10 @@ fn pair(
                     Err(reader.error(
                         value.span(),
                         format!("\"{}\" has no storey {text}", buildings[b].name.value),
-                        format!("it has {storeys} storeys: name one from 1 to {storeys}"),
+                        match storeys {
+                            1 => "it has 1 storey: name that, 1".to_owned(),
+                            _ => format!("it has {storeys} storeys: name one from 1 to {storeys}"),
+                        },
                     ))
                 }
             }

@@ -1,5 +1,6 @@
 //! What provisions for the gap need to know beside the buildings themselves.
 
+use pounding_catalogue::wording::{agreeing, counted};
 use toml::de::DeValue;
 
 use super::spread;
@@ -92,7 +93,12 @@ fn texts(
     match count {
         Some(count) if count != texts.len() => Err(reader.error(
             value.span(),
-            format!("{} values where there are {count} buildings", texts.len()),
+            format!(
+                "{} where there {} {}",
+                counted(texts.len(), "value"),
+                agreeing(&count, "is", "are"),
+                counted(count, "building")
+            ),
             "give one value a building, or a single value for all",
         )),
         _ => Ok(Some(texts)),

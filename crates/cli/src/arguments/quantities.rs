@@ -29,7 +29,8 @@ pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
 }
 
 fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
-    let quantity = parse_quantity(text).map_err(|e| format!("{e}; {}", e.help()))?;
+    let quantity =
+        parse_quantity(text).map_err(|e| format!("{e}; {}", e.help_for(Some(wanted))))?;
     match quantity.dimension {
         Some(found) if found != wanted => Err(format!(
             "it must be {wanted}, but this is {found}; plain numbers are SI"

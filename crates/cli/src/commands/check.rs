@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_catalogue::wording::counted;
 use serde_json::json;
 
 use super::progress::Progress;
@@ -16,7 +17,10 @@ use crate::tables;
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let case = read_case(path, true)?;
     let storeys: usize = case.buildings.iter().map(|b| b.mass.len()).sum();
-    let progress = Progress::working(format!("computing the modes of {storeys} storeys"))?;
+    let progress = Progress::working(format!(
+        "computing the modes of {}",
+        counted(storeys, "storey")
+    ))?;
     let assembly = assembled(&case)?;
     responses_fit(&assembly, &case)?;
     if !as_json {

@@ -23,15 +23,20 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
-use pounding_files::{FileUse, PartFile};
+use pounding_files::{FileUse, LeftOver, PartFile, left_over};
+use pounding_study::gap_check::{self, CheckError, SkippedFile};
 
-use crate::arguments::{Arguments, Command, ImpactCommand};
+use self::separate::{is_child, note};
+use crate::arguments::{Arguments, Command, ImpactCommand, InputPath};
 use crate::failure::Failure;
 use crate::tables::paragraphs;
 
 /// Carries a command out. `files` are those of its arguments, held against one another
 /// already; a command that reads or writes more adds them and checks again.
 pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
+    if !is_child() {
+        files.outputs().for_each(name_left_over);
+    }
     match command {
         Command::Run(arguments) => run::run(&arguments, files),
         Command::Check { case, json } => check::check(&case, json),
@@ -63,6 +68,31 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             print_as_it_is(&String::from_utf8_lossy(&bytes))
         }
     }
+}
+
+/// Names the part files of an output that a killed process has left behind. They stay: on a
+/// file system that several machines share, another one may write them.
+pub fn name_left_over(output: &Path) {
+    for LeftOver { path, process } in left_over(output) {
+        note(&format!(
+            "{} is an unfinished file of process {process}, which does not run on this machine: unless another machine is writing it, delete it",
+            path.display()
+        ));
+    }
+}
+
+/// The records that arguments name, with those in folders; files in folders that are no records
+/// are named.
+pub fn record_files(given: &[InputPath]) -> Result<Vec<PathBuf>, CheckError> {
+    let given: Vec<PathBuf> = given.iter().map(|p| p.to_path_buf()).collect();
+    let found = gap_check::record_files(&given)?;
+    for SkippedFile { path, what } in &found.skipped {
+        note(&format!(
+            "{} is {what}, not a record: it is left out",
+            path.display()
+        ));
+    }
+    Ok(found.files)
 }
 
 /// Adds files that a case or a study names to those of the arguments, and holds all against

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use pounding_catalogue::wording::counted;
 
 use crate::failure::Failure;
 
@@ -185,9 +186,9 @@ impl Now {
         let seconds = elapsed.as_secs_f64();
         let mut line = match self.unit {
             Unit::Runs => format!(
-                "{} of {} runs ({:.0} %)",
+                "{} of {} ({:.0} %)",
                 self.done,
-                self.total,
+                counted(self.total, "run"),
                 100.0 * part
             ),
             Unit::Part => format!("{:.0} %", 100.0 * part),

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
 use pounding_report::{ReportError, RunResult, page};
 
-use super::print;
 use super::separate::{Reading, reading, warn, warnings};
+use super::{name_left_over, print};
 use crate::failure::Failure;
 use crate::plot;
 
@@ -24,6 +25,9 @@ pub fn report(
             let beside = path.with_extension("html");
             files.writes("--output", &beside);
             files.check()?;
+            if !child {
+                name_left_over(&beside);
+            }
             beside
         }
     };
@@ -40,9 +44,10 @@ pub fn report(
     }
     let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
     print(&format!(
-        "{} buildings, {} gaps, {impacts} impacts: page written to {}",
-        result.buildings.len(),
-        result.gaps.len(),
+        "{}, {}, {}: page written to {}",
+        counted(result.buildings.len(), "building"),
+        counted(result.gaps.len(), "gap"),
+        counted(impacts, "impact"),
         output.display()
     ))
 }

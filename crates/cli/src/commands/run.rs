@@ -13,7 +13,7 @@ use pounding_time_history::{
 };
 
 use super::progress::{Progress, Unit};
-use super::{have_a_place, pretty, print, reads_too};
+use super::{have_a_place, name_left_over, pretty, print, reads_too};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
@@ -26,6 +26,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     let output = (!arguments.no_output).then(|| output_path(arguments));
     if let (Some(path), None) = (&output, &arguments.output) {
         files.writes("result", path);
+        name_left_over(path);
     }
     reads_too(&mut files, case.files())?;
     let assembly = assembled(&case)?;

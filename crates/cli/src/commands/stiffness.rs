@@ -211,7 +211,7 @@ fn optional(text: Option<&str>, name: &str, wanted: Dimension) -> Result<Option<
 /// The SI value of an argument; a plain number is SI.
 pub(super) fn value(text: &str, name: &str, wanted: Dimension) -> Result<f64, Failure> {
     let quantity = parse_quantity(text)
-        .map_err(|e| Failure::input(format!("--{name}: {e}"), Some(e.help())))?;
+        .map_err(|e| Failure::input(format!("--{name}: {e}"), Some(e.help_for(Some(wanted)))))?;
     match quantity.dimension {
         Some(found) if found != wanted => Err(Failure::input(
             format!("--{name} must be {wanted}, but \"{text}\" is {found}"),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use pounding_case::Dimension;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::FileUse;
 use pounding_study::{
     MergeOptions, Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport,
@@ -17,7 +18,7 @@ use serde_json::{Value, json};
 use super::progress::{Progress, Unit};
 use super::separate::{Reading, reading, warn, warnings};
 use super::stiffness::value;
-use super::{pretty, print, print_as_it_is, reads_too};
+use super::{name_left_over, pretty, print, print_as_it_is, reads_too};
 use crate::arguments::{MergeArguments, RunningArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::interruption;
@@ -81,11 +82,11 @@ pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
         })));
     }
     print(&format!(
-        "{} runs, {} of them failed and {} collapsed, merged from {} shards into {}",
-        merged.runs,
+        "{}, {} of them failed and {} collapsed, merged from {} into {}",
+        counted(merged.runs, "run"),
         merged.failed,
         merged.collapsed,
-        arguments.shards.len(),
+        counted(arguments.shards.len(), "shard"),
         arguments.output.display()
     ))
 }
@@ -103,6 +104,7 @@ pub fn options(
         None => {
             let output = default_output(&study.file, shard);
             files.writes("result", &output);
+            name_left_over(&output);
             output
         }
     };
@@ -163,7 +165,12 @@ pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure
             return ControlFlow::Continue(());
         }
         if now.all_stored() {
-            let stored = format!("{} of {} runs are stored", now.stored, now.total);
+            let stored = format!(
+                "{} of {} {} stored",
+                now.stored,
+                counted(now.total, "run"),
+                agreeing(&now.total, "is", "are")
+            );
             interruption::leave(&stored);
         }
         ControlFlow::Break(())
@@ -187,7 +194,10 @@ fn show(progress: &Progress, now: &Stand) {
 pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
     match report.failures.first() {
         Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
-            format!("all {} runs failed; run {run}: {reason}", report.runs),
+            match report.runs {
+                1 => format!("the only run failed: {reason}"),
+                runs => format!("all {runs} runs failed; run {run}: {reason}"),
+            },
             Some(format!(
                 "pounding sweep STUDY --show {run} prints the case of that run"
             )),
@@ -230,8 +240,8 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
     text.push_str(&warning_lines(&report.warnings));
     let before = report.runs - report.made;
     text.push_str(&format!(
-        "{} runs in {}",
-        report.runs,
+        "{} in {}",
+        counted(report.runs, "run"),
         options.output.display()
     ));
     if before > 0 {
@@ -243,7 +253,10 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
     });
     text.push_str(&listed(&report.failures, report.failed));
     if report.collapsed > 0 {
-        text.push_str(&format!("Collapse in {} runs:\n", report.collapsed));
+        text.push_str(&format!(
+            "Collapse in {}:\n",
+            counted(report.collapsed, "run")
+        ));
         text.push_str(&listed(&report.collapses, report.collapsed));
     }
     if let Some(csv) = &options.csv {

@@ -3,6 +3,8 @@
 
 mod fixture;
 mod inputs;
+#[cfg(unix)]
+mod left_over;
 #[path = "../support/part_files.rs"]
 mod part_files;
 mod progress;

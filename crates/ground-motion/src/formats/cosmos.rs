@@ -1,7 +1,7 @@
 //! COSMOS 1.20: blocks that announce their count and their Fortran format.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number;
@@ -95,8 +95,53 @@ fn channel(
         unit: None,
         shift: 0.0,
     });
-    draft.header_durations = reals.positive(63).map(Into::into).into_iter().collect();
+    durations(&mut draft, &text, &reals, announcement);
     Ok(draft)
+}
+
+/// Reals that hold the length (s) of the raw record and of the series in this file.
+const RAW_LENGTH: usize = 35;
+const LENGTH: usize = 63;
+
+/// The lengths that the header states: real 63; in words `Raw record length = 210.000 sec`,
+/// which may be that of the record before it was processed; and `approx  210 secs` in the line
+/// before the data, a whole number of seconds.
+fn durations(draft: &mut Draft, text: &[Line<'_>], reals: &HeaderNumbers, announcement: Line<'_>) {
+    let own = reals.positive(LENGTH);
+    draft.header_durations = own
+        .map(|seconds| StatedDuration {
+            seconds,
+            line: Some(reals.line_of(LENGTH)),
+        })
+        .into_iter()
+        .collect();
+    let in_words = text.iter().find_map(|line| {
+        let lower = line.lower();
+        let (_, rest) = lower.split_once("record length")?;
+        Some((line.number, number::first_in(rest)?.0))
+    });
+    if let Some((line, seconds)) = in_words.filter(|(_, seconds)| *seconds > 0.0) {
+        let words = StatedDuration {
+            seconds,
+            line: Some(line),
+        };
+        draft.state_in_words(words, reals.positive(RAW_LENGTH), own);
+    }
+    let approximate = number::after(&announcement.lower(), "approx").map(|n| n.0);
+    let step = match draft.times {
+        Times::Step(step) => step,
+        Times::Each(_) => None,
+    };
+    if let (Some(seconds), Some(step)) = (approximate.filter(|s| *s > 0.0), step) {
+        let found = draft.samples.len() as f64 * step;
+        // Rounded or cut off to whole seconds.
+        if (found - seconds).abs() > 1.0 {
+            draft.header_durations.push(StatedDuration {
+                seconds,
+                line: Some(announcement.number),
+            });
+        }
+    }
 }
 
 /// Count and format of a line such as ` 100 Real-header values follow on  20

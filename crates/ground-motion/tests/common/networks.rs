@@ -50,7 +50,7 @@ pub fn cosmos(written: i64) -> Vec<Fixture> {
             &[(1, 2), (2, code), (3, unit_code), (54, azimuth)],
         ));
         text.push_str(" 100 Real-header values follow on  17 lines, Format= (6F13.6)\n");
-        // Real 34, the step of the uncorrected record, is the wrong one.
+        // Reals 34 and 35, step and length of the uncorrected record, are the wrong ones.
         text.push_str(&reals(
             100,
             6,
@@ -59,6 +59,7 @@ pub fn cosmos(written: i64) -> Vec<Fixture> {
             -999.0,
             &[
                 (34, 0.02),
+                (35, 0.125),
                 (54, 0.03),
                 (57, 20.0),
                 (62, 5.0),

@@ -161,7 +161,21 @@ pub fn caltech_1(written: i64) -> Vec<Fixture> {
 /// Header integers and reals of Volume 2.
 fn volume_2_numbers(written: i64, step: f64) -> String {
     integers(100, 16, 5, -999, &[(53, written)])
-        + &reals(100, 8, 10, 4, -999.0, &[(61, step), (62, 0.07), (73, 40.0)])
+        + &reals(
+            100,
+            8,
+            10,
+            4,
+            -999.0,
+            &[
+                // The record before it was processed, and the series.
+                (3, 1.1 * COUNT as f64 * step),
+                (60, COUNT as f64 * step),
+                (61, step),
+                (62, 0.07),
+                (73, 40.0),
+            ],
+        )
 }
 
 pub fn caltech_2(written: i64) -> Vec<Fixture> {

@@ -165,11 +165,11 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
         ]
     });
     let shown = impacts.len().min(count);
-    format!(
-        "<h3>The hardest {shown} of {} impacts</h3>\n{}",
-        impacts.len(),
-        table(&headings, rows)
-    )
+    let heading = match impacts.len() {
+        1 => "The only impact".to_owned(),
+        all => format!("The hardest {shown} of {all} impacts"),
+    };
+    format!("<h3>{heading}</h3>\n{}", table(&headings, rows))
 }
 
 /// The levels of a link, the top first.

@@ -4,6 +4,7 @@ use super::figures::loudest;
 use super::html::escaped;
 use super::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
+use pounding_catalogue::wording::counted;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
@@ -51,15 +52,15 @@ fn hit(gap: &GapResult) -> Option<String> {
     };
     let times = match gap.impacts.len() {
         1 => "once".to_owned(),
-        count => format!("{count} times"),
+        count => counted(count, "time"),
     };
     let levels = (0..gap.levels.len())
         .filter(|l| gap.impacts.iter().any(|i| i.level == *l as u64 + 1))
         .count();
     Some(format!(
-        "<strong>Gap {name} closes {times}</strong> at {levels} of {} levels. The hardest impact \
+        "<strong>Gap {name} closes {times}</strong> at {levels} of {}. The hardest impact \
          hits {force} at {}, {} s into the motion, approaching with {} m/s ({}).",
-        gap.levels.len(),
+        counted(gap.levels.len(), "level"),
         at(level),
         figures(hardest.t_close),
         figures(hardest.approach_velocity),

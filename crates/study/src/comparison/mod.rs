@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use pounding_case::Case;
 use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
+use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::{BuildingOutcome, StoreyPeaks, run};
 
 use crate::gap_check::{
@@ -274,7 +275,7 @@ fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> 
     for name in names {
         let card = registry::find(name).map_err(|e| CheckError::UnknownModel {
             name: name.clone(),
-            help: e.help().unwrap_or_default(),
+            help: help_among_gaps(name).or(e.help()).unwrap_or_default(),
         })?;
         // A model and its alias are one.
         if !cards.iter().any(|c| c.name == card.name) {

@@ -1,6 +1,6 @@
 //! Gaps by code and by combination rules, beside the demand.
 
-use pounding_case::{Case, Located, Separation};
+use pounding_case::{Case, CaseError, Located, Separation};
 use pounding_separation::{
     CombinationRule, EffectiveProperties, Oscillator, ProvisionDescriptor, Requirement,
     SeparationError, Site, Situation, SoilZone, Status, StructuralSystem, Structure,
@@ -163,30 +163,12 @@ pub(crate) struct Inputs<'a> {
 
 impl<'a> Inputs<'a> {
     pub(crate) fn of(case: &Case, separation: &'a Separation) -> Result<Self, CheckError> {
-        let system = |name: &Located<String>| {
-            StructuralSystem::from_name(&name.value).ok_or_else(|| {
-                let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
-                let message = format!("unknown structural system \"{}\"", name.value);
-                let help = format!("known ones are {}", known.join(", "));
-                unknown(case, name, message, Some(help))
-            })
-        };
         let systems = separation.structural_system.as_ref();
-        let systems = systems.map(|all| all.iter().map(system).collect::<Result<_, _>>());
-        let zone = |name: &Located<String>| {
-            SoilZone::from_name(&name.value).ok_or_else(|| {
-                let message = format!("unknown soil zone \"{}\"", name.value);
-                unknown(
-                    case,
-                    name,
-                    message,
-                    Some("zones are I, II and III".to_owned()),
-                )
-            })
-        };
+        let systems = systems.map(|all| all.iter().map(|name| system_of(case, name)).collect());
+        let zone = separation.soil_zone.as_ref();
         Ok(Self {
             systems: systems.transpose()?,
-            soil_zone: separation.soil_zone.as_ref().map(zone).transpose()?,
+            soil_zone: zone.map(|name| zone_of(case, name)).transpose()?,
             separation,
         })
     }
@@ -231,6 +213,49 @@ impl<'a> Inputs<'a> {
     }
 }
 
+fn system_of(case: &Case, name: &Located<String>) -> Result<StructuralSystem, CheckError> {
+    StructuralSystem::from_name(&name.value).ok_or_else(|| {
+        let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
+        let message = format!("unknown structural system \"{}\"", name.value);
+        let help = format!("known ones are {}", known.join(", "));
+        unknown(case, name, message, Some(help))
+    })
+}
+
+fn zone_of(case: &Case, name: &Located<String>) -> Result<SoilZone, CheckError> {
+    SoilZone::from_name(&name.value).ok_or_else(|| {
+        let message = format!("unknown soil zone \"{}\"", name.value);
+        let help = "zones are I, II and III".to_owned();
+        unknown(case, name, message, Some(help))
+    })
+}
+
+fn provision_of(
+    case: &Case,
+    name: &Located<String>,
+) -> Result<&'static ProvisionDescriptor, CheckError> {
+    find(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
+}
+
+/// Every word of `[separation]` in a case that is not known: structural systems, the soil zone,
+/// provisions.
+#[must_use]
+pub fn unknown_words(case: &Case) -> Vec<CaseError> {
+    let given = &case.separation;
+    let systems = given.structural_system.iter().flatten();
+    let systems = systems.filter_map(|name| system_of(case, name).err());
+    let zone = given.soil_zone.iter();
+    let zone = zone.filter_map(|name| zone_of(case, name).err());
+    let provisions = given.provisions.iter().flatten();
+    let provisions = provisions.filter_map(|name| provision_of(case, name).err());
+    let placed = |error| match error {
+        CheckError::Case(error) => Some(error),
+        _ => None,
+    };
+    let all = systems.chain(zone).chain(provisions);
+    all.filter_map(placed).collect()
+}
+
 /// A word that is not known: with its place if it stands in the case, and not in an
 /// argument.
 fn unknown(
@@ -255,10 +280,7 @@ pub(crate) fn chosen(
     let Some(names) = &separation.provisions else {
         return Ok(descriptors().to_vec());
     };
-    let one = |name: &Located<String>| {
-        find(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
-    };
-    names.iter().map(one).collect()
+    names.iter().map(|name| provision_of(case, name)).collect()
 }
 
 /// What the provisions require for every record and level.

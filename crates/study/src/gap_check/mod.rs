@@ -11,11 +11,11 @@ mod statistics;
 mod sweep;
 mod systems;
 
-pub use codes::{CodeGap, CombinationGap, LevelCombination};
+pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words};
 pub use demand::{Amplification, GapLevel, RecordDemand};
 pub use error::CheckError;
 pub use parallel::Progress;
-pub use records::{CaseUnderRecord, under_records};
+pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
 pub use required::{LognormalFit, RequiredGap};
 pub use statistics::binomial_bounds;
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};

@@ -1,5 +1,6 @@
 //! One case under many records.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
@@ -18,15 +19,15 @@ pub struct CaseUnderRecord {
     pub assembly: Assembly,
 }
 
-/// Puts a case under each record: files, or folders of files in the order of their
-/// names. Without any, the case keeps its own record.
+/// Puts a case under each record: files, or folders of records as [`record_files`] lists
+/// them. Without any, the case keeps its own record.
 ///
 /// Records that are named here are read by their own headers (`time_step`, `unit` and
 /// the other keys of `[ground_motion]` belong to the record of the case), keep the
 /// `scale` of the case, and run for their own durations.
 ///
 /// # Errors
-/// A folder without files, a case or a record that cannot be used.
+/// A folder without records, a case or a record that cannot be used.
 pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRecord>, CheckError> {
     if records.is_empty() {
         let file = case.resolve(&case.ground_motion.file.value);
@@ -37,7 +38,7 @@ pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRe
             assembly,
         }]);
     }
-    let files = files(records)?;
+    let files = record_files(records)?.files;
     let names = distinct_names(&files);
     let cases = files.into_iter().zip(names).map(|(file, name)| {
         let mut other = case.clone();
@@ -53,12 +54,35 @@ pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRe
     cases.collect()
 }
 
-/// Folders replaced by the files in them.
-fn files(records: &[PathBuf]) -> Result<Vec<PathBuf>, CheckError> {
-    let mut files = Vec::new();
+/// Record files, and what lies beside them in folders.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RecordFiles {
+    /// The records, those of a folder in the order of their names.
+    pub files: Vec<PathBuf>,
+    /// Files of folders that are no records.
+    pub skipped: Vec<SkippedFile>,
+}
+
+/// A file that lies among records and is none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SkippedFile {
+    /// The file.
+    pub path: PathBuf,
+    /// What it is, such as "a script".
+    pub what: &'static str,
+}
+
+/// Replaces folders by the records in them. Of a folder all files are taken but those that
+/// plainly are none, by their name or their first bytes; folders in it are not looked into. A
+/// file that is named itself is taken whatever it is.
+///
+/// # Errors
+/// A folder that cannot be listed or holds no record, or a record that is given twice.
+pub fn record_files(records: &[PathBuf]) -> Result<RecordFiles, CheckError> {
+    let mut found = RecordFiles::default();
     for path in records {
         if !path.is_dir() {
-            files.push(path.clone());
+            found.files.push(path.clone());
             continue;
         }
         let refused = |reason: String| CheckError::NoRecords {
@@ -66,27 +90,80 @@ fn files(records: &[PathBuf]) -> Result<Vec<PathBuf>, CheckError> {
             reason,
         };
         let entries = std::fs::read_dir(path).map_err(|e| refused(e.to_string()))?;
-        let mut inside: Vec<PathBuf> = entries
-            .filter_map(|entry| entry.ok().map(|e| e.path()))
-            .filter(|p| p.is_file() && !is_beside_records(p))
-            .collect();
-        if inside.is_empty() {
-            let reason = "it holds no files but hidden ones and descriptions (.md); folders inside it are not looked into";
-            return Err(refused(reason.to_owned()));
-        }
+        let inside = entries.filter_map(|entry| entry.ok().map(|e| e.path()));
+        let mut inside: Vec<PathBuf> = inside.filter(|p| p.is_file()).collect();
         inside.sort();
-        files.extend(inside);
+        let (mut taken, mut skipped) = (Vec::new(), Vec::new());
+        for path in inside {
+            match no_record(&path) {
+                Some(what) => skipped.push(SkippedFile { path, what }),
+                None => taken.push(path),
+            }
+        }
+        if taken.is_empty() {
+            let each = skipped.iter().map(|s| {
+                let name = s.path.file_name().unwrap_or_default();
+                format!("{} is {}", name.to_string_lossy(), s.what)
+            });
+            let each: Vec<_> = each.collect();
+            return Err(refused(if each.is_empty() {
+                "it holds no files; folders inside it are not looked into".to_owned()
+            } else {
+                format!("{}; folders inside it are not looked into", each.join(", "))
+            }));
+        }
+        found.files.extend(taken);
+        found.skipped.extend(skipped);
     }
-    given_once(&files)?;
-    Ok(files)
+    given_once(&found.files)?;
+    Ok(found)
 }
 
-/// Hidden files, and descriptions of records.
-fn is_beside_records(file: &Path) -> bool {
-    let hidden = file
-        .file_name()
-        .is_some_and(|n| n.to_string_lossy().starts_with('.'));
-    hidden || file.extension().is_some_and(|e| e == "md")
+/// Endings of files that lie beside records, in lower case, with what they are.
+const NO_RECORD: [(&str, &[&str]); 7] = [
+    (
+        "a text",
+        &["md", "markdown", "rst", "html", "pdf", "doc", "docx", "odt"],
+    ),
+    (
+        "a settings file",
+        &["toml", "json", "yaml", "yml", "ini", "cfg"],
+    ),
+    (
+        "a script",
+        &["sh", "py", "m", "r", "jl", "ipynb", "bat", "ps1"],
+    ),
+    ("a picture", &["svg", "png", "jpg", "jpeg", "gif"]),
+    ("a result", &["h5", "hdf5", "nc", "parquet"]),
+    (
+        "an archive",
+        &["zip", "gz", "tgz", "tar", "7z", "xz", "bz2"],
+    ),
+    ("an unfinished file", &["part", "tmp", "bak", "swp"]),
+];
+
+/// What a file is that plainly is no record. One that cannot be opened may be a record: reading
+/// it says what is wrong.
+fn no_record(file: &Path) -> Option<&'static str> {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    if name.starts_with('.') {
+        return Some("a hidden file");
+    }
+    let stem = name.split('.').next().unwrap_or_default().to_lowercase();
+    if ["readme", "license", "licence", "provenance", "makefile"].contains(&stem.as_str()) {
+        return Some("a text");
+    }
+    let ending = file.extension().unwrap_or_default().to_string_lossy();
+    let ending = ending.to_lowercase();
+    let by_ending = NO_RECORD
+        .iter()
+        .find(|(_, endings)| endings.contains(&ending.as_str()));
+    if let Some((what, _)) = by_ending {
+        return Some(what);
+    }
+    let mut first = [0; 2];
+    let read = std::fs::File::open(file).and_then(|mut f| f.read_exact(&mut first));
+    (read.is_ok() && first == *b"#!").then_some("a script")
 }
 
 /// A record that counts twice would make the answer look surer than it is.

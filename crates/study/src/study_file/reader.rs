@@ -148,17 +148,30 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn any_quantity(&self, value: &Value<'_>, key: &str) -> Result<Quantity> {
+        self.quantity_for(value, key, None)
+    }
+
+    /// The same where one dimension is wanted, which is not checked: a unit that is not known
+    /// leads to one that gives it.
+    fn quantity_for(
+        &self,
+        value: &Value<'_>,
+        key: &str,
+        wanted: Option<Dimension>,
+    ) -> Result<Quantity> {
         self.maybe_quantity(value).ok_or_else(|| {
             // The reason why a text is none is worth more than that it is none.
             match value.get_ref().as_str().map(parse_quantity) {
-                Some(Err(e)) => self.error(value.span(), format!("`{key}`: {e}"), e.help()),
+                Some(Err(e)) => {
+                    self.error(value.span(), format!("`{key}`: {e}"), e.help_for(wanted))
+                }
                 _ => self.wrong(value, key, "a finite number, or a text with a unit"),
             }
         })
     }
 
     pub(super) fn quantity(&self, value: &Value<'_>, key: &str, wanted: Dimension) -> Result<f64> {
-        let quantity = self.any_quantity(value, key)?;
+        let quantity = self.quantity_for(value, key, Some(wanted))?;
         match quantity.dimension {
             Some(found) if found != wanted => Err(self.error(
                 value.span(),

@@ -10,7 +10,7 @@ use pounding_study::gap_check::under_records;
 
 use super::gap::failure;
 use super::progress::{Progress, Unit, threads};
-use super::{have_a_place, pretty, print, reads_too};
+use super::{have_a_place, pretty, print, reads_too, record_files};
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
 use crate::failure::Failure;
 use crate::faults::{of_records, read_case};
@@ -21,7 +21,7 @@ use crate::plot;
 pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| failure(e, &case);
-    let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
+    let given = record_files(&arguments.records).map_err(failed)?;
     reads_too(&mut files, case.files())?;
     let records =
         under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;

@@ -1,6 +1,7 @@
 //! The comparison for people.
 
 use pounding_case::Case;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
@@ -66,8 +67,8 @@ pub fn report(case: &Case, c: &Comparison) -> String {
 
 fn calibration(c: &Comparison) -> String {
     let mut text = format!(
-        "\n{} models, calibrated alike: elastic laws of equal {}; restitution {}\n",
-        c.models.len(),
+        "\n{}, calibrated alike: elastic laws of equal {}; restitution {}\n",
+        counted(c.models.len(), "model"),
         c.options.stiffness_rule.name(),
         match c.options.restitution_rule.name() {
             "exact" => "returned exactly by the reference collision",
@@ -206,10 +207,12 @@ fn without_contact(c: &Comparison) -> String {
         if !without.is_empty() {
             let names: Vec<_> = without.iter().map(|r| c.records[*r].as_str()).collect();
             text.push_str(&format!(
-                "{}: no contact with any model under {} of {} records, which have no force, impulse, approach velocity or restitution and are left out of their spread and ranking: {}\n",
+                "{}: no contact with any model under {} of {}, which {} no force, impulse, approach velocity or restitution and {} left out of their spread and ranking: {}\n",
                 gap.of,
                 without.len(),
-                c.records.len(),
+                counted(c.records.len(), "record"),
+                agreeing(&without.len(), "has", "have"),
+                agreeing(&without.len(), "is", "are"),
                 names.join(", ")
             ));
         }
@@ -217,8 +220,9 @@ fn without_contact(c: &Comparison) -> String {
             let some = c.models_in_contact(gap.index, r);
             if some > 0 && some < all {
                 text.push_str(&format!(
-                    "{}: contact with {some} of {all} models under {record}; the others are left out there\n",
-                    gap.of
+                    "{}: contact with {some} of {} under {record}; the others are left out there\n",
+                    gap.of,
+                    counted(all, "model"),
                 ));
             }
         }

@@ -16,7 +16,7 @@ use pounding_study::gap_check::{
 };
 
 use super::progress::{Progress, Unit, threads};
-use super::{have_a_place, pretty, print, reads_too};
+use super::{have_a_place, pretty, print, reads_too, record_files};
 use crate::arguments::{GapArguments, OutputPath};
 use crate::failure::Failure;
 use crate::faults::{of_records, read_case};
@@ -31,7 +31,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let separation = separation(&case, arguments)?;
     let options = options(arguments)?;
     let failed = |e| failure(e, &case);
-    let given: Vec<_> = arguments.records.iter().map(|p| p.to_path_buf()).collect();
+    let given = record_files(&arguments.records).map_err(failed)?;
     reads_too(&mut files, case.files())?;
     let records =
         under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;
@@ -126,7 +126,10 @@ fn length(text: &str, name: &str) -> Result<f64, Failure> {
     let refused = |message: String| {
         Failure::input(message, Some("write a length such as \"20 mm\"".to_owned()))
     };
-    let quantity = parse_quantity(text).map_err(|e| refused(format!("--{name}: {e}")))?;
+    let quantity = parse_quantity(text).map_err(|e| {
+        let help = e.help_for(Some(Dimension::LENGTH));
+        Failure::input(format!("--{name}: {e}"), Some(help))
+    })?;
     match quantity.dimension {
         Some(found) if found != Dimension::LENGTH => {
             Err(refused(format!("--{name} must be a length, not {found}")))

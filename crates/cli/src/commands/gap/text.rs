@@ -1,6 +1,7 @@
 //! The gap check for people.
 
 use pounding_case::Case;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Basis;
 use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
@@ -182,10 +183,9 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         ));
     }
     let mut text = format!(
-        "\nGap {}: widths by rule under {} record{}; boundary rules summed over both sides\n{table}\n",
+        "\nGap {}: widths by rule under {}; boundary rules summed over both sides\n{table}\n",
         gap.name,
-        check.records.len(),
-        if check.records.len() == 1 { "" } else { "s" },
+        counted(check.records.len(), "record"),
     );
     text.push_str(
         "\"from memory\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
@@ -200,8 +200,13 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         }
     } else if !refused.is_empty() {
         text.push_str(&format!(
-            "{} provisions lack an input or do not apply: --all says which\n",
-            refused.len()
+            "{} {}: --all says which\n",
+            counted(refused.len(), "provision"),
+            agreeing(
+                &refused.len(),
+                "lacks an input or does not apply",
+                "lack an input or do not apply"
+            )
         ));
     }
     text
@@ -236,10 +241,10 @@ fn elastic_only(check: &GapCheck) -> String {
             format!("maximum ductility {d:.2}")
         });
         text.push_str(&format!(
-            "  {} under {} of {} records ({how_far}, storey {} under {record})\n",
+            "  {} under {} of {} ({how_far}, storey {} under {record})\n",
             building.name,
             check.records.iter().filter(yields).count(),
-            check.records.len(),
+            counted(check.records.len(), "record"),
             storey + 1,
         ));
     }
@@ -254,11 +259,11 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     let confidence = 100.0 * check.options.confidence;
     let required = &gap.required;
     let mut text = format!(
-        "\nGap {}: required {:.2} mm by count ({} of {} records may touch)\n",
+        "\nGap {}: required {:.2} mm by count ({} of {} may touch)\n",
         gap.name,
         required.by_count * 1e3,
         required.allowed_contacts,
-        gap.demand.len(),
+        counted(gap.demand.len(), "record"),
     );
     match &required.lognormal {
         Ok(fit) => text.push_str(&format!(
@@ -409,14 +414,14 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
         format!("one width of {every} shown, --csv writes all")
     };
     let mut text = format!(
-        "\nSweep over {} widths ({which}): maximum amplification over storeys and records; {shown}\n{table}\n",
-        sweep.widths.len(),
+        "\nSweep over {} ({which}): maximum amplification over storeys and records; {shown}\n{table}\n",
+        counted(sweep.widths.len(), "width"),
     );
     text.push_str(&worst(check, sweep, &buildings));
     if sweep.failures() > 0 {
         text.push_str(&format!(
-            "{} runs of the sweep failed; --json and --csv say why\n",
-            sweep.failures()
+            "{} of the sweep failed; --json and --csv say why\n",
+            counted(sweep.failures(), "run")
         ));
     }
     text
@@ -457,7 +462,7 @@ fn verdict(check: &GapCheck, gap: &GapReport) -> String {
         String::new()
     };
     format!(
-        "\nGap {}: {} - {} of {} records close it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n{driven}",
+        "\nGap {}: {} - {} of {} {} it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n{driven}",
         gap.name,
         if gap.adequate {
             "WIDE ENOUGH"
@@ -465,7 +470,8 @@ fn verdict(check: &GapCheck, gap: &GapReport) -> String {
             "TOO SMALL"
         },
         gap.records_in_contact,
-        gap.demand.len(),
+        counted(gap.demand.len(), "record"),
+        agreeing(&gap.demand.len(), "closes", "close"),
         gap.required.allowed_contacts,
         low,
         high,

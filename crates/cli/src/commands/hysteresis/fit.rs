@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::tables::Table;
 use comfy_table::CellAlignment;
 use pounding_case::Dimension;
+use pounding_catalogue::wording::counted;
 use pounding_hysteresis::iwan::{DissipationFit, FitOptions, IwanDensity, fit_dissipation};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters};
 use serde_json::{Value, json};
@@ -103,7 +104,11 @@ fn read(path: &Path, unknowns: usize) -> Result<Vec<(f64, f64)>, Failure> {
     if pairs.len() < unknowns {
         return Err(source.error(
             0..0,
-            format!("{} rows of numbers for {unknowns} unknowns", pairs.len()),
+            format!(
+                "{} of numbers for {}",
+                counted(pairs.len(), "row"),
+                counted(unknowns, "unknown")
+            ),
             "measure more amplitudes, or set slider_stiffness=0, and phi_1=0",
         ));
     }
@@ -153,10 +158,10 @@ impl Fitted {
             ]);
         }
         format!(
-            "\nFitted to {} measured cycles\n{table}\nroot mean square of the relative errors {:.3} %, {} iterations\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m is taken as given: a spring does not dissipate\n",
-            self.measured.len(),
+            "\nFitted to {}\n{table}\nroot mean square of the relative errors {:.3} %, {}\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m is taken as given: a spring does not dissipate\n",
+            counted(self.measured.len(), "measured cycle"),
             100.0 * self.relative_error,
-            self.iterations,
+            counted(self.iterations, "iteration"),
             significant(self.density.initial_stiffness()),
             significant(self.density.residual_stiffness),
         )

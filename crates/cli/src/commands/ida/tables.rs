@@ -2,15 +2,16 @@
 
 use crate::tables::Table;
 use comfy_table::CellAlignment;
+use pounding_catalogue::wording::counted;
 use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, PoundingDemand};
 
 /// The report for people.
 pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
     let mut text = format!(
-        "\n{} in {}, {} records; 16, 50 and 84 % fractiles (SI)\n{}\n",
+        "\n{} in {}, {}; 16, 50 and 84 % fractiles (SI)\n{}\n",
         report.measure,
         report.unit,
-        report.records,
+        counted(report.records, "record"),
         levels(report)
     );
     text.push_str(&format!(

@@ -2,6 +2,7 @@
 
 use crate::tables::Table;
 use pounding_case::Dimension;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::CollisionSample;
 use serde_json::{Value, json};
 
@@ -132,7 +133,9 @@ fn align(
     let in_contact = contact.len() - 1;
     if in_contact < FEW_SAMPLES {
         warnings.push(format!(
-            "only {in_contact} samples lie in the contact: peak and impulse are rough"
+            "only {} {} in the contact: peak and impulse are rough",
+            counted(in_contact, "sample"),
+            agreeing(&in_contact, "lies", "lie")
         ));
     }
     contact.push((
@@ -288,8 +291,8 @@ pub fn text(measured: &Measured, compared: &[Compared]) -> String {
         comparison(measured, compared)
     );
     text.push_str(&format!(
-        "impulse: each over its own contact, measured by trapezoids over {} samples; rms difference: from first contact until both contacts are over\n",
-        measured.in_contact
+        "impulse: each over its own contact, measured by trapezoids over {}; rms difference: from first contact until both contacts are over\n",
+        counted(measured.in_contact, "sample")
     ));
     for warning in &measured.warnings {
         text.push_str(&format!("warning: {warning}\n"));

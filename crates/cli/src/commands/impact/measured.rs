@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use pounding_case::{Dimension, parse_quantity};
+use pounding_catalogue::wording::{agreeing, counted};
 
 use crate::failure::Failure;
 
@@ -67,7 +68,7 @@ impl Source<'_> {
         if samples.len() < 3 {
             return Err(self.error(
                 end,
-                format!("{} rows of numbers are too few", samples.len()),
+                format!("too few rows of numbers: {}", samples.len()),
                 "a force history takes three rows at least, better fifty",
             ));
         }
@@ -135,7 +136,11 @@ impl Source<'_> {
     fn columns(&self, place: Range<usize>, found: usize) -> Failure {
         self.error(
             place,
-            format!("there are {found} columns here, but two are wanted: time, force"),
+            format!(
+                "there {} {} here, but two are wanted: time, force",
+                agreeing(&found, "is", "are"),
+                counted(found, "column")
+            ),
             "keep the columns time and force; separate them by comma, semicolon, tab or blanks, and write numbers with a decimal point",
         )
     }

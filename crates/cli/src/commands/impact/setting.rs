@@ -159,7 +159,7 @@ impl Setting {
 /// The value of an option (SI) that must have this dimension.
 pub fn quantity(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
     let quantity = parse_quantity(text)
-        .map_err(|e| Failure::input(format!("--{option}: {e}"), Some(e.help())))?;
+        .map_err(|e| Failure::input(format!("--{option}: {e}"), Some(e.help_for(Some(wanted)))))?;
     match quantity.dimension {
         Some(found) if found != wanted => Err(Failure::input(
             format!("--{option} must be {wanted}, but \"{text}\" is {found}"),

@@ -1,5 +1,6 @@
 //! `pounding motion convert`: a series in another format.
 
+use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
 };
@@ -56,10 +57,10 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
         })));
     }
     let mut text = format!(
-        "{}: {}, {} samples at {} s\n",
+        "{}: {}, {} at {} s\n",
         arguments.file.display(),
         series.label(),
-        written.samples.len(),
+        counted(written.samples.len(), "sample"),
         written.time_step
     );
     for warning in &series.origin.warnings {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{Accelerogram, StepRecord};
 use serde_json::{Value, json};
@@ -59,8 +60,8 @@ pub fn finish(
     }
     let peak = motion.peak();
     text.push_str(&format!(
-        "\n{} samples at {} s, peak acceleration {:.5} g at {:.4} s, written to {}\n",
-        motion.samples().len(),
+        "\n{} at {} s, peak acceleration {:.5} g at {:.4} s, written to {}\n",
+        counted(motion.samples().len(), "sample"),
         motion.time_step(),
         peak.value / super::measures::G,
         peak.time,

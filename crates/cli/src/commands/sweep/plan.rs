@@ -1,5 +1,6 @@
 //! What a study would run, and how to hand it to a cluster.
 
+use pounding_catalogue::wording::counted;
 use pounding_study::{Study, Value};
 use serde_json::json;
 
@@ -43,7 +44,8 @@ pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {
         ));
     }
     text.push_str(&format!(
-        "{runs} runs, stored {} at a time\n\nHyperQueue:\n{hyper_queue}\n\nSlurm (a failed task may be submitted again: it goes on where it was):\n{slurm}\nThen: pounding merge *.shard-*-of-{shards}.h5 -o OUT.h5\n",
+        "{}, stored {} at a time\n\nHyperQueue:\n{hyper_queue}\n\nSlurm (a failed task may be submitted again: it goes on where it was):\n{slurm}\nThen: pounding merge *.shard-*-of-{shards}.h5 -o OUT.h5\n",
+        counted(runs, "run"),
         study.chunk
     ));
     print(&text)

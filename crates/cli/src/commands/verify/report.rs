@@ -1,6 +1,7 @@
 //! Published beside computed, with a verdict a line.
 
 use crate::tables::Table;
+use pounding_catalogue::wording::counted;
 use serde_json::{Map, Value, json};
 
 /// How a computed value stands to a published one, the worst first.
@@ -175,7 +176,10 @@ pub fn as_text(parts: &[Part]) -> String {
         out.push('\n');
     }
     let failed: Vec<&Line> = lines(parts).filter(|line| !line.holds()).collect();
-    out.push_str(&format!("{} lines compared; ", lines(parts).count()));
+    out.push_str(&format!(
+        "{} compared; ",
+        counted(lines(parts).count(), "line")
+    ));
     if failed.is_empty() {
         out.push_str("everything that is said to reproduce does.");
     } else {

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 /// Crates whose sources decide the numbers of a run.
-const COMPUTING: [&str; 8] = [
+const COMPUTING: [&str; 9] = [
+    "assembly",
     "case",
     "gap-element",
     "ground-motion",

@@ -1,327 +1,36 @@
-//! All that is wrong in a case, said at once.
-//!
-//! A case is read in two steps: words, units and places first, then models, parameters,
-//! methods and the record. Each step reports all that it finds, but what fails in the first
-//! is never seen by the second. Here the second looks at what the first could read.
+//! Cases as commands read them: all that is wrong in one is reported together.
 
 use std::path::Path;
 
-use pounding_assembly::{
-    Assembly, AssemblyError, assemble, assemble_with_record, read_record, regap, scale_record,
-};
-use pounding_case::{
-    Analysis, Building, Case, CaseError, Damping, Draft, Located, Parameter, Quantity,
-};
-use pounding_gap_element::registry;
-use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
-use pounding_hysteresis::help_among_gaps;
-use pounding_study::gap_check::{CheckError, unknown_words};
-use pounding_time_history::TimeHistoryError;
+use pounding_assembly::{Assembly, AssemblyError, assemble};
+use pounding_case::Case;
+use pounding_study::faults;
+use pounding_study::gap_check::CheckError;
 
 use crate::commands::gap_failure;
 use crate::failure::Failure;
 
-/// Buildings of more storeys take too long to be looked at for the sake of a message alone.
-const MOST_STOREYS: usize = 200;
-
 /// Reads and validates a case file. With `own_record`, errors of one kind do not hide that
 /// its record is missing.
 pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
-    // Read once: a pipe has nothing to give a second time.
-    let source = pounding_case::read_text(path, "case").map_err(|e| Failure::case(e, ""))?;
-    let case = Case::parse_or_draft(&source, path).map_err(|refusal| {
-        let more = refusal.draft.map(|draft| later(&draft, own_record));
-        Failure::case(joined(refusal.error, more.unwrap_or_default()), &source)
-    })?;
-    // Only `gap` needs these words, but a case in which they are wrong is wrong everywhere.
-    match CaseError::of_all(unknown_words(&case)) {
-        None => Ok(case),
-        Some(error) => {
-            let draft = sound(&case);
-            Err(Failure::case(
-                joined(error, later(&draft, own_record)),
-                &source,
-            ))
-        }
-    }
-}
-
-/// A case in which nothing was found wrong by reading it.
-fn sound(case: &Case) -> Draft {
-    Draft {
-        case: case.clone(),
-        incomplete: Vec::new(),
-        motion_is_known: true,
-    }
+    faults::read_case(path, own_record).map_err(|e| Failure::case(e.error, &e.source_text))
 }
 
 /// The system of a case under its own record.
 pub fn assembled(case: &Case) -> Result<Assembly, Failure> {
-    assemble(case).map_err(|e| of_assembly(e, case, true))
-}
-
-/// What kept a case from being assembled, with all else that is wrong in it.
-pub fn of_assembly(error: AssemblyError, case: &Case, own_record: bool) -> Failure {
-    let error = match error {
-        AssemblyError::Case(error) => error,
-        AssemblyError::GroundMotion(error) if own_record => of_record(case, &error),
-        AssemblyError::System(TimeHistoryError::Option {
-            option,
-            value,
-            reason,
-        }) if case.analysis.places.contains_key(option) => of_option(case, option, value, reason),
-        error => return Failure::of_case(error, case),
-    };
-    let draft = sound(case);
-    let error = CaseError::of_all(error.each().map(|e| hinted(case, e)).collect());
-    let more = later(&draft, own_record);
-    match error {
-        Some(error) => Failure::case(joined(error, more), &case.source),
-        None => Failure::input("the case cannot be assembled", None),
-    }
+    assemble(case).map_err(|e| Failure::of_case(faults::with_all(e, case, true), case))
 }
 
 /// What kept a case from being put under records, its own or others.
 pub fn of_records(error: CheckError, case: &Case, own_record: bool) -> Failure {
-    match error {
-        CheckError::Case(error) => of_assembly(error.into(), case, own_record),
+    let error = match error {
+        CheckError::Case(error) => error.into(),
         CheckError::Record { source, .. }
             if own_record && matches!(*source, AssemblyError::GroundMotion(_)) =>
         {
-            of_assembly(*source, case, own_record)
+            *source
         }
-        error => gap_failure(error, case),
-    }
-}
-
-/// One error of an error and others, in the order of the file.
-fn joined(error: CaseError, more: Vec<CaseError>) -> CaseError {
-    let all = error.clone().each().chain(more).collect();
-    CaseError::of_all(all).unwrap_or(error)
-}
-
-/// What the second step finds wrong in what could be read.
-fn later(draft: &Draft, own_record: bool) -> Vec<CaseError> {
-    let mut errors = words(draft);
-    errors.extend(options(&draft.case));
-    errors.extend(floors(&draft.case));
-    errors.extend(unknown_words(&draft.case));
-    if own_record {
-        errors.extend(record(draft));
-    }
-    errors
-}
-
-/// Buildings, models, laws and their parameters.
-fn words(draft: &Draft) -> Vec<CaseError> {
-    // A method that is none keeps the case from being put together after its words were
-    // looked at, which stand-ins would not bear.
-    let nowhere = draft.case.source.len() + 1;
-    let mut case = draft.case.clone();
-    case.analysis.method = Located {
-        value: String::new(),
-        span: nowhere..nowhere,
+        error => return gap_failure(error, case),
     };
-    let small = |b: &Building| b.mass.len() <= MOST_STOREYS;
-    if !case.buildings.iter().all(small) {
-        // Gaps and links are not looked at beyond their models.
-        case.buildings.retain(small);
-    }
-    let found = of_case(assembly(&case));
-    let found = found.into_iter().filter(|e| e.span.start != nowhere);
-    let follows = |e: &CaseError| draft.incomplete.contains(&e.span) && !is_unknown(&case, e);
-    let found = found.filter(|e| !follows(e));
-    found.map(|e| hinted(&case, e)).collect()
-}
-
-/// Whether the error stands at a model or law that is not known: what its parameters are
-/// does not matter then.
-fn is_unknown(case: &Case, error: &CaseError) -> bool {
-    let at = |name: &Located<String>| name.span == error.span;
-    let laws = case.buildings.iter().flat_map(|b| &b.laws);
-    let mut laws = laws
-        .map(|l| &l.model)
-        .chain(case.links.iter().map(|l| &l.model));
-    unknown_model(case, error).is_some()
-        || laws.any(|l| at(l) && pounding_hysteresis::find(&l.value).is_err())
-}
-
-/// The name at the place of an error, if it is that of no impact model.
-fn unknown_model<'c>(case: &'c Case, error: &CaseError) -> Option<&'c str> {
-    let mut gaps = case.gaps.iter();
-    let gap = gaps.find(|g| g.model.span == error.span)?;
-    let name = gap.model.value.as_str();
-    registry::find(name).is_err().then_some(name)
-}
-
-/// Help for who looks for a law of links among the models of gaps.
-fn hinted(case: &Case, mut error: CaseError) -> CaseError {
-    let Some(name) = unknown_model(case, &error) else {
-        return error;
-    };
-    error.help = help_among_gaps(name).or(error.help);
-    error
-}
-
-/// The method and its numbers.
-fn options(case: &Case) -> Vec<CaseError> {
-    let mut alone = case.clone();
-    alone.gaps.clear();
-    alone.links.clear();
-    alone.buildings = vec![plain_building()];
-    match assembly(&alone) {
-        Err(AssemblyError::System(TimeHistoryError::Option {
-            option,
-            value,
-            reason,
-        })) => vec![of_option(case, option, value, reason)],
-        other => of_case(other),
-    }
-}
-
-/// An option out of range, where the case gives it.
-fn of_option(case: &Case, option: &str, value: f64, reason: &str) -> CaseError {
-    let message = format!("`{option}` = {value} is out of range: {reason}");
-    let help = format!("correct `{option}` in [analysis]");
-    case.error(case.analysis.span_of(option), message, Some(help))
-}
-
-/// Floors that face one another.
-fn floors(case: &Case) -> Vec<CaseError> {
-    if case.buildings.iter().any(|b| b.mass.len() > MOST_STOREYS) {
-        return Vec::new();
-    }
-    let mut base = case.clone();
-    base.links.clear();
-    base.analysis = Analysis {
-        method: Located {
-            value: "event_driven".to_owned(),
-            span: 0..0,
-        },
-        ..base.analysis
-    };
-    for building in &mut base.buildings {
-        building.laws.clear();
-    }
-    let mut gaps = std::mem::take(&mut base.gaps);
-    gaps.retain(|gap| !gap.levels.is_empty());
-    if gaps.is_empty() {
-        return Vec::new();
-    }
-    let Ok(alone) = assembly(&base) else {
-        return Vec::new();
-    };
-    let stiffness = Parameter {
-        key: Located {
-            value: "stiffness".to_owned(),
-            span: 0..0,
-        },
-        value: Located {
-            value: Quantity {
-                value: 1.0e8,
-                dimension: None,
-                text: String::new(),
-            },
-            span: 0..0,
-        },
-    };
-    let mut errors = Vec::new();
-    for mut gap in gaps {
-        // Any model that is known.
-        gap.model.value = "linear_elastic".to_owned();
-        gap.separation = None;
-        gap.parameters = vec![stiffness.clone()];
-        base.gaps = vec![gap];
-        errors.extend(of_case(regap(&base, &alone.system)));
-    }
-    errors
-}
-
-/// The record and the words that say how to read it.
-fn record(draft: &Draft) -> Vec<CaseError> {
-    let mut case = draft.case.clone();
-    let file = &case.ground_motion.file;
-    let path = case.resolve(&file.value);
-    // What is neither missing nor a file, such as a pipe, gives its text once.
-    let readable = std::fs::metadata(&path).map_or(true, |m| m.is_file());
-    if file.value.as_os_str().is_empty() || !readable {
-        return Vec::new();
-    }
-    let mut errors = Vec::new();
-    let mut known = draft.motion_is_known;
-    loop {
-        let error = match read_record(&case) {
-            Ok(record) if known => scale_record(&case, record).err(),
-            Ok(_) => None,
-            Err(error) => Some(error),
-        };
-        match error {
-            Some(AssemblyError::Case(error)) => {
-                let motion = &mut case.ground_motion;
-                let words = [&mut motion.format, &mut motion.unit, &mut motion.quantity];
-                let at = |w: &&mut Option<Located<String>>| {
-                    w.as_ref().is_some_and(|w| w.span == error.span)
-                };
-                let Some(word) = words.into_iter().find(at) else {
-                    errors.extend(known.then_some(error));
-                    return errors;
-                };
-                // Without it the others are looked at; the record cannot be.
-                *word = None;
-                known = false;
-                errors.push(error);
-            }
-            Some(AssemblyError::GroundMotion(error)) => {
-                if known || matches!(error, GroundMotionError::Io { .. }) {
-                    errors.push(of_record(&case, &error));
-                }
-                return errors;
-            }
-            _ => return errors,
-        }
-    }
-}
-
-/// An error of the record, where the case names it.
-fn of_record(case: &Case, error: &GroundMotionError) -> CaseError {
-    let place = case.ground_motion.file.span.clone();
-    case.error(place, error.to_string(), error.help())
-}
-
-fn assembly(case: &Case) -> Result<Assembly, AssemblyError> {
-    let unit = AccelerationUnit::MetrePerSecondSquared;
-    let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
-    assemble_with_record(case, &rest)
-}
-
-fn of_case<T>(result: Result<T, AssemblyError>) -> Vec<CaseError> {
-    match result {
-        Err(AssemblyError::Case(error)) => error.each().collect(),
-        _ => Vec::new(),
-    }
-}
-
-/// One storey without anything to find fault with.
-fn plain_building() -> Building {
-    let nowhere = 0..0;
-    Building {
-        name: Located {
-            value: "building".to_owned(),
-            span: nowhere.clone(),
-        },
-        mass: vec![1.0],
-        stiffness: vec![1.0e3],
-        height: vec![3.0],
-        initial_displacement: Located {
-            value: vec![0.0],
-            span: nowhere.clone(),
-        },
-        initial_velocity: vec![0.0],
-        laws: Vec::new(),
-        p_delta: false,
-        damping: Located {
-            value: Damping::MassProportional { ratio: 0.0 },
-            span: nowhere,
-        },
-    }
+    Failure::of_case(faults::with_all(error, case, own_record), case)
 }

@@ -7,6 +7,7 @@
 //! file whose contents depend on the study alone.
 
 pub mod comparison;
+pub mod faults;
 pub mod gap_check;
 
 mod case_text;

@@ -7,6 +7,8 @@ use pounding_case::{Case, CaseError, Errors};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use toml::de::DeTable;
 
+use crate::faults::{parse_case, with_all};
+
 use super::reader::{Reader, Result, Table, Value};
 use super::variables::{Context, variable};
 use super::{RecordSource, Study, Target, Values, Variable, ida, records};
@@ -130,10 +132,22 @@ fn base(root: &Table<'_, '_>, folder: &Path) -> Result<Case> {
         error: Box::new(e),
         source_text: source.clone(),
     };
-    let case = Case::parse(&source, &path).map_err(error)?;
+    // Without records of its own the study takes that of the case.
+    let variables = root.get("variable").and_then(|v| v.get_ref().as_array());
+    let names_records = |v: &Value<'_>| {
+        let table = v.get_ref().as_table();
+        table.is_some_and(|t| {
+            t.keys()
+                .any(|k| matches!(&**k.get_ref(), "records" | "synthetic"))
+        })
+    };
+    let own_record = !variables.into_iter().flatten().any(names_records);
+    let case = parse_case(&source, &path, own_record).map_err(error)?;
     match assemble_with_record(&case, &two_samples()?) {
-        Err(AssemblyError::Case(e)) => Err(error(e)),
-        Err(e) => Err(e.into()),
+        Err(e) => match with_all(e, &case, own_record) {
+            AssemblyError::Case(e) => Err(error(e)),
+            e => Err(e.into()),
+        },
         Ok(_) => Ok(case),
     }
 }

@@ -1,6 +1,7 @@
 //! What is printed for people is no wider than `COLUMNS` says, and says all the same.
 #![allow(clippy::unwrap_used)]
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
@@ -35,6 +36,14 @@ fn words(text: &str) -> Vec<&str> {
         .collect()
 }
 
+/// Words within tables: every one that stands in a cell.
+fn words_of_tables(text: &str) -> BTreeSet<&str> {
+    // Not the rules between rows.
+    let rows = |l: &&str| l.starts_with('|') && !l.starts_with("|-");
+    let cells = text.lines().filter(rows).flat_map(|l| l.split('|'));
+    cells.flat_map(str::split_whitespace).collect()
+}
+
 const COMMANDS: [&str; 12] = [
     "check examples/yielding_pair/case.toml",
     "run examples/yielding_pair/case.toml --no-output",
@@ -65,6 +74,11 @@ fn no_table_and_no_paragraph_is_wider_than_columns() {
                 );
             }
             assert_eq!(words(&text), words(&free), "{arguments} at {columns}");
+            let (shown, all) = (words_of_tables(&text), words_of_tables(&free));
+            // Words that long may be broken.
+            let whole = |word: &&&str| word.chars().count() <= columns / 3;
+            let lost: Vec<_> = all.difference(&shown).filter(whole).collect();
+            assert!(lost.is_empty(), "{arguments} at {columns}: {lost:?}");
         }
         let text = printed(arguments, Some(2000));
         assert_eq!(words(&text), words(&free), "{arguments} at 2000");

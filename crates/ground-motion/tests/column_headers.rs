@@ -265,6 +265,19 @@ fn headers_that_cannot_be_used_say_why() {
             false,
         ),
         (
+            "time_s;t (s);acceleration_g",
+            ["names two columns of times", "time_s;t (s)"],
+            "name one of them otherwise",
+            false,
+        ),
+        // A component with its unit makes a header of the line, though one name is none.
+        (
+            "ns_g;foo",
+            ["column 2, \"foo\"", "not understood"],
+            "name every column",
+            false,
+        ),
+        (
             "time_s;displacement_m",
             [
                 "names no acceleration",

@@ -234,6 +234,11 @@ fn impossible_counts_of_k_net_are_refused() {
     let glued = said(free(&row));
     assert!(glued.starts_with("file:18:1: "), "{glued}");
     assert!(glued.contains("24 bits"), "{glued}");
+    // Nor where every nine digits of them would be a count that is possible.
+    let row = "000000017".repeat(8);
+    let glued = said(free(&row[..71]));
+    assert!(glued.starts_with("file:18:1: "), "{glued}");
+    assert!(glued.contains("24 bits"), "{glued}");
     for count in ["99999999", "8388609", "-8388609"] {
         let shown = said(free(&format!("1 2 {count} 3")));
         assert!(shown.starts_with("file:18:5: "), "{shown}");

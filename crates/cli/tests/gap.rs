@@ -110,7 +110,9 @@ fn walls_and_undamped_buildings() {
 /// The case of the tutorial, taken from its text, with the numbers that the text gives.
 #[test]
 fn the_tutorial() {
-    let tutorial = std::fs::read_to_string(root().join("docs/tutorial.md")).unwrap();
+    let tutorial =
+        std::fs::read_to_string(root().join("docs/tutorial/from-a-record-to-a-defended-gap.md"))
+            .unwrap();
     let case = tutorial.split("```toml\n").nth(1).unwrap();
     let case = case.split("```").next().unwrap();
     let motions = root().join("ground_motions").canonicalize().unwrap();

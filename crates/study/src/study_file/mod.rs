@@ -118,7 +118,7 @@ impl Study {
     pub fn read(path: &FilePath) -> Result<Self, StudyError> {
         let source = pounding_case::read_text(path, "study").map_err(|mut error| {
             if !path.is_file() {
-                error.help = Some("give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/studies.md says what stands in it".to_owned());
+                error.help = Some("give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/reference/studies.md says what stands in it".to_owned());
             }
             StudyError::Text {
                 error: Box::new(error),

@@ -52,7 +52,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
 }
 
 fn whole(reader: Reader<'_>, file: &Path) -> Result<Draft, CaseError> {
-    let tree = reader.document("see the example in the README")?;
+    let tree = reader.document("see the example in docs/reference/case-file.md")?;
     let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE);
     let keep = reader.errors;
     let title = keep.or_default(root.optional_text("title"));

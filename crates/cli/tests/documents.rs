@@ -1,9 +1,10 @@
-//! The documents of the repository hold together: links lead somewhere, no page is out of
-//! reach, and paths that the source names are there.
+//! The documents of the repository are true: links lead somewhere, no page is out of
+//! reach, paths that the source names are there, and commands, keys and numbers are those of the program.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 fn root() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -158,4 +159,140 @@ fn pages_that_the_source_names_exist() {
     assert!(named.len() >= 5, "{named:?}");
     named.retain(|path, _| !root().join(path).exists());
     assert!(named.is_empty(), "no such page: {named:#?}");
+}
+
+fn page(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The fenced block of this language on a page.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let (_, rest) = page.split_once(&format!("```{language}\n")).unwrap();
+    rest.split_once("```").unwrap().0
+}
+
+fn pounding() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    command.env("NO_COLOR", "1").env("COLUMNS", "300");
+    command.current_dir(root());
+    command
+}
+
+fn printed(command: &mut Command, what: &str) -> String {
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{what}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The README is a page, and what it shows is what its command prints.
+#[test]
+fn the_readme() {
+    let readme = page("README.md");
+    let words = readme.split_whitespace().count();
+    assert!(words < 400, "{words} words");
+    let (_, command) = block(&readme, "sh")
+        .split_once("--bin pounding -- ")
+        .unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let figure = folder.path().join("pair.svg");
+    let words: Vec<&str> = command.split_whitespace().collect();
+    let [run, case, "--plot", "pair.svg"] = words[..] else {
+        panic!("{words:?}");
+    };
+    let shown = printed(
+        pounding()
+            .args([run, case, "--no-output", "--plot"])
+            .arg(&figure),
+        command,
+    );
+    assert!(figure.exists());
+    let lines: Vec<&str> = block(&readme, "text")
+        .lines()
+        .filter(|l| *l != "...")
+        .collect();
+    assert!(lines.len() >= 3, "{lines:?}");
+    for line in lines {
+        assert!(shown.lines().any(|l| l == line), "{line}\n{shown}");
+    }
+}
+
+#[test]
+fn every_command_has_its_line() {
+    let page = page("docs/reference/commands.md");
+    let rows: Vec<&str> = page
+        .lines()
+        .filter(|l| l.starts_with("| `pounding"))
+        .collect();
+    let names = |text: &str, name: &str| {
+        text.split(|c: char| !(c.is_alphanumeric() || "-_".contains(c)))
+            .any(|word| word == name)
+    };
+    for command in pounding_cli::command().get_subcommands() {
+        let start = format!("`pounding {}", command.get_name());
+        let of_it: Vec<_> = rows.iter().filter(|row| row.contains(&start)).collect();
+        assert!(!of_it.is_empty(), "{start}");
+        for inner in command.get_subcommands() {
+            let named = of_it.iter().any(|row| names(row, inner.get_name()));
+            assert!(named, "{start} {}", inner.get_name());
+        }
+    }
+}
+
+/// Keys of a part of the JSON Schema, and of all parts in it.
+fn keys(schema: &serde_json::Value, found: &mut BTreeSet<String>) {
+    match schema {
+        serde_json::Value::Object(map) => {
+            if let Some(serde_json::Value::Object(properties)) = map.get("properties") {
+                found.extend(properties.keys().cloned());
+            }
+            map.values().for_each(|value| keys(value, found));
+        }
+        serde_json::Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_of_the_case_file_is_documented() {
+    let schema = printed(pounding().arg("schema"), "schema");
+    let mut found = BTreeSet::new();
+    keys(&serde_json::from_str(&schema).unwrap(), &mut found);
+    assert!(found.len() > 80, "{found:?}");
+    let pages: String = [
+        "case-file",
+        "ground-motions",
+        "yielding-storeys-and-links",
+        "gap-check",
+    ]
+    .iter()
+    .map(|name| page(&format!("docs/reference/{name}.md")))
+    .collect();
+    let named: BTreeSet<&str> = pages
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .collect();
+    found.retain(|key| !named.contains(key.as_str()));
+    assert!(found.is_empty(), "no page names {found:?}");
+}
+
+/// The case of the page, and every kind of damping in its table.
+#[test]
+fn the_case_file_of_the_reference_is_accepted() {
+    let page = page("docs/reference/case-file.md");
+    let motions = root().join("ground_motions");
+    let case = block(&page, "toml").replace("../../ground_motions", motions.to_str().unwrap());
+    let kinds = page.lines().filter_map(|line| {
+        let kind = line.strip_prefix("| `{ ")?.split_once('`')?.0;
+        Some(format!("damping = {{ {kind}"))
+    });
+    let kinds: Vec<String> = kinds.collect();
+    assert_eq!(kinds.len(), 6);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let first = "damping = { stiffness_proportional = 0.05 }";
+    assert!(case.contains(first));
+    for kind in kinds {
+        std::fs::write(&file, case.replacen(first, &kind, 1)).unwrap();
+        printed(pounding().arg("check").arg(&file), &kind);
+    }
 }

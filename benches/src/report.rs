@@ -326,7 +326,7 @@ fn scalings(
     rounds: usize,
 ) -> Result<String, Failure> {
     let mut text = format!(
-        "\n## Scaling\n\n{} throughout, 30 s, {} samples. Columns hold ms a run; in brackets ns \
+        "\n## Scaling\n\n{} throughout, 30 s, {} samples. Columns hold ms per run; in brackets ns \
          for each floor and sample.\n",
         scaling::MODEL,
         ground.samples.len() - 1

@@ -114,7 +114,7 @@ fn go(system: &System, method: MethodChoice) -> Outcome {
     run(system, &options, &mut [], &mut |_| {}).unwrap()
 }
 
-/// Greatest difference of peaks, as a part of the greatest of their kind.
+/// Maximum difference of peaks, as a part of the maximum of their kind.
 fn difference(a: &Outcome, b: &Outcome) -> f64 {
     let kinds: [fn(&Outcome) -> Vec<f64>; 4] = [
         |o| storeys(o, |s| s.displacement.value),

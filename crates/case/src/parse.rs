@@ -295,7 +295,7 @@ fn spread(
         Values::List(values) => Err(reader.error(
             list.span,
             format!("{} values where there are {count} {place}s", values.len()),
-            format!("give one value a {place}, or a single value for all"),
+            format!("give one value per {place}, or a single value for all"),
         )),
     }
 }
@@ -314,7 +314,7 @@ fn one_each<T>(
     Err(reader.error(
         span,
         format!("{} values where there are {count} places", values.len()),
-        "give one value a storey or level of this law, or a single value without brackets for all",
+        "give one value per storey or level of this law, or a single value without brackets for all",
     ))
 }
 

@@ -19,13 +19,13 @@ pub fn outcome(
         .iter()
         .zip(&isolated.buildings)
         .zip(system.buildings())
-        .map(|((b, alone), building)| {
+        .map(|((b, isolated), building)| {
             json!({
                 "name": b.name,
                 "elevation": building.elevations(),
                 "storeys": b.storeys.iter().map(storey).collect::<Vec<_>>(),
                 "yielding": b.yielding.iter().map(yielding).collect::<Vec<_>>(),
-                "isolated": alone.storeys.iter().map(storey).collect::<Vec<_>>(),
+                "isolated": isolated.storeys.iter().map(storey).collect::<Vec<_>>(),
             })
         })
         .collect();

@@ -69,9 +69,9 @@ pub fn decimal(x: f64, digits: usize) -> String {
 }
 
 /// Value, time, and ratio to the isolated building.
-fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
-    let ratio = if alone.value > 0.0 {
-        format!("x{}", decimal(p.value / alone.value, 2))
+fn cell(p: Peak, isolated: Peak, factor: f64, digits: usize) -> String {
+    let ratio = if isolated.value > 0.0 {
+        format!("x{}", decimal(p.value / isolated.value, 2))
     } else {
         "-".to_owned()
     };
@@ -80,7 +80,7 @@ fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
 }
 
 fn building(record: &RunRecord<'_>, index: usize) -> String {
-    let (with, alone) = (
+    let (with, isolated) = (
         &record.outcome.buildings[index],
         &record.isolated.buildings[index],
     );
@@ -91,7 +91,7 @@ fn building(record: &RunRecord<'_>, index: usize) -> String {
         "storey shear (kN)",
         "absolute acceleration (g)",
     ]);
-    for (i, (a, b)) in with.storeys.iter().zip(&alone.storeys).enumerate().rev() {
+    for (i, (a, b)) in with.storeys.iter().zip(&isolated.storeys).enumerate().rev() {
         table.add_row([
             (i + 1).to_string(),
             cell(a.displacement, b.displacement, 1e3, 2),
@@ -101,7 +101,7 @@ fn building(record: &RunRecord<'_>, index: usize) -> String {
         ]);
     }
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the building alone\n{table}\n",
+        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n",
         with.name
     )
 }
@@ -124,7 +124,7 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
         "first contact (s)",
         "approach velocity (m/s)",
         if rigid {
-            "greatest impulse (kN s)"
+            "maximum impulse (kN s)"
         } else {
             "peak force (kN)"
         },
@@ -168,14 +168,14 @@ fn secondary_sources(levels: &[ContactLevel]) -> String {
     }
 }
 
-/// Lasting contacts with the greatest force that they held, and widened gaps.
+/// Lasting contacts with the maximum force that they held, and widened gaps.
 fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String {
     let mut text = String::new();
     for (l, at) in levels.iter().zip(places) {
         let level = at.place;
         if l.sticks > 0 {
             text.push_str(&format!(
-                "Level {level}: floors held together {} times, greatest contact force {:.1} kN at {:.2} s\n",
+                "Level {level}: floors held together {} times, maximum contact force {:.1} kN at {:.2} s\n",
                 l.sticks,
                 l.peak_force.value * 1e-3,
                 l.peak_force.time

@@ -296,7 +296,7 @@ fn lists_of_unequal_length() {
             "case.toml:6:8",
             "`mass` has 3 values",
             "2 storeys",
-            "one value a storey",
+            "one value per storey",
         ],
     );
 }

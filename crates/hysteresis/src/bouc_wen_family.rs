@@ -25,7 +25,7 @@ pub(crate) struct Degradation {
     pub strength: f64,
     /// `eta = 1 + stiffness e`.
     pub stiffness: f64,
-    /// Greatest pinching `zeta_s`, below 1.
+    /// Maximum pinching `zeta_s`, below 1.
     pub pinching: f64,
     /// Rate `p` at which pinching grows with the work.
     pub pinching_rate: f64,

@@ -60,7 +60,7 @@ pub struct ParameterDescriptor {
     pub unit: ParameterUnit,
     /// Least allowed value and whether it is allowed itself.
     pub minimum: (f64, bool),
-    /// Greatest allowed value and whether it is allowed itself.
+    /// Maximum allowed value and whether it is allowed itself.
     pub maximum: (f64, bool),
     /// Value when the user gives none; `None`: the parameter is required.
     pub default: Option<f64>,

@@ -3,7 +3,7 @@
 use crate::descriptor::LawDescriptor;
 use crate::history::{History, MAXIMUM_INTERNAL_VARIABLES};
 
-/// Greatest number of guards that one branch watches.
+/// Maximum number of guards that one branch watches.
 pub const MAXIMUM_GUARDS: usize = 3;
 
 /// Deformation of the element and its rate.

@@ -43,7 +43,7 @@ impl StiffnessDegrading {
         self.yield_force + self.hardening_ratio * self.stiffness * plastic
     }
 
-    /// Unloading stiffness after this greatest deformation of the side; never below
+    /// Unloading stiffness after this maximum deformation of the side; never below
     /// the secant to that point, so that unloading cannot cross zero deformation.
     fn unloading_stiffness(&self, peak: Point) -> f64 {
         let ductility = peak.deformation / self.yield_deformation();

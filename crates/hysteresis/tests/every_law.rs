@@ -164,8 +164,8 @@ fn a_trial_without_commit_leaves_no_trace() {
     }
 }
 
-/// Greatest difference of force and of energy between the two seams, over the
-/// greatest force and the greatest energy.
+/// Maximum difference of force and of energy between the two seams, over the
+/// maximum force and the maximum energy.
 fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
     let law = example(card);
     let amplitude = card.example_amplitude;
@@ -231,21 +231,21 @@ fn work_is_stored_or_dissipated() {
         let law = example(card);
         let amplitude = card.example_amplitude;
         let mut driver = Explicit::new(law.as_ref(), amplitude);
-        let (mut off, mut greatest, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut off, mut maximum, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
         for time in times(END, 0.005) {
             driver.advance(time);
             let (stored, dissipated) = driver.energies();
             off = off.max((stored + dissipated - driver.work).abs());
-            greatest = greatest.max(stored).max(dissipated);
+            maximum = maximum.max(stored).max(dissipated);
             lost = lost.max(-stored);
         }
         assert!(
-            off < 1e-8 * greatest,
-            "{}: {off:e} of {greatest:e}",
+            off < 1e-8 * maximum,
+            "{}: {off:e} of {maximum:e}",
             card.name
         );
         assert!(
-            lost <= 1e-14 * greatest,
+            lost <= 1e-14 * maximum,
             "{}: stored energy of -{lost}",
             card.name
         );

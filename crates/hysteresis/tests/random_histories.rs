@@ -19,7 +19,7 @@ proptest! {
             let law = example(card);
             let mut committed = law.virgin();
             let mut candidate = committed.clone();
-            let mut greatest = 0.0_f64;
+            let mut maximum = 0.0_f64;
             let mut from = 0.0;
             for share in &shares {
                 let x = share * card.example_amplitude;
@@ -32,11 +32,11 @@ proptest! {
                 let variables = committed.variables();
                 let stored = law.stored_energy(&committed, end, variables);
                 let dissipated = law.dissipated_energy(&committed, end, variables);
-                greatest = greatest.max((force * (x - from)).abs());
+                maximum = maximum.max((force * (x - from)).abs());
                 prop_assert!(force.is_finite() && stored.is_finite(), "{}", card.name);
                 // The mean of two damper forces is not its work over a long step.
                 if card.name != "viscous_damper" {
-                    let least = -1e-11 * greatest;
+                    let least = -1e-11 * maximum;
                     prop_assert!(stored + dissipated >= least, "{}: {}", card.name, stored + dissipated);
                     prop_assert!(stored >= least, "{}: {}", card.name, stored);
                 }

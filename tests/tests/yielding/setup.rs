@@ -121,7 +121,7 @@ pub fn newmark(step: f64) -> MethodChoice {
     }
 }
 
-/// Greatest relative difference of the peaks of storeys.
+/// Maximum relative difference of the peaks of storeys.
 pub fn difference(a: &Outcome, b: &Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for (a, b) in a.buildings.iter().zip(&b.buildings) {

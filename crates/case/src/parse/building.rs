@@ -162,7 +162,7 @@ fn storeys(
                         "`{key}` has {} values, but `{other}` says {n} storeys",
                         values.len()
                     ),
-                    "give one value a storey, or a single value for all",
+                    "give one value per storey, or a single value for all",
                 ));
             }
             Some(_) => {}

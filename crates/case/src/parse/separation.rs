@@ -93,7 +93,7 @@ fn texts(
         Some(count) if count != texts.len() => Err(reader.error(
             value.span(),
             format!("{} values where there are {count} buildings", texts.len()),
-            "give one value a building, or a single value for all",
+            "give one value per building, or a single value for all",
         )),
         _ => Ok(Some(texts)),
     }

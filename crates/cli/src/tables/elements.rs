@@ -103,12 +103,12 @@ fn cards(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescripto
 /// The lines of laws whose rules were not read in their papers, each law once.
 fn sources(cards: impl Iterator<Item = &'static LawDescriptor>) -> String {
     let mut text = String::new();
-    let mut told: Vec<&str> = Vec::new();
+    let mut reported: Vec<&str> = Vec::new();
     for card in cards {
         if let Verification::SecondarySources(how) = card.verification
-            && !told.contains(&card.name)
+            && !reported.contains(&card.name)
         {
-            told.push(card.name);
+            reported.push(card.name);
             text.push_str(&format!("{} is from secondary sources: {how}\n", card.name));
         }
     }
@@ -133,11 +133,11 @@ pub(super) fn laws(building: &ShearBuilding) -> String {
         .geometric_stiffness()
         .iter()
         .zip(building.stiffness());
-    let greatest = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
-    if greatest > 0.0 {
+    let maximum = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
+    if maximum > 0.0 {
         text.push_str(&format!(
             "P-Delta: gravity takes up to {:.2} % off a storey stiffness; periods include it\n",
-            100.0 * greatest
+            100.0 * maximum
         ));
     }
     text.push_str(&sources(cards(building)));

@@ -60,7 +60,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 const DAMPING: ParameterDescriptor = optional(
     "damping",
     ParameterUnit::NewtonSecondPerMetre,
-    "Greatest dashpot coefficient c_max",
+    "Maximum dashpot coefficient c_max",
 );
 const DAMPING_RATIO: ParameterDescriptor = optional(
     "damping_ratio_n_mm_s",

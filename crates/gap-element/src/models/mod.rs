@@ -2,7 +2,7 @@
 
 use crate::descriptor::ModelDescriptor;
 
-/// Declares the files of the models and lists their cards: one line a model.
+/// Declares the files of the models and lists their cards: one line per model.
 macro_rules! models {
     ($($name:ident)*) => {
         $(pub(crate) mod $name;)*

@@ -81,7 +81,7 @@ const YIELD_RATIO: ParameterDescriptor = ParameterDescriptor {
 const DESIGN_PENETRATION: ParameterDescriptor = optional_positive(
     "design_penetration",
     ParameterUnit::Metre,
-    "Greatest penetration delta_m that the element is made for; by default the one that the collision reaches",
+    "Maximum penetration delta_m that the element is made for; by default the one that the collision reaches",
 );
 
 /// Loading line `F = K2 delta + (K1 - K2) delta_y`.

@@ -65,7 +65,7 @@ pub(crate) const PARAMETERS: [ParameterDescriptor; 13] = [
     non_negative(
         "pinching_deformation",
         ParameterUnit::One,
-        "Share of the greatest residual deformation by which the legs meet before it",
+        "Share of the maximum residual deformation by which the legs meet before it",
     )
     .within((0.0, true), (1.0, true))
     .default_to(0.5),

@@ -1,8 +1,8 @@
-//! One law a file.
+//! One law per file.
 
 use crate::descriptor::LawDescriptor;
 
-/// Declares the files of the laws and lists their cards: one line a law.
+/// Declares the files of the laws and lists their cards: one line per law.
 macro_rules! laws {
     ($($name:ident)*) => {
         $(pub(crate) mod $name;)*

@@ -41,7 +41,7 @@ pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("qd"),
     formula: "ds, times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Status::FromMemory("the clause, with its reduction"),
+    status: Status::Unverified("the clause, with its reduction"),
     remarks: &["ds = qd de is taken as u: qd = q, as above the corner period TC."],
     rule: Rule::Boundary(boundary),
 };
@@ -54,7 +54,7 @@ pub(crate) static FIRST_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..FIRST_BOUNDARY
 };
 
-const SIMILAR: Status = Status::FromMemory("that the draft keeps the rule of 2004");
+const SIMILAR: Status = Status::Unverified("that the draft keeps the rule of 2004");
 const STATE: &[&str] = &["For displacements of the limit state of significant damage."];
 
 pub(crate) static SECOND_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {

@@ -1,4 +1,4 @@
-//! One code a file.
+//! One code per file.
 
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 
@@ -35,7 +35,7 @@ provisions! {
     e_030: BOUNDARY BETWEEN MINIMUM;
 }
 
-const NOT_RESEARCHED: &str = "displacement sum or square root; national clause not researched";
+const NOT_RESEARCHED: &str = "displacement sum or SRSS; national clause not researched";
 
 /// Codes without a formula here.
 pub(crate) static UNAVAILABLE: &[Unavailable] = &[

@@ -202,8 +202,8 @@ fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> 
         return Err(reason);
     };
     calibrated.parameters.values.remove("restitution");
-    let greatest = if raw == "friction" { 0.999 } else { 1.0e3 };
-    solve(calibrated, reference, raw, (1.0e-6, greatest))
+    let maximum = if raw == "friction" { 0.999 } else { 1.0e3 };
+    solve(calibrated, reference, raw, (1.0e-6, maximum))
         .map_err(|other| format!("{reason}; {other}"))
 }
 

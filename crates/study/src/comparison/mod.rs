@@ -1,4 +1,4 @@
-//! Does the answer hang on the impact model? Every model on every record, calibrated
+//! Is the answer sensitive to the impact model? Every model on every record, calibrated
 //! alike, with the spread between models beside that between records.
 
 mod calibration;
@@ -262,8 +262,12 @@ impl Comparison {
 }
 
 /// Ratio of two peaks; 1 where they are the same.
-fn ratio(with: f64, alone: f64) -> f64 {
-    if with == alone { 1.0 } else { with / alone }
+fn ratio(with: f64, isolated: f64) -> f64 {
+    if with == isolated {
+        1.0
+    } else {
+        with / isolated
+    }
 }
 
 fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
@@ -354,10 +358,10 @@ fn references(
     Ok(references)
 }
 
-fn isolated(quantities: &[Quantity], alone: &[BuildingOutcome]) -> Vec<f64> {
+fn isolated(quantities: &[Quantity], isolated: &[BuildingOutcome]) -> Vec<f64> {
     let value = |q: &Quantity| {
         if q.is_of_building() {
-            quantities::of_building(q.kind, &alone[q.index])
+            quantities::of_building(q.kind, &isolated[q.index])
         } else {
             f64::NAN
         }
@@ -369,7 +373,7 @@ fn isolated(quantities: &[Quantity], alone: &[BuildingOutcome]) -> Vec<f64> {
 fn one(
     model: &ComparedModel,
     record: &CaseUnderRecord,
-    alone: &[BuildingOutcome],
+    isolated: &[BuildingOutcome],
     quantities: &[Quantity],
 ) -> Result<ModelRun, String> {
     let calibrated = model.calibrated.as_ref().map_err(Clone::clone)?;
@@ -383,7 +387,7 @@ fn one(
     let rigid = laws.iter().any(|l| l.rigid_restitution().is_some());
     let jumps = quantities::jumps(&outcome, rigid);
     let values = quantities.iter();
-    let mut amplification = amplification(&outcome.buildings, alone);
+    let mut amplification = amplification(&outcome.buildings, isolated);
     if jumps {
         for storey in amplification.iter_mut().flatten() {
             storey.acceleration_absolute = f64::NAN;

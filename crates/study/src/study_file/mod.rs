@@ -40,7 +40,7 @@ pub struct Study {
     pub design: Design,
     /// Runs that are stored at once.
     pub chunk: usize,
-    /// Whether the greatest relative displacement of the isolated buildings is wanted.
+    /// Whether the maximum relative displacement of the isolated buildings is wanted.
     pub isolated_demand: bool,
     /// What an incremental dynamic analysis evaluates.
     pub ida: Option<IdaSettings>,
@@ -92,7 +92,7 @@ pub(crate) struct RecordSource {
 pub(crate) enum RecordKind {
     /// A file, read as this case says; and what makes this case of the base.
     File { case: Box<Case>, edits: Edits },
-    /// A motion made from a seed.
+    /// A synthetic motion from a seed.
     Made {
         record: Box<Accelerogram>,
         /// The command that makes it, but for the file that it goes into.

@@ -44,7 +44,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
         let status = rule.status();
         text.push_str(&format!(
             "  {}: {}; {}: {}\n",
-            rule.name(),
+            rule.title(None),
             rule.formula(),
             status.name(),
             status.remark()

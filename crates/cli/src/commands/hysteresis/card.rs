@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::commands::models::numbers::plain;
 
-/// One line a law.
+/// One line per law.
 pub fn list(laws: &[&LawDescriptor]) -> String {
     let mut table = Table::new();
     table.set_header(["name", "law and its parameters", "checked"]);
@@ -19,7 +19,7 @@ pub fn list(laws: &[&LawDescriptor]) -> String {
     )
 }
 
-/// The names of the parameters, those with a default in brackets, three a line.
+/// The names of the parameters, those with a default in brackets, three per line.
 fn parameters(d: &LawDescriptor) -> String {
     let names: Vec<String> = d
         .parameters

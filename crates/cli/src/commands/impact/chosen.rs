@@ -82,7 +82,7 @@ fn descriptors(arguments: &ImpactArguments) -> Result<Vec<&'static ModelDescript
             return Err(Failure::input(
                 format!("model {} is asked for twice", descriptor.name),
                 Some(format!(
-                    "leave \"{name}\" out: one name or alias a model is enough"
+                    "leave \"{name}\" out: one name or alias per model is enough"
                 )),
             ));
         }

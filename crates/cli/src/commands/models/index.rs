@@ -56,7 +56,7 @@ fn member(example: &Example) -> String {
             format!("(example returns {}) | -", fixed(returned, 4))
         },
         |(_, table)| {
-            let mean = |least, greatest| fixed(table.mean_error_percent(least, greatest), 2);
+            let mean = |minimum, maximum| fixed(table.mean_error_percent(minimum, maximum), 2);
             format!("{} | {}", mean(0.1, 1.0), mean(0.5, 0.8))
         },
     );

@@ -1,4 +1,4 @@
-//! `pounding models`: the cards of the impact models, and the pages made of them.
+//! `pounding models`: the descriptors of the impact models, and the pages written from them.
 
 mod card;
 mod example;

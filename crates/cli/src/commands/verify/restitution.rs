@@ -34,7 +34,7 @@ const COLUMNS: [(&str, &str); 14] = [
     ("largest_difference", "difference"),
 ];
 
-/// One line a law.
+/// One line per law.
 pub fn part() -> Result<Part, Failure> {
     let mut lines = REFERENCES
         .iter()

@@ -1,4 +1,4 @@
-//! The pages of the documentation, one a law, and their index.
+//! The pages of the documentation, one per law, and their index.
 
 mod index;
 mod page;

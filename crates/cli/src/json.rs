@@ -34,15 +34,15 @@ pub fn outcome(
         .iter()
         .zip(system.gaps())
         .map(|(g, place)| {
-            let card = system
+            let descriptor = system
                 .levels()
                 .get(place.first_level)
                 .map(|l| l.model.descriptor());
-            let secondary =
-                card.is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
+            let secondary = descriptor
+                .is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
             json!({
                 "name": g.name,
-                "model": card.map(|d| d.name),
+                "model": descriptor.map(|d| d.name),
                 "from_secondary_sources": secondary,
                 "between": place.between,
                 "levels": g.levels.iter().zip(system.levels_of(place)).map(|(l, at)| {

@@ -159,8 +159,8 @@ fn gap(record: &RunRecord<'_>, index: usize) -> String {
 
 /// The line of a model whose formula or constants were not read in its paper.
 fn secondary_sources(levels: &[ContactLevel]) -> String {
-    let card = levels.first().map(|l| l.model.descriptor());
-    match card.map(|d| (d.name, d.verification)) {
+    let descriptor = levels.first().map(|l| l.model.descriptor());
+    match descriptor.map(|d| (d.name, d.verification)) {
         Some((name, Verification::SecondarySources(how))) => {
             format!("{name} is from secondary sources: {how}\n")
         }

@@ -1,4 +1,4 @@
-//! The card of an impact model: what it is, needs, and is worth.
+//! The descriptor of an impact model: what it is, needs, and is worth.
 
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};

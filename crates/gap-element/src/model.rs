@@ -178,7 +178,7 @@ pub struct ClosedForm {
 /// [`ImpactModel::transitions`] changes sign, and calls
 /// [`ImpactModel::commit`] for accepted steps only.
 pub trait ImpactModel: Send + Sync + std::fmt::Debug {
-    /// The model's card: names, citation, parameters, class, verification.
+    /// The model's descriptor: names, citation, parameters, class, verification.
     fn descriptor(&self) -> &'static ModelDescriptor;
 
     /// The rule by which contact ends.

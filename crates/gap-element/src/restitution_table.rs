@@ -41,7 +41,7 @@ impl RestitutionRow {
 /// Collisions of one model over [`REQUESTED`].
 #[derive(Debug, Clone)]
 pub struct RestitutionTable {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// One row for each requested restitution.
     pub rows: Vec<RestitutionRow>,

@@ -1,4 +1,4 @@
-//! The card of a law: what it is, needs, and is worth.
+//! The descriptor of a law: what it is, needs, and is worth.
 
 use crate::error::HysteresisError;
 use crate::law::HysteresisLaw;

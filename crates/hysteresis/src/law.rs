@@ -62,7 +62,7 @@ pub type Guards = [Option<Guard>; MAXIMUM_GUARDS];
 /// is positive; [`HysteresisLaw::accept`] takes each accepted state. The internal
 /// variables are part of the method's own state vector.
 pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
-    /// The card of the law: names, citation, parameters, verification.
+    /// The descriptor of the law: names, citation, parameters, verification.
     fn descriptor(&self) -> &'static LawDescriptor;
 
     /// Whether the force is a linear function of deformation and velocity.

@@ -20,7 +20,7 @@ const RELOADING: u8 = 4;
 /// Rules with their parameters.
 #[derive(Debug)]
 pub(crate) struct StiffnessDegrading {
-    pub card: &'static LawDescriptor,
+    pub descriptor: &'static LawDescriptor,
     pub stiffness: f64,
     pub yield_force: f64,
     pub hardening_ratio: f64,
@@ -106,8 +106,8 @@ impl StiffnessDegrading {
 }
 
 impl PathLaw for StiffnessDegrading {
-    fn card(&self) -> &'static LawDescriptor {
-        self.card
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.descriptor
     }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness

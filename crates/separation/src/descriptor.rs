@@ -1,4 +1,4 @@
-//! The card of a provision.
+//! The descriptor of a provision.
 
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};

@@ -54,7 +54,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Without memory: a force that was cut at zero may return within the same contact.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const DAMPING: ParameterDescriptor = optional(

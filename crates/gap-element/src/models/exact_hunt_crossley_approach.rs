@@ -24,7 +24,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Needs very strong damping at small e: y = 194.6 at 0.1.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

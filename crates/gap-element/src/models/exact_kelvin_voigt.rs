@@ -29,7 +29,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The force jumps to c v0 at closure.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 /// The relation that is exact for this separation rule.

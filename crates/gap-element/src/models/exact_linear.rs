@@ -28,7 +28,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The dashpot starts like delta^((n-1)/2): its tangent has no bound at closure.",
     ],
     build,
-    ..linear::CARD
+    ..linear::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

@@ -22,7 +22,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "zeta exceeds 1 below e = 0.368.",
     ],
     build,
-    ..linear::CARD
+    ..linear::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

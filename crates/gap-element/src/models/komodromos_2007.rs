@@ -24,7 +24,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The force jumps to c v0 at closure.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

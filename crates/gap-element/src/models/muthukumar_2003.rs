@@ -62,7 +62,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Evaluated from the penetration itself: programs that add increments from the last step include travel outside the gap.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const RESTITUTION_ASKED: ParameterDescriptor = ParameterDescriptor {

@@ -43,7 +43,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Damping multiplies the spring force on the crushed branch too; the paper's own rule there could not be verified.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const BUMPER_EXPONENT: ParameterDescriptor = ParameterDescriptor {

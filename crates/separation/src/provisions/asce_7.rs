@@ -193,10 +193,10 @@ mod tests {
             "sni_1726_2019",
         ];
         for family in families {
-            let card = |place: &str| find(&format!("{family}_{place}")).unwrap();
-            let between = card("between").between(&situation).unwrap();
+            let descriptor = |place: &str| find(&format!("{family}_{place}")).unwrap();
+            let between = descriptor("between").between(&situation).unwrap();
             assert!((between.width - 0.068_75).abs() < 1.0e-12, "{family}");
-            let own = card("boundary").boundary(&situation.left, 9.0, &Site::default());
+            let own = descriptor("boundary").boundary(&situation.left, 9.0, &Site::default());
             assert!((own.unwrap().width - 0.055).abs() < 1.0e-12, "{family}");
         }
         // The same displacement given under reduced forces: d = Ie u / R = 12.5 mm.

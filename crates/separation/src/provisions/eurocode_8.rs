@@ -101,13 +101,13 @@ mod tests {
         };
         for (aligned, between, own) in [(false, 0.1, 0.08), (true, 0.07, 0.056)] {
             let s = situation(aligned, true);
-            for card in [&FIRST_BETWEEN, &SECOND_BETWEEN] {
-                assert!((card.between(&s).unwrap().width - between).abs() < 1.0e-12);
+            for descriptor in [&FIRST_BETWEEN, &SECOND_BETWEEN] {
+                assert!((descriptor.between(&s).unwrap().width - between).abs() < 1.0e-12);
             }
-            for card in [&FIRST_BOUNDARY, &SECOND_BOUNDARY] {
-                let width = card.boundary(&s.left, 9.0, &s.site).unwrap().width;
+            for descriptor in [&FIRST_BOUNDARY, &SECOND_BOUNDARY] {
+                let width = descriptor.boundary(&s.left, 9.0, &s.site).unwrap().width;
                 assert!((width - own).abs() < 1.0e-12);
-                let both = card.between(&s).unwrap().width;
+                let both = descriptor.between(&s).unwrap().width;
                 assert!((both - own * 1.75).abs() < 1.0e-12);
             }
         }

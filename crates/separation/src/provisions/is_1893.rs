@@ -62,8 +62,8 @@ mod tests {
                 },
             };
             situation.left.elastic_displacement = Some(0.016);
-            for card in [&EDITION_2016, &EDITION_2002] {
-                let found = card.between(&situation).unwrap().width;
+            for descriptor in [&EDITION_2016, &EDITION_2002] {
+                let found = descriptor.between(&situation).unwrap().width;
                 assert!((found - width).abs() < 1.0e-12);
             }
         }

@@ -70,7 +70,8 @@ mod tests {
                 ..Site::default()
             },
         };
-        let width = |card: &ProvisionDescriptor, a| card.between(&situation(a)).unwrap().width;
+        let width =
+            |descriptor: &ProvisionDescriptor, a| descriptor.between(&situation(a)).unwrap().width;
         assert!((width(&SUM, 0.25) - 0.14).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.25) - 0.045).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.6) - 0.09).abs() < 1.0e-12);

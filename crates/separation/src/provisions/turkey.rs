@@ -124,8 +124,8 @@ mod tests {
                 elevation,
                 ..Situation::default()
             };
-            for card in [&TBDY_2018_MINIMUM, &TDY_2007_MINIMUM] {
-                let found = card.between(&situation).unwrap().width;
+            for descriptor in [&TBDY_2018_MINIMUM, &TDY_2007_MINIMUM] {
+                let found = descriptor.between(&situation).unwrap().width;
                 assert!((found - width).abs() < 1.0e-12);
             }
         }

@@ -47,7 +47,7 @@ pub struct ComparisonOptions {
 /// One model.
 #[derive(Debug, Clone)]
 pub struct ComparedModel {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Calibrated for each gap, or why it cannot be.
     pub calibrated: Result<Vec<CalibratedModel>, String>,
@@ -139,19 +139,19 @@ pub fn compare(
     if system.gaps().is_empty() {
         return Err(CheckError::NoGap);
     }
-    let cards = cards(&options.models)?;
-    let total = records.len() + cards.len() * records.len();
+    let descriptors = descriptors(&options.models)?;
+    let total = records.len() + descriptors.len() * records.len();
     let tell = |done, _| progress(done, total);
     let own = demands(records, options.threads, &tell)?;
     let references = references(case, records, &own, options)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
     let mut models: Vec<ComparedModel> =
-        in_parallel(cards.len(), options.threads, &|_, _| {}, |i| {
+        in_parallel(descriptors.len(), options.threads, &|_, _| {}, |i| {
             let gaps = references.iter();
             ComparedModel {
-                descriptor: cards[i],
+                descriptor: descriptors[i],
                 calibrated: gaps
-                    .map(|reference| calibration::calibrated(cards[i], reference, rules))
+                    .map(|reference| calibration::calibrated(descriptors[i], reference, rules))
                     .collect(),
                 records: Vec::new(),
             }
@@ -270,22 +270,22 @@ fn ratio(with: f64, isolated: f64) -> f64 {
     }
 }
 
-fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
+fn descriptors(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
     if names.is_empty() {
         return Ok(registry::descriptors().to_vec());
     }
-    let mut cards: Vec<&'static ModelDescriptor> = Vec::new();
+    let mut descriptors: Vec<&'static ModelDescriptor> = Vec::new();
     for name in names {
-        let card = registry::find(name).map_err(|e| CheckError::UnknownModel {
+        let descriptor = registry::find(name).map_err(|e| CheckError::UnknownModel {
             name: name.clone(),
             help: e.help().unwrap_or_default(),
         })?;
         // A model and its alias are one.
-        if !cards.iter().any(|c| c.name == card.name) {
-            cards.push(card);
+        if !descriptors.iter().any(|c| c.name == descriptor.name) {
+            descriptors.push(descriptor);
         }
     }
-    Ok(cards)
+    Ok(descriptors)
 }
 
 /// The collision of each gap that its models are calibrated in: the fastest one that the

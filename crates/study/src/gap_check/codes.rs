@@ -273,35 +273,37 @@ pub(crate) fn by_code(
     let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
         at.map(|at| inputs.structure(&buildings[at.0], at, &record.isolated))
     };
-    let apply =
-        |card: &ProvisionDescriptor, record: &RecordDemand, level: usize, sides: &[_; 2]| {
-            let elevation = place.elevation(level);
-            match (structure(sides[0], record), structure(sides[1], record)) {
-                (Some(left), Some(right)) => card.between(&Situation {
-                    left,
-                    right,
-                    elevation,
-                    site,
-                }),
-                (Some(one), None) | (None, Some(one)) => card.boundary(&one, elevation, &site),
-                (None, None) => Err(SeparationError::NotApplicable {
-                    provision: card.name,
-                    reason: "the level lies between two walls".to_owned(),
-                }),
-            }
-        };
+    let apply = |descriptor: &ProvisionDescriptor,
+                 record: &RecordDemand,
+                 level: usize,
+                 sides: &[_; 2]| {
+        let elevation = place.elevation(level);
+        match (structure(sides[0], record), structure(sides[1], record)) {
+            (Some(left), Some(right)) => descriptor.between(&Situation {
+                left,
+                right,
+                elevation,
+                site,
+            }),
+            (Some(one), None) | (None, Some(one)) => descriptor.boundary(&one, elevation, &site),
+            (None, None) => Err(SeparationError::NotApplicable {
+                provision: descriptor.name,
+                reason: "the level lies between two walls".to_owned(),
+            }),
+        }
+    };
     let levels = place.levels();
-    let for_record = |card: &ProvisionDescriptor, record: &RecordDemand| {
+    let for_record = |descriptor: &ProvisionDescriptor, record: &RecordDemand| {
         let levels = levels.iter().enumerate();
         levels
-            .map(|(level, sides)| apply(card, record, level, sides))
+            .map(|(level, sides)| apply(descriptor, record, level, sides))
             .collect()
     };
     chosen
         .iter()
-        .map(|card| CodeGap {
-            provision: card,
-            records: records.iter().map(|r| for_record(card, r)).collect(),
+        .map(|descriptor| CodeGap {
+            provision: descriptor,
+            records: records.iter().map(|r| for_record(descriptor, r)).collect(),
         })
         .collect()
 }

@@ -57,7 +57,7 @@ pub fn curve(
     bounds::finite_pairs(&pairs)?;
     Ok(Some(DissipationCurve {
         pairs,
-        period: chosen.card.rate_dependent.then_some(cycling.period),
+        period: chosen.descriptor.rate_dependent.then_some(cycling.period),
     }))
 }
 

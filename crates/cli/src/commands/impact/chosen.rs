@@ -18,7 +18,7 @@ const EXAMPLE_RESTITUTION: f64 = 0.65;
 
 /// One model with its parameters.
 pub struct Chosen {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Parameters, given and filled in.
     pub parameters: ModelParameters,

@@ -2,7 +2,7 @@
 
 use pounding_hysteresis::LawDescriptor;
 
-use super::super::card::checked;
+use super::super::descriptor::checked;
 use super::page::carries_a_storey;
 
 /// The index of all laws.

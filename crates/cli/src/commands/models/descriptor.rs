@@ -1,4 +1,4 @@
-//! The card of one model, for people and for machines.
+//! The descriptor of one model, for people and for machines.
 
 use pounding_gap_element::{ModelDescriptor, Verification};
 use serde_json::json;
@@ -11,7 +11,7 @@ pub fn verification(d: &ModelDescriptor) -> String {
     }
 }
 
-/// The card as text.
+/// The descriptor as text.
 pub fn text(d: &ModelDescriptor) -> String {
     let mut text = format!(
         "{} - {}\n\n  {}\n\nclass         {}\nsource        {}\nstatus        {}\n",
@@ -62,7 +62,7 @@ pub fn text(d: &ModelDescriptor) -> String {
     text
 }
 
-/// The card as JSON.
+/// The descriptor as JSON.
 pub fn json(d: &ModelDescriptor) -> serde_json::Value {
     let parameters: Vec<_> = d
         .parameters

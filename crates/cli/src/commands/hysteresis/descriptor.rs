@@ -1,4 +1,4 @@
-//! The cards of the laws, for people and for machines.
+//! The descriptors of the laws, for people and for machines.
 
 use crate::tables::Table;
 use pounding_hysteresis::{LawDescriptor, Verification};
@@ -58,7 +58,7 @@ pub fn dependence(d: &LawDescriptor) -> &'static str {
     }
 }
 
-/// The card as text.
+/// The descriptor as text.
 pub fn text(d: &LawDescriptor) -> String {
     let mut text = format!(
         "{} - {}\n\n  {}\n\nforce of      {}\nsource        {}\nstatus        {}\n",
@@ -102,7 +102,7 @@ pub fn text(d: &LawDescriptor) -> String {
     text
 }
 
-/// The card as JSON.
+/// The descriptor as JSON.
 pub fn json(d: &LawDescriptor) -> Value {
     let parameters: Vec<_> = d
         .parameters

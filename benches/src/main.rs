@@ -47,7 +47,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
             let text = report::full(reference, &ground)?;
             // A quarter of an hour is not lost if the page cannot be written.
             if let Err(error) = report::write_page(&text) {
-                tell(&format!("docs/performance.md is not written: {error}"));
+                tell(&format!("benches/README.md is not written: {error}"));
             }
             Ok(text)
         }

@@ -16,7 +16,7 @@ pub(crate) struct Family {
 const TOLERANCES: [f64; 8] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
 /// The tolerance of sweeps and scaling.
 const SWEEPING: f64 = 1e-8;
-/// Steps a sample of the record.
+/// Steps per sample of the record.
 const SUBSTEPS: [u32; 8] = [1, 2, 5, 10, 20, 50, 100, 200];
 
 /// All of ours. `sample` is the time step of the record (s).

@@ -176,9 +176,9 @@ pub(crate) fn one_sweep(
     Ok(text)
 }
 
-/// Writes the text between the marks of the page on performance.
+/// Writes the text between the marks of `benches/README.md`.
 pub(crate) fn write_page(text: &str) -> Result<(), Failure> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/performance.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let page = std::fs::read_to_string(&path)?;
     let (begin, end) = ("<!-- measured -->", "<!-- end of measured -->");
     let head = page.split_once(begin).ok_or("the page has no marks")?.0;
@@ -326,7 +326,7 @@ fn scalings(
     rounds: usize,
 ) -> Result<String, Failure> {
     let mut text = format!(
-        "\n## Scaling\n\n{} throughout, 30 s, {} samples. Columns hold ms a run; in brackets ns \
+        "\n## Scaling\n\n{} throughout, 30 s, {} samples. Columns hold ms per run; in brackets ns \
          for each floor and sample.\n",
         scaling::MODEL,
         ground.samples.len() - 1

@@ -60,7 +60,7 @@ fn beside_a_wall(gap: f64, storeys: usize, damping: Damping) -> System {
 
 const NEARLY_NONE: Damping = Damping::MassProportional { ratio: 0.02 };
 
-/// The roof's greatest way to the right, from a run in which it meets nothing.
+/// The roof's largest distance to the right, from a run in which it meets nothing.
 fn reach(storeys: usize) -> f64 {
     // With a gap a little narrower it touches, with one a little wider it does not:
     // bisection on whether the adaptive pair sees an impact.
@@ -193,7 +193,7 @@ fn overdamped_modes_are_followed() {
     }
 }
 
-/// A building let go with its floors on their way back: its greatest displacement,
+/// A building let go with its floors on their way back: its maximum displacement,
 /// drift and acceleration are those of time zero, and no sample comes after them.
 #[test]
 fn peaks_at_the_start_are_found() {

@@ -99,14 +99,14 @@ fn system(seed: u64) -> (System, String) {
         2 => chance.logarithmic(1e-13, 1e-6),
         _ => chance.logarithmic(1e-6, 1e-3),
     };
-    let cards: Vec<_> = registry::descriptors()
+    let descriptors: Vec<_> = registry::descriptors()
         .iter()
         .filter(|d| d.name != "stereomechanical")
         .collect();
-    let card = cards[chance.below(cards.len())];
-    let rules = card.separation_rules;
+    let descriptor = descriptors[chance.below(descriptors.len())];
+    let rules = descriptor.separation_rules;
     let restitution = chance.between(0.3, 0.95);
-    let mut parameters = card.example_parameters(restitution);
+    let mut parameters = descriptor.example_parameters(restitution);
     let rule = (!rules.is_empty()).then(|| rules[chance.below(rules.len())]);
     if let Some(rule) = rule {
         parameters = parameters.with_separation(rule);
@@ -130,7 +130,7 @@ fn system(seed: u64) -> (System, String) {
             } else {
                 Floor::Storey(1, s)
             };
-            let model = registry::build(card.name, &parameters).unwrap();
+            let model = registry::build(descriptor.name, &parameters).unwrap();
             (Floor::Storey(0, s), right, width, model.into())
         })
         .collect();
@@ -138,7 +138,7 @@ fn system(seed: u64) -> (System, String) {
     system.add_gap("gap", names, pairs).unwrap();
     let what = format!(
         "seed {seed}: {} {rule:?} {storeys:?} wall {wall} width {width:e}",
-        card.name
+        descriptor.name
     );
     (system, what)
 }

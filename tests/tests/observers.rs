@@ -31,7 +31,7 @@ fn recorded(system: &System, options: &RunOptions, grid: f64) -> (Outcome, Histo
     let recorders: &mut [&mut dyn pounding_time_history::Recorder] =
         &mut [&mut recorder, &mut approach];
     let outcome = run(system, options, recorders, &mut |_| {}).unwrap();
-    // Floors approach as far as the gap and the greatest penetration.
+    // Floors approach as far as the gap and the maximum penetration.
     let levels = outcome.gaps.iter().flat_map(|g| &g.levels);
     for ((seen, level), contact) in approach.peaks().iter().zip(levels).zip(system.levels()) {
         if level.impacts > 0 {
@@ -84,17 +84,17 @@ fn observers_see_the_motion() {
         assert_eq!(seen.len(), expected.len(), "{name}");
         let bits = |h: &History| h.time.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&seen), bits(&expected), "{name}");
-        // Differences from what is expected, where `part` of the greatest value of the same time
+        // Differences from what is expected, where `part` of the maximum value of the same time
         // and `least` may be missed.
         let near = |what: &str, pick: fn(&History) -> &Vec<f64>, (part, least): (f64, f64)| {
             let (a, b) = (pick(&seen), pick(&expected));
             assert_eq!(a.len(), b.len(), "{what}, {name}");
             let width = a.len() / seen.len();
             for (i, (a, b)) in a.chunks(width).zip(b.chunks(width)).enumerate() {
-                let greatest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                let maximum = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
                 for (x, y) in a.iter().zip(b) {
                     let at = seen.time[i];
-                    let allowed = part * greatest + least;
+                    let allowed = part * maximum + least;
                     assert!(
                         (x - y).abs() <= allowed,
                         "{what} {x} for {y}, {name} at {at} s"

@@ -95,10 +95,10 @@ fn a_result_opens_in_python() {
     );
 }
 
-/// Runs the lines of `docs/result-file.md` that check a file without the program: they take
+/// Runs the lines of `docs/reference/result-file.md` that check a file without the program: they take
 /// the file as it is, and none in which a bit was changed.
 fn the_documented_check(python: &OsStr, root: &Path, result: &Path) {
-    let page = std::fs::read_to_string(root.join("../docs/result-file.md")).unwrap();
+    let page = std::fs::read_to_string(root.join("../docs/reference/result-file.md")).unwrap();
     let blocks = page.split("```python\n").skip(1);
     let mut blocks = blocks.map(|b| b.split("```").next().unwrap());
     let lines = blocks.find(|b| b.contains("hashlib")).unwrap();

@@ -76,9 +76,11 @@ fn building(index: usize, (storeys, period, ratio): (usize, f64, f64)) -> ShearB
 
 impl Row {
     fn model(&self) -> Arc<dyn ImpactModel> {
-        let card = registry::find(MODELS[self.model]).unwrap();
-        let parameters = card.example_parameters(self.restitution);
-        registry::build(card.name, &parameters).unwrap().into()
+        let descriptor = registry::find(MODELS[self.model]).unwrap();
+        let parameters = descriptor.example_parameters(self.restitution);
+        registry::build(descriptor.name, &parameters)
+            .unwrap()
+            .into()
     }
 
     fn system(&self, ground: &GroundAcceleration) -> System {
@@ -114,7 +116,7 @@ fn go(system: &System, method: MethodChoice) -> Outcome {
     run(system, &options, &mut [], &mut |_| {}).unwrap()
 }
 
-/// Greatest difference of peaks, as a part of the greatest of their kind.
+/// Maximum difference of peaks, as a part of the maximum of their kind.
 fn difference(a: &Outcome, b: &Outcome) -> f64 {
     let kinds: [fn(&Outcome) -> Vec<f64>; 4] = [
         |o| storeys(o, |s| s.displacement.value),

@@ -54,7 +54,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
 }
 
 fn whole(reader: Reader<'_>, file: &Path) -> Result<Draft, CaseError> {
-    let tree = reader.document("see the example in the README")?;
+    let tree = reader.document("see the example in docs/reference/case-file.md")?;
     let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE);
     let keep = reader.errors;
     let title = keep.or_default(root.optional_text("title"));
@@ -302,7 +302,7 @@ fn spread(
                 agreeing(&count, "is", "are"),
                 counted(count, place)
             ),
-            format!("give one value a {place}, or a single value for all"),
+            format!("give one value per {place}, or a single value for all"),
         )),
     }
 }
@@ -326,7 +326,7 @@ fn one_each<T>(
             agreeing(&count, "is", "are"),
             counted(count, "place")
         ),
-        "give one value a storey or level of this law, or a single value without brackets for all",
+        "give one value per storey or level of this law, or a single value without brackets for all",
     ))
 }
 

@@ -250,7 +250,7 @@ impl<'a> Reader<'a> {
                     return Err(self.error(
                         value.span(),
                         format!("`{key}` is an empty list"),
-                        "give one value a storey, or a single value for all",
+                        "give one value per storey, or a single value for all",
                     ));
                 }
                 Values::List(values)

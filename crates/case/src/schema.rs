@@ -169,7 +169,7 @@ pub(crate) const BUILDING: &[Key] = &[
     key(
         "storeys",
         Kind::Count(1),
-        "Number of storeys, if no list tells it",
+        "Number of storeys, if no list says it",
     ),
     needed(
         "mass",

@@ -68,7 +68,7 @@ pub struct Refusal {
     pub draft: Option<Draft>,
 }
 
-/// A building: one value a storey, bottom first.
+/// A building: one value per storey, bottom first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Building {
     /// Name, unique in the case.
@@ -118,12 +118,12 @@ pub enum Damping {
         /// Ratio.
         ratio: f64,
     },
-    /// `{ modal }`: a ratio a mode.
+    /// `{ modal }`: a ratio per mode.
     Modal {
         /// Ratios.
         ratios: Vec<f64>,
     },
-    /// `{ dashpots }`: a coefficient a storey (N s/m).
+    /// `{ dashpots }`: a coefficient per storey (N s/m).
     Dashpots {
         /// Coefficients.
         coefficients: Vec<f64>,
@@ -322,7 +322,7 @@ impl Analysis {
 }
 
 /// What provisions for the gap need to know beside the buildings themselves; lists
-/// hold one value a building. What is not given is `None`.
+/// hold one value per building. What is not given is `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Separation {
     /// `R`, `q`, `Rd Ro`, `R*`, `Ra`.

@@ -24,10 +24,14 @@ pub use paths::{InputPath, OutputFolder, OutputPath, PathKind, file_use};
 pub use study::*;
 pub use verification::*;
 
-/// Seismic pounding of adjacent buildings: how hard do they hit, and is the gap
-/// wide enough?
+/// Seismic pounding of adjacent buildings: how hard they hit, whether the gap is wide
+/// enough, and how sensitive the answer is to the impact model
+///
+/// A case file (TOML) describes the buildings, the gaps between them, the impact model and
+/// the ground motion. Begin with `pounding check CASE`, which prints what was understood;
+/// then `pounding run CASE` for the time history, or `pounding gap CASE` for the gap.
 #[derive(Debug, Parser)]
-#[command(name = "pounding", version, about, arg_required_else_help = true)]
+#[command(name = "pounding", version, arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -37,9 +41,9 @@ pub struct Arguments {
 /// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Integrate a case and write storey responses, impacts and energies
+    /// Integrate a case in time: storey responses, impacts, energies
     Run(RunArguments),
-    /// Validate a case and print what was understood
+    /// Validate a case and print what was understood: periods, modes, contact levels
     Check {
         /// Case file (TOML)
         case: InputPath,
@@ -47,6 +51,30 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Write one HTML page of a result: what happened, tables, figures
+    Report {
+        /// Result file of `run` (HDF5)
+        result: InputPath,
+        /// Page; by default the result's name with .html beside it
+        #[arg(short, long)]
+        output: Option<OutputPath>,
+        /// Read a result without checksum here, not in a process of its own
+        #[arg(long, hide = true)]
+        accept_without_checksum: bool,
+    },
+    /// Is the gap wide enough? Demand by simulation, SRSS, DDC and code; effects of pounding
+    Gap(Box<GapArguments>),
+    /// Is the answer sensitive to the impact model? Every model on every record
+    Compare(Box<CompareArguments>),
+    /// Run a case many times with varying values, models or records
+    Sweep(Box<SweepArguments>),
+    /// Merge the results of all shards of a sweep
+    Merge(MergeArguments),
+    /// Incremental dynamic analysis (IDA): fragility, and the gap for a target frequency
+    Ida(Box<IdaArguments>),
+    /// Ground motions: read, measure, convert, process, generate and match
+    #[command(subcommand)]
+    Motion(Box<MotionCommand>),
     /// List the impact models, or show one
     Models {
         /// Model or alias
@@ -58,38 +86,14 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json"])]
         pages: Option<OutputFolder>,
     },
-    /// Let two bodies collide: what a model really returns
-    Impact(Box<ImpactArguments>),
-    /// List the laws of storeys and links, show one, or drive it along deformations
+    /// List the hysteresis laws of storeys and links, show one, or compute its loops
     Hysteresis(Box<HysteresisArguments>),
-    /// Compute published results and compare
-    Verify(VerifyArguments),
-    /// Is the gap wide enough? Demand by simulation, by code, and what pounding does
-    Gap(Box<GapArguments>),
-    /// Does the answer hang on the impact model? Every model on every record
-    Compare(Box<CompareArguments>),
+    /// Let two bodies collide: force, achieved restitution and energy lost by impact models
+    Impact(Box<ImpactArguments>),
     /// Find a contact stiffness, with its source and limits
     Stiffness(StiffnessArguments),
-    /// Read, measure, convert, process, make and match ground motions
-    #[command(subcommand)]
-    Motion(Box<MotionCommand>),
-    /// Run a case many times with other values, models or records
-    Sweep(Box<SweepArguments>),
-    /// Merge the results of all shards of a sweep
-    Merge(MergeArguments),
-    /// Scale records to rising intensities: fragility, and the gap for a frequency
-    Ida(Box<IdaArguments>),
-    /// Make one HTML page of a result: what happened, with tables and figures
-    Report {
-        /// Result file of `run` (HDF5)
-        result: InputPath,
-        /// Page; by default the result's name with .html beside it
-        #[arg(short, long)]
-        output: Option<OutputPath>,
-        /// Read a result without checksum here, not in a process of its own
-        #[arg(long, hide = true)]
-        accept_without_checksum: bool,
-    },
+    /// Compute published results and compare
+    Verify(VerifyArguments),
     /// Print the JSON Schema of the case file
     Schema,
     /// Print shell completions
@@ -138,13 +142,13 @@ pub enum StiffnessMethod {
     Slab(SlabArguments),
     /// Stiffness that gives a wanted contact time
     Duration(DurationArguments),
-    /// Stiffness that gives a wanted greatest penetration
+    /// Stiffness that gives a wanted maximum penetration
     Penetration(PenetrationArguments),
     /// Multiple of the storey stiffness of the stiffer building, N/m
     Multiple(MultipleArguments),
 }
 
-/// Arguments of `stiffness hertz`. The right body is made like the left one
+/// Arguments of `stiffness hertz`. The right body equals the left one
 /// unless said otherwise.
 #[derive(Debug, clap::Args)]
 pub struct HertzArguments {
@@ -256,7 +260,7 @@ pub struct DurationArguments {
 /// Arguments of `stiffness penetration`.
 #[derive(Debug, clap::Args)]
 pub struct PenetrationArguments {
-    /// Wanted greatest penetration, such as "5 mm"
+    /// Wanted maximum penetration, such as "5 mm"
     #[arg(long, allow_hyphen_values = true)]
     pub penetration: String,
     /// Width of the gap, to compare with

@@ -35,8 +35,8 @@ pub enum Failure {
     Output(Report),
     /// Interrupted by a signal: exit code 5.
     Interrupted(Report),
-    /// A child process has said why, and ended with this code.
-    Told(u8),
+    /// A child process has reported the reason, and ended with this code.
+    Reported(u8),
 }
 
 impl Failure {
@@ -44,7 +44,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         let (reports, code) = match self {
             Self::No => return ExitCode::from(1),
-            Self::Told(code) => return ExitCode::from(code),
+            Self::Reported(code) => return ExitCode::from(code),
             Self::Input(report) => (vec![report], 2),
             Self::Inputs(reports) => (reports, 2),
             Self::Computation(report) => (vec![report], 3),
@@ -63,7 +63,7 @@ impl Failure {
         } else if reports.len() > 1 {
             text.push_str(&format!("{} errors\n", reports.len()));
         }
-        // Where nobody can read it any more, the exit code still tells.
+        // Where nobody can read it any more, the exit code still says it.
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
         ExitCode::from(code)
     }

@@ -53,7 +53,7 @@ pub fn listen() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Says which command goes on where this one ends; an interrupted command tells it.
+/// Says which command goes on where this one ends; an interrupted command prints it.
 pub fn resume_with(command: String) {
     state().resume = Some(command);
 }
@@ -82,7 +82,7 @@ fn received() {
     leave("");
 }
 
-/// Ends the process: removes part files, tells how to go on, exits.
+/// Ends the process: removes part files, prints how to go on, exits.
 pub fn leave(done: &str) -> ! {
     // Nobody finishes a file from here on.
     pounding_files::remove_part_files();

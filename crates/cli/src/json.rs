@@ -19,13 +19,13 @@ pub fn outcome(
         .iter()
         .zip(&isolated.buildings)
         .zip(system.buildings())
-        .map(|((b, alone), building)| {
+        .map(|((b, isolated), building)| {
             json!({
                 "name": b.name,
                 "elevation": building.elevations(),
                 "storeys": b.storeys.iter().map(storey).collect::<Vec<_>>(),
                 "yielding": b.yielding.iter().map(yielding).collect::<Vec<_>>(),
-                "isolated": alone.storeys.iter().map(storey).collect::<Vec<_>>(),
+                "isolated": isolated.storeys.iter().map(storey).collect::<Vec<_>>(),
             })
         })
         .collect();
@@ -34,15 +34,15 @@ pub fn outcome(
         .iter()
         .zip(system.gaps())
         .map(|(g, place)| {
-            let card = system
+            let descriptor = system
                 .levels()
                 .get(place.first_level)
                 .map(|l| l.model.descriptor());
-            let secondary =
-                card.is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
+            let secondary = descriptor
+                .is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
             json!({
                 "name": g.name,
-                "model": card.map(|d| d.name),
+                "model": descriptor.map(|d| d.name),
                 "from_secondary_sources": secondary,
                 "between": place.between,
                 "levels": g.levels.iter().zip(system.levels_of(place)).map(|(l, at)| {

@@ -93,9 +93,9 @@ pub fn decimal(x: f64, digits: usize) -> String {
 }
 
 /// Value, time, and ratio to the isolated building.
-fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
-    let ratio = if alone.value > 0.0 {
-        format!("x{}", decimal(p.value / alone.value, 2))
+fn cell(p: Peak, isolated: Peak, factor: f64, digits: usize) -> String {
+    let ratio = if isolated.value > 0.0 {
+        format!("x{}", decimal(p.value / isolated.value, 2))
     } else {
         "-".to_owned()
     };
@@ -104,7 +104,7 @@ fn cell(p: Peak, alone: Peak, factor: f64, digits: usize) -> String {
 }
 
 fn building(run: &Run<'_>, index: usize) -> String {
-    let (with, alone) = (
+    let (with, isolated) = (
         &run.outcome.buildings[index],
         &run.isolated.buildings[index],
     );
@@ -115,7 +115,7 @@ fn building(run: &Run<'_>, index: usize) -> String {
         "storey shear (kN)",
         "absolute acceleration (g)",
     ]);
-    for (i, (a, b)) in with.storeys.iter().zip(&alone.storeys).enumerate().rev() {
+    for (i, (a, b)) in with.storeys.iter().zip(&isolated.storeys).enumerate().rev() {
         table.add_row([
             (i + 1).to_string(),
             cell(a.displacement, b.displacement, 1e3, 2),
@@ -125,7 +125,7 @@ fn building(run: &Run<'_>, index: usize) -> String {
         ]);
     }
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the building alone\n{table}\n",
+        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n",
         with.name
     )
 }
@@ -148,7 +148,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         "first contact (s)",
         "approach velocity (m/s)",
         if rigid {
-            "greatest impulse (kN s)"
+            "maximum impulse (kN s)"
         } else {
             "peak force (kN)"
         },
@@ -184,8 +184,8 @@ fn gap(run: &Run<'_>, index: usize) -> String {
 
 /// The line of a model whose formula or constants were not read in its paper.
 fn secondary_sources(levels: &[ContactLevel]) -> String {
-    let card = levels.first().map(|l| l.model.descriptor());
-    match card.map(|d| (d.name, d.verification)) {
+    let descriptor = levels.first().map(|l| l.model.descriptor());
+    match descriptor.map(|d| (d.name, d.verification)) {
         Some((name, Verification::SecondarySources(how))) => {
             format!("{name} is from secondary sources: {how}\n")
         }
@@ -193,14 +193,14 @@ fn secondary_sources(levels: &[ContactLevel]) -> String {
     }
 }
 
-/// Lasting contacts with the greatest force that they held, and widened gaps.
+/// Lasting contacts with the maximum force that they held, and widened gaps.
 fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String {
     let mut text = String::new();
     for (l, at) in levels.iter().zip(places) {
         let level = at.place;
         if l.sticks > 0 {
             text.push_str(&format!(
-                "Level {level}: floors held together {}, greatest contact force {:.1} kN at {:.2} s\n",
+                "Level {level}: floors held together {}, maximum contact force {:.1} kN at {:.2} s\n",
                 counted(l.sticks, "time"),
                 l.peak_force.value * 1e-3,
                 l.peak_force.time

@@ -332,7 +332,7 @@ fn lists_of_unequal_length() {
             "case.toml:6:8",
             "`mass` has 3 values",
             "2 storeys",
-            "one value a storey",
+            "one value per storey",
         ],
     );
 }

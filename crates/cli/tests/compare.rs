@@ -68,7 +68,7 @@ fn all_models_under_both_records() {
     assert_eq!(holds(raises), "holds for all models");
     assert_eq!(
         holds("pounding raises the peak displacement of light"),
-        "hangs on the model"
+        "depends on the model"
     );
 }
 

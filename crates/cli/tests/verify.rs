@@ -104,15 +104,15 @@ fn the_table_leaves_no_law_out() {
         .args(["models", "--json"])
         .output()
         .unwrap();
-    let cards: Value = serde_json::from_slice(&output.stdout).unwrap();
-    for card in cards.as_array().unwrap() {
-        let parameters = card["parameters"].as_array().unwrap();
+    let descriptors: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for descriptor in descriptors.as_array().unwrap() {
+        let parameters = descriptor["parameters"].as_array().unwrap();
         if parameters.iter().any(|p| p["name"] == "restitution") {
-            let aliases = card["aliases"].as_array().unwrap();
+            let aliases = descriptor["aliases"].as_array().unwrap();
             let names: Vec<_> = aliases
                 .iter()
                 .map(|a| &a["name"])
-                .chain([&card["name"]])
+                .chain([&descriptor["name"]])
                 .collect();
             assert!(
                 table.iter().any(|line| {
@@ -121,7 +121,7 @@ fn the_table_leaves_no_law_out() {
                     names.iter().any(|n| *n == name)
                 }),
                 "{}",
-                card["name"]
+                descriptor["name"]
             );
         }
     }

@@ -12,7 +12,7 @@ use crate::models::papi_toopchi_2022::published_alpha;
 use crate::parameters::ModelParameters;
 use crate::registry;
 
-/// Greatest `alpha` that is tried: the law is elastic to six digits there.
+/// Maximum `alpha` that is tried: the law is elastic to six digits there.
 pub const GREATEST_ALPHA: f64 = 1.0e6;
 
 /// A body dropped on a slab.
@@ -169,7 +169,7 @@ pub enum CalibrationError {
         /// Contact time (s).
         duration: f64,
     },
-    /// No sign change: even the least or the greatest `alpha` misses.
+    /// No sign change: even the minimum or the maximum `alpha` misses.
     #[error(
         "no alpha between {low} and {high} shows a restitution of {requested}: the drop test shows {achieved_low:.6} to {achieved_high:.6} there"
     )]
@@ -180,7 +180,7 @@ pub enum CalibrationError {
         low: f64,
         /// What it shows (-).
         achieved_low: f64,
-        /// Greatest `alpha` tried.
+        /// Maximum `alpha` tried.
         high: f64,
         /// What it shows (-).
         achieved_high: f64,

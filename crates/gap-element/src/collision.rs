@@ -63,11 +63,11 @@ pub struct CollisionOutcome {
     pub velocity_left: f64,
     /// Velocity of the right body after (m/s).
     pub velocity_right: f64,
-    /// Greatest force (N); NaN for a rigid impact, which has none.
+    /// Maximum force (N); NaN for a rigid impact, which has none.
     pub peak_force: f64,
     /// Its time after closure (s).
     pub peak_force_time: f64,
-    /// Greatest penetration (m).
+    /// Maximum penetration (m).
     pub peak_penetration: f64,
     /// Its time after closure (s).
     pub peak_penetration_time: f64,

@@ -1,4 +1,4 @@
-//! The card of an impact model: what it is, needs, and is worth.
+//! The descriptor of an impact model: what it is, needs, and is worth.
 
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
@@ -69,7 +69,7 @@ pub struct ParameterDescriptor {
     pub unit: ParameterUnit,
     /// Least allowed value and whether it is allowed itself.
     pub minimum: (f64, bool),
-    /// Greatest allowed value and whether it is allowed itself.
+    /// Maximum allowed value and whether it is allowed itself.
     pub maximum: (f64, bool),
     /// Value when the user gives none; `None`: the parameter is required
     /// (or one of a pair of alternatives, see `explanation`).

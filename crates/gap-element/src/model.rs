@@ -6,7 +6,7 @@
 
 use crate::descriptor::ModelDescriptor;
 
-/// Greatest number of constants that a model may fix for one collision.
+/// Maximum number of constants that a model may fix for one collision.
 pub const MAXIMUM_CONSTANTS: usize = 4;
 
 /// Smallest approach velocity (m/s) that laws scaled by the approach velocity
@@ -32,7 +32,7 @@ pub struct Collision {
 /// What a model remembers inside one collision. Changed at accepted steps only.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
-    /// Greatest penetration of this collision so far (m).
+    /// Maximum penetration of this collision so far (m).
     pub maximum_penetration: f64,
     /// Penetration at which the elastic branch of a yielding law has no force
     /// (m); set by [`ImpactModel::enter`].
@@ -161,9 +161,9 @@ impl SeparationRule {
 pub struct ClosedForm {
     /// Achieved restitution, separation over approach velocity (-).
     pub restitution: f64,
-    /// Greatest penetration (m), where a closed form exists.
+    /// Maximum penetration (m), where a closed form exists.
     pub peak_penetration: Option<f64>,
-    /// Greatest force (N), where a closed form exists.
+    /// Maximum force (N), where a closed form exists.
     pub peak_force: Option<f64>,
     /// Time from closure until the floors stop acting on one another (s),
     /// where a closed form exists.
@@ -178,7 +178,7 @@ pub struct ClosedForm {
 /// [`ImpactModel::transitions`] changes sign, and calls
 /// [`ImpactModel::commit`] for accepted steps only.
 pub trait ImpactModel: Send + Sync + std::fmt::Debug {
-    /// The model's card: names, citation, parameters, class, verification.
+    /// The model's descriptor: names, citation, parameters, class, verification.
     fn descriptor(&self) -> &'static ModelDescriptor;
 
     /// The rule by which contact ends.
@@ -279,7 +279,7 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
         None
     }
 
-    /// Least and greatest force (N) with which the contact can hold the floors
+    /// Least and maximum force (N) with which the contact can hold the floors
     /// together at penetration `delta` (m). Equal bounds: it cannot stick.
     fn stick_range(&self, collision: &Collision, memory: &Memory, delta: f64) -> (f64, f64) {
         let force = self

@@ -8,7 +8,7 @@ use crate::model::ImpactModel;
 use crate::models;
 use crate::parameters::ModelParameters;
 
-/// Cards of all models.
+/// Descriptors of all models.
 #[must_use]
 pub fn descriptors() -> &'static [&'static ModelDescriptor] {
     models::ALL

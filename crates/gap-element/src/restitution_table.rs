@@ -9,13 +9,13 @@ use crate::parameters::ModelParameters;
 pub const REQUESTED: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 
 /// Mean of `100 |achieved - requested| / requested` (%) over the requested
-/// restitutions of [`REQUESTED`] from `least` to `greatest`.
+/// restitutions of [`REQUESTED`] from `minimum` to `maximum`.
 #[must_use]
-pub fn mean_error_percent(achieved: &[f64], least: f64, greatest: f64) -> f64 {
+pub fn mean_error_percent(achieved: &[f64], minimum: f64, maximum: f64) -> f64 {
     let errors: Vec<f64> = REQUESTED
         .iter()
         .zip(achieved)
-        .filter(|(e, _)| **e > least - 1e-9 && **e < greatest + 1e-9)
+        .filter(|(e, _)| **e > minimum - 1e-9 && **e < maximum + 1e-9)
         .map(|(e, achieved)| 100.0 * (achieved - e).abs() / e)
         .collect();
     errors.iter().sum::<f64>() / errors.len() as f64
@@ -41,20 +41,20 @@ impl RestitutionRow {
 /// Collisions of one model over [`REQUESTED`].
 #[derive(Debug, Clone)]
 pub struct RestitutionTable {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// One row for each requested restitution.
     pub rows: Vec<RestitutionRow>,
 }
 
 impl RestitutionTable {
-    /// [`mean_error_percent`] over the rows from `least` to
-    /// `greatest` requested restitution (%). The literature quotes 0.1 to 1.0, and
+    /// [`mean_error_percent`] over the rows from `minimum` to
+    /// `maximum` requested restitution (%). The literature quotes 0.1 to 1.0, and
     /// 0.5 to 0.8 where building materials are (Papi and Toopchi-Nezhad 2022).
     #[must_use]
-    pub fn mean_error_percent(&self, least: f64, greatest: f64) -> f64 {
+    pub fn mean_error_percent(&self, minimum: f64, maximum: f64) -> f64 {
         let achieved = self.rows.iter().map(|row| row.outcome.restitution);
-        mean_error_percent(&achieved.collect::<Vec<_>>(), least, greatest)
+        mean_error_percent(&achieved.collect::<Vec<_>>(), minimum, maximum)
     }
 }
 

@@ -175,12 +175,12 @@ fn integrated_collisions_last_as_long_as_wanted() {
             let outcome = integrated(exponent, result.value);
             close(outcome.duration, wanted, 1e-9);
             close(
-                intermediate(&result, "greatest penetration"),
+                intermediate(&result, "maximum penetration"),
                 outcome.peak_penetration,
                 1e-9,
             );
             close(
-                intermediate(&result, "greatest force"),
+                intermediate(&result, "maximum force"),
                 outcome.peak_force,
                 1e-9,
             );

@@ -92,8 +92,8 @@ fn a_body_that_stays_has_reached_its_peak() {
 /// neither part nor approach.
 #[test]
 fn bodies_that_the_dashpot_stops_stay_together() {
-    let card = registry::find("adams_impact").unwrap();
-    let mut parameters = card.example_parameters(0.5);
+    let descriptor = registry::find("adams_impact").unwrap();
+    let mut parameters = descriptor.example_parameters(0.5);
     parameters.values.insert("stiffness".to_owned(), 7.74509e-6);
     let law = registry::build("adams_impact", &parameters).unwrap();
     let bodies = Bodies {

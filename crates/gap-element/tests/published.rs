@@ -236,10 +236,15 @@ fn every_law_that_takes_a_restitution_returns_its_reference_row() {
         velocity_right: 0.0,
     };
     for reference in restitution::REFERENCES {
-        let card = registry::find(reference.model).unwrap();
+        let descriptor = registry::find(reference.model).unwrap();
         let parameters = reference.parameters().unwrap();
-        let table =
-            restitution_table(card, &parameters, &bodies, &CollisionOptions::default()).unwrap();
+        let table = restitution_table(
+            descriptor,
+            &parameters,
+            &bodies,
+            &CollisionOptions::default(),
+        )
+        .unwrap();
         for (row, expected) in table.rows.iter().zip(reference.achieved) {
             let difference = (row.outcome.restitution - expected).abs();
             assert!(

@@ -1,4 +1,4 @@
-//! Every registered model: tangents, regularity, invariance, its card.
+//! Every registered model: tangents, regularity, invariance, its descriptor.
 #![allow(clippy::unwrap_used)]
 
 use pounding_gap_element::{
@@ -132,7 +132,7 @@ fn zero_approach_velocity_is_regular() {
 }
 
 #[test]
-fn cards_are_complete_and_names_unique() {
+fn descriptors_are_complete_and_names_unique() {
     let mut names = Vec::new();
     for d in registry::descriptors() {
         let status = match d.verification {
@@ -260,10 +260,10 @@ fn quoted_pairs(text: &str) -> Vec<(&str, f64)> {
         .collect()
 }
 
-/// What cards say of achieved for requested restitution holds with one of the
+/// What descriptors say of achieved for requested restitution holds with one of the
 /// separation rules that the model offers.
 #[test]
-fn cards_quote_what_the_models_return() {
+fn descriptors_quote_what_the_models_return() {
     let mut compared = 0;
     for d in registry::descriptors() {
         for (quoted, e) in d.traps.iter().flat_map(|trap| quoted_pairs(trap)) {

@@ -53,7 +53,7 @@ pub struct Origin {
     pub warnings: Vec<String>,
 }
 
-/// A greatest absolute value and its time.
+/// A maximum absolute value and its time.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Peak {
     /// Absolute value (SI: m/s2 for an acceleration).
@@ -172,13 +172,13 @@ impl Accelerogram {
         self.scale
     }
 
-    /// Where it came from; `None` if it was made in memory.
+    /// Where it came from; `None` if it was built in memory.
     #[must_use]
     pub fn origin(&self) -> Option<&Origin> {
         self.origin.as_ref()
     }
 
-    /// What was done to it since it was read or how it was made, in order.
+    /// What was done to it since it was read or how it was generated, in order.
     #[must_use]
     pub fn steps(&self) -> &[StepRecord] {
         &self.steps

@@ -191,7 +191,7 @@ pub enum GroundMotionError {
         "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}"
     )]
     NotMatched {
-        /// Greatest deviation as a part of the target.
+        /// Maximum deviation as a part of the target.
         worst: f64,
         /// Period where it is (s).
         period: f64,

@@ -1,4 +1,4 @@
-//! Fortran formats such as `(8F10.5)`: how many numbers a line, how wide each.
+//! Fortran formats such as `(8F10.5)`: how many numbers per line, how wide each.
 
 /// Widest line that a card image has.
 const WIDEST_LINE: usize = 512;
@@ -6,7 +6,7 @@ const WIDEST_LINE: usize = 512;
 /// Numbers of one width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
-    /// Numbers a line.
+    /// Numbers per line.
     pub per_line: usize,
     /// Columns a number.
     pub width: usize,

@@ -1,11 +1,11 @@
-//! Accelerogram readers, one format a file; processing, intensity measures, spectra
+//! Accelerogram readers, one format per file; processing, intensity measures, spectra
 //! and generators.
 //!
 //! [`read_all`] returns every series of a file as a [`Recording`]; [`read`]
 //! chooses the acceleration that excites the buildings. An [`Accelerogram`]
 //! cannot exist without unit and time step: it holds samples in m/s2 and says
-//! where unit and step came from. Whatever is done to it or made from nothing is
-//! told by a list of [`StepRecord`]s.
+//! where unit and step came from. Whatever is done to it, or how it was
+//! generated, is reported by a list of [`StepRecord`]s.
 
 pub mod generators;
 pub mod matching;

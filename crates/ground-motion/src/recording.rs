@@ -18,7 +18,7 @@ pub enum Sampling {
     },
 }
 
-/// What the header says about the greatest value of a series.
+/// What the header says about the maximum value of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeaderPeak {
     /// Value (SI), with the sign that is printed: agencies differ in its meaning.
@@ -62,7 +62,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// Greatest absolute value (SI) and its time (s).
+    /// Maximum absolute value (SI) and its time (s).
     #[must_use]
     pub fn peak(&self) -> Peak {
         let (value, time) = self.signed_peak();
@@ -72,7 +72,7 @@ impl Series {
         }
     }
 
-    /// The value of greatest magnitude with its sign (SI), and its time (s).
+    /// The value of largest magnitude with its sign (SI), and its time (s).
     #[must_use]
     pub fn signed_peak(&self) -> (f64, f64) {
         let mut peak = (0.0_f64, 0.0);

@@ -13,7 +13,7 @@ use crate::volume::{ChannelHeader, end_of_channel};
 
 const TEXT_LINES: usize = 13;
 const REALS: usize = 50;
-/// Five pairs a line: CDMG prints seven columns a number, USC eight.
+/// Five pairs per line: CDMG prints seven columns per number, USC eight.
 const PAIRS: [Layout; 2] = [Layout::new(10, 7), Layout::new(10, 8)];
 const EVEN: Layout = Layout::new(8, 9);
 

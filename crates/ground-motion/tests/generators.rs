@@ -245,8 +245,8 @@ fn seeds() {
     }
 }
 
-/// What `motion synth` and the studies leave out, as docs/ground-motions.md and
-/// docs/studies.md have it.
+/// What `motion synth` and the studies leave out, as docs/reference/ground-motions.md and
+/// docs/reference/studies.md have it.
 #[test]
 fn usual_parameters_are_those_of_the_documentation() {
     let usual = RezaeianDerKiureghian2010::usual(12.0, 8.0, 3.5);

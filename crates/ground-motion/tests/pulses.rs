@@ -55,7 +55,7 @@ fn sines_and_envelopes() {
         .generate(grid(0.01, 6.0))
         .is_err()
     );
-    // Each has its greatest value one where its formula says.
+    // Each has its maximum value one where its formula says.
     for (envelope, peak_at) in [
         (Envelope::HalfSine, 10.0),
         (Envelope::Decay { rate: 0.3 }, 0.0),
@@ -90,7 +90,7 @@ fn sines_and_envelopes() {
     }
 }
 
-/// The second derivative of a Gaussian leaves nothing behind; its spectrum is greatest at
+/// The second derivative of a Gaussian leaves nothing behind; its spectrum is largest at
 /// 1/Tp, as `f^2 exp(-f^2 Tp^2)`.
 #[test]
 fn ricker() {

@@ -25,7 +25,7 @@ pub(crate) struct Degradation {
     pub strength: f64,
     /// `eta = 1 + stiffness e`.
     pub stiffness: f64,
-    /// Greatest pinching `zeta_s`, below 1.
+    /// Maximum pinching `zeta_s`, below 1.
     pub pinching: f64,
     /// Rate `p` at which pinching grows with the work.
     pub pinching_rate: f64,
@@ -42,7 +42,7 @@ pub(crate) struct Degradation {
 /// A law of the family.
 #[derive(Debug)]
 pub(crate) struct BoucWen {
-    pub card: &'static LawDescriptor,
+    pub descriptor: &'static LawDescriptor,
     pub stiffness: f64,
     pub yield_force: f64,
     pub hardening_ratio: f64,
@@ -55,15 +55,15 @@ pub(crate) struct BoucWen {
 impl BoucWen {
     /// The parameters that both laws share.
     pub fn from_parameters(
-        card: &'static LawDescriptor,
+        descriptor: &'static LawDescriptor,
         parameters: &LawParameters,
         degradation: Degradation,
     ) -> Result<Self, HysteresisError> {
-        let get = |name| parameters.get(card, name);
+        let get = |name| parameters.get(descriptor, name);
         let (beta, gamma) = (get("beta")?, get("gamma")?);
         if !(gamma > -beta && gamma <= beta) {
             return Err(HysteresisError::Inconsistent {
-                law: card.name,
+                law: descriptor.name,
                 reason: format!(
                     "gamma = {gamma} is outside (-beta, beta] with beta = {beta}: the element would create energy, or never yield"
                 ),
@@ -71,7 +71,7 @@ impl BoucWen {
             });
         }
         Ok(Self {
-            card,
+            descriptor,
             stiffness: get("stiffness")?,
             yield_force: get("yield_force")?,
             hardening_ratio: get("hardening_ratio")?,
@@ -177,7 +177,7 @@ fn variables(history: &History, given: &[f64]) -> [f64; 2] {
 
 impl HysteresisLaw for BoucWen {
     fn descriptor(&self) -> &'static LawDescriptor {
-        self.card
+        self.descriptor
     }
     fn initial_stiffness(&self) -> f64 {
         self.stiffness

@@ -1,4 +1,4 @@
-//! The card of a law: what it is, needs, and is worth.
+//! The descriptor of a law: what it is, needs, and is worth.
 
 use crate::error::HysteresisError;
 use crate::law::HysteresisLaw;
@@ -60,7 +60,7 @@ pub struct ParameterDescriptor {
     pub unit: ParameterUnit,
     /// Least allowed value and whether it is allowed itself.
     pub minimum: (f64, bool),
-    /// Greatest allowed value and whether it is allowed itself.
+    /// Maximum allowed value and whether it is allowed itself.
     pub maximum: (f64, bool),
     /// Value when the user gives none; `None`: the parameter is required.
     pub default: Option<f64>,

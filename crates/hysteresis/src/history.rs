@@ -2,7 +2,7 @@
 
 use crate::law::Motion;
 
-/// Greatest number of internal variables of a law.
+/// Maximum number of internal variables of a law.
 pub const MAXIMUM_INTERNAL_VARIABLES: usize = 2;
 
 /// A point of the force-deformation plane.
@@ -41,7 +41,7 @@ pub(crate) struct Branch {
     pub stiffness: f64,
     /// Least deformation (m) of the branch; least velocity (m/s) of a viscous law.
     pub lower: f64,
-    /// Greatest deformation (m) or velocity (m/s).
+    /// Maximum deformation (m) or velocity (m/s).
     pub upper: f64,
     /// Work of the force (J) up to the start of the branch.
     pub work: f64,
@@ -96,9 +96,9 @@ pub(crate) struct Side {
     pub hardening: f64,
     /// Force (N) at which the falling line of the backbone meets zero deformation.
     pub cap_intercept: f64,
-    /// Greatest force (N) that the side can still reach.
+    /// Maximum force (N) that the side can still reach.
     pub force_limit: f64,
-    /// Greatest residual deformation (m) after unloading from this side.
+    /// Maximum residual deformation (m) after unloading from this side.
     pub residual: f64,
     /// Where the two legs of pinched reloading meet.
     pub break_point: Point,
@@ -168,7 +168,7 @@ impl History {
         &self.variables[..self.internal_variables]
     }
 
-    /// Number of the held branch in the law's own list: to tell branches apart.
+    /// Number of the held branch in the law's own list: to distinguish branches.
     #[must_use]
     pub fn branch(&self) -> u8 {
         self.branch.kind

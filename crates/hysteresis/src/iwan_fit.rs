@@ -10,7 +10,7 @@ use crate::iwan::IwanDensity;
 pub struct FitOptions {
     /// Relative change of all parameters below which the fit has converged.
     pub tolerance: f64,
-    /// Greatest number of iterations.
+    /// Maximum number of iterations.
     pub iterations: usize,
 }
 

@@ -3,7 +3,7 @@
 use crate::descriptor::LawDescriptor;
 use crate::history::{History, MAXIMUM_INTERNAL_VARIABLES};
 
-/// Greatest number of guards that one branch watches.
+/// Maximum number of guards that one branch watches.
 pub const MAXIMUM_GUARDS: usize = 3;
 
 /// Deformation of the element and its rate.
@@ -62,7 +62,7 @@ pub type Guards = [Option<Guard>; MAXIMUM_GUARDS];
 /// is positive; [`HysteresisLaw::accept`] takes each accepted state. The internal
 /// variables are part of the method's own state vector.
 pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
-    /// The card of the law: names, citation, parameters, verification.
+    /// The descriptor of the law: names, citation, parameters, verification.
     fn descriptor(&self) -> &'static LawDescriptor;
 
     /// Whether the force is a linear function of deformation and velocity.

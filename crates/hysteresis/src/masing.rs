@@ -13,7 +13,7 @@ use crate::path::PathLaw;
 
 /// A backbone for loading from the new state, on the positive side.
 pub(crate) trait Backbone: Send + Sync + std::fmt::Debug {
-    fn card(&self) -> &'static LawDescriptor;
+    fn law_descriptor(&self) -> &'static LawDescriptor;
 
     /// Deformations, growing, at which the formula of the backbone changes.
     fn corners(&self) -> &[f64];
@@ -98,8 +98,8 @@ fn closure(history: &History, direction: f64) -> f64 {
 }
 
 impl<B: Backbone> PathLaw for Masing<B> {
-    fn card(&self) -> &'static LawDescriptor {
-        self.backbone.card()
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.backbone.law_descriptor()
     }
     fn stiffness_when_new(&self) -> f64 {
         self.on_branch(&self.begin(), 0.0).1

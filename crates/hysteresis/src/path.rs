@@ -10,7 +10,7 @@ use crate::law::{Guard, Guards, HysteresisLaw, Motion, Response};
 
 /// A rate-independent law, branch by branch.
 pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
-    fn card(&self) -> &'static LawDescriptor;
+    fn law_descriptor(&self) -> &'static LawDescriptor;
 
     fn linear(&self) -> bool {
         false
@@ -79,7 +79,7 @@ fn walk(law: &impl PathLaw, history: &mut History, deformation: f64) {
 
 impl<L: PathLaw> HysteresisLaw for L {
     fn descriptor(&self) -> &'static LawDescriptor {
-        self.card()
+        self.law_descriptor()
     }
     fn is_linear(&self) -> bool {
         self.linear()

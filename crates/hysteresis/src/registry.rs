@@ -8,13 +8,13 @@ use crate::law::HysteresisLaw;
 use crate::laws;
 use crate::parameters::LawParameters;
 
-/// Cards of all laws.
+/// Descriptors of all laws.
 #[must_use]
 pub fn descriptors() -> &'static [&'static LawDescriptor] {
     laws::ALL
 }
 
-/// The card of the law of this name or alias.
+/// The descriptor of the law of this name or alias.
 ///
 /// # Errors
 /// [`HysteresisError::UnknownLaw`] with the nearest known name.
@@ -43,8 +43,8 @@ pub fn build(
     (descriptor.build)(parameters)
 }
 
-fn names(card: &'static LawDescriptor) -> impl Iterator<Item = &'static str> {
-    std::iter::once(card.name).chain(card.aliases.iter().map(|a| a.name))
+fn names(descriptor: &'static LawDescriptor) -> impl Iterator<Item = &'static str> {
+    std::iter::once(descriptor.name).chain(descriptor.aliases.iter().map(|a| a.name))
 }
 
 /// Words of other programs and of the literature, and the law that does what they say; they
@@ -120,7 +120,7 @@ fn nearest(name: &str) -> &'static str {
 }
 
 fn by_spelling(name: &str) -> &'static str {
-    let known = laws::ALL.iter().flat_map(|card| names(card));
+    let known = laws::ALL.iter().flat_map(|descriptor| names(descriptor));
     suggestion::nearest(name, known).unwrap_or("bilinear")
 }
 

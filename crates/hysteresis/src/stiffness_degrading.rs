@@ -20,7 +20,7 @@ const RELOADING: u8 = 4;
 /// Rules with their parameters.
 #[derive(Debug)]
 pub(crate) struct StiffnessDegrading {
-    pub card: &'static LawDescriptor,
+    pub descriptor: &'static LawDescriptor,
     pub stiffness: f64,
     pub yield_force: f64,
     pub hardening_ratio: f64,
@@ -43,7 +43,7 @@ impl StiffnessDegrading {
         self.yield_force + self.hardening_ratio * self.stiffness * plastic
     }
 
-    /// Unloading stiffness after this greatest deformation of the side; never below
+    /// Unloading stiffness after this maximum deformation of the side; never below
     /// the secant to that point, so that unloading cannot cross zero deformation.
     fn unloading_stiffness(&self, peak: Point) -> f64 {
         let ductility = peak.deformation / self.yield_deformation();
@@ -106,8 +106,8 @@ impl StiffnessDegrading {
 }
 
 impl PathLaw for StiffnessDegrading {
-    fn card(&self) -> &'static LawDescriptor {
-        self.card
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.descriptor
     }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness

@@ -40,7 +40,7 @@ const ERROR: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-/// Greatest local error of a substep, absolute and relative.
+/// Maximum local error of a substep, absolute and relative.
 const TOLERANCE: f64 = 1e-12;
 /// Shortest substep, as a share of the interval: shorter ones gain nothing.
 const SHORTEST: f64 = 1e-12;
@@ -97,14 +97,14 @@ pub(crate) fn integrate<const N: usize>(
     state
 }
 
-/// Greatest error of a substep over what is allowed; not a number where it overflows.
+/// Maximum error of a substep over what is allowed; not a number where it overflows.
 fn error<const N: usize>(
     stages: &[[f64; N]; 7],
     state: &[f64; N],
     end: &[f64; N],
     step: f64,
 ) -> f64 {
-    let mut greatest = 0.0_f64;
+    let mut maximum = 0.0_f64;
     for i in 0..N {
         let sum: f64 = ERROR.iter().zip(stages).map(|(w, k)| w * k[i]).sum();
         let allowed = TOLERANCE * (1.0 + state[i].abs().max(end[i].abs()));
@@ -112,9 +112,9 @@ fn error<const N: usize>(
         if !ratio.is_finite() {
             return f64::NAN;
         }
-        greatest = greatest.max(ratio);
+        maximum = maximum.max(ratio);
     }
-    greatest
+    maximum
 }
 
 #[cfg(test)]

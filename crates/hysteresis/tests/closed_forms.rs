@@ -8,13 +8,13 @@ fn law(name: &str, parameters: &[(&str, f64)]) -> Box<dyn HysteresisLaw> {
     build(name, &LawParameters::from_pairs(parameters)).unwrap()
 }
 
-/// Forces along a path against expected ones, to `1e-13` of the greatest.
+/// Forces along a path against expected ones, to `1e-13` of the maximum.
 fn follows(law: &dyn HysteresisLaw, steps: &[(f64, f64)]) {
     let path: Vec<f64> = steps.iter().map(|s| s.0).collect();
-    let greatest = steps.iter().fold(0.0_f64, |m, s| m.max(s.1.abs()));
+    let maximum = steps.iter().fold(0.0_f64, |m, s| m.max(s.1.abs()));
     for (point, (x, force)) in history(law, &path, 1.0).iter().zip(steps) {
         assert!(
-            (point.force - force).abs() < 1e-13 * greatest,
+            (point.force - force).abs() < 1e-13 * maximum,
             "{} at {x}: {} for {force}",
             law.descriptor().name,
             point.force

@@ -40,12 +40,12 @@ fn slope_agrees(f: impl Fn(f64) -> f64, slope: f64, width: f64, scale: f64) -> R
     Err(least)
 }
 
-fn check_trial_tangents(card: &'static LawDescriptor) {
-    let law = example(card);
+fn check_trial_tangents(descriptor: &'static LawDescriptor) {
+    let law = example(descriptor);
     let mut committed = law.virgin();
     let mut candidate = committed.clone();
     let (mut visited, mut tested) = (BTreeSet::new(), BTreeSet::new());
-    let amplitude = card.example_amplitude;
+    let amplitude = descriptor.example_amplitude;
     let mut scale = law.initial_stiffness();
     let instants = times(END, 0.05);
     for pair in instants.windows(2) {
@@ -65,8 +65,9 @@ fn check_trial_tangents(card: &'static LawDescriptor) {
                 law.trial(&committed, &mut law.virgin(), shifted, step)
                     .force
             };
-            slope_agrees(f, response.by_deformation, width, scale)
-                .unwrap_or_else(|e| panic!("{}: {response:?} at {end:?}, off by {e}", card.name));
+            slope_agrees(f, response.by_deformation, width, scale).unwrap_or_else(|e| {
+                panic!("{}: {response:?} at {end:?}, off by {e}", descriptor.name)
+            });
             tested.insert(candidate.branch());
         }
         let width = 1e-4 * end.velocity.abs();
@@ -80,26 +81,27 @@ fn check_trial_tangents(card: &'static LawDescriptor) {
                     .force
             };
             let scale = response.by_velocity.abs().max(1e-6 * scale);
-            slope_agrees(f, response.by_velocity, width, scale)
-                .unwrap_or_else(|e| panic!("{}: {response:?} at {end:?}, off by {e}", card.name));
+            slope_agrees(f, response.by_velocity, width, scale).unwrap_or_else(|e| {
+                panic!("{}: {response:?} at {end:?}, off by {e}", descriptor.name)
+            });
         }
         committed.commit(&mut candidate);
     }
-    assert_eq!(visited, tested, "{}: branches not tested", card.name);
+    assert_eq!(visited, tested, "{}: branches not tested", descriptor.name);
 }
 
 #[test]
 fn tangents_of_trials_agree_with_finite_differences_on_all_branches() {
-    for card in descriptors() {
-        check_trial_tangents(card);
+    for descriptor in descriptors() {
+        check_trial_tangents(descriptor);
     }
 }
 
 #[test]
 fn tangents_of_held_branches_agree_with_finite_differences_inside_and_past_the_end() {
-    for card in descriptors() {
-        let law = example(card);
-        let amplitude = card.example_amplitude;
+    for descriptor in descriptors() {
+        let law = example(descriptor);
+        let amplitude = descriptor.example_amplitude;
         let mut driver = Explicit::new(law.as_ref(), amplitude);
         for time in times(END, 0.05) {
             driver.advance(time);
@@ -120,12 +122,12 @@ fn tangents_of_held_branches_agree_with_finite_differences_inside_and_past_the_e
             let scale = law.initial_stiffness().max(response.by_deformation.abs());
             let width = 1e-5 * amplitude;
             slope_agrees(|x| force(x, 0.0), response.by_deformation, width, scale)
-                .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", card.name));
+                .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", descriptor.name));
             let width = 1e-5 * at.velocity.abs();
             if width > 0.0 {
                 let scale = response.by_velocity.abs().max(1e-6 * scale);
                 slope_agrees(|v| force(0.0, v), response.by_velocity, width, scale)
-                    .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", card.name));
+                    .unwrap_or_else(|e| panic!("{}: {response:?} at {at:?}, {e}", descriptor.name));
             }
         }
     }
@@ -133,9 +135,9 @@ fn tangents_of_held_branches_agree_with_finite_differences_inside_and_past_the_e
 
 #[test]
 fn a_trial_without_commit_leaves_no_trace() {
-    for card in descriptors() {
-        let law = example(card);
-        let amplitude = card.example_amplitude;
+    for descriptor in descriptors() {
+        let law = example(descriptor);
+        let amplitude = descriptor.example_amplitude;
         let (mut plain, mut disturbed) = (law.virgin(), law.virgin());
         let (mut spare, mut candidate) = (plain.clone(), plain.clone());
         let instants = times(END, 0.05);
@@ -148,7 +150,7 @@ fn a_trial_without_commit_leaves_no_trace() {
                 };
                 let before = disturbed.clone();
                 law.trial(&disturbed, &mut candidate, elsewhere, step);
-                assert_eq!(before, disturbed, "{}", card.name);
+                assert_eq!(before, disturbed, "{}", descriptor.name);
             }
             let response = law.trial(&disturbed, &mut candidate, end, step);
             disturbed.commit(&mut candidate);
@@ -156,19 +158,19 @@ fn a_trial_without_commit_leaves_no_trace() {
                 response,
                 law.trial(&plain, &mut spare, end, step),
                 "{}",
-                card.name
+                descriptor.name
             );
             plain.commit(&mut spare);
-            assert_eq!(plain, disturbed, "{}", card.name);
+            assert_eq!(plain, disturbed, "{}", descriptor.name);
         }
     }
 }
 
-/// Greatest difference of force and of energy between the two seams, over the
-/// greatest force and the greatest energy.
-fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
-    let law = example(card);
-    let amplitude = card.example_amplitude;
+/// Maximum difference of force and of energy between the two seams, over the
+/// maximum force and the maximum energy.
+fn seams_differ(descriptor: &'static LawDescriptor, step: f64) -> (f64, f64) {
+    let law = example(descriptor);
+    let amplitude = descriptor.example_amplitude;
     let mut driver = Explicit::new(law.as_ref(), amplitude);
     let mut committed = law.virgin();
     let mut candidate = committed.clone();
@@ -192,34 +194,38 @@ fn seams_differ(card: &'static LawDescriptor, step: f64) -> (f64, f64) {
         energy_max = energy_max.max(stored.abs()).max(dissipated.abs());
     }
     let smooth = law.guards(&law.virgin()).iter().all(Option::is_none);
-    assert!(smooth || driver.passed > 5, "{}", card.name);
+    assert!(smooth || driver.passed > 5, "{}", descriptor.name);
     (force_off / force_max, energy_off / energy_max)
 }
 
 #[test]
 fn implicit_trials_and_located_branches_agree_on_the_same_path() {
-    for card in descriptors() {
-        let (force, energy) = seams_differ(card, 0.005);
+    for descriptor in descriptors() {
+        let (force, energy) = seams_differ(descriptor, 0.005);
         // A trial of a rate-dependent law goes straight through its step: second order
         // in time. A broken power of an internal variable costs the explicit steps
         // that start at its zero a little. Both must vanish with the step.
-        let bound = if card.rate_dependent { 1e-3 } else { 1e-8 };
+        let bound = if descriptor.rate_dependent {
+            1e-3
+        } else {
+            1e-8
+        };
         assert!(
             force < bound && energy < bound,
             "{}: {force} {energy}",
-            card.name
+            descriptor.name
         );
         if force.max(energy) > 1e-9 {
-            let (finer, finer_energy) = seams_differ(card, 0.0025);
+            let (finer, finer_energy) = seams_differ(descriptor, 0.0025);
             assert!(
                 force < 1e-9 || force / finer > 3.6,
                 "{}: {force} {finer}",
-                card.name
+                descriptor.name
             );
             assert!(
                 energy < 1e-9 || energy / finer_energy > 3.6,
                 "{}: {energy} {finer_energy}",
-                card.name
+                descriptor.name
             );
         }
     }
@@ -227,27 +233,27 @@ fn implicit_trials_and_located_branches_agree_on_the_same_path() {
 
 #[test]
 fn work_is_stored_or_dissipated() {
-    for card in descriptors() {
-        let law = example(card);
-        let amplitude = card.example_amplitude;
+    for descriptor in descriptors() {
+        let law = example(descriptor);
+        let amplitude = descriptor.example_amplitude;
         let mut driver = Explicit::new(law.as_ref(), amplitude);
-        let (mut off, mut greatest, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut off, mut maximum, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
         for time in times(END, 0.005) {
             driver.advance(time);
             let (stored, dissipated) = driver.energies();
             off = off.max((stored + dissipated - driver.work).abs());
-            greatest = greatest.max(stored).max(dissipated);
+            maximum = maximum.max(stored).max(dissipated);
             lost = lost.max(-stored);
         }
         assert!(
-            off < 1e-8 * greatest,
-            "{}: {off:e} of {greatest:e}",
-            card.name
+            off < 1e-8 * maximum,
+            "{}: {off:e} of {maximum:e}",
+            descriptor.name
         );
         assert!(
-            lost <= 1e-14 * greatest,
+            lost <= 1e-14 * maximum,
             "{}: stored energy of -{lost}",
-            card.name
+            descriptor.name
         );
     }
 }
@@ -257,45 +263,45 @@ const ONE_SIDED: [&str; 2] = ["gap_hook", "elastoplastic_gap"];
 
 #[test]
 fn the_mirrored_path_gives_the_mirrored_force_bit_for_bit() {
-    for card in descriptors()
+    for descriptor in descriptors()
         .iter()
         .filter(|c| !ONE_SIDED.contains(&c.name))
     {
-        let law = example(card);
+        let law = example(descriptor);
         let run = |sign: f64| -> Vec<f64> {
             let path: Vec<f64> = times(END, 0.05)
                 .iter()
-                .map(|t| sign * motion(card.example_amplitude, *t).deformation)
+                .map(|t| sign * motion(descriptor.example_amplitude, *t).deformation)
                 .collect();
             let points = pounding_hysteresis::laboratory::history(law.as_ref(), &path, 0.05);
             points.iter().map(|p| p.force).collect()
         };
         let (there, mirrored) = (run(1.0), run(-1.0));
         for (a, b) in there.iter().zip(&mirrored) {
-            assert_eq!(*a, -*b, "{}", card.name);
+            assert_eq!(*a, -*b, "{}", descriptor.name);
         }
     }
 }
 
 #[test]
-fn cards_are_complete_and_examples_build() {
+fn descriptors_are_complete_and_examples_build() {
     let mut names = BTreeSet::new();
-    for card in descriptors() {
-        assert!(names.insert(card.name), "{} twice", card.name);
-        for alias in card.aliases {
+    for descriptor in descriptors() {
+        assert!(names.insert(descriptor.name), "{} twice", descriptor.name);
+        for alias in descriptor.aliases {
             assert!(names.insert(alias.name), "{} twice", alias.name);
         }
-        let law = example(card);
-        assert_eq!(law.descriptor().name, card.name);
+        let law = example(descriptor);
+        assert_eq!(law.descriptor().name, descriptor.name);
         assert!(law.virgin().variables().len() == law.internal_variables());
         assert!(law.initial_stiffness().is_finite() && law.initial_stiffness() >= 0.0);
-        assert!(!card.formula.is_empty() && !card.citation.is_empty());
-        for parameter in card.parameters {
+        assert!(!descriptor.formula.is_empty() && !descriptor.citation.is_empty());
+        for parameter in descriptor.parameters {
             if let Some(default) = parameter.default {
                 assert!(
                     parameter.allows(default),
                     "{} {}",
-                    card.name,
+                    descriptor.name,
                     parameter.name
                 );
             }

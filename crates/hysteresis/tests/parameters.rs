@@ -85,21 +85,21 @@ fn unknown_and_missing_names_are_told() {
         refused("bilinear", &[("hardening", 0.1)]),
         HysteresisError::UnknownParameter { .. }
     ));
-    for card in descriptors() {
-        for parameter in card.parameters.iter().filter(|p| p.default.is_none()) {
-            let mut parameters = card.example_parameters();
+    for descriptor in descriptors() {
+        for parameter in descriptor.parameters.iter().filter(|p| p.default.is_none()) {
+            let mut parameters = descriptor.example_parameters();
             parameters.values.remove(parameter.name);
-            match build(card.name, &parameters).unwrap_err() {
+            match build(descriptor.name, &parameters).unwrap_err() {
                 HysteresisError::MissingParameter {
                     parameter: named, ..
                 } => {
                     assert_eq!(named, parameter.name);
                 }
-                other => panic!("{}: {other}", card.name),
+                other => panic!("{}: {other}", descriptor.name),
             }
         }
-        for alias in card.aliases {
-            assert_eq!(find(alias.name).unwrap().name, card.name);
+        for alias in descriptor.aliases {
+            assert_eq!(find(alias.name).unwrap().name, descriptor.name);
         }
     }
 }

@@ -15,14 +15,14 @@ proptest! {
     /// force stays finite.
     #[test]
     fn work_is_never_negative(shares in prop::collection::vec(-2.0..2.0_f64, 1..60)) {
-        for card in descriptors() {
-            let law = example(card);
+        for descriptor in descriptors() {
+            let law = example(descriptor);
             let mut committed = law.virgin();
             let mut candidate = committed.clone();
-            let mut greatest = 0.0_f64;
+            let mut maximum = 0.0_f64;
             let mut from = 0.0;
             for share in &shares {
-                let x = share * card.example_amplitude;
+                let x = share * descriptor.example_amplitude;
                 let end = pounding_hysteresis::Motion {
                     deformation: x,
                     velocity: (x - from) / 0.1,
@@ -32,13 +32,13 @@ proptest! {
                 let variables = committed.variables();
                 let stored = law.stored_energy(&committed, end, variables);
                 let dissipated = law.dissipated_energy(&committed, end, variables);
-                greatest = greatest.max((force * (x - from)).abs());
-                prop_assert!(force.is_finite() && stored.is_finite(), "{}", card.name);
+                maximum = maximum.max((force * (x - from)).abs());
+                prop_assert!(force.is_finite() && stored.is_finite(), "{}", descriptor.name);
                 // The mean of two damper forces is not its work over a long step.
-                if card.name != "viscous_damper" {
-                    let least = -1e-11 * greatest;
-                    prop_assert!(stored + dissipated >= least, "{}: {}", card.name, stored + dissipated);
-                    prop_assert!(stored >= least, "{}: {}", card.name, stored);
+                if descriptor.name != "viscous_damper" {
+                    let least = -1e-11 * maximum;
+                    prop_assert!(stored + dissipated >= least, "{}: {}", descriptor.name, stored + dissipated);
+                    prop_assert!(stored >= least, "{}: {}", descriptor.name, stored);
                 }
                 from = x;
             }
@@ -51,9 +51,9 @@ proptest! {
         shares in prop::collection::vec(-1.5..1.5_f64, 1..40),
         cut in 0.01..0.99_f64,
     ) {
-        for card in descriptors().iter().filter(|c| !c.rate_dependent) {
-            let law = example(card);
-            let whole: Vec<f64> = shares.iter().map(|s| s * card.example_amplitude).collect();
+        for descriptor in descriptors().iter().filter(|c| !c.rate_dependent) {
+            let law = example(descriptor);
+            let whole: Vec<f64> = shares.iter().map(|s| s * descriptor.example_amplitude).collect();
             let mut cut_up = Vec::new();
             let mut from = 0.0;
             for x in &whole {
@@ -63,11 +63,11 @@ proptest! {
             let one = history(law.as_ref(), &whole, 0.1);
             let two = history(law.as_ref(), &cut_up, 0.1);
             let force = one.iter().fold(0.0_f64, |m, p| m.max(p.force.abs()));
-            let energy = force * card.example_amplitude;
+            let energy = force * descriptor.example_amplitude;
             for (i, a) in one.iter().enumerate() {
                 let b = &two[2 * i + 1];
-                prop_assert!((a.force - b.force).abs() <= 1e-9 * force, "{}: {:?} {:?}", card.name, a, b);
-                prop_assert!((a.dissipated - b.dissipated).abs() <= 1e-9 * energy, "{}: {:?} {:?}", card.name, a, b);
+                prop_assert!((a.force - b.force).abs() <= 1e-9 * force, "{}: {:?} {:?}", descriptor.name, a, b);
+                prop_assert!((a.dissipated - b.dissipated).abs() <= 1e-9 * energy, "{}: {:?} {:?}", descriptor.name, a, b);
             }
         }
     }

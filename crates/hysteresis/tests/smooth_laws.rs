@@ -115,7 +115,7 @@ fn bouc_wen_reaches_its_closed_forms() {
             assert!((points[1].force - (x.tanh() - 0.5 * x)).abs() < 1e-11);
         }
     }
-    // Greatest force Fy (beta + gamma)^(-1/n).
+    // Maximum force Fy (beta + gamma)^(-1/n).
     let wide = law(
         "bouc_wen",
         &[
@@ -308,10 +308,10 @@ proptest! {
         ];
         let law = law("bouc_wen", &parameters);
         let mut last = 0.0;
-        let greatest = 2.0e5 * (beta * (1.0 + share)).powf(-1.0 / n);
+        let maximum = 2.0e5 * (beta * (1.0 + share)).powf(-1.0 / n);
         for point in history(law.as_ref(), &path, 1.0) {
             prop_assert!(point.dissipated >= last - 1e-9 * 2.0e3);
-            prop_assert!(point.force.abs() <= greatest * (1.0 + 1e-9));
+            prop_assert!(point.force.abs() <= maximum * (1.0 + 1e-9));
             last = point.dissipated;
         }
     }

@@ -1,7 +1,7 @@
 //! Histories with fewer points that look the same.
 
 /// Points of a history, at most four for each of `columns` equal parts of it: the first, the
-/// least, the greatest and the last, in order. Peaks stay where they are.
+/// minimum, the maximum and the last, in order. Peaks stay where they are.
 pub(crate) fn decimated(points: &[(f64, f64)], columns: usize) -> Vec<(f64, f64)> {
     if points.len() <= 4 * columns {
         return points.to_vec();

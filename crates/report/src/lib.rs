@@ -1,6 +1,6 @@
 //! Figures, and the page of a result file: layer 3.
 //!
-//! [`RunResult`] reads what a run has written (`docs/result-file.md`), [`page()`] makes one
+//! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`), [`page()`] makes one
 //! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves as SVG for the command line as well. Values are SI as in the result
 //! file; the page shows them in the units that engineers write.

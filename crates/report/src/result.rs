@@ -3,7 +3,7 @@
 use hdf5::H5Type;
 use pounding_files::checksum::Checksum;
 
-/// Rows of a quantity over time: one column a storey or level.
+/// Rows of a quantity over time: one column per storey or level.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// Row after row.
@@ -28,7 +28,7 @@ impl Table {
 pub struct StoreyPeaks {
     /// With them.
     pub value: Vec<f64>,
-    /// Of the building alone.
+    /// Of the isolated building.
     pub isolated: Vec<f64>,
 }
 

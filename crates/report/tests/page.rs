@@ -129,7 +129,7 @@ fn the_answers_stand_in_the_page() {
     for answer in [
         "Gap light-heavy closes 3 times</strong> at 2 of 2 levels",
         "1271 kN at level 2-2 (6.000 m | 6.000 m), 1.250 s into the motion, approaching with 0.3210 m/s",
-        "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, alone 3.000 m/s\u{b2})",
+        "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, isolated 3.000 m/s\u{b2})",
         "viscous damping 75.0 %, impacts 25.0 %",
         "closes to 1.2e-13",
         "The hardest 3 of 3 impacts",

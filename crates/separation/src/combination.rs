@@ -8,9 +8,10 @@ use crate::error::SeparationError;
 pub enum CombinationRule {
     /// `uA + uB`: both peaks at once, towards one another.
     AbsoluteSum,
-    /// `sqrt(uA^2 + uB^2)`: two motions that know nothing of one another.
+    /// SRSS, `sqrt(uA^2 + uB^2)`: two uncorrelated motions.
     SquareRootOfSumOfSquares,
-    /// `sqrt(uA^2 + uB^2 - 2 rho uA uB)` with [`correlation_coefficient`].
+    /// Double difference combination (DDC), `sqrt(uA^2 + uB^2 - 2 rho uA uB)` with
+    /// [`correlation_coefficient`].
     DoubleDifference,
 }
 
@@ -41,6 +42,27 @@ impl CombinationRule {
         }
     }
 
+    /// Name in the literature, where it has a usual abbreviation.
+    #[must_use]
+    pub fn abbreviation(self) -> Option<&'static str> {
+        match self {
+            Self::AbsoluteSum => None,
+            Self::SquareRootOfSumOfSquares => Some("SRSS"),
+            Self::DoubleDifference => Some("DDC"),
+        }
+    }
+
+    /// Name with its abbreviation and more in brackets, for tables.
+    #[must_use]
+    pub fn title(self, more: Option<&str>) -> String {
+        let brackets: Vec<&str> = self.abbreviation().into_iter().chain(more).collect();
+        if brackets.is_empty() {
+            self.name().to_owned()
+        } else {
+            format!("{} ({})", self.name(), brackets.join(", "))
+        }
+    }
+
     /// Formula, and whose.
     #[must_use]
     pub fn formula(self) -> &'static str {
@@ -48,7 +70,7 @@ impl CombinationRule {
             Self::AbsoluteSum => "uA + uB",
             Self::SquareRootOfSumOfSquares => "sqrt(uA^2 + uB^2)",
             Self::DoubleDifference => {
-                "sqrt(uA^2 + uB^2 - 2 rho uA uB) (Jeng, Kasai and Maison, Earthquake Spectra 8 (1992) 201)"
+                "sqrt(uA^2 + uB^2 - 2 rho uA uB), rho as in the complete quadratic combination (CQC) (Jeng, Kasai and Maison, Earthquake Spectra 8 (1992) 201)"
             }
         }
     }
@@ -89,8 +111,9 @@ impl CombinationRule {
 /// noise, with `r = TB / TA`:
 /// `rho = 8 sqrt(xA xB) (xB + xA r) r^(3/2) / ((1 - r^2)^2 + 4 xA xB (1 + r^2) r + 4 (xA^2 + xB^2) r^2)`.
 ///
-/// Source: Der Kiureghian, Earthquake Engineering and Structural Dynamics 8 (1980) 419,
-/// as used by Jeng, Kasai and Maison 1992. A variant with `xA + xB r` is in print; it
+/// This is the coefficient of the complete quadratic combination (CQC). Source: Der
+/// Kiureghian, Earthquake Engineering and Structural Dynamics 8 (1980) 419, as used by
+/// Jeng, Kasai and Maison 1992. A variant with `xA + xB r` is in print; it
 /// gives the coefficient of the pair with exchanged damping. Undamped oscillators have the
 /// limits of the formula: no correlation, and 1 for equal periods and dampings that vanish
 /// alike.

@@ -1,4 +1,4 @@
-//! The card of a provision.
+//! The descriptor of a provision.
 
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
@@ -50,16 +50,16 @@ pub enum Status {
     /// Seen in an accessible text, which is named.
     Verified(&'static str),
     /// Not compared with a text: check the standard before it enters a design report.
-    FromMemory(&'static str),
+    Unverified(&'static str),
 }
 
 impl Status {
-    /// `verified` or `from memory`.
+    /// `verified` or `unverified`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Verified(_) => "verified",
-            Self::FromMemory(_) => "from memory",
+            Self::Unverified(_) => "unverified",
         }
     }
 
@@ -67,7 +67,7 @@ impl Status {
     #[must_use]
     pub fn remark(self) -> &'static str {
         match self {
-            Self::Verified(text) | Self::FromMemory(text) => text,
+            Self::Verified(text) | Self::Unverified(text) => text,
         }
     }
 

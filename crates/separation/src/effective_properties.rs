@@ -14,7 +14,7 @@ pub struct YieldingOscillator {
     pub period: f64,
     /// Viscous damping ratio (-).
     pub damping_ratio: f64,
-    /// Greatest displacement over yield displacement (-), at least 1.
+    /// Maximum displacement over yield displacement (-), at least 1.
     pub ductility: f64,
     /// Stiffness after yield over that before (-), 0 to 1.
     pub hardening: f64,
@@ -72,9 +72,9 @@ impl EffectiveProperties {
             Self::RosenbluethHerrera1964 => Status::Verified(
                 "derived: secant stiffness and area of a bilinear loop, held against a polygon",
             ),
-            Self::Iwan1980 => Status::FromMemory("coefficients; fitted for ductility 2 to 8"),
+            Self::Iwan1980 => Status::Unverified("coefficients; fitted for ductility 2 to 8"),
             Self::Kasai1996 => {
-                Status::FromMemory("coefficients, and which loops they were fitted to")
+                Status::Unverified("coefficients, and which loops they were fitted to")
             }
         }
     }

@@ -5,7 +5,7 @@
 //! from the border of its own site; a *between* rule says how far two buildings must
 //! stand from one another. And two kinds of answer: *displacement-based* rules need an
 //! analysis, *prescriptive* ones need only heights and kinds of structure. Every
-//! provision says whether its formula was seen in a text or comes from memory.
+//! provision says whether its formula was seen in a text or is unverified.
 
 mod combination;
 mod descriptor;

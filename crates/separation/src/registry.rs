@@ -6,7 +6,7 @@ use crate::descriptor::{ProvisionDescriptor, Unavailable};
 use crate::error::SeparationError;
 use crate::provisions;
 
-/// Cards of all provisions.
+/// Descriptors of all provisions.
 #[must_use]
 pub fn descriptors() -> &'static [&'static ProvisionDescriptor] {
     provisions::ALL

@@ -77,12 +77,12 @@ pub enum StudyError {
         /// Folder of the finished chunks.
         folder: PathBuf,
     },
-    /// Finished runs of this study that another build of the program made.
+    /// Finished runs of this study that another build of the program computed.
     #[error("{folder} holds runs of another build of the program ({build}); this one is {this}")]
     OtherBuild {
         /// Folder of the finished chunks.
         folder: PathBuf,
-        /// Build that made them.
+        /// Build that computed them.
         build: String,
         /// Build that is running.
         this: String,
@@ -103,8 +103,8 @@ pub enum StudyError {
         /// Why not.
         source: OpenError,
     },
-    /// Shards that different builds of the program made.
-    #[error("cannot merge what different builds of the program made:\n{list}")]
+    /// Shards that different builds of the program computed.
+    #[error("cannot merge shards that different builds of the program computed:\n{list}")]
     MixedBuilds {
         /// Each build with its files, a line each.
         list: String,
@@ -204,7 +204,7 @@ impl StudyError {
             Self::Base(error) => return error.help(),
             Self::GroundMotion(error) => return error.help(),
             Self::Records { .. } => {
-                "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are made"
+                "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are computed"
             }
             Self::ResultFile { what: "write", .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
@@ -214,7 +214,7 @@ impl StudyError {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
             Self::Store { .. } => {
-                "make room, then go on with --resume: only the runs that are not stored are made"
+                "make room, then go on with --resume: only the runs that are not stored are computed"
             }
             Self::Unfinished { .. } => "go on with --resume, or remove the folder to begin anew",
             Self::OtherStudy { .. } => {
@@ -230,13 +230,13 @@ impl StudyError {
                 .help()
                 .unwrap_or("check that it is the HDF5 file of a sweep"),
             Self::MixedBuilds { .. } => {
-                "make all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
+                "compute all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::FileUse(error) => return Some(error.help()),
             Self::Interrupted { .. } => "go on with --resume",
             Self::Merge { .. } => {
-                "merge all shards i/n of one study for one n, made by one version of the program"
+                "merge all shards i/n of one study for one n, computed by one version of the program"
             }
             Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",
             Self::NoSuchRun { .. } => return None,

@@ -1,10 +1,10 @@
-//! Many runs of one case: is the gap wide enough, does the answer hang on the
-//! impact model, and how likely is pounding?
+//! Many runs of one case: is the gap wide enough, is the answer sensitive to
+//! the impact model, and how likely is pounding?
 //!
 //! A [`Study`] is read from a file: a case, variables that replace its entries, and a
 //! [`Design`] that samples them. [`sweep()`] makes its runs on all cores, stores finished
 //! ones so that an interruption loses at most the chunk in flight, and writes one HDF5
-//! file whose contents depend on the study alone.
+//! file whose contents depend on the study only.
 
 pub mod comparison;
 pub mod faults;
@@ -21,7 +21,7 @@ mod shown;
 mod study_file;
 mod sweep;
 
-/// What this program was built of and for, as far as the results of runs may hang on it:
+/// What this program was built of and for, as far as the results of runs may depend on it:
 /// version, hash of the sources of the crates that compute and of the versions of their
 /// dependencies, target, instructions that the compiler may use anywhere, and features. Runs
 /// of two builds are not mixed in a result unless that is asked for.

@@ -31,7 +31,7 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
         let file = format!("{}.csv", source.name);
         text = with_file(&text, &file).map_err(not_shown)?;
         comments.push_str(&format!(
-            "# Its record is made, in the folder of this case, by\n# {command} -o {file}\n"
+            "# Its record is synthetic, written in the folder of this case by\n# {command} -o {file}\n"
         ));
     }
     let mut scale = None;

@@ -74,11 +74,11 @@ pub struct Progress {
     pub total: usize,
     /// Runs that were stored before.
     pub stored_before: usize,
-    /// Runs made by this call.
+    /// Runs computed by this call.
     pub made: usize,
     /// Those of this call and of earlier ones that are on the disk.
     pub stored: usize,
-    /// Failures among those made.
+    /// Failures among those computed.
     pub failed: usize,
     /// Collapses among them.
     pub collapsed: usize,
@@ -97,7 +97,7 @@ impl Progress {
 pub struct SweepReport {
     /// Runs in the result.
     pub runs: usize,
-    /// Runs made by this call; the others were stored before.
+    /// Runs computed by this call; the others were stored before.
     pub made: usize,
     /// Failed runs in the result.
     pub failed: usize,
@@ -122,9 +122,9 @@ const SHOWN: usize = 5;
 ///
 /// A run that fails is recorded with its diagnosis. Finished runs are stored in
 /// `<output>.parts` until the result is complete, at least every
-/// [`store_every`](SweepOptions::store_every). `progress` is told of every run, and asked
+/// [`store_every`](SweepOptions::store_every). `progress` is given every run, and asked
 /// several times a second; if it breaks off, no more runs are begun, what has finished is
-/// stored, and it is told so before the runs in flight are awaited.
+/// stored, and it is informed before the runs in flight are awaited.
 ///
 /// # Errors
 /// A motion that cannot be read, a disk that is full, [`StudyError::Interrupted`] if
@@ -209,7 +209,7 @@ fn make(
             if asked.is_continue() {
                 return Ok(asked);
             }
-            // Once more: what has finished is stored, and it is told so.
+            // Once more: what has finished is stored, and it is informed.
             stopped = true;
         }
     };
@@ -351,7 +351,7 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
         })
     } else if found.build != wanted.build {
         Some(format!(
-            "it was made by another build of the program ({}; this one is {})",
+            "it was computed by another build of the program ({}; this one is {})",
             found.build, wanted.build
         ))
     } else {

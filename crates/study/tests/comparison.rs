@@ -54,7 +54,7 @@ fn value(c: &Comparison, model: &str, kind: QuantityKind, of: &str) -> f64 {
 }
 
 /// Kelvin-Voigt (k = 93.5 MN/m, e = 0.65) by an independent fixed-step RK4, four to five
-/// digits: roof displacement, roof acceleration and greatest force.
+/// digits: roof displacement, roof acceleration and maximum force.
 #[test]
 fn kelvin_voigt_of_the_published_pair() {
     let case = case("anagnostopoulos_2004", "93.5 MN/m");
@@ -114,7 +114,7 @@ fn one_law_under_two_names() {
     assert!(same.spreads[0].between_models.is_nan());
 }
 
-/// All models: the light building hangs on the model, its acceleration more than its
+/// All models: the light building depends on the model, its acceleration more than its
 /// displacement, and the heavy building hardly notices.
 #[test]
 fn all_models() {

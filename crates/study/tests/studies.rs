@@ -132,7 +132,7 @@ values = ["event_driven", "adaptive"]
     assert_eq!(ids.len(), 32, "every run has its own identity");
 }
 
-/// A run is the same run in any study: its identity hangs on values and bytes alone.
+/// A run is the same run in any study: its identity depends on values and bytes only.
 #[test]
 fn identity_is_that_of_the_content() {
     let folder = tempfile::tempdir().unwrap();

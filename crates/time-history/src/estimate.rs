@@ -30,7 +30,11 @@ pub(crate) const SHORTEST_CONTACT: f64 = 1.0e-12;
 
 /// What makes the steps of a run so many.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "snake_case")
+)]
 #[non_exhaustive]
 pub enum StepLimit {
     /// The duration (s), longer than that of any ground motion.

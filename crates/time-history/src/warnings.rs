@@ -32,7 +32,11 @@ const GRAVITY: f64 = 9.80665;
 
 /// Something that is possible, but more often a mistake.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "snake_case")
+)]
 #[non_exhaustive]
 pub enum Warning {
     /// A fundamental period that no building has.

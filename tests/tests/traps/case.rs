@@ -209,7 +209,7 @@ impl Case {
     }
 
     /// The program's answer with a recorder that looks at the record's own samples, and
-    /// the greatest penetration that it saw there (m), negative for none.
+    /// the maximum penetration that it saw there (m), negative for none.
     pub fn run_sampled(&self, method: MethodChoice) -> (Outcome, f64) {
         let options = RunOptions {
             method,
@@ -219,8 +219,8 @@ impl Case {
         let outcome = run(&self.system(), &options, &mut [&mut grid], &mut |_| {}).unwrap();
         assert!(grid.responses.len() >= self.ground.len());
         let seen = grid.responses.column(&grid.responses.penetration, 0);
-        let greatest = seen.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        (outcome, greatest)
+        let maximum = seen.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        (outcome, maximum)
     }
 }
 

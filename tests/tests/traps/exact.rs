@@ -62,7 +62,7 @@ pub struct Touch {
     pub separation: f64,
 }
 
-/// A greatest absolute value and its time (s).
+/// A maximum absolute value and its time (s).
 pub type Top = (f64, f64);
 
 /// What happened.

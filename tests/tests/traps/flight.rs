@@ -39,7 +39,7 @@ fn coarse_cases() -> Vec<(String, Case)> {
     cases
 }
 
-/// The greatest way that the floors go towards one another, at any time and at samples.
+/// The largest distance that the floors go towards one another, at any time and at samples.
 fn reach(case: &Case) -> (f64, f64) {
     let wide = case.with_gap(1.0);
     let top = |rules| {

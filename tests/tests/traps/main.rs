@@ -29,7 +29,7 @@ fn near(what: &str, computed: f64, expected: f64, relative: f64) {
     assert!(same, "{what}: {computed} for {expected}, {error:e}");
 }
 
-/// Greatest distance of final displacements over their greatest size (at least 0.01 mm),
+/// Maximum distance of final displacements over their maximum size (at least 0.01 mm),
 /// and of final velocities over theirs (at least 1 mm/s).
 fn distance(computed: (&[f64], &[f64]), expected: &[f64]) -> f64 {
     let (u, v) = expected.split_at(expected.len() / 2);

@@ -6,7 +6,7 @@ use crate::exact::{History, Rules, Top, solve};
 use crate::plant::{Mode, Plant};
 use crate::{agrees, near};
 
-/// The greatest displacement, velocity known too, of a cubic through the ends of every
+/// The maximum displacement, velocity known too, of a cubic through the ends of every
 /// sample, where one Newton step from the larger end takes it.
 fn cubic_peak(case: &Case) -> f64 {
     let plant = Plant::new(case);
@@ -101,7 +101,7 @@ fn force_peaks_inside_steps_and_at_jumps() {
     let quarter = 0.5 * std::f64::consts::PI / omega;
     let friction: f64 = 0.4;
     let raised = (1.0 + friction).sqrt();
-    // Kelvin-Voigt below a ratio of 1/2: F is greatest where its own rate is zero.
+    // Kelvin-Voigt below a ratio of 1/2: F is largest where its own rate is zero.
     let zeta: f64 = 0.2;
     let damped = (1.0 - zeta * zeta).sqrt();
     let angle = (damped * (1.0 - 4.0 * zeta * zeta)).atan2(zeta * (3.0 - 4.0 * zeta * zeta));
@@ -158,7 +158,7 @@ fn force_peaks_inside_steps_and_at_jumps() {
     }
 }
 
-/// The greatest force at the ends of steps (s) of the exact motion, by the law for the
+/// The maximum force at the ends of steps (s) of the exact motion, by the law for the
 /// velocity there.
 fn at_ends_of_steps(law: Law, step: f64) -> f64 {
     let case = thrown(law);

@@ -58,16 +58,28 @@ fn laws_scaled_by_the_approach_velocity_close_at_rest() {
 /// Every registered law, whatever it divides by: a finite motion that respects the wall.
 #[test]
 fn every_law_closes_at_rest() {
-    for card in registry::descriptors() {
-        let parameters = card.example_parameters(0.65);
+    for descriptor in registry::descriptors() {
+        let parameters = descriptor.example_parameters(0.65);
         for method in METHODS {
-            let model = registry::build(card.name, &parameters).unwrap();
+            let model = registry::build(descriptor.name, &parameters).unwrap();
             let outcome = go(&resting().system_with(model.into()), method);
-            assert!(!outcome.impacts.is_empty(), "{} {method:?}", card.name);
+            assert!(
+                !outcome.impacts.is_empty(),
+                "{} {method:?}",
+                descriptor.name
+            );
             let (u, v) = (outcome.final_displacement[0], outcome.final_velocity[0]);
-            assert!(u.abs() < 0.02 && v.abs() < 0.2, "{} {u} {v}", card.name);
+            assert!(
+                u.abs() < 0.02 && v.abs() < 0.2,
+                "{} {u} {v}",
+                descriptor.name
+            );
             let force = outcome.gaps[0].levels[0].peak_force.value;
-            assert!(force >= PUSH * MASS * (1.0 - 1e-9), "{} {force}", card.name);
+            assert!(
+                force >= PUSH * MASS * (1.0 - 1e-9),
+                "{} {force}",
+                descriptor.name
+            );
         }
     }
 }

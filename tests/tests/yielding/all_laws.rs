@@ -77,9 +77,9 @@ fn check(law: &str, system: &System) {
 #[test]
 fn every_law_as_a_storey() {
     let mut count = 0;
-    for card in descriptors() {
-        if let Some(system) = storeys(card.name) {
-            check(card.name, &system);
+    for descriptor in descriptors() {
+        if let Some(system) = storeys(descriptor.name) {
+            check(descriptor.name, &system);
             count += 1;
         }
     }
@@ -88,7 +88,7 @@ fn every_law_as_a_storey() {
 
 #[test]
 fn every_law_as_a_link() {
-    for card in descriptors() {
-        check(card.name, &linked(card.name));
+    for descriptor in descriptors() {
+        check(descriptor.name, &linked(descriptor.name));
     }
 }

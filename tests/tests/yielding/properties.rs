@@ -67,8 +67,8 @@ impl Pair {
         const MASS: f64 = 2.0e4;
         let stiffness = 2.0 * MASS * (std::f64::consts::TAU / self.period[side]).powi(2);
         let name = LAWS[self.laws[side]];
-        let card = pounding_hysteresis::find(name).unwrap();
-        let parameters = card
+        let descriptor = pounding_hysteresis::find(name).unwrap();
+        let parameters = descriptor
             .example_parameters()
             .with("stiffness", stiffness)
             .with("yield_force", self.strength[side] * 2.0 * MASS * 9.81);

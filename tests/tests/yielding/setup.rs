@@ -55,8 +55,8 @@ pub fn yielding_pair(name: &str, ground: GroundAcceleration) -> System {
     let storey = |stiffness: f64, yield_force: f64| {
         let parameters =
             LawParameters::from_pairs(&[("stiffness", stiffness), ("yield_force", yield_force)]);
-        let card = pounding_hysteresis::find(name).unwrap();
-        let mut all = card.example_parameters();
+        let descriptor = pounding_hysteresis::find(name).unwrap();
+        let mut all = descriptor.example_parameters();
         all.values.extend(parameters.values);
         law(name, &all)
     };
@@ -121,7 +121,7 @@ pub fn newmark(step: f64) -> MethodChoice {
     }
 }
 
-/// Greatest relative difference of the peaks of storeys.
+/// Maximum relative difference of the peaks of storeys.
 pub fn difference(a: &Outcome, b: &Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for (a, b) in a.buildings.iter().zip(&b.buildings) {

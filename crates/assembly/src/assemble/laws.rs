@@ -22,15 +22,15 @@ pub(super) fn with_storey_laws(
     let mut laws: Vec<Option<StoreyLaw>> = vec![None; b.mass.len()];
     let errors = Errors::default();
     let read = errors.all(b.laws.iter().map(|law| {
-        let card = card(case, &law.model)?;
-        let own = card.parameters.iter().any(|p| p.name == "stiffness");
+        let descriptor = descriptor(case, &law.model)?;
+        let own = descriptor.parameters.iter().any(|p| p.name == "stiffness");
         for (place, storey) in law.storeys.iter().enumerate() {
-            let mut values = parameters(case, card, &law.parameters, place)?;
+            let mut values = parameters(case, descriptor, &law.parameters, place)?;
             if own && !values.values.contains_key("stiffness") {
                 let stiffness = b.stiffness[*storey];
                 values.values.insert("stiffness".to_owned(), stiffness);
             }
-            let built = built(case, &law.model, card, &values)?;
+            let built = built(case, &law.model, descriptor, &values)?;
             check_stiffness(case, b, (*storey, &law.model), &built)?;
             laws[*storey] = Some(built);
         }
@@ -97,11 +97,11 @@ pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<
 
 /// The law of each level of a link.
 fn laws_of_link(case: &Case, link: &Link) -> Result<Vec<StoreyLaw>, CaseError> {
-    let card = card(case, &link.model)?;
+    let descriptor = descriptor(case, &link.model)?;
     (0..link.levels.len())
         .map(|place| {
-            let values = parameters(case, card, &link.parameters, place)?;
-            built(case, &link.model, card, &values)
+            let values = parameters(case, descriptor, &link.parameters, place)?;
+            built(case, &link.model, descriptor, &values)
         })
         .collect()
 }
@@ -111,17 +111,17 @@ pub(super) fn check_link(case: &Case, link: &Link) -> Result<(), CaseError> {
     laws_of_link(case, link).map(|_| ())
 }
 
-fn card(case: &Case, model: &Located<String>) -> Result<&'static LawDescriptor, CaseError> {
+fn descriptor(case: &Case, model: &Located<String>) -> Result<&'static LawDescriptor, CaseError> {
     find(&model.value).map_err(|e| at(case, model.span.clone(), &e))
 }
 
 fn built(
     case: &Case,
     model: &Located<String>,
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     values: &LawParameters,
 ) -> Result<StoreyLaw, CaseError> {
-    let law = build(card.name, values).map_err(|e| at(case, model.span.clone(), &e))?;
+    let law = build(descriptor.name, values).map_err(|e| at(case, model.span.clone(), &e))?;
     Ok(StoreyLaw {
         yield_drift: values.yield_deformation(law.initial_stiffness()),
         law: Arc::from(law),
@@ -131,7 +131,7 @@ fn built(
 /// Parameters of one storey or level, each checked where it stands.
 fn parameters(
     case: &Case,
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     given: &[LawParameter],
     place: usize,
 ) -> Result<LawParameters, CaseError> {
@@ -141,16 +141,16 @@ fn parameters(
         .map(|p| p.values[place].value.value);
     let errors = Errors::default();
     let read = errors.all(given.iter().map(|LawParameter { key, values }| {
-        let Some(known) = card.parameters.iter().find(|p| p.name == key.value) else {
-            let names: Vec<_> = card.parameters.iter().map(|p| p.name).collect();
+        let Some(known) = descriptor.parameters.iter().find(|p| p.name == key.value) else {
+            let names: Vec<_> = descriptor.parameters.iter().map(|p| p.name).collect();
             return Err(case.error(
                 key.span.clone(),
-                format!("law {} has no parameter `{}`", card.name, key.value),
+                format!("law {} has no parameter `{}`", descriptor.name, key.value),
                 Some(format!("its parameters are {}", names.join(", "))),
             ));
         };
         let Located { value, span } = &values[place];
-        let wanted = law_parameter_dimension(card, known, exponent);
+        let wanted = law_parameter_dimension(descriptor, known, exponent);
         if let Some(found) = value.dimension
             && found != wanted
         {
@@ -158,14 +158,14 @@ fn parameters(
                 span.clone(),
                 format!(
                     "`{}` of law {} must be {wanted}, but \"{}\" is {found}",
-                    key.value, card.name, value.text
+                    key.value, descriptor.name, value.text
                 ),
                 Some("correct the unit; plain numbers are SI".to_owned()),
             ));
         }
         if !known.allows(value.value) {
             let error = HysteresisError::OutOfRange {
-                law: card.name,
+                law: descriptor.name,
                 parameter: known.name,
                 value: value.value,
                 range: known.range(),

@@ -164,7 +164,7 @@ fn storeys(
                         counted(values.len(), "value"),
                         counted(n, "storey")
                     ),
-                    "give one value a storey, or a single value for all",
+                    "give one value per storey, or a single value for all",
                 ));
             }
             Some(_) => {}

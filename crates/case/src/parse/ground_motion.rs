@@ -205,7 +205,7 @@ fn step(reader: &Reader<'_>, item: &Value<'_>) -> Result<Located<ProcessStep>, C
         return Err(reader.error(
             item.span(),
             format!("a step of `process` has one key, not {}", entries.len()),
-            "write a table a step: [{ remove_offset = \"mean\" }, { pad = { after = \"10 s\" } }]",
+            "write one table per step: [{ remove_offset = \"mean\" }, { pad = { after = \"10 s\" } }]",
         ));
     };
     let made = match key.value.as_str() {
@@ -274,7 +274,7 @@ fn filter(reader: &Reader<'_>, value: &Value<'_>) -> Result<ProcessStep, CaseErr
     let table = reader.table(value, "filter", schema::FILTER)?;
     let corner = |key: &str| -> Result<Option<f64>, CaseError> {
         let found = table.optional_positive(key, Dimension::FREQUENCY)?;
-        // An angle a second is a circular frequency.
+        // An angle per second is a circular frequency.
         let circular = table
             .get(key)
             .is_some_and(|v| matches!(v.get_ref(), DeValue::String(text) if text.contains("rad")));

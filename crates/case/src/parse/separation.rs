@@ -99,7 +99,7 @@ fn texts(
                 agreeing(&count, "is", "are"),
                 counted(count, "building")
             ),
-            "give one value a building, or a single value for all",
+            "give one value per building, or a single value for all",
         )),
         _ => Ok(Some(texts)),
     }

@@ -10,7 +10,7 @@ pub struct StoreyLaw {
     pub model: Located<String>,
     /// Storeys, from zero.
     pub storeys: Vec<usize>,
-    /// All other keys, for the law to judge; one value a storey of this law.
+    /// All other keys, for the law to judge; one value per storey of this law.
     pub parameters: Vec<LawParameter>,
 }
 
@@ -19,7 +19,7 @@ pub struct StoreyLaw {
 pub struct LawParameter {
     /// Key.
     pub key: Located<String>,
-    /// Values, one a storey or level of the law.
+    /// Values, one per storey or level of the law.
     pub values: Vec<Located<Quantity>>,
 }
 
@@ -35,6 +35,6 @@ pub struct Link {
     pub levels: Vec<(Option<usize>, Option<usize>)>,
     /// Law.
     pub model: Located<String>,
-    /// All other keys, for the law to judge; one value a level.
+    /// All other keys, for the law to judge; one value per level.
     pub parameters: Vec<LawParameter>,
 }

@@ -7,9 +7,9 @@ use super::quantities::figure_file;
 /// Arguments of `hysteresis`.
 #[derive(Debug, clap::Args)]
 pub struct HysteresisArguments {
-    /// Law, by name or alias; without one all are listed, and with nothing else its card is shown
+    /// Law, by name or alias; without one all are listed, and with nothing else its descriptor is shown
     pub law: Option<String>,
-    /// Parameter, such as yield_force="137 kN"; may be repeated. Without any, those of the card's
+    /// Parameter, such as yield_force="137 kN"; may be repeated. Without any, those of the law's
     /// example hold; else those that are missing and have no default, and it is said which
     #[arg(short, long = "set", value_name = "KEY=VALUE", requires = "law")]
     pub set: Vec<String>,

@@ -12,7 +12,7 @@ pub use steps::StepArguments;
 
 use super::quantities::figure_file;
 
-/// What to do with recorded and made motions.
+/// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
 pub enum MotionCommand {
     /// Show every series of record files: header, measures, what disagrees
@@ -23,7 +23,7 @@ pub enum MotionCommand {
     Convert(ConvertArguments),
     /// Filter, correct, cut, resample and scale an acceleration, each step if asked for
     Process(ProcessArguments),
-    /// Make a motion from a formula and a seed
+    /// Generate a synthetic motion from a formula and a seed
     Synth(SynthArguments),
     /// Bring an acceleration to a design spectrum
     Match(MatchArguments),
@@ -213,7 +213,7 @@ pub struct ConvertArguments {
     pub read: ReadArguments,
 }
 
-/// Where a motion that was made or changed goes.
+/// Where a synthetic or processed motion goes.
 #[derive(Debug, Clone, clap::Args)]
 pub struct OutputArguments {
     /// File to write, in our CSV layout with a header that says what was done
@@ -285,7 +285,7 @@ pub struct MatchArguments {
     /// Periods that are matched; the result is held against eight times as many
     #[arg(long, default_value_t = 80)]
     pub periods: usize,
-    /// Greatest deviation from the target
+    /// Maximum deviation from the target
     #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
     pub tolerance: String,
     /// Iterations at most

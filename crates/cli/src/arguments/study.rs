@@ -29,7 +29,7 @@ pub struct SweepArguments {
     pub json: bool,
 }
 
-/// How the runs of a study are made.
+/// How the runs of a study are computed.
 #[derive(Debug, clap::Args)]
 pub struct RunningArguments {
     /// Result (HDF5); by default the study's name with .h5 in the current folder
@@ -48,7 +48,7 @@ pub struct RunningArguments {
     /// not depend on it
     #[arg(long, value_name = "TIME", default_value = "5 s")]
     pub store_every: String,
-    /// Record runs whose record cannot be read as failed, and make all others
+    /// Record runs whose record cannot be read as failed, and compute all others
     #[arg(long)]
     pub keep_going: bool,
 }
@@ -65,7 +65,7 @@ pub struct MergeArguments {
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
     #[arg(long, visible_alias = "export", value_name = "FILE")]
     pub csv: Option<OutputPath>,
-    /// Merge shards that different builds of the program made; the result says which
+    /// Merge shards that different builds of the program computed; the result says which
     #[arg(long)]
     pub allow_mixed_builds: bool,
     /// Print one JSON object

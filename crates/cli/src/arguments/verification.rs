@@ -34,7 +34,7 @@ pub struct CalibrateArguments {
     /// "separation" [default: 1 ms in the paper's drop test, separation in any other]
     #[arg(long, allow_hyphen_values = true)]
     pub read_at: Option<String>,
-    /// Greatest difference between requested and achieved restitution
+    /// Maximum difference between requested and achieved restitution
     #[arg(long, default_value = "1e-10", allow_hyphen_values = true)]
     pub tolerance: String,
     /// Print one JSON object

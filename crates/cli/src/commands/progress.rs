@@ -13,7 +13,7 @@ use crate::failure::Failure;
 
 /// Time between lines where there is no terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
-/// Time that a command whose progress cannot be told takes before it says that it works.
+/// Time that a command whose progress is unknown takes before it says that it works.
 const QUIET: Duration = Duration::from_secs(2);
 /// The environment's key for another time (s).
 const KEY: &str = "POUNDING_PROGRESS_SECONDS";
@@ -90,7 +90,7 @@ impl Progress {
         })
     }
 
-    /// Begins to wait for a computation that does not tell how far it is: one that takes
+    /// Begins to wait for a computation that does not report how far it is: one that takes
     /// long says what it does, and for how long it has done so.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 //! Versions before the checksum wrote results that look whole when they are damaged. Only
 //! the HDF5 library finds out, and may crash, hang or ask for all memory on the way: the
 //! program then runs the same command once more as a child, which may do all that, and
-//! tells what came of it.
+//! reports what came of it.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
         limit_memory(files);
         return Ok(Reading::Here(WithoutChecksum::Accept));
     }
-    // Files that cannot be read are told by who reads them.
+    // Files that cannot be read are reported by the reader.
     let absent = files.iter().filter(|f| matches!(is_absent(f), Ok(true)));
     let absent: Vec<&PathBuf> = absent.collect();
     if absent.is_empty() {
@@ -62,11 +62,11 @@ pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
     let how = match ending {
         Ending::Exit(status) => match status.code() {
             Some(code) if OWN_CODES.contains(&code) => {
-                // If it cannot be said, the exit code still tells.
+                // If it cannot be said, the exit code still says it.
                 let _ = std::io::stderr().write_all(&said);
                 return match u8::try_from(code) {
                     Ok(0) | Err(_) => Ok(Reading::Done),
-                    Ok(code) => Err(Failure::Told(code)),
+                    Ok(code) => Err(Failure::Reported(code)),
                 };
             }
             _ => format!("reading it ended without an answer ({status})"),

@@ -64,21 +64,21 @@ pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
             without_checksum,
         },
     )?;
-    let mut told = warnings(&merged.unchecked);
+    let mut reported = warnings(&merged.unchecked);
     if !merged.builds.is_empty() {
-        told.push(format!(
-            "different builds of the program made the shards:\n{}",
+        reported.push(format!(
+            "the shards were computed by different builds of the program:\n{}",
             merged.builds.join("\n")
         ));
     }
-    for text in &told {
+    for text in &reported {
         warn(text);
     }
     if arguments.json {
         let output = arguments.output.display().to_string();
         return print(&pretty(&json!({
             "runs": merged.runs, "failed": merged.failed, "collapsed": merged.collapsed,
-            "output": output, "warnings": told,
+            "output": output, "warnings": reported,
         })));
     }
     print(&format!(
@@ -208,9 +208,10 @@ pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
 
 /// The object that `--json` prints.
 pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
-    let told = |first: &[(usize, String)]| -> Vec<Value> {
-        let told = first.iter();
-        told.map(|(run, reason)| json!({"run": run, "diagnosis": reason}))
+    let listed_json = |first: &[(usize, String)]| -> Vec<Value> {
+        let entries = first.iter();
+        entries
+            .map(|(run, reason)| json!({"run": run, "diagnosis": reason}))
             .collect()
     };
     let records = report
@@ -220,9 +221,9 @@ pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
     json!({
         "status": "complete",
         "runs": report.runs, "made": report.made, "failed": report.failed,
-        "first_failures": told(&report.failures),
+        "first_failures": listed_json(&report.failures),
         "collapsed": report.collapsed,
-        "first_collapses": told(&report.collapses),
+        "first_collapses": listed_json(&report.collapses),
         "study_sha256": report.study_sha256,
         "warnings": report.warnings,
         "records": records.collect::<Vec<_>>(),
@@ -231,7 +232,7 @@ pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
     })
 }
 
-/// What a sweep tells people at its end.
+/// What a sweep prints at its end.
 pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> String {
     let mut text = String::new();
     if !study.title.is_empty() {

@@ -31,7 +31,7 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
         ]);
     }
     let building = &run.system().buildings()[index];
-    format!("{table}\n{}", sources(cards(building)))
+    format!("{table}\n{}", sources(descriptors(building)))
 }
 
 /// Energy in kJ; what is round-off has no sign.
@@ -82,12 +82,12 @@ pub(super) fn link(run: &Run<'_>, index: usize) -> String {
             kilojoules(l.energy_dissipated),
         ]);
     }
-    let cards = elements(system, index).iter().map(|e| e.law.descriptor());
+    let descriptors = elements(system, index).iter().map(|e| e.law.descriptor());
     format!(
         "\nLink {} ({}): peak @time (s)\n{table}\n{}",
         outcome.name,
         outcome.law,
-        sources(cards)
+        sources(descriptors)
     )
 }
 
@@ -96,20 +96,23 @@ fn elements(system: &System, link: usize) -> &[Element] {
     &system.elements()[link.first_element..link.first_element + link.levels]
 }
 
-fn cards(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescriptor> {
+fn descriptors(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescriptor> {
     building.laws().iter().flatten().map(|l| l.law.descriptor())
 }
 
 /// The lines of laws whose rules were not read in their papers, each law once.
-fn sources(cards: impl Iterator<Item = &'static LawDescriptor>) -> String {
+fn sources(descriptors: impl Iterator<Item = &'static LawDescriptor>) -> String {
     let mut text = String::new();
-    let mut told: Vec<&str> = Vec::new();
-    for card in cards {
-        if let Verification::SecondarySources(how) = card.verification
-            && !told.contains(&card.name)
+    let mut reported: Vec<&str> = Vec::new();
+    for descriptor in descriptors {
+        if let Verification::SecondarySources(how) = descriptor.verification
+            && !reported.contains(&descriptor.name)
         {
-            told.push(card.name);
-            text.push_str(&format!("{} is from secondary sources: {how}\n", card.name));
+            reported.push(descriptor.name);
+            text.push_str(&format!(
+                "{} is from secondary sources: {how}\n",
+                descriptor.name
+            ));
         }
     }
     text
@@ -133,14 +136,14 @@ pub(super) fn laws(building: &ShearBuilding) -> String {
         .geometric_stiffness()
         .iter()
         .zip(building.stiffness());
-    let greatest = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
-    if greatest > 0.0 {
+    let maximum = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
+    if maximum > 0.0 {
         text.push_str(&format!(
             "P-Delta: gravity takes up to {:.2} % off a storey stiffness; periods include it\n",
-            100.0 * greatest
+            100.0 * maximum
         ));
     }
-    text.push_str(&sources(cards(building)));
+    text.push_str(&sources(descriptors(building)));
     text
 }
 
@@ -177,8 +180,8 @@ pub(super) fn links(system: &System) -> String {
             ]);
         }
         text.push_str(&format!("\nLink {}\n{table}\n", link.name));
-        let cards = elements(system, index).iter().map(|e| e.law.descriptor());
-        text.push_str(&sources(cards));
+        let descriptors = elements(system, index).iter().map(|e| e.law.descriptor());
+        text.push_str(&sources(descriptors));
     }
     text
 }

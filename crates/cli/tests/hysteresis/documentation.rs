@@ -1,4 +1,4 @@
-//! The page `docs/hysteresis.md`: the commands of its laboratory run as printed, in their
+//! The page `docs/reference/yielding-storeys-and-links.md`: the commands of its laboratory run as printed, in their
 //! order.
 
 use std::path::Path;
@@ -8,7 +8,8 @@ use std::process::Command;
 #[cfg(unix)]
 #[test]
 fn commands_of_the_page_run_as_printed() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/hysteresis.md");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs/reference/yielding-storeys-and-links.md");
     let page = std::fs::read_to_string(page).unwrap();
     let (_, laboratory) = page.split_once("## The laboratory").unwrap();
     let (laboratory, _) = laboratory.split_once("\n## ").unwrap();

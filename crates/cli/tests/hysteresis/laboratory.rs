@@ -1,4 +1,4 @@
-//! `pounding hysteresis`: list, cards, loops against closed forms, files, bad input.
+//! `pounding hysteresis`: list, descriptors, loops against closed forms, files, bad input.
 
 use crate::support;
 use std::path::Path;
@@ -49,8 +49,8 @@ fn the_list_names_every_law_with_its_parameters_and_how_far_it_is_checked() {
         }
     }
     assert!(shown.contains("secondary sources") && shown.contains("verified"));
-    let cards = json("");
-    let names: Vec<_> = cards
+    let listed = json("");
+    let names: Vec<_> = listed
         .as_array()
         .unwrap()
         .iter()
@@ -61,7 +61,7 @@ fn the_list_names_every_law_with_its_parameters_and_how_far_it_is_checked() {
 }
 
 #[test]
-fn a_card_tells_all_under_the_name_and_under_every_alias() {
+fn a_descriptor_says_all_under_the_name_and_under_every_alias() {
     for law in descriptors() {
         let shown = text(law.name);
         for part in [law.title, law.citation]
@@ -123,7 +123,7 @@ fn bilinear_cycles_have_their_closed_form() {
 #[test]
 fn values_of_the_example_are_named() {
     let shown = text("bilinear --cycles 50mm");
-    let all = "from the example of its card: stiffness = 2e7 N/m, yield_force = 2e5 N, hardening_ratio = 0.05";
+    let all = "from the example of its descriptor: stiffness = 2e7 N/m, yield_force = 2e5 N, hardening_ratio = 0.05";
     assert!(shown.contains(all), "{shown}");
     let result = json("bilinear --set yield_force=137kN --cycles 50mm");
     assert_eq!(

@@ -29,7 +29,7 @@ fn parameters_outside_their_range_are_refused_with_the_reason() {
         "iwan_six_parameter --set phi_1=0.1mm --cycles 1mm",
         &[
             "from phi_1 = 0.0001 m to phi_2 = 0.0001 m",
-            "from the example of the card are",
+            "from the example of the descriptor are",
         ],
     );
     for exponent in ["-1", "-1.5"] {
@@ -236,7 +236,7 @@ fn output_that_cannot_be_written_is_told_apart() {
 /// refuse what overflows, instead of a dash for a number.
 #[test]
 fn deformations_that_cannot_be_followed_are_refused() {
-    // The cards' examples yield at 10 mm.
+    // The descriptors' examples yield at 10 mm.
     for law in ["bouc_wen", "baber_noori_1985", "menegotto_pinto_1973"] {
         refused(
             &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --cycles 5000m"),

@@ -93,7 +93,10 @@ fn our_own_files_say_how_they_were_processed() {
     for file in [&made, &processed] {
         let shown = text(&["info", file]);
         assert!(shown.contains("before: Step: "), "{shown}");
-        assert!(shown.contains("made or processed by the steps"), "{shown}");
+        assert!(
+            shown.contains("generated or processed by the steps"),
+            "{shown}"
+        );
         assert!(!shown.contains("does not say"), "{shown}");
         let told = json(&["info", file]);
         assert_eq!(told["files"][0]["series"][0]["processing"], "steps");

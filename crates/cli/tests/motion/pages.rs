@@ -1,4 +1,4 @@
-//! The page `docs/ground-motions.md`: its commands run as printed, in their order, and
+//! The page `docs/reference/ground-motions.md`: its commands run as printed, in their order, and
 //! print what the page shows but for digits.
 
 use super::*;
@@ -45,7 +45,7 @@ fn outline(text: &str) -> Vec<String> {
 
 #[test]
 fn commands_of_the_page_run_as_printed() {
-    let page = std::fs::read_to_string(root().join("docs/ground-motions.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/reference/ground-motions.md")).unwrap();
     let folder = Folder::new();
     std::fs::create_dir(folder.path("ground_motions")).unwrap();
     let record = "ground_motions/el_centro_1940_ns.csv";

@@ -143,21 +143,21 @@ fn fourier_amplitudes_of_a_ricker_wavelet() {
         &csv,
     ]);
     let rows = rows(&folder.content("f.csv"));
-    let greatest = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
+    let maximum = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
     for row in &rows {
         let x = row[0] * 0.5;
         let expected = 2.0 * x * x * 0.5 / std::f64::consts::PI.sqrt() * (-x * x).exp();
         assert!(
-            (row[1] - expected).abs() < 1e-6 * greatest,
+            (row[1] - expected).abs() < 1e-6 * maximum,
             "{row:?} {expected}"
         );
     }
-    assert_eq!(rows.iter().find(|r| r[1] == greatest).unwrap()[0], 2.0);
+    assert_eq!(rows.iter().find(|r| r[1] == maximum).unwrap()[0], 2.0);
     let smooth = json(&["spectrum", &motion, "--fourier", "--at", "2 Hz"]);
     let value = number(&smooth["amplitudes"][0]);
     assert!(
-        value < greatest && value > 0.9 * greatest,
-        "{value} {greatest}"
+        value < maximum && value > 0.9 * maximum,
+        "{value} {maximum}"
     );
 }
 

@@ -41,7 +41,7 @@ fn sweep_of_the_three_storey_pair() {
     let roof = "peak_displacement: light 3 [m]";
     let all = |name: &'static str| (0..24).map(move |r| value(r, name));
     // Headlines of the README; the hardest impact is in the run with the least gap, the
-    // greatest stiffness and restitution.
+    // highest stiffness and restitution.
     let hardest = all(force).fold(0.0, f64::max);
     assert!((hardest / 6.984e6 - 1.0).abs() < 1e-3, "{hardest}");
     assert_eq!(hardest, value(5, force));

@@ -15,7 +15,7 @@ building = "light"
 values = ["0.3 g", "0.8 g"]
 "#;
 
-/// The greatest displacement of each storey, in the table of runs.
+/// The maximum displacement of each storey, in the table of runs.
 fn displacements(bench: &Bench, run: usize) -> Vec<f64> {
     let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
     let header = reader.headers().unwrap().clone();

@@ -50,7 +50,7 @@ pub(crate) fn friction(e: f64) -> f64 {
 }
 
 /// Restitution of `F = f(delta) (1 + D sgn v + y v / v0)`: the two phases are
-/// integrated in the phase plane and joined at the greatest penetration, where
+/// integrated in the phase plane and joined at the maximum penetration, where
 /// both have done the work `L` on the spring.
 fn restitution(d: f64, y: f64) -> f64 {
     if y == 0.0 {

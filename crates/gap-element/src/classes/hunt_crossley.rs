@@ -9,7 +9,7 @@ mod law;
 pub(crate) use closed_forms::{
     damping_factor, damping_factor_approach_only, restitution_approach_only,
 };
-pub(crate) use law::{CARD, HuntCrossley, LINEAR_CARD};
+pub(crate) use law::{DESCRIPTOR, HuntCrossley, LINEAR_DESCRIPTOR};
 
 use crate::model::Force;
 

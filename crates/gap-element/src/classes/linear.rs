@@ -9,7 +9,7 @@ mod law;
 pub(crate) use closed_forms::{
     damping_ratio_approach_only, damping_ratio_no_tension, damping_ratio_zero_penetration,
 };
-pub(crate) use law::{CARD, LINEAR_CARD, LinearClass};
+pub(crate) use law::{DESCRIPTOR, LINEAR_DESCRIPTOR, LinearClass};
 
 use super::hunt_crossley::elastic;
 use crate::model::Force;

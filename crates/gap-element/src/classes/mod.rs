@@ -17,7 +17,7 @@ pub(crate) enum DampingPhases {
     ApproachOnly,
 }
 
-/// Stands in the shared cards of the classes, where no model is built.
+/// Stands in the shared descriptors of the classes, where no model is built.
 pub(crate) fn unbuilt(_: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Err(GapElementError::UnknownModel {
         name: "a class without a model".to_owned(),

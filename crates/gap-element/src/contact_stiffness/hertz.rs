@@ -6,7 +6,7 @@ use crate::descriptor::Verification;
 /// Least ratio of contact time to wave transit at which waves are taken to have
 /// died away during the contact (the assumption of a quasi-static contact).
 const LEAST_WAVE_TRANSITS: f64 = 10.0;
-/// Greatest contact radius as a part of the effective radius of curvature for
+/// Maximum contact radius as a part of the effective radius of curvature for
 /// which surfaces count as half-spaces.
 const GREATEST_CONTACT_RADIUS: f64 = 0.1;
 /// An elastic sphere, or the curved face of a body.
@@ -88,7 +88,7 @@ fn hertz_limits(
     let duration = approach.duration(penetration, result.exponent);
     let contact_radius = (radius * penetration).sqrt();
     result.intermediate.extend([
-        quantity("greatest penetration", penetration, "m"),
+        quantity("maximum penetration", penetration, "m"),
         quantity("contact time", duration, "s"),
         quantity("contact radius", contact_radius, "m"),
     ]);

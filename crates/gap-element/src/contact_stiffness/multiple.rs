@@ -5,7 +5,7 @@ use crate::descriptor::Verification;
 
 /// Customary factor of [`multiple`] (Anagnostopoulos 1988).
 pub const CUSTOMARY_MULTIPLE: f64 = 20.0;
-/// Least and greatest factor of [`multiple`] in use.
+/// Minimum and maximum factor of [`multiple`] in use.
 pub const MULTIPLES_IN_USE: (f64, f64) = (10.0, 100.0);
 
 /// A multiple of the lateral storey stiffness (N/m) of the stiffer building
@@ -25,11 +25,11 @@ pub fn multiple(
         });
     }
     positive("storey stiffness", storey_stiffness, "N/m")?;
-    let (least, greatest) = MULTIPLES_IN_USE;
+    let (minimum, maximum) = MULTIPLES_IN_USE;
     let mut warnings = Vec::new();
-    if !(least..=greatest).contains(&factor) {
+    if !(minimum..=maximum).contains(&factor) {
         warnings.push(format!(
-            "a factor of {factor} is outside the range in use, {least} to {greatest}"
+            "a factor of {factor} is outside the range in use, {minimum} to {maximum}"
         ));
     }
     ContactStiffness {

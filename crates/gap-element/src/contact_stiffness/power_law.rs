@@ -45,7 +45,7 @@ impl Approach {
         Ok(self)
     }
 
-    /// Greatest penetration (m) of the elastic law with this stiffness.
+    /// Maximum penetration (m) of the elastic law with this stiffness.
     pub(super) fn penetration(&self, stiffness: f64, exponent: f64) -> f64 {
         let power = exponent + 1.0;
         (0.5 * power * self.effective_mass * self.velocity * self.velocity / stiffness)
@@ -105,7 +105,7 @@ pub fn penetration(
     restitution: Option<f64>,
     gap_width: Option<f64>,
 ) -> Result<ContactStiffness, ContactStiffnessError> {
-    positive("greatest penetration", wanted, "m")?;
+    positive("maximum penetration", wanted, "m")?;
     approach.checked()?;
     power_time(exponent)?;
     let mut warnings = Vec::new();
@@ -140,13 +140,13 @@ fn from_penetration(
         ),
         intermediate: vec![
             quantity("effective mass", approach.effective_mass, "kg"),
-            quantity("greatest penetration", penetration, "m"),
+            quantity("maximum penetration", penetration, "m"),
             quantity(
                 "contact time",
                 approach.duration(penetration, exponent),
                 "s",
             ),
-            quantity("greatest force", value * penetration.powf(exponent), "N"),
+            quantity("maximum force", value * penetration.powf(exponent), "N"),
         ],
         warnings,
     }

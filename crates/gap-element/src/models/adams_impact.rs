@@ -54,13 +54,13 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Without memory: a force that was cut at zero may return within the same contact.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const DAMPING: ParameterDescriptor = optional(
     "damping",
     ParameterUnit::NewtonSecondPerMetre,
-    "Greatest dashpot coefficient c_max",
+    "Maximum dashpot coefficient c_max",
 );
 const DAMPING_RATIO: ParameterDescriptor = optional(
     "damping_ratio_n_mm_s",

@@ -13,7 +13,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "exact_hunt_crossley",
     title: "Exact Hunt-Crossley",
     formula: "F = k delta^n (1 + y v / v0);  y solves y (1 + e) = ln((1 + y) / (1 - y e))",
-    citation: "closed form of the class, derived in docs/contact-laws.md; compare Gonthier et al. 2004 and Khatiwada, Chouw and Butterworth, Engineering Structures 62-63 (2014) 33",
+    citation: "closed form of the class, derived in docs/theory/contact-laws.md; compare Gonthier et al. 2004 and Khatiwada, Chouw and Butterworth, Engineering Structures 62-63 (2014) 33",
     recommended: true,
     traps: &[
         "Returns exactly what is asked, for every mass, stiffness, speed and exponent, in a free collision.",
@@ -21,7 +21,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

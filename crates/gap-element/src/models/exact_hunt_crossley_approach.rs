@@ -13,7 +13,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "exact_hunt_crossley_approach",
     title: "Exact Hunt-Crossley, damped in approach only",
     formula: "F = k delta^n (1 + y v / v0) (v > 0), k delta^n (v <= 0);  y solves e = sqrt(2 (y - ln(1 + y))) / y",
-    citation: "closed form of the class, derived in docs/contact-laws.md",
+    citation: "closed form of the class, derived in docs/theory/contact-laws.md",
     class: "Hunt-Crossley class, damping in approach only",
     separation_rules: &[crate::model::SeparationRule::ZeroPenetration],
     recommended: true,
@@ -24,7 +24,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Needs very strong damping at small e: y = 194.6 at 0.1.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

@@ -12,7 +12,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "exact_kelvin_voigt",
     title: "Exact Kelvin-Voigt",
     formula: "F = k delta + c v;  c = 2 zeta sqrt(k m),  zeta from e for the separation rule in force",
-    citation: "closed forms of the class, derived in docs/contact-laws.md",
+    citation: "closed forms of the class, derived in docs/theory/contact-laws.md",
     separation_rules: &[
         SeparationRule::NoTension,
         SeparationRule::ZeroPenetration,
@@ -29,7 +29,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The force jumps to c v0 at closure.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 /// The relation that is exact for this separation rule.

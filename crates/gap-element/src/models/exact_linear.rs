@@ -12,7 +12,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "exact_linear",
     title: "Exact linear class",
     formula: "F = k delta^n + c delta^((n-1)/2) v;  c = zeta sqrt(2 (n + 1) k m),  zeta from e for the separation rule in force",
-    citation: "closed forms of the class, derived in docs/contact-laws.md; Antypov and Elliott, EPL 94 (2011) 50004 for n = 3/2",
+    citation: "closed forms of the class, derived in docs/theory/contact-laws.md; Antypov and Elliott, EPL 94 (2011) 50004 for n = 3/2",
     separation_rules: &[
         SeparationRule::NoTension,
         SeparationRule::ZeroPenetration,
@@ -28,7 +28,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The dashpot starts like delta^((n-1)/2): its tangent has no bound at closure.",
     ],
     build,
-    ..linear::CARD
+    ..linear::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

@@ -12,7 +12,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "exact_linear_approach",
     title: "Exact linear class, damped in approach only",
     formula: "F = k delta^n + c delta^((n-1)/2) v (v > 0), k delta^n (v <= 0);  c = zeta sqrt(2 (n + 1) k m),  zeta solves e = exp(-g(zeta))",
-    citation: "closed forms of the class, derived in docs/contact-laws.md",
+    citation: "closed forms of the class, derived in docs/theory/contact-laws.md",
     class: "linear class, damping in approach only",
     recommended: true,
     verification: Verification::Verified("closed form e = exp(-g(zeta)) of approach-only damping"),
@@ -22,7 +22,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "zeta exceeds 1 below e = 0.368.",
     ],
     build,
-    ..linear::CARD
+    ..linear::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

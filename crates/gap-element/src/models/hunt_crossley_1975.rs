@@ -18,7 +18,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 /// The paper's alpha = (3/2) (1 - e) / v0.

@@ -20,11 +20,11 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     ),
     traps: &[
         "The damping ratio is the one that is exact with tension: returns 0.5503 for 0.5, 0.6748 for 0.65.",
-        "The gap grows with every impact; the result tells by how much. The energy left in the spring at separation is counted as dissipated.",
+        "The gap grows with every impact; the result says by how much. The energy left in the spring at separation is counted as dissipated.",
         "The force jumps to c v0 at closure.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

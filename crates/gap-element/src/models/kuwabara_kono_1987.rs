@@ -50,7 +50,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The dashpot starts like delta^0.5: its tangent has no bound at closure.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const DISSIPATION_TIME: ParameterDescriptor = ParameterDescriptor {

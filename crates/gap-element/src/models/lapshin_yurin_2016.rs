@@ -20,7 +20,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     }],
     title: "Viscous and dry friction in the contact",
     formula: "F = k delta^n (1 + D sgn v + b v);  D = (1 - e^2) / (1 + e^2) with e the restitution at low speed",
-    citation: "the law of Lapshin and Yurin, Vestnik MGTU 1 (2016) 90, with the viscous part of Hunt and Crossley; closed form derived in docs/contact-laws.md",
+    citation: "the law of Lapshin and Yurin, Vestnik MGTU 1 (2016) 90, with the viscous part of Hunt and Crossley; closed form derived in docs/theory/contact-laws.md",
     class: "dry friction, with a viscous part",
     parameters: &[
         POWER_STIFFNESS,

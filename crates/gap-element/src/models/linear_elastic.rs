@@ -26,7 +26,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     example: &[("stiffness", 9.35e7)],
     traps: &["Returns all energy: restitution is 1 whatever the floors are made of."],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

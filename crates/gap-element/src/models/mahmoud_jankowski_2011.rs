@@ -21,7 +21,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "zeta grows to 4.68 at e = 0.1: explicit fixed steps need 2 zeta omega h < 2.78.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 /// Equation 7 of the paper.

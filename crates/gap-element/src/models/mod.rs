@@ -2,11 +2,11 @@
 
 use crate::descriptor::ModelDescriptor;
 
-/// Declares the files of the models and lists their cards: one line a model.
+/// Declares the files of the models and lists their descriptors: one line per model.
 macro_rules! models {
     ($($name:ident)*) => {
         $(pub(crate) mod $name;)*
-        /// Cards of all models, in the order in which users see them.
+        /// Descriptors of all models, in the order in which users see them.
         pub(crate) static ALL: &[&ModelDescriptor] = &[$(&$name::DESCRIPTOR),*];
     };
 }

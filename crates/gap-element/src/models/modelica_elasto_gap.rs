@@ -29,7 +29,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Force and its slope are continuous in neither limit: the kinks are located.",
     ],
     build,
-    ..linear::LINEAR_CARD
+    ..linear::LINEAR_DESCRIPTOR
 };
 
 /// The damper is unlimited.

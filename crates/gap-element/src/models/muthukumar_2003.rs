@@ -62,7 +62,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Evaluated from the penetration itself: programs that add increments from the last step include travel outside the gap.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const RESTITUTION_ASKED: ParameterDescriptor = ParameterDescriptor {
@@ -81,7 +81,7 @@ const YIELD_RATIO: ParameterDescriptor = ParameterDescriptor {
 const DESIGN_PENETRATION: ParameterDescriptor = optional_positive(
     "design_penetration",
     ParameterUnit::Metre,
-    "Greatest penetration delta_m that the element is made for; by default the one that the collision reaches",
+    "Maximum penetration delta_m that the element is made for; by default the one that the collision reaches",
 );
 
 /// Loading line `F = K2 delta + (K1 - K2) delta_y`.

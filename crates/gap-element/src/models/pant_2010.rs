@@ -26,7 +26,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "With damping in both phases, as some programs have it, the same factor is far too strong.",
     ],
     build,
-    ..hunt_crossley::LINEAR_CARD
+    ..hunt_crossley::LINEAR_DESCRIPTOR
 };
 
 /// All the loss taken in approach, on the undamped trajectory.

@@ -22,7 +22,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,
-    ..hunt_crossley::LINEAR_CARD
+    ..hunt_crossley::LINEAR_DESCRIPTOR
 };
 
 /// The paper's ratio of the losses, instead of its own rule.

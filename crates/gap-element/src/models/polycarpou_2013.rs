@@ -30,7 +30,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     separation_rules: &[SeparationRule::ZeroPenetration],
     achieved_restitution: AchievedRestitution::Constant,
     verification: Verification::SecondarySources(
-        "exponent, crushed branch and calibration of k from memory of the literature; behaviour verified against the closed form e = sqrt(2 (y - ln(1 + y))) / y, which holds with the crushed branch too",
+        "exponent, crushed branch and calibration of k not compared with the paper; behaviour verified against the closed form e = sqrt(2 (y - ln(1 + y))) / y, which holds with the crushed branch too",
     ),
     example: &[
         ("stiffness", 3.0e10),
@@ -43,7 +43,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Damping multiplies the spring force on the crushed branch too; the paper's own rule there could not be verified.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const BUMPER_EXPONENT: ParameterDescriptor = ParameterDescriptor {

@@ -20,7 +20,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 /// Relation of the paper.

@@ -44,7 +44,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The method moreau_jean treats it without locating events; all others locate every impact.",
     ],
     build,
-    ..hunt_crossley::CARD
+    ..hunt_crossley::DESCRIPTOR
 };
 
 const RESTITUTION_ASKED: ParameterDescriptor = ParameterDescriptor {

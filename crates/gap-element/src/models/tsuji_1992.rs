@@ -33,7 +33,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The dashpot starts like delta^0.25: its tangent has no bound at closure.",
     ],
     build,
-    ..linear::CARD
+    ..linear::DESCRIPTOR
 };
 
 /// The relation in the terms of the paper.

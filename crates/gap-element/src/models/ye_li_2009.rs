@@ -21,7 +21,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],
     build,
-    ..hunt_crossley::LINEAR_CARD
+    ..hunt_crossley::LINEAR_DESCRIPTOR
 };
 
 /// Equation 10 of the paper.

@@ -91,7 +91,7 @@ pub fn ball_on_concrete(stiffness: f64, velocity: f64) -> Result<BallOnConcrete,
 pub struct BallReference {
     /// Velocity (m/s).
     pub velocity: f64,
-    /// Greatest penetration (m).
+    /// Maximum penetration (m).
     pub peak_penetration: f64,
     /// Time of the approach (s).
     pub compression: f64,

@@ -31,8 +31,8 @@ impl RestitutionReference {
     /// # Errors
     /// An unknown model.
     pub fn parameters(&self) -> Result<ModelParameters, crate::GapElementError> {
-        let card = crate::registry::find(self.model)?;
-        let mut parameters = ModelParameters::from_pairs(card.example);
+        let descriptor = crate::registry::find(self.model)?;
+        let mut parameters = ModelParameters::from_pairs(descriptor.example);
         parameters
             .values
             .extend(self.parameters.iter().map(|(k, v)| ((*k).to_owned(), *v)));

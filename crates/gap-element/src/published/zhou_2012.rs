@@ -77,14 +77,14 @@ pub struct ExplicitCollision {
     pub damping_factor: f64,
     /// Hysteresis damping `y k / v0` (N s/m^(n+1)).
     pub hysteresis_damping: f64,
-    /// Greatest penetration `[(n+1) m v0^2 / (2 k)]^(1/(n+1))` (m), whatever the
+    /// Maximum penetration `[(n+1) m v0^2 / (2 k)]^(1/(n+1))` (m), whatever the
     /// restitution.
     pub peak_penetration: f64,
     /// Contact time `2 I_n delta_max / v0` (s), whatever the restitution.
     pub duration: f64,
-    /// Greatest force (N), reached in approach.
+    /// Maximum force (N), reached in approach.
     pub peak_force: f64,
-    /// Where it is reached, over the greatest penetration (-).
+    /// Where it is reached, over the maximum penetration (-).
     pub peak_force_place: f64,
 }
 
@@ -179,21 +179,21 @@ pub fn adams_impact(stiffness: f64, ratio: f64) -> Result<CollisionOutcome, GapE
 pub struct EnergyReference {
     /// Restitution put in (-).
     pub restitution: f64,
-    /// Explicit form: greatest force (N).
+    /// Explicit form: maximum force (N).
     pub explicit_peak_force: f64,
-    /// Explicit form: its place over the greatest penetration (-).
+    /// Explicit form: its place over the maximum penetration (-).
     pub explicit_place: f64,
     /// Integrated: restitution achieved (-).
     pub achieved: f64,
-    /// Integrated: greatest force (N).
+    /// Integrated: maximum force (N).
     pub peak_force: f64,
-    /// Integrated: greatest penetration (m).
+    /// Integrated: maximum penetration (m).
     pub peak_penetration: f64,
     /// Integrated: contact time (s).
     pub duration: f64,
 }
 
-/// Reference values of the explicit form, whatever the restitution: greatest
+/// Reference values of the explicit form, whatever the restitution: maximum
 /// penetration (m), contact time (s).
 pub const EXPLICIT_REFERENCE: (f64, f64) = (1.693_031_895_348_753e-5, 2.491_529_381_925_102e-4);
 
@@ -284,9 +284,9 @@ pub struct AdamsReference {
     pub damping: f64,
     /// Restitution achieved (-).
     pub achieved: f64,
-    /// Greatest force (N).
+    /// Maximum force (N).
     pub peak_force: f64,
-    /// Greatest penetration (m).
+    /// Maximum penetration (m).
     pub peak_penetration: f64,
     /// Contact time (s).
     pub duration: f64,

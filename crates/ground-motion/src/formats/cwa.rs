@@ -163,7 +163,7 @@ fn step(
                 && (step * rate - 1.0).abs() > 1.0e-3
             {
                 warnings.push(format!(
-                    "the header says {rate} samples a second, the times {step} s"
+                    "the header says {rate} samples per second, the times {step} s"
                 ));
             }
             Ok(step)

@@ -1,5 +1,5 @@
 //! K-NET and KiK-net ASCII (National Research Institute for Earth Science and
-//! Disaster Resilience, Japan): 17 lines `name value`, then counts, eight a line.
+//! Disaster Resilience, Japan): 17 lines `name value`, then counts, eight per line.
 
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
@@ -17,7 +17,7 @@ const NAME: usize = 18;
 const COUNTS: Layout = Layout::new(8, 9);
 const REMEDY: &str = "the header is not that of K-NET: get the record again";
 
-/// Greatest magnitude of a count: the recorders of K-NET and KiK-net give signed integers of
+/// Maximum magnitude of a count: the recorders of K-NET and KiK-net give signed integers of
 /// 24 bits, and the oldest scale factor, `2000(gal)/8388608`, puts their full range there.
 const MOST_COUNTS: f64 = 8_388_608.0;
 /// A number of samples that no record has.

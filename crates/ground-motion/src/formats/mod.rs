@@ -1,4 +1,4 @@
-//! Readers, one format a file, and the detection of the format by content.
+//! Readers, one format per file, and the detection of the format by content.
 
 use std::path::Path;
 

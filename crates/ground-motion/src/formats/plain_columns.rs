@@ -283,7 +283,7 @@ fn headed(
         draft.times = Times::Step(keys.step(source, None)?);
         draft.component = "a".to_owned();
         let mut series = draft.finish(source)?;
-        keys.tell(&mut series.origin);
+        keys.report(&mut series.origin);
         return Ok(vec![series]);
     }
     let row = rows(source).find(|l| l.fields().count() != columns.names.len());
@@ -305,7 +305,7 @@ fn headed(
     let mut series = self::columns(source, survey, &columns, &keys)?;
     for one in &mut series {
         one.origin.header_line = Some(header.line);
-        keys.tell(&mut one.origin);
+        keys.report(&mut one.origin);
     }
     Ok(series)
 }

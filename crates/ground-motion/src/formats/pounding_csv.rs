@@ -78,7 +78,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     };
     draft.component.clone_from(&keys.component);
     let mut series = draft.finish(source)?;
-    keys.tell(&mut series.origin);
+    keys.report(&mut series.origin);
     Ok(vec![series])
 }
 
@@ -138,7 +138,7 @@ impl Keys {
     }
 
     /// What they say of the record's origin.
-    pub(super) fn tell(&self, origin: &mut Origin) {
+    pub(super) fn report(&self, origin: &mut Origin) {
         origin.title = self.title.join("; ");
         origin.history.clone_from(&self.history);
     }

@@ -59,7 +59,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let pairs = text[0].bytes.starts_with(b"1");
     let lines = (reals.first, first, lines.number());
     let mut draft = if pairs {
-        // Integer 17 counts numbers, two a sample.
+        // Integer 17 counts numbers, two per sample.
         let times = numbers.chunks_exact(2).map(|p| p[0]).collect();
         let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
         let mut draft = Draft::new(samples, unit, lines);

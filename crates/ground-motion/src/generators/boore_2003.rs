@@ -28,7 +28,7 @@ const WINDOW_LENGTH: f64 = 2.0;
 /// Duration from the path (s/m).
 const PATH_DURATION: f64 = 0.05e-3;
 /// Amplification of generic rock at frequencies (Hz): Boore and Joyner (1997), Bull.
-/// Seism. Soc. Am. 87 (2) 327 (values from memory of the literature).
+/// Seism. Soc. Am. 87 (2) 327 (values unverified).
 const GENERIC_ROCK: [(f64, f64); 11] = [
     (0.01, 1.0),
     (0.09, 1.10),

@@ -20,8 +20,7 @@ pub struct CloughPenzien1975 {
 
 impl CloughPenzien1975 {
     /// Firm, medium or soft ground of an intensity S0 (m2/s3): Der Kiureghian and
-    /// Neuenhofer (1992), Earthq. Eng. Struct. Dyn. 21, 713 (values from memory of the
-    /// literature).
+    /// Neuenhofer (1992), Earthq. Eng. Struct. Dyn. 21, 713 (values unverified).
     #[must_use]
     pub fn of_ground(kind: &str, intensity: f64) -> Option<Self> {
         let (ground_frequency, ground_damping, filter_frequency) = match kind {

@@ -1,4 +1,4 @@
-//! Envelopes of amplitude over time, greatest value one.
+//! Envelopes of amplitude over time, maximum value one.
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ pub enum Envelope {
         /// Rate of decay after it (1/s).
         decay: f64,
     },
-    /// `t^power exp(-rate t)` over its greatest value: Saragoni and Hart (1974),
+    /// `t^power exp(-rate t)` over its maximum value: Saragoni and Hart (1974),
     /// Earthq. Eng. Struct. Dyn. 2, 249.
     SaragoniHart1974 {
         /// Power (-).
@@ -43,7 +43,7 @@ pub enum Envelope {
         /// Rate (1/s).
         rate: f64,
     },
-    /// `exp(-slow t) - exp(-fast t)` over its greatest value: Shinozuka and Sato
+    /// `exp(-slow t) - exp(-fast t)` over its maximum value: Shinozuka and Sato
     /// (1967), J. Eng. Mech. 93, 11.
     ShinozukaSato1967 {
         /// Slower rate (1/s).

@@ -1,4 +1,4 @@
-//! Motions made from formulas: pulses in closed form, and random motions that a seed
+//! Synthetic motions from formulas: pulses in closed form, and random motions that a seed
 //! fixes.
 //!
 //! The same parameters and seed give the same bytes wherever `exp`, `sin` and `ln` of
@@ -48,7 +48,7 @@ pub struct TimeGrid {
     pub duration: f64,
 }
 
-/// A motion and how it was made.
+/// A synthetic motion and how it was generated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Generated {
     /// The motion.

@@ -70,7 +70,7 @@ impl<S: PowerSpectrum> StationaryMotion<S> {
     }
 }
 
-/// The density S0 (m2/s3) of white noise that makes the greatest value of a motion a
+/// The density S0 (m2/s3) of white noise that makes the maximum value of a motion a
 /// given multiple of its standard deviation: `S0 = (PGA/p)^2 / (variance at S0 = 1)`.
 pub(crate) fn intensity_for_peak(
     step: &'static str,

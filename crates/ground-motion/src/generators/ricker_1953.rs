@@ -14,7 +14,7 @@ const STEP: &str = "ricker_1953";
 pub struct Ricker1953 {
     /// Peak acceleration A (m/s2).
     pub amplitude: f64,
-    /// Period Tp (s) of the greatest Fourier amplitude.
+    /// Period Tp (s) of the maximum Fourier amplitude.
     pub period: f64,
     /// Time t0 of the peak (s); from 1.5 Tp the start is below 1e-7 of the peak.
     pub centre: f64,

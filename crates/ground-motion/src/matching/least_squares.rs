@@ -1,7 +1,7 @@
 //! The step of a match: factors `b` of some changes of the motion that solve
-//! `C b = target - response`, C the response of each oscillator at its greatest peaks to
+//! `C b = target - response`, C the response of each oscillator at its highest peaks to
 //! each change, by damped least squares (Levenberg and Marquardt). All peaks from three
-//! quarters of the greatest on take part, so that no other takes the place of the one
+//! quarters of the highest on take part, so that no other takes the place of the one
 //! that was matched; rows are weighted by their deviation, so that the worst count most.
 
 use nalgebra::{DMatrix, DVector};
@@ -11,7 +11,7 @@ use crate::error::GroundMotionError;
 use crate::matching::peaks::{Change, Row};
 use crate::spectra::{Evaluation, TargetSpectrum, logarithmic_periods, response_spectrum};
 
-/// Damping of the least squares as a part of the greatest diagonal: at the start, and
+/// Damping of the least squares as a part of the largest diagonal element: at the start, and
 /// its factors after success and failure.
 const FIRST_DAMPING: f64 = 1.0e-3;
 const LEAST_DAMPING: f64 = 1.0e-9;
@@ -25,7 +25,7 @@ const LEAST_WEIGHT: f64 = 0.02;
 /// Powers of the deviations whose sum is lowered: the next where one comes to its end.
 /// The higher, the more the worst deviation counts alone.
 const POWERS: [f64; 3] = [4.0, 8.0, 16.0];
-/// Deviations from this part of the worst on, at places where they are greatest, get a
+/// Deviations from this part of the worst on, at places where they are largest, get a
 /// row and changes of their own.
 const EXTRA_FROM: f64 = 0.7;
 /// Periods nearer than this are the same (logarithms).

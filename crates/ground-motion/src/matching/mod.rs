@@ -33,7 +33,7 @@ pub struct MatchOptions {
     pub to: f64,
     /// Periods matched, evenly spaced in their logarithm.
     pub periods: usize,
-    /// Greatest deviation as a part of the target: at eight times as many periods.
+    /// Maximum deviation as a part of the target: at eight times as many periods.
     pub tolerance: f64,
     /// Iterations at most.
     pub iterations: usize,
@@ -56,7 +56,7 @@ impl MatchOptions {
 /// How far a spectrum is from a target.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Misfit {
-    /// Greatest deviation as a part of the target.
+    /// Maximum deviation as a part of the target.
     pub worst: f64,
     /// Period where it is (s).
     pub period: f64,
@@ -202,10 +202,10 @@ fn iterate<A: Adjustment>(
         .number("end velocity taken off", end[0], "m/s")
         .number("end displacement taken off", end[1], "m")
         .number("scale before", factor, "-")
-        .number("greatest deviation before", before.worst, "-")
+        .number("maximum deviation before", before.worst, "-")
         .number("iterations", done as f64, "-")
-        .number("greatest deviation", misfit.worst, "-")
-        .number("period of the greatest deviation", misfit.period, "s")
+        .number("maximum deviation", misfit.worst, "-")
+        .number("period of the maximum deviation", misfit.period, "s")
         .number("mean deviation", misfit.mean, "-");
     let steps = vec![achieved(step, &accelerogram)?];
     accelerogram.note(&steps);

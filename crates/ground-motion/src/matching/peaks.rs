@@ -1,14 +1,14 @@
-//! The greatest peaks of oscillators under a motion: what a match works on.
+//! The highest peaks of oscillators under a motion: what a match works on.
 
 use std::f64::consts::TAU;
 
 use crate::spectra::{Oscillator, State, TargetSpectrum, zero};
 
-/// Peaks of an oscillator from this part of the greatest on are looked after, at most
+/// Peaks of an oscillator from this part of the highest on are looked after, at most
 /// so many.
 const PEAKS_FROM: f64 = 0.75;
 const MOST_PEAKS: usize = 5;
-/// Samples below this part of the greatest have no such peak beside them, where there
+/// Samples below this part of the highest have no such peak beside them, where there
 /// are five to a period.
 const SAMPLES_FROM: f64 = 0.5;
 
@@ -23,7 +23,7 @@ pub(crate) struct AtPeak {
     pub part: f64,
 }
 
-/// One oscillator with its greatest peaks, the greatest first.
+/// One oscillator with its highest peaks, the largest first.
 pub(crate) struct Row {
     oscillator: Oscillator,
     pub frequency: f64,
@@ -80,10 +80,10 @@ impl Row {
     }
 
     /// What each peak is too far out, with its sign, as a part of the target: the
-    /// greatest must reach one, the others must not exceed it and rise with it.
+    /// maximum must reach one, the others must not exceed it and rise with it.
     pub(crate) fn deviations(&self) -> impl Iterator<Item = f64> {
-        let greatest = self.peaks.first().map_or(1.0, |p| p.part.abs());
-        let lift = (1.0 - 1.0 / greatest).min(0.0);
+        let maximum = self.peaks.first().map_or(1.0, |p| p.part.abs());
+        let lift = (1.0 - 1.0 / maximum).min(0.0);
         self.peaks.iter().enumerate().map(move |(k, peak)| {
             let part = peak.part.abs();
             let out = if k == 0 || part > 1.0 {

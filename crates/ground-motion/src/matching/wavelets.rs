@@ -2,7 +2,7 @@
 //! tapered cosine of Al Atik and Abrahamson (2010), Earthquake Spectra 26 (3) 601.
 //!
 //! Each period gets wavelets that raise or lower its oscillator at the times of its
-//! greatest peaks; their amplitudes are those of [`LeastSquares`]. The wavelet leaves
+//! highest peaks; their amplitudes are those of [`LeastSquares`]. The wavelet leaves
 //! nearly no velocity and displacement; what is left, and what is cut off at an end of the
 //! record, is taken off under the wavelet's own window, so that the ground ends at rest.
 

@@ -114,7 +114,7 @@ pub struct IntensityMeasures {
     /// Mean period (s) of Fourier amplitudes from 0.25 to 20 Hz (Rathje, Abrahamson
     /// and Bray 1998); `None` where the record has no such frequency.
     pub mean_period: Option<f64>,
-    /// Period (s) of the greatest PSA among 200 from 0.01 to 10 s.
+    /// Period (s) of the maximum PSA among 200 from 0.01 to 10 s.
     pub predominant_period: f64,
 }
 

@@ -1,5 +1,5 @@
 //! What can be done to a record before it excites buildings: each step off unless
-//! asked for, each told with its numbers.
+//! asked for, each reported with its numbers.
 
 mod baseline;
 mod butterworth;
@@ -149,10 +149,11 @@ pub fn process(
     let mut accelerogram = record.clone();
     let mut done = Vec::with_capacity(steps.len());
     for step in steps {
-        let (next, told) = step.apply(&accelerogram)?;
+        let (next, report) = step.apply(&accelerogram)?;
         let motion = GroundMotion::of(&next, 0.0, 0.0);
         done.push(
-            told.number("end velocity", motion.end_velocity(), "m/s")
+            report
+                .number("end velocity", motion.end_velocity(), "m/s")
                 .number("end displacement", motion.end_displacement(), "m"),
         );
         accelerogram = next;

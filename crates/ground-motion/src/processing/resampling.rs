@@ -12,7 +12,7 @@ use crate::unit::AccelerationUnit;
 const STEP: &str = "resampling";
 /// Most samples a record may become: a wrong unit of the time step makes more.
 pub(super) const MOST_SAMPLES: f64 = 5.0e7;
-/// Greatest denominator of a ratio of time steps.
+/// Maximum denominator of a ratio of time steps.
 const GREATEST_DENOMINATOR: usize = 2000;
 /// How near the ratio must be to a fraction.
 const RATIO_TOLERANCE: f64 = 1.0e-9;
@@ -211,11 +211,11 @@ pub fn to_even_steps(
         ));
     }
     let (record, step) = resample(&record, wanted, interpolation)?;
-    let told = uneven
+    let report = uneven
         .number("step between", fine, "s")
         .number("samples", step.get("samples").unwrap_or(f64::NAN), "-")
         .remark("linear from uneven times, then band-limited");
-    Ok((record, told))
+    Ok((record, report))
 }
 
 /// Straight lines between values at increasing times.

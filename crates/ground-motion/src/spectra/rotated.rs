@@ -23,9 +23,9 @@ pub struct RotatedSpectrum {
     pub periods: Vec<f64>,
     /// Median pseudo-acceleration (m/s2) over directions, RotD50.
     pub median: Vec<f64>,
-    /// Greatest pseudo-acceleration (m/s2) over directions, RotD100.
+    /// Maximum pseudo-acceleration (m/s2) over directions, RotD100.
     pub maximum: Vec<f64>,
-    /// Direction of the greatest, degrees from the first component towards the second.
+    /// Direction of the maximum, degrees from the first component towards the second.
     pub direction_of_maximum: Vec<f64>,
 }
 

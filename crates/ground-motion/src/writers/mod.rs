@@ -1,4 +1,4 @@
-//! Writers of records, one layout a file. Each gives the text of a whole file; what
+//! Writers of records, one layout per file. Each gives the text of a whole file; what
 //! it says is read back by the reader of the same name.
 
 mod peer_at2;

@@ -10,7 +10,7 @@ use crate::writers::{Written, line};
 const COLUMNS: usize = 5;
 
 /// The text of an AT2 file (accelerations in g of 9.80665 m/s2), a VT2 file (cm/s) or
-/// a DT2 file (cm): four lines of header, five values of eight digits a line. The
+/// a DT2 file (cm): four lines of header, five values of eight digits per line. The
 /// format has no room for what was done to the motion.
 #[must_use]
 pub fn write_peer_at2(series: &Written) -> String {

@@ -14,7 +14,7 @@ pub enum Column {
     Value,
 }
 
-/// Plain columns, divided by blanks, one sample a line, without any header: for
+/// Plain columns, divided by blanks, one sample per line, without any header: for
 /// programs that read nothing but numbers. Accelerations are in `unit` (`None`: m/s2),
 /// velocities in m/s, displacements in m, all at full precision. Also returns the symbol
 /// of the unit, which the file does not state.

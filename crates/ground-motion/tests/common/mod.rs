@@ -111,7 +111,7 @@ pub fn reals(
     block(&values, per_line, width, decimals).0
 }
 
-/// The greatest absolute value, with its sign, and its index.
+/// The maximum absolute value, with its sign, and its index.
 pub fn peak(values: &[f64]) -> (f64, usize) {
     let mut best = 0;
     for i in 0..values.len() {

@@ -36,11 +36,11 @@ impl Mean {
 
     /// Within three and a half standard errors of theory, which must be a small part of
     /// it: 1 of 2000 such tests fails by chance, and seeds are fixed.
-    pub fn meets(&self, exact: f64, greatest_error: f64) {
+    pub fn meets(&self, exact: f64, largest_error: f64) {
         let n = SEEDS as f64;
         let error = ((self.squares / n - self.value().powi(2)) / n).sqrt();
         assert!(
-            error < greatest_error * exact,
+            error < largest_error * exact,
             "standard error {error} of {exact}"
         );
         let apart = (self.value() - exact) / error;

@@ -8,7 +8,7 @@ pub(super) enum Stretch {
     /// The hardening line lies still below the residual strength.
     Floor,
     Hardening,
-    /// The greatest force that is left (bilinear rule).
+    /// The maximum force that is left (bilinear rule).
     Limit,
     Softening,
     Residual,
@@ -41,7 +41,7 @@ pub(super) struct Envelope {
     pub cap: f64,
     /// Fall of the falling line (N/m), positive.
     pub softening: f64,
-    /// Greatest force (N), infinite for none.
+    /// Maximum force (N), infinite for none.
     pub limit: f64,
     /// Residual force (N), not negative.
     pub residual: f64,
@@ -70,7 +70,7 @@ impl Envelope {
         (self.cap - self.start) / (self.hardening + self.softening)
     }
 
-    /// Where hardening ends at the greatest force.
+    /// Where hardening ends at the maximum force.
     fn limit_at(&self) -> f64 {
         self.hardening_at(self.limit)
     }

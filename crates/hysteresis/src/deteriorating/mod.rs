@@ -53,7 +53,7 @@ struct Capacities {
 /// A law of the family.
 #[derive(Debug)]
 pub(crate) struct Deteriorating {
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     reloading: Reloading,
     stiffness: f64,
     yield_force: f64,
@@ -253,8 +253,8 @@ fn failed(side: f64, at: f64) -> Branch {
 }
 
 impl PathLaw for Deteriorating {
-    fn card(&self) -> &'static LawDescriptor {
-        self.card
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.descriptor
     }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness

@@ -65,24 +65,24 @@ pub(crate) const PARAMETERS: [ParameterDescriptor; 13] = [
     non_negative(
         "pinching_deformation",
         ParameterUnit::One,
-        "Share of the greatest residual deformation by which the legs meet before it",
+        "Share of the maximum residual deformation by which the legs meet before it",
     )
     .within((0.0, true), (1.0, true))
     .default_to(0.5),
 ];
 
-/// The law of a card from its parameters.
+/// The law of a descriptor from its parameters.
 pub(crate) fn build(
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     reloading: Reloading,
     parameters: &LawParameters,
 ) -> Result<Box<dyn HysteresisLaw>, HysteresisError> {
-    let get = |name| parameters.get(card, name);
+    let get = |name| parameters.get(descriptor, name);
     let (stiffness, yield_force) = (get("stiffness")?, get("yield_force")?);
     let capping_deformation = get("capping_deformation")?;
     if !(capping_deformation > yield_force / stiffness) {
         return Err(HysteresisError::Inconsistent {
-            law: card.name,
+            law: descriptor.name,
             reason: format!(
                 "the cap at {capping_deformation} m does not lie beyond yield at {} m",
                 yield_force / stiffness
@@ -95,7 +95,7 @@ pub(crate) fn build(
         _ => get("reloading_capacity")?,
     };
     Ok(Box::new(Deteriorating {
-        card,
+        descriptor,
         reloading,
         stiffness,
         yield_force,

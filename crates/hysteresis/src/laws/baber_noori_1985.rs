@@ -33,7 +33,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
             "stiffness_degradation",
             "Rate deta at which stiffness falls with the work e",
         ),
-        rate("pinching", "Greatest pinching zs; zero for none").within((0.0, true), (1.0, false)),
+        rate("pinching", "Maximum pinching zs; zero for none").within((0.0, true), (1.0, false)),
         rate(
             "pinching_rate",
             "Rate p at which pinching grows with the work e",
@@ -41,7 +41,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(1.0),
         rate(
             "pinching_position",
-            "Position q of the pinch as a share of the greatest force",
+            "Position q of the pinch as a share of the maximum force",
         )
         .within((0.0, true), (1.0, false))
         .default_to(0.1),

@@ -49,7 +49,7 @@ const PLASTIC: u8 = 1;
 /// An elastic-plastic element and a spring in parallel.
 #[derive(Debug)]
 pub(super) struct Bilinear {
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     stiffness: f64,
     yield_force: f64,
     hardening_ratio: f64,
@@ -67,13 +67,13 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
 impl Bilinear {
     /// Stiffness (N/m), yield force (N) and hardening ratio.
     pub(super) fn new(
-        card: &'static LawDescriptor,
+        descriptor: &'static LawDescriptor,
         stiffness: f64,
         yield_force: f64,
         hardening_ratio: f64,
     ) -> Self {
         Self {
-            card,
+            descriptor,
             stiffness,
             yield_force,
             hardening_ratio,
@@ -93,8 +93,8 @@ impl Bilinear {
 }
 
 impl PathLaw for Bilinear {
-    fn card(&self) -> &'static LawDescriptor {
-        self.card
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.descriptor
     }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness

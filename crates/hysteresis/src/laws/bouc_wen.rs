@@ -35,7 +35,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     ],
     example_amplitude: 0.05,
     traps: &[
-        "The greatest force of the hysteretic part is Fy (beta + gamma)^(-1/n): Fy itself only for beta + gamma = 1.",
+        "The maximum force of the hysteretic part is Fy (beta + gamma)^(-1/n): Fy itself only for beta + gamma = 1.",
         "Small loops within larger ones drift and are not closed (Drucker's postulate is violated).",
     ],
     build,

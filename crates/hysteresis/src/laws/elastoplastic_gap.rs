@@ -98,7 +98,7 @@ impl ElastoplasticGap {
 }
 
 impl PathLaw for ElastoplasticGap {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn stiffness_when_new(&self) -> f64 {

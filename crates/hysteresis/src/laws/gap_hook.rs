@@ -110,7 +110,7 @@ impl GapHook {
 }
 
 impl PathLaw for GapHook {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn stiffness_when_new(&self) -> f64 {

@@ -10,7 +10,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     name: "ibarra_medina_krawinkler_2005_pinching",
     aliases: &[],
     title: "Deteriorating pinching law of Ibarra, Medina and Krawinkler",
-    formula: "as the peak-oriented law, but reloading heads for kappa_f times the target's force up to (1 - kappa_d) times the greatest residual deformation, then for the target",
+    formula: "as the peak-oriented law, but reloading heads for kappa_f times the target's force up to (1 - kappa_d) times the maximum residual deformation, then for the target",
     citation: "Ibarra, Medina and Krawinkler, Earthquake Engineering and Structural Dynamics 34 (2005) 1489",
     parameters: &PARAMETERS,
     rate_dependent: false,

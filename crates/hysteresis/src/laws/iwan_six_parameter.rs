@@ -69,19 +69,22 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     build,
 };
 
-/// A density with the card under which it was built.
+/// A density with the descriptor under which it was built.
 #[derive(Debug)]
 pub(super) struct IwanBackbone {
-    card: &'static LawDescriptor,
+    descriptor: &'static LawDescriptor,
     density: IwanDensity,
     corners: [f64; 2],
 }
 
 /// The law of a density.
-pub(super) fn law(card: &'static LawDescriptor, density: IwanDensity) -> Box<dyn HysteresisLaw> {
+pub(super) fn law(
+    descriptor: &'static LawDescriptor,
+    density: IwanDensity,
+) -> Box<dyn HysteresisLaw> {
     Box::new(Masing {
         backbone: IwanBackbone {
-            card,
+            descriptor,
             density,
             corners: [density.phi_1, density.phi_2],
         },
@@ -102,8 +105,8 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
 }
 
 impl Backbone for IwanBackbone {
-    fn card(&self) -> &'static LawDescriptor {
-        self.card
+    fn law_descriptor(&self) -> &'static LawDescriptor {
+        self.descriptor
     }
     fn corners(&self) -> &[f64] {
         &self.corners

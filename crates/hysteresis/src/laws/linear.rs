@@ -37,7 +37,7 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
 }
 
 impl PathLaw for Linear {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn linear(&self) -> bool {

@@ -140,7 +140,7 @@ impl Curve {
 }
 
 impl PathLaw for MenegottoPinto {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn stiffness_when_new(&self) -> f64 {

@@ -1,12 +1,12 @@
-//! One law a file.
+//! One law per file.
 
 use crate::descriptor::LawDescriptor;
 
-/// Declares the files of the laws and lists their cards: one line a law.
+/// Declares the files of the laws and lists their descriptors: one line per law.
 macro_rules! laws {
     ($($name:ident)*) => {
         $(pub(crate) mod $name;)*
-        /// Cards of all laws, in the order in which users see them.
+        /// Descriptors of all laws, in the order in which users see them.
         pub(crate) static ALL: &[&LawDescriptor] = &[$(&$name::DESCRIPTOR),*];
     };
 }

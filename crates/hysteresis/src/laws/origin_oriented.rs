@@ -69,7 +69,7 @@ impl OriginOriented {
 }
 
 impl PathLaw for OriginOriented {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn stiffness_when_new(&self) -> f64 {

@@ -35,7 +35,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
 
 fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, HysteresisError> {
     Ok(Box::new(StiffnessDegrading {
-        card: &DESCRIPTOR,
+        descriptor: &DESCRIPTOR,
         stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         yield_force: parameters.get(&DESCRIPTOR, "yield_force")?,
         hardening_ratio: parameters.get(&DESCRIPTOR, "hardening_ratio")?,

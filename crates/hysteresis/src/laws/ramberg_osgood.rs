@@ -89,7 +89,7 @@ impl RambergOsgood {
 }
 
 impl Backbone for RambergOsgood {
-    fn card(&self) -> &'static LawDescriptor {
+    fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
     fn corners(&self) -> &[f64] {

@@ -57,7 +57,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
 fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, HysteresisError> {
     let get = |name| parameters.get(&DESCRIPTOR, name);
     Ok(Box::new(StiffnessDegrading {
-        card: &DESCRIPTOR,
+        descriptor: &DESCRIPTOR,
         stiffness: get("stiffness")?,
         yield_force: get("yield_force")?,
         hardening_ratio: get("hardening_ratio")?,

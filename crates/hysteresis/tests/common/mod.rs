@@ -5,9 +5,9 @@
 use pounding_hysteresis::{Guard, History, HysteresisLaw, LawDescriptor, Motion, build};
 use pounding_runge_kutta::Dop853;
 
-/// The example of a card.
-pub fn example(card: &LawDescriptor) -> Box<dyn HysteresisLaw> {
-    build(card.name, &card.example_parameters()).unwrap()
+/// The example of a descriptor.
+pub fn example(descriptor: &LawDescriptor) -> Box<dyn HysteresisLaw> {
+    build(descriptor.name, &descriptor.example_parameters()).unwrap()
 }
 
 /// A smooth path with cycles inside cycles, growing at first: its amplitude is

@@ -119,7 +119,7 @@ fn steps(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 /// Opening of the level that is hit hardest, or comes closest, and all impacts.
 pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
-    let Some(level) = loudest(gap) else {
+    let Some(level) = governing_level(gap) else {
         return Ok(String::new());
     };
     let opening = gap.penetration.column(level).map(|d| -1.0e3 * d);
@@ -169,8 +169,8 @@ fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) 
         .collect()
 }
 
-/// The level with the greatest force, or without impacts that which comes closest.
-pub(super) fn loudest(gap: &GapResult) -> Option<usize> {
+/// The governing level: that with the hardest impact, or without impacts that which comes closest.
+pub(super) fn governing_level(gap: &GapResult) -> Option<usize> {
     let hardest = gap.hardest_first().first().map(|i| i.level as usize - 1);
     let closest = || {
         let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);

@@ -61,7 +61,7 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
         }
         row
     });
-    let note = "<p class=\"note\">Greatest absolute values, found inside the steps; \
+    let note = "<p class=\"note\">Maximum absolute values, found inside the steps; \
                 <em>without</em>: the same building under the same motion without any gap \
                 or link.</p>\n";
     table(headings, rows) + note

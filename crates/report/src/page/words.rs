@@ -1,6 +1,6 @@
 //! The answers in sentences.
 
-use super::figures::loudest;
+use super::figures::governing_level;
 use super::html::escaped;
 use super::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
@@ -26,7 +26,7 @@ pub(super) fn summary(result: &RunResult) -> String {
 
 /// How hard the floors on both sides of a gap hit.
 fn hit(gap: &GapResult) -> Option<String> {
-    let level = loudest(gap)?;
+    let level = governing_level(gap)?;
     let name = escaped(&gap.name);
     let at = |l: usize| escaped(&self::level(&gap.levels[l]));
     if gap.impacts.is_empty() {
@@ -77,7 +77,7 @@ pub(super) fn level(level: &LevelResult) -> String {
     format!("level {} ({left} | {right})", level.label)
 }
 
-/// What pounding changed in a building: the greatest rise of each quantity.
+/// What pounding changed in a building: the largest rise of each quantity.
 fn changed(building: &BuildingResult) -> Option<String> {
     let rise = |what: &str, peaks: &StoreyPeaks, (factor, unit): (f64, &str)| {
         let ratios = peaks.value.iter().zip(&peaks.isolated).map(|(a, b)| a / b);
@@ -87,7 +87,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let (storey, _) = most?;
         Some(format!(
-            "{what} at most {} times (storey {}: {} {unit}, alone {} {unit})",
+            "{what} at most {} times (storey {}: {} {unit}, isolated {} {unit})",
             times(peaks.value[storey], peaks.isolated[storey]),
             storey + 1,
             figures(factor * peaks.value[storey]),
@@ -106,7 +106,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "Peaks of building {} beside those of the building alone: {}.",
+            "Peaks of building {} beside those of the isolated building: {}.",
             escaped(&building.name),
             parts.join(", ")
         )

@@ -1,6 +1,6 @@
 //! The HDF5 result of a run, netCDF-4 style: dimension scales, units, long names.
 //!
-//! The layout is described in `docs/result-file.md`. The file is written as a
+//! The layout is described in `docs/reference/result-file.md`. The file is written as a
 //! part file beside its place while the run goes on, so that memory does not grow with the
 //! duration, and a reader never sees half of it.
 

@@ -29,7 +29,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "h / 100, or by analysis",
     inputs: &[],
-    status: Status::FromMemory("the rule and its limit of 15 m"),
+    status: Status::Unverified("the rule and its limit of 15 m"),
     remarks: &["For levels above 15 m."],
     rule: Rule::Boundary(boundary),
 };

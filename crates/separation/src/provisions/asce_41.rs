@@ -37,7 +37,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "min(u, 0.04 h)",
     inputs: &[Input::Displacement],
-    status: Status::FromMemory("formula and clause"),
+    status: Status::Unverified("formula and clause"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };

@@ -10,7 +10,7 @@ const INPUTS: &[Input] = &[
     Input::DisplacementAmplification,
     Input::ResponseModification,
 ];
-const OPEN_QUESTION: &str = "Whether the square root may be used across a property line is an open question: the neighbour is not known there.";
+const OPEN_QUESTION: &str = "Whether SRSS may be used across a property line is an open question: the neighbour is not known there.";
 
 /// `Cd d / Ie`; with `d = Ie u / R` that is `Cd u / R`.
 fn maximum_displacement(
@@ -65,7 +65,7 @@ pub(crate) static ASCE_7_10_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BOUNDARY
 };
 
-const UNCHANGED: Status = Status::FromMemory("that 7-16 left the clause of 7-10 unchanged");
+const UNCHANGED: Status = Status::Unverified("that 7-16 left the clause of 7-10 unchanged");
 
 pub(crate) static ASCE_7_16_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_16_boundary",
@@ -81,7 +81,7 @@ pub(crate) static ASCE_7_16_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const REVISED: Status = Status::FromMemory(
+const REVISED: Status = Status::Unverified(
     "7-22 writes the displacement in its revised notation of drifts; diaphragm deformation is to be added to u",
 );
 
@@ -122,7 +122,7 @@ pub(crate) static IBC_2009_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const FOLLOWS: Status = Status::FromMemory("that the code follows ASCE 7");
+const FOLLOWS: Status = Status::Unverified("that the code follows ASCE 7");
 
 pub(crate) static KDS_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "kds_boundary",
@@ -193,10 +193,10 @@ mod tests {
             "sni_1726_2019",
         ];
         for family in families {
-            let card = |place: &str| find(&format!("{family}_{place}")).unwrap();
-            let between = card("between").between(&situation).unwrap();
+            let descriptor = |place: &str| find(&format!("{family}_{place}")).unwrap();
+            let between = descriptor("between").between(&situation).unwrap();
             assert!((between.width - 0.068_75).abs() < 1.0e-12, "{family}");
-            let own = card("boundary").boundary(&situation.left, 9.0, &Site::default());
+            let own = descriptor("boundary").boundary(&situation.left, 9.0, &Site::default());
             assert!((own.unwrap().width - 0.055).abs() < 1.0e-12, "{family}");
         }
         // The same displacement given under reduced forces: d = Ie u / R = 12.5 mm.

@@ -41,7 +41,7 @@ pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("qd"),
     formula: "ds, times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Status::FromMemory("the clause, with its reduction"),
+    status: Status::Unverified("the clause, with its reduction"),
     remarks: &["ds = qd de is taken as u: qd = q, as above the corner period TC."],
     rule: Rule::Boundary(boundary),
 };
@@ -54,7 +54,7 @@ pub(crate) static FIRST_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..FIRST_BOUNDARY
 };
 
-const SIMILAR: Status = Status::FromMemory("that the draft keeps the rule of 2004");
+const SIMILAR: Status = Status::Unverified("that the draft keeps the rule of 2004");
 const STATE: &[&str] = &["For displacements of the limit state of significant damage."];
 
 pub(crate) static SECOND_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
@@ -101,13 +101,13 @@ mod tests {
         };
         for (aligned, between, own) in [(false, 0.1, 0.08), (true, 0.07, 0.056)] {
             let s = situation(aligned, true);
-            for card in [&FIRST_BETWEEN, &SECOND_BETWEEN] {
-                assert!((card.between(&s).unwrap().width - between).abs() < 1.0e-12);
+            for descriptor in [&FIRST_BETWEEN, &SECOND_BETWEEN] {
+                assert!((descriptor.between(&s).unwrap().width - between).abs() < 1.0e-12);
             }
-            for card in [&FIRST_BOUNDARY, &SECOND_BOUNDARY] {
-                let width = card.boundary(&s.left, 9.0, &s.site).unwrap().width;
+            for descriptor in [&FIRST_BOUNDARY, &SECOND_BOUNDARY] {
+                let width = descriptor.boundary(&s.left, 9.0, &s.site).unwrap().width;
                 assert!((width - own).abs() < 1.0e-12);
-                let both = card.between(&s).unwrap().width;
+                let both = descriptor.between(&s).unwrap().width;
                 assert!((both - own * 1.75).abs() < 1.0e-12);
             }
         }

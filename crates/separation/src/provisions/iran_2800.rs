@@ -61,7 +61,7 @@ pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescripto
     basis: Basis::Displacement,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Status::FromMemory("the rule for more than 8 storeys or high importance"),
+    status: Status::Unverified("the rule for more than 8 storeys or high importance"),
     remarks: &["Nonlinear displacement with P-delta, which u has to include."],
     rule: Rule::Boundary(by_analysis),
     ..BOUNDARY_BY_HEIGHT
@@ -72,7 +72,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Status::FromMemory("the square root"),
+    status: Status::Unverified("SRSS"),
     remarks: &["Beside an unknown neighbour a rule of 70 % holds, which is not here."],
     rule: Rule::Between(between),
     ..BOUNDARY_BY_HEIGHT

@@ -21,7 +21,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R"),
     formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Status::FromMemory("the formula; that the clause exists was seen"),
+    status: Status::Unverified("the formula; that the clause exists was seen"),
     remarks: &[],
     rule: Rule::Between(sum),
 };
@@ -29,7 +29,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static EDITION_2002: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_1893_2002_between",
     edition: "IS 1893 (Part 1):2002",
-    status: Status::FromMemory("the formula"),
+    status: Status::Unverified("the formula"),
     remarks: &["R is halved where floors are aligned."],
     ..EDITION_2016
 };
@@ -62,8 +62,8 @@ mod tests {
                 },
             };
             situation.left.elastic_displacement = Some(0.016);
-            for card in [&EDITION_2016, &EDITION_2002] {
-                let found = card.between(&situation).unwrap().width;
+            for descriptor in [&EDITION_2016, &EDITION_2002] {
+                let found = descriptor.between(&situation).unwrap().width;
                 assert!((found - width).abs() < 1.0e-12);
             }
         }

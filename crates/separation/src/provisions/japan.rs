@@ -18,7 +18,7 @@ pub(crate) static PRACTICE: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "h / 100",
     inputs: &[],
-    status: Status::FromMemory("the practice"),
+    status: Status::Unverified("the practice"),
     remarks: &["A drift of 1/100 in all; no provision speaks of the gap."],
     rule: Rule::Between(practice),
 };

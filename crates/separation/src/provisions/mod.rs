@@ -1,13 +1,13 @@
-//! One code a file.
+//! One code per file.
 
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 
-/// Declares the files of the codes and lists their cards.
+/// Declares the files of the codes and lists their descriptors.
 macro_rules! provisions {
-    ($($file:ident: $($card:ident)*;)*) => {
+    ($($file:ident: $($descriptor:ident)*;)*) => {
         $(mod $file;)*
-        /// Cards of all provisions, in the order in which users see them.
-        pub(crate) static ALL: &[&ProvisionDescriptor] = &[$($(&$file::$card),*),*];
+        /// Descriptors of all provisions, in the order in which users see them.
+        pub(crate) static ALL: &[&ProvisionDescriptor] = &[$($(&$file::$descriptor),*),*];
     };
 }
 
@@ -35,7 +35,7 @@ provisions! {
     e_030: BOUNDARY BETWEEN MINIMUM;
 }
 
-const NOT_RESEARCHED: &str = "displacement sum or square root; national clause not researched";
+const NOT_RESEARCHED: &str = "displacement sum or SRSS; national clause not researched";
 
 /// Codes without a formula here.
 pub(crate) static UNAVAILABLE: &[Unavailable] = &[
@@ -136,40 +136,49 @@ mod tests {
     }
 
     #[test]
-    fn cards_are_complete() {
-        for card in ALL {
-            let same = ALL.iter().filter(|c| c.name == card.name).count();
-            assert_eq!(same, 1, "{}", card.name);
-            for text in [card.region, card.edition, card.formula] {
-                assert!(!text.is_empty(), "{}", card.name);
+    fn descriptors_are_complete() {
+        for descriptor in ALL {
+            let same = ALL.iter().filter(|c| c.name == descriptor.name).count();
+            assert_eq!(same, 1, "{}", descriptor.name);
+            for text in [descriptor.region, descriptor.edition, descriptor.formula] {
+                assert!(!text.is_empty(), "{}", descriptor.name);
             }
-            assert!(!card.status.remark().is_empty(), "{}", card.name);
-            let needs = card.inputs.contains(&Input::Displacement);
-            assert_eq!(needs, card.basis == Basis::Displacement, "{}", card.name);
-            let ends = match card.place() {
-                Place::Boundary => card.name.contains("_boundary"),
-                Place::Between => !card.name.contains("_boundary"),
+            assert!(
+                !descriptor.status.remark().is_empty(),
+                "{}",
+                descriptor.name
+            );
+            let needs = descriptor.inputs.contains(&Input::Displacement);
+            assert_eq!(
+                needs,
+                descriptor.basis == Basis::Displacement,
+                "{}",
+                descriptor.name
+            );
+            let ends = match descriptor.place() {
+                Place::Boundary => descriptor.name.contains("_boundary"),
+                Place::Between => !descriptor.name.contains("_boundary"),
             };
-            assert!(ends, "{}", card.name);
+            assert!(ends, "{}", descriptor.name);
         }
     }
 
     /// Without a listed input a provision names it; without any other it still answers.
     #[test]
     fn inputs_are_those_listed() {
-        for card in ALL {
+        for descriptor in ALL {
             for input in Input::ALL {
-                let result = card.between(&without(input));
-                if card.inputs.contains(&input) {
+                let result = descriptor.between(&without(input));
+                if descriptor.inputs.contains(&input) {
                     let Err(SeparationError::MissingInput { input: named, .. }) = result else {
-                        panic!("{} without {input:?}: {result:?}", card.name);
+                        panic!("{} without {input:?}: {result:?}", descriptor.name);
                     };
-                    assert_eq!(named, input, "{}", card.name);
+                    assert_eq!(named, input, "{}", descriptor.name);
                 } else {
                     assert!(
                         result.is_ok(),
                         "{} without {input:?}: {result:?}",
-                        card.name
+                        descriptor.name
                     );
                 }
             }
@@ -178,15 +187,19 @@ mod tests {
 
     #[test]
     fn explanations_hold_every_factor() {
-        for card in ALL {
-            let requirement = card.between(&complete(0.1, 0.05)).unwrap();
-            assert!(requirement.width > 0.0, "{}", card.name);
-            assert!(!requirement.factors.is_empty(), "{}", card.name);
+        for descriptor in ALL {
+            let requirement = descriptor.between(&complete(0.1, 0.05)).unwrap();
+            assert!(requirement.width > 0.0, "{}", descriptor.name);
+            assert!(!requirement.factors.is_empty(), "{}", descriptor.name);
             for factor in &requirement.factors {
                 let shown = format!("{} = ", factor.name);
-                assert!(requirement.explanation.contains(&shown), "{}", card.name);
+                assert!(
+                    requirement.explanation.contains(&shown),
+                    "{}",
+                    descriptor.name
+                );
             }
-            assert!(requirement.explanation.contains(card.formula));
+            assert!(requirement.explanation.contains(descriptor.formula));
         }
     }
 
@@ -277,15 +290,19 @@ mod tests {
     #[test]
     fn every_provision_says_whether_it_multiplies_elastic_displacements() {
         assert_eq!(ALL.len(), 55);
-        for card in ALL {
-            let multiplied = MULTIPLIED.iter().find(|m| m.0 == card.name);
+        for descriptor in ALL {
+            let multiplied = MULTIPLIED.iter().find(|m| m.0 == descriptor.name);
             let factor = multiplied.map(|m| m.1);
-            assert_eq!(card.elastic_displacement_factor, factor, "{}", card.name);
-            let as_analysed = AS_ANALYSED.iter().any(|a| a.0 == card.name);
-            let prescriptive = card.basis == Basis::Prescriptive;
+            assert_eq!(
+                descriptor.elastic_displacement_factor, factor,
+                "{}",
+                descriptor.name
+            );
+            let as_analysed = AS_ANALYSED.iter().any(|a| a.0 == descriptor.name);
+            let prescriptive = descriptor.basis == Basis::Prescriptive;
             let classes = [multiplied.is_some(), as_analysed, prescriptive];
             let stands_in = classes.iter().filter(|c| **c).count();
-            assert_eq!(stands_in, 1, "{}: {classes:?}", card.name);
+            assert_eq!(stands_in, 1, "{}: {classes:?}", descriptor.name);
         }
     }
 
@@ -294,30 +311,35 @@ mod tests {
     /// enough; a displacement of an elastic analysis beside it is none.
     #[test]
     fn inelastic_displacements_are_not_multiplied_without_a_word() {
-        for card in ALL {
-            let elastic = card.between(&complete(0.1, 0.05)).unwrap();
-            assert_eq!(elastic.caution, None, "{}", card.name);
+        for descriptor in ALL {
+            let elastic = descriptor.between(&complete(0.1, 0.05)).unwrap();
+            assert_eq!(elastic.caution, None, "{}", descriptor.name);
             let mut yields = complete(0.1, 0.05);
             yields.right.inelastic = true;
-            let marked = card.between(&yields).unwrap();
-            assert_eq!(marked.width, elastic.width, "{}", card.name);
+            let marked = descriptor.between(&yields).unwrap();
+            assert_eq!(marked.width, elastic.width, "{}", descriptor.name);
             let caution = marked.caution.as_deref();
-            let Some(factor) = card.elastic_displacement_factor else {
-                assert_eq!(caution, None, "{}", card.name);
+            let Some(factor) = descriptor.elastic_displacement_factor else {
+                assert_eq!(caution, None, "{}", descriptor.name);
                 continue;
             };
             let caution = caution.unwrap();
             for part in [factor, "that of right is inelastic"] {
-                assert!(caution.contains(part), "{}: {caution}", card.name);
+                assert!(caution.contains(part), "{}: {caution}", descriptor.name);
             }
-            assert!(marked.explanation.ends_with(caution), "{}", card.name);
-            if card.place() == Place::Boundary {
+            assert!(marked.explanation.ends_with(caution), "{}", descriptor.name);
+            if descriptor.place() == Place::Boundary {
                 let s = &yields;
-                let own = |b| card.boundary(b, s.elevation, &s.site).unwrap().caution;
+                let own = |b| {
+                    descriptor
+                        .boundary(b, s.elevation, &s.site)
+                        .unwrap()
+                        .caution
+                };
                 assert!(own(&s.left).is_none() && own(&s.right).is_some());
             }
             yields.right.elastic_displacement = Some(0.01);
-            assert_eq!(card.between(&yields).unwrap().caution, None);
+            assert_eq!(descriptor.between(&yields).unwrap().caution, None);
         }
     }
 
@@ -352,21 +374,21 @@ mod tests {
         /// A greater displacement never asks for a smaller gap.
         #[test]
         fn monotone_in_displacement(a in 0.0..0.5_f64, b in 0.0..0.5_f64, more in 0.0..0.5_f64) {
-            for card in ALL {
-                let width = |l, r| card.between(&complete(l, r)).map(|r| r.width);
+            for descriptor in ALL {
+                let width = |l, r| descriptor.between(&complete(l, r)).map(|r| r.width);
                 let (one, left, right) = (width(a, b), width(a + more, b), width(a, b + more));
-                prop_assert!(left? >= one.clone()?, "{}", card.name);
-                prop_assert!(right? >= one?, "{}", card.name);
+                prop_assert!(left? >= one.clone()?, "{}", descriptor.name);
+                prop_assert!(right? >= one?, "{}", descriptor.name);
             }
         }
 
         /// The side on which a building stands does not matter.
         #[test]
         fn symmetric(a in 0.0..0.5_f64, b in 0.0..0.5_f64) {
-            for card in ALL {
-                let one = card.between(&complete(a, b))?.width;
-                let other = card.between(&complete(b, a))?.width;
-                prop_assert!((one - other).abs() <= 1.0e-15 + 1.0e-15 * one, "{}", card.name);
+            for descriptor in ALL {
+                let one = descriptor.between(&complete(a, b))?.width;
+                let other = descriptor.between(&complete(b, a))?.width;
+                prop_assert!((one - other).abs() <= 1.0e-15 + 1.0e-15 * one, "{}", descriptor.name);
             }
         }
     }

@@ -40,7 +40,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R* / 3"),
     formula: "(R* / 3) d (R* d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
-    status: Status::FromMemory("formula and clause; R* stands under response_modification"),
+    status: Status::Unverified("formula and clause; R* stands under response_modification"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };
@@ -51,7 +51,7 @@ pub(crate) static BOUNDARY_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "max(0.002 h, 15 mm)",
     inputs: &[],
-    status: Status::FromMemory("formula and clause"),
+    status: Status::Unverified("formula and clause"),
     remarks: &["Holds beside the rule of displacements."],
     rule: Rule::Boundary(minimum),
     ..BOUNDARY

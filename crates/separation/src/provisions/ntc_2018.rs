@@ -30,7 +30,7 @@ pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "u1 + u2",
     inputs: &[Input::Displacement],
-    status: Status::FromMemory("the clause"),
+    status: Status::Unverified("the clause"),
     remarks: &["For displacements of the limit state of life safety (SLV)."],
     rule: Rule::Between(sum),
 };
@@ -40,7 +40,7 @@ pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Prescriptive,
     formula: "h / 100 * min(1, 2 a_g S / g)",
     inputs: &[Input::DesignGroundAcceleration],
-    status: Status::FromMemory("the clause, and that the factor is capped at 1"),
+    status: Status::Unverified("the clause, and that the factor is capped at 1"),
     remarks: &["Holds beside the sum of displacements."],
     rule: Rule::Between(minimum),
     ..SUM
@@ -70,7 +70,8 @@ mod tests {
                 ..Site::default()
             },
         };
-        let width = |card: &ProvisionDescriptor, a| card.between(&situation(a)).unwrap().width;
+        let width =
+            |descriptor: &ProvisionDescriptor, a| descriptor.between(&situation(a)).unwrap().width;
         assert!((width(&SUM, 0.25) - 0.14).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.25) - 0.045).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.6) - 0.09).abs() < 1.0e-12);

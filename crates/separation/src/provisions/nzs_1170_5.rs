@@ -27,7 +27,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Status::FromMemory("the clause"),
+    status: Status::Unverified("the clause"),
     remarks: &["For deflections of the ultimate limit state."],
     rule: Rule::Boundary(boundary),
 };
@@ -35,7 +35,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nzs_1170_5_between",
     formula: "u1 + u2",
-    remarks: &["For deflections of the ultimate limit state; no relief by a square root."],
+    remarks: &["For deflections of the ultimate limit state; no relief by SRSS."],
     rule: Rule::Between(between),
     ..BOUNDARY
 };

@@ -38,7 +38,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
         Input::Importance,
         Input::YieldAmplification,
     ],
-    status: Status::FromMemory("the factors; Ra stands under response_modification"),
+    status: Status::Unverified("the factors; Ra stands under response_modification"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };
@@ -46,7 +46,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "taiwan_2011_between",
     formula: "sum over both buildings of 0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
-    status: Status::FromMemory("the factors; the sum across the property line was seen"),
+    status: Status::Unverified("the factors; the sum across the property line was seen"),
     rule: Rule::Between(between),
     ..BOUNDARY
 };

@@ -46,7 +46,7 @@ pub(crate) static TBDY_2018: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("0.25 R / I or 0.5 R / I"),
     formula: "alpha sqrt(d1^2 + d2^2), alpha = 0.25 R / I where floors are aligned, else 0.5 R / I (R d / I = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Status::FromMemory("the clause"),
+    status: Status::Unverified("the clause"),
     remarks: &["Each building's own R / I goes with its displacement."],
     rule: Rule::Between(tbdy_2018),
 };
@@ -57,7 +57,7 @@ pub(crate) static TBDY_2018_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "30 mm up to 6 m, 10 mm more for each begun 3 m above",
     inputs: &[],
-    status: Status::FromMemory("the clause, and that begun steps count whole"),
+    status: Status::Unverified("the clause, and that begun steps count whole"),
     remarks: &["Holds beside the rule of displacements."],
     rule: Rule::Between(minimum),
     ..TBDY_2018
@@ -70,7 +70,7 @@ pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R / 4 or R / 2"),
     formula: "alpha (d1 + d2), alpha = R / 4 where floors are aligned, else R / 2 (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Status::FromMemory("the clause; the sum is the safe reading of it"),
+    status: Status::Unverified("the clause; the sum is the safe reading of it"),
     remarks: &["Each building's own R goes with its displacement."],
     rule: Rule::Between(tdy_2007),
     ..TBDY_2018
@@ -124,8 +124,8 @@ mod tests {
                 elevation,
                 ..Situation::default()
             };
-            for card in [&TBDY_2018_MINIMUM, &TDY_2007_MINIMUM] {
-                let found = card.between(&situation).unwrap().width;
+            for descriptor in [&TBDY_2018_MINIMUM, &TDY_2007_MINIMUM] {
+                let found = descriptor.between(&situation).unwrap().width;
                 assert!((found - width).abs() < 1.0e-12);
             }
         }

@@ -49,7 +49,7 @@ pub struct ReferenceCollision {
 /// A model ready for one gap.
 #[derive(Debug, Clone)]
 pub struct CalibratedModel {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Its parameters (SI).
     pub parameters: ModelParameters,
@@ -202,8 +202,8 @@ fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> 
         return Err(reason);
     };
     calibrated.parameters.values.remove("restitution");
-    let greatest = if raw == "friction" { 0.999 } else { 1.0e3 };
-    solve(calibrated, reference, raw, (1.0e-6, greatest))
+    let maximum = if raw == "friction" { 0.999 } else { 1.0e3 };
+    solve(calibrated, reference, raw, (1.0e-6, maximum))
         .map_err(|other| format!("{reason}; {other}"))
 }
 
@@ -283,14 +283,14 @@ mod tests {
         let from = reference(1.5, 2.75e9);
         let rules = |r| (StiffnessRule::Penetration, r);
         for (name, published) in [("jankowski_2005", 0.6470), ("anagnostopoulos_2004", 0.65)] {
-            let card = registry::find(name).unwrap();
+            let descriptor = registry::find(name).unwrap();
             let as_published =
-                calibrated(card, &from, rules(RestitutionRule::AsPublished)).unwrap();
+                calibrated(descriptor, &from, rules(RestitutionRule::AsPublished)).unwrap();
             assert!(
                 (as_published.free_restitution - published).abs() < 5.0e-5,
                 "{name}"
             );
-            let exact = calibrated(card, &from, rules(RestitutionRule::Exact)).unwrap();
+            let exact = calibrated(descriptor, &from, rules(RestitutionRule::Exact)).unwrap();
             let bodies = Bodies {
                 mass_left: from.effective_mass,
                 mass_right: None,
@@ -309,13 +309,13 @@ mod tests {
     fn every_model() {
         let from = reference(1.5, 2.75e9);
         let mut others = Vec::new();
-        for card in registry::descriptors() {
+        for descriptor in registry::descriptors() {
             let rules = (StiffnessRule::Penetration, RestitutionRule::Exact);
-            let calibrated = calibrated(card, &from, rules);
+            let calibrated = calibrated(descriptor, &from, rules);
             match calibrated {
                 Ok(c) if (c.free_restitution - 0.65).abs() < 1.0e-6 => {}
-                Ok(c) => others.push(format!("{} {:.3}", card.name, c.free_restitution)),
-                Err(reason) => others.push(format!("{}: {reason}", card.name)),
+                Ok(c) => others.push(format!("{} {:.3}", descriptor.name, c.free_restitution)),
+                Err(reason) => others.push(format!("{}: {reason}", descriptor.name)),
             }
         }
         let bilinear = "muthukumar_2003: no restitution returns 0.65: the reference collision returns 0.6547 to 1.0000";

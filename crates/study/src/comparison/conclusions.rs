@@ -1,4 +1,4 @@
-//! What holds for every model, and what hangs on it.
+//! What holds for every model, and what depends on it.
 
 use super::{Comparison, QuantityKind};
 use crate::gap_check::{Amplification, SAME};
@@ -10,10 +10,10 @@ pub enum Holds {
     Always,
     /// For no model under any record.
     Never,
-    /// For all models under some records and for none under the others: it hangs on the
-    /// record alone.
+    /// For all models under some records and for none under the others: it depends
+    /// on the record only.
     ByRecord,
-    /// It hangs on the model.
+    /// It depends on the model.
     ByModel,
 }
 
@@ -24,8 +24,8 @@ impl Holds {
         match self {
             Self::Always => "holds for all models",
             Self::Never => "fails for all models",
-            Self::ByRecord => "hangs on the record, not on the model",
-            Self::ByModel => "hangs on the model",
+            Self::ByRecord => "depends on the record, not on the model",
+            Self::ByModel => "depends on the model",
         }
     }
 }

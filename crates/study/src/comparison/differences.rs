@@ -1,7 +1,7 @@
 //! Where the answer of a comparison differs from that of a gap check. A comparison takes
 //! the maximum of a peak over the storeys of a building, a gap check the ratio at every
 //! storey: pounding can raise the peaks of some storeys and not their maximum. A comparison
-//! says whether a gap closes, a gap check at which levels the buildings alone would close
+//! says whether a gap closes, a gap check at which levels the isolated buildings would close
 //! it.
 
 use super::conclusions::raised;
@@ -28,7 +28,7 @@ pub struct StoreyDifference {
     /// For each record: ratio of the maxima over the storeys with these laws (-).
     pub own_of_maxima: Vec<f64>,
     /// Minimum and maximum amplification at the storey, over the models and records whose
-    /// answers differ (-); NaN where these are of the gaps' own laws alone.
+    /// answers differ (-); NaN where these are of the gaps' own laws only.
     pub at_storey: (f64, f64),
     /// Minimum and maximum ratio of the maxima over the storeys, over the same (-).
     pub of_maxima: (f64, f64),
@@ -42,7 +42,7 @@ impl StoreyDifference {
     }
 }
 
-/// A level that models close under some record where the demand of the buildings alone
+/// A level that models close under some record where the demand of the isolated buildings
 /// stays below its width, or leave open where it does not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelDifference {
@@ -50,7 +50,7 @@ pub struct LevelDifference {
     pub gap: usize,
     /// Level, from zero.
     pub level: usize,
-    /// For each record: demand of the buildings alone (m).
+    /// For each record: demand of the isolated buildings (m).
     pub demand: Vec<f64>,
     /// For each record: whether the demand closes the level.
     pub demand_closes: Vec<bool>,

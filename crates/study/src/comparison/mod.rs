@@ -1,4 +1,4 @@
-//! Does the answer hang on the impact model? Every model on every record, calibrated
+//! Is the answer sensitive to the impact model? Every model on every record, calibrated
 //! alike, with the spread between models beside that between records.
 
 mod calibration;
@@ -48,7 +48,7 @@ pub struct ComparisonOptions {
 /// One model.
 #[derive(Debug, Clone)]
 pub struct ComparedModel {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Calibrated for each gap, or why it cannot be.
     pub calibrated: Result<Vec<CalibratedModel>, String>,
@@ -140,19 +140,19 @@ pub fn compare(
     if system.gaps().is_empty() {
         return Err(CheckError::NoGap);
     }
-    let cards = cards(&options.models)?;
-    let total = records.len() + cards.len() * records.len();
+    let descriptors = descriptors(&options.models)?;
+    let total = records.len() + descriptors.len() * records.len();
     let tell = |done, _| progress(done, total);
     let own = demands(records, options.threads, &tell)?;
     let references = references(case, records, &own, options)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
     let mut models: Vec<ComparedModel> =
-        in_parallel(cards.len(), options.threads, &|_, _| {}, |i| {
+        in_parallel(descriptors.len(), options.threads, &|_, _| {}, |i| {
             let gaps = references.iter();
             ComparedModel {
-                descriptor: cards[i],
+                descriptor: descriptors[i],
                 calibrated: gaps
-                    .map(|reference| calibration::calibrated(cards[i], reference, rules))
+                    .map(|reference| calibration::calibrated(descriptors[i], reference, rules))
                     .collect(),
                 records: Vec::new(),
             }
@@ -263,26 +263,30 @@ impl Comparison {
 }
 
 /// Ratio of two peaks; 1 where they are the same.
-fn ratio(with: f64, alone: f64) -> f64 {
-    if with == alone { 1.0 } else { with / alone }
+fn ratio(with: f64, isolated: f64) -> f64 {
+    if with == isolated {
+        1.0
+    } else {
+        with / isolated
+    }
 }
 
-fn cards(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
+fn descriptors(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
     if names.is_empty() {
         return Ok(registry::descriptors().to_vec());
     }
-    let mut cards: Vec<&'static ModelDescriptor> = Vec::new();
+    let mut descriptors: Vec<&'static ModelDescriptor> = Vec::new();
     for name in names {
-        let card = registry::find(name).map_err(|e| CheckError::UnknownModel {
+        let descriptor = registry::find(name).map_err(|e| CheckError::UnknownModel {
             name: name.clone(),
             help: help_among_gaps(name).or(e.help()).unwrap_or_default(),
         })?;
         // A model and its alias are one.
-        if !cards.iter().any(|c| c.name == card.name) {
-            cards.push(card);
+        if !descriptors.iter().any(|c| c.name == descriptor.name) {
+            descriptors.push(descriptor);
         }
     }
-    Ok(cards)
+    Ok(descriptors)
 }
 
 /// The collision of each gap that its models are calibrated in: the fastest one that the
@@ -355,10 +359,10 @@ fn references(
     Ok(references)
 }
 
-fn isolated(quantities: &[Quantity], alone: &[BuildingOutcome]) -> Vec<f64> {
+fn isolated(quantities: &[Quantity], isolated: &[BuildingOutcome]) -> Vec<f64> {
     let value = |q: &Quantity| {
         if q.is_of_building() {
-            quantities::of_building(q.kind, &alone[q.index])
+            quantities::of_building(q.kind, &isolated[q.index])
         } else {
             f64::NAN
         }
@@ -370,7 +374,7 @@ fn isolated(quantities: &[Quantity], alone: &[BuildingOutcome]) -> Vec<f64> {
 fn one(
     model: &ComparedModel,
     record: &CaseUnderRecord,
-    alone: &[BuildingOutcome],
+    isolated: &[BuildingOutcome],
     quantities: &[Quantity],
 ) -> Result<ModelRun, String> {
     let calibrated = model.calibrated.as_ref().map_err(Clone::clone)?;
@@ -384,7 +388,7 @@ fn one(
     let rigid = laws.iter().any(|l| l.rigid_restitution().is_some());
     let jumps = quantities::jumps(&outcome, rigid);
     let values = quantities.iter();
-    let mut amplification = amplification(&outcome.buildings, alone);
+    let mut amplification = amplification(&outcome.buildings, isolated);
     if jumps {
         for storey in amplification.iter_mut().flatten() {
             storey.acceleration_absolute = f64::NAN;

@@ -190,15 +190,15 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
         return f64::NAN;
     }
     let levels = &gap.levels;
-    let greatest = |of: fn(&pounding_time_history::LevelOutcome) -> f64| {
+    let maximum = |of: fn(&pounding_time_history::LevelOutcome) -> f64| {
         levels.iter().map(of).fold(0.0, f64::max)
     };
     match quantity.kind {
         QuantityKind::Impacts => levels.iter().map(|l| l.impacts).sum::<usize>() as f64,
         QuantityKind::PeakForce if jumps => f64::NAN,
-        QuantityKind::PeakForce => greatest(|l| l.peak_force.value),
-        QuantityKind::Impulse => greatest(|l| l.impulse_max),
-        QuantityKind::ApproachVelocity => greatest(|l| l.approach_velocity_max),
+        QuantityKind::PeakForce => maximum(|l| l.peak_force.value),
+        QuantityKind::Impulse => maximum(|l| l.impulse_max),
+        QuantityKind::ApproachVelocity => maximum(|l| l.approach_velocity_max),
         QuantityKind::ImpactEnergy => levels.iter().map(|l| l.energy_dissipated).sum(),
         _ => restitution(outcome, quantity.index),
     }

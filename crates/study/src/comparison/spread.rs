@@ -28,7 +28,7 @@ pub struct Ranking {
     pub concordance: f64,
 }
 
-/// Part of the greatest value below which another is zero but for round-off.
+/// Part of the maximum value below which another is zero but for round-off.
 const ROUND_OFF: f64 = 1.0e-9;
 
 fn mean(values: &[f64]) -> f64 {

@@ -54,7 +54,7 @@ pub(super) fn stiffness(
     found.map(|s| s.value).map_err(|e| e.to_string())
 }
 
-/// Greatest penetration (m) of the gap's own law without damping in the reference
+/// Maximum penetration (m) of the gap's own law without damping in the reference
 /// collision: `(n + 1) m v^2 / (2 k)` is its power `n + 1`.
 pub(super) fn elastic_penetration(reference: &ReferenceCollision) -> f64 {
     let n = reference.exponent;

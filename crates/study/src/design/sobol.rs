@@ -32,7 +32,7 @@ const POLYNOMIALS: [(u32, u32, &[u32]); 20] = [
     (7, 4, &[1, 3, 7, 13, 13, 15, 69]),
 ];
 
-/// Greatest number of variables of a Sobol design.
+/// Maximum number of variables of a Sobol design.
 pub const MOST_DIMENSIONS: usize = POLYNOMIALS.len() + 1;
 
 /// Coordinate, 0 to 1, of a run in a dimension: the middle of the finest interval if

@@ -54,7 +54,7 @@ impl CodeGap {
         satisfied(known)
     }
 
-    /// Width for one record (m): the greatest over the levels.
+    /// Width for one record (m): the maximum over the levels.
     #[must_use]
     pub fn width(&self, record: usize) -> Option<f64> {
         let widths = self.records.get(record)?.iter().flatten().map(|r| r.width);
@@ -99,9 +99,9 @@ fn satisfied(pairs: impl Iterator<Item = (f64, f64)>) -> Option<bool> {
 /// A combination at one level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelCombination {
-    /// Peak displacement of the left building alone (m).
+    /// Peak displacement of the isolated left building (m).
     pub left: f64,
-    /// Peak displacement of the right building alone (m).
+    /// Peak displacement of the isolated right building (m).
     pub right: f64,
     /// Width (m).
     pub width: f64,
@@ -191,7 +191,7 @@ impl<'a> Inputs<'a> {
         &self,
         building: &ShearBuilding,
         (index, storey): (usize, usize),
-        alone: &[BuildingOutcome],
+        isolated: &[BuildingOutcome],
     ) -> Structure {
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
@@ -199,10 +199,10 @@ impl<'a> Inputs<'a> {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
             storeys: building.storeys(),
-            displacement: Some(alone[index].storeys[storey].displacement.value),
+            displacement: Some(isolated[index].storeys[storey].displacement.value),
             // Of the run that the displacement is taken from. Links that yield leave the
             // storeys elastic, and no code reduces forces for them.
-            inelastic: !alone[index].inelastic_storeys().is_empty(),
+            inelastic: !isolated[index].inelastic_storeys().is_empty(),
             elastic_displacement: None,
             response_modification: of(&self.separation.response_modification),
             displacement_amplification: of(&self.separation.displacement_amplification),
@@ -295,35 +295,37 @@ pub(crate) fn by_code(
     let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
         at.map(|at| inputs.structure(&buildings[at.0], at, &record.isolated))
     };
-    let apply =
-        |card: &ProvisionDescriptor, record: &RecordDemand, level: usize, sides: &[_; 2]| {
-            let elevation = place.elevation(level);
-            match (structure(sides[0], record), structure(sides[1], record)) {
-                (Some(left), Some(right)) => card.between(&Situation {
-                    left,
-                    right,
-                    elevation,
-                    site,
-                }),
-                (Some(one), None) | (None, Some(one)) => card.boundary(&one, elevation, &site),
-                (None, None) => Err(SeparationError::NotApplicable {
-                    provision: card.name,
-                    reason: "the level lies between two walls".to_owned(),
-                }),
-            }
-        };
+    let apply = |descriptor: &ProvisionDescriptor,
+                 record: &RecordDemand,
+                 level: usize,
+                 sides: &[_; 2]| {
+        let elevation = place.elevation(level);
+        match (structure(sides[0], record), structure(sides[1], record)) {
+            (Some(left), Some(right)) => descriptor.between(&Situation {
+                left,
+                right,
+                elevation,
+                site,
+            }),
+            (Some(one), None) | (None, Some(one)) => descriptor.boundary(&one, elevation, &site),
+            (None, None) => Err(SeparationError::NotApplicable {
+                provision: descriptor.name,
+                reason: "the level lies between two walls".to_owned(),
+            }),
+        }
+    };
     let levels = place.levels();
-    let for_record = |card: &ProvisionDescriptor, record: &RecordDemand| {
+    let for_record = |descriptor: &ProvisionDescriptor, record: &RecordDemand| {
         let levels = levels.iter().enumerate();
         levels
-            .map(|(level, sides)| apply(card, record, level, sides))
+            .map(|(level, sides)| apply(descriptor, record, level, sides))
             .collect()
     };
     chosen
         .iter()
-        .map(|card| CodeGap {
-            provision: card,
-            records: records.iter().map(|r| for_record(card, r)).collect(),
+        .map(|descriptor| CodeGap {
+            provision: descriptor,
+            records: records.iter().map(|r| for_record(descriptor, r)).collect(),
         })
         .collect()
 }

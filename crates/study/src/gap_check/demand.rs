@@ -18,8 +18,8 @@ pub struct GapLevel {
     pub width: f64,
 }
 
-/// Peaks with pounding over peaks alone, of one storey (-); infinite where the storey
-/// alone does not move.
+/// Peaks with pounding over peaks of the isolated building, of one storey (-); infinite
+/// where the isolated storey does not move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Amplification {
     /// Of the floor displacement.
@@ -54,7 +54,7 @@ impl RecordDemand {
             .is_ok_and(|(_, gaps)| closes(&gaps[gap]))
     }
 
-    /// Whether the buildings alone approach each other by more than the width of a level.
+    /// Whether the isolated buildings approach each other by more than the width of a level.
     #[must_use]
     pub fn demand_exceeds(&self, gap: usize, level: usize, width: f64) -> bool {
         self.demand[gap][level].value > width
@@ -85,20 +85,20 @@ pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {
 }
 
 /// Ratio of two peaks; 1 where both are zero.
-fn ratio(with: Peak, alone: Peak) -> f64 {
-    if with.value == alone.value {
+fn ratio(with: Peak, isolated: Peak) -> f64 {
+    if with.value == isolated.value {
         1.0
     } else {
-        with.value / alone.value
+        with.value / isolated.value
     }
 }
 
 pub(crate) fn amplification(
     with: &[BuildingOutcome],
-    alone: &[BuildingOutcome],
+    isolated: &[BuildingOutcome],
 ) -> Vec<Vec<Amplification>> {
     with.iter()
-        .zip(alone)
+        .zip(isolated)
         .map(|(a, b)| {
             let storeys = a.storeys.iter().zip(&b.storeys);
             storeys

@@ -49,9 +49,9 @@ pub struct GapReport {
     pub between: [String; 2],
     /// Contact levels from the bottom.
     pub levels: Vec<GapLevel>,
-    /// Level with the greatest demand over all records, from zero.
+    /// Level with the maximum demand over all records, from zero.
     pub governing_level: usize,
-    /// Greatest demand over the levels for each record (m): the uniform width that the
+    /// Maximum demand over the levels for each record (m): the uniform width that the
     /// record would just not close.
     pub demand: Vec<f64>,
     /// Records that close the provided gap at some level.
@@ -110,17 +110,17 @@ impl GapReport {
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The level at which a combination is told (from zero): the governing one, or, where
+    /// The level at which a combination is reported (from zero): the governing one, or, where
     /// no record demands a gap, the one that the rule asks the widest gap of.
     #[must_use]
-    pub fn told_level(&self, combination: &CombinationGap) -> usize {
+    pub fn reported_level(&self, combination: &CombinationGap) -> usize {
         let widest = |level: usize| {
             let records = combination.records.iter();
             let widths = records.filter_map(|levels| Some(levels.get(level)?.width));
             widths.fold(0.0_f64, f64::max)
         };
         let last = self.levels.len().saturating_sub(1);
-        let greatest = (0..last).fold(last, |most, level| {
+        let maximum = (0..last).fold(last, |most, level| {
             if widest(level) > widest(most) {
                 level
             } else {
@@ -128,10 +128,10 @@ impl GapReport {
             }
         });
         let demand = self.demand.iter().fold(0.0_f64, |m, d| m.max(*d));
-        if demand > SAME * widest(greatest) {
+        if demand > SAME * widest(maximum) {
             self.governing_level
         } else {
-            greatest
+            maximum
         }
     }
 }
@@ -232,11 +232,11 @@ fn report(
     let at = |record: &RecordDemand, level: usize| record.demand[place.gap][level].value;
     let over_levels = |r: &RecordDemand| (0..levels.len()).fold(0.0_f64, |m, l| m.max(at(r, l)));
     let demand: Vec<f64> = records.iter().map(over_levels).collect();
-    let greatest = |l: usize| records.iter().fold(0.0_f64, |m, r| m.max(at(r, l)));
+    let maximum = |l: usize| records.iter().fold(0.0_f64, |m, r| m.max(at(r, l)));
     // Of equals the lowest: `max_by` alone would take the last.
     let governing_level = (0..levels.len())
         .rev()
-        .max_by(|a, b| greatest(*a).total_cmp(&greatest(*b)))
+        .max_by(|a, b| maximum(*a).total_cmp(&maximum(*b)))
         .unwrap_or(0);
     let touches = |r: &&RecordDemand| {
         let mut closed = levels.iter().enumerate();

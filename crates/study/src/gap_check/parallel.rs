@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Told how many of how many pieces of work are done.
+/// Given how many of how many pieces of work are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 /// Does `work` for the numbers from zero to `count - 1` on so many threads (at least
@@ -24,7 +24,7 @@ pub(crate) fn in_parallel<T: Send>(
                 return kept;
             }
             kept.push((number, work(number)));
-            // Counted under the lock: nobody is told of fewer after more.
+            // Counted under the lock: nobody is reported of fewer after more.
             let mut done = done.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
             *done += 1;
             progress(*done, count);
@@ -54,16 +54,16 @@ mod tests {
     #[test]
     fn in_order_for_any_number_of_threads() {
         for threads in [0, 1, 2, 7, 100] {
-            let told = Mutex::new(Vec::new());
+            let reported = Mutex::new(Vec::new());
             let tell = |done, count| {
-                if let Ok(mut told) = told.lock() {
-                    told.push((done, count));
+                if let Ok(mut reported) = reported.lock() {
+                    reported.push((done, count));
                 }
             };
             let squares = in_parallel(20, threads, &tell, |i| i * i);
             assert_eq!(squares, (0..20).map(|i| i * i).collect::<Vec<_>>());
-            let told = told.into_inner().unwrap_or_default();
-            assert_eq!(told, (1..=20).map(|i| (i, 20)).collect::<Vec<_>>());
+            let reported = reported.into_inner().unwrap_or_default();
+            assert_eq!(reported, (1..=20).map(|i| (i, 20)).collect::<Vec<_>>());
         }
         assert!(in_parallel(0, 2, &|_, _| {}, |i| i).is_empty());
     }

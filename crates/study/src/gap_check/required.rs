@@ -34,7 +34,7 @@ pub(crate) fn allowed_contacts(target_probability: f64, records: usize) -> usize
     (target_probability * records as f64 + 1.0e-9).floor() as usize
 }
 
-/// From the greatest demand of each record (m).
+/// From the maximum demand of each record (m).
 pub(crate) fn required_gap(demand: &[f64], options: &GapCheckOptions) -> RequiredGap {
     let allowed = allowed_contacts(options.target_probability, demand.len());
     let mut sorted = demand.to_vec();

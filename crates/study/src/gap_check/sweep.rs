@@ -15,10 +15,10 @@ use super::systems::rebuilt;
 pub struct SweepOptions {
     /// Gap whose width varies; `None`: all gaps of the case, all with the same width.
     pub gap: Option<String>,
-    /// Smallest width (m); `None`: one step, so that the next below were zero. If the greatest
+    /// Smallest width (m); `None`: one step, so that the next below were zero. If the maximum
     /// is not given either and nothing is demanded, there is no width.
     pub from: Option<f64>,
-    /// Greatest width (m); `None`: 1.05 of the greatest demand of the gaps that vary.
+    /// Maximum width (m); `None`: 1.05 of the maximum demand of the gaps that vary.
     pub to: Option<f64>,
     /// Number of widths, evenly spaced, both ends among them.
     pub points: usize,
@@ -62,7 +62,7 @@ pub struct SweepRun {
     pub amplification: Vec<Vec<Amplification>>,
     /// Impacts in all gaps.
     pub impacts: usize,
-    /// Greatest contact force (N); NaN where there were velocity jumps alone.
+    /// Maximum contact force (N); NaN where there were only velocity jumps.
     pub peak_force: f64,
     /// Energy dissipated in all contacts (J).
     pub impact_energy: f64,
@@ -94,7 +94,7 @@ pub struct GapSweep {
 }
 
 impl GapSweep {
-    /// Greatest amplification of a quantity over the storeys of a building, at one width
+    /// Maximum amplification of a quantity over the storeys of a building, at one width
     /// under one record, with its storey (from zero).
     #[must_use]
     pub fn of_building(
@@ -110,7 +110,7 @@ impl GapSweep {
         })
     }
 
-    /// Greatest amplification of a quantity of a building over all widths and records;
+    /// Maximum amplification of a quantity of a building over all widths and records;
     /// `None` if every run failed.
     #[must_use]
     pub fn worst(
@@ -199,7 +199,7 @@ pub(crate) fn sweep(
     })
 }
 
-/// A little more than the greatest demand (m).
+/// A little more than the maximum demand (m).
 fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));

@@ -16,7 +16,7 @@ fn floor(system: &System, dof: Option<usize>) -> Floor {
 }
 
 /// The same buildings and links under the same motion, with another width (m) and model at every
-/// contact level: `change` is told the gap and the level. What the buildings alone
+/// contact level: `change` is given the gap and the level. What the isolated buildings
 /// determine is shared with `system`.
 pub(crate) fn rebuilt(
     system: &System,

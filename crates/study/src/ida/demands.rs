@@ -8,7 +8,7 @@ use crate::study_file::{DemandKind, Limit};
 /// The demand that asks the buildings without gaps.
 const ISOLATED: &str = "isolated_demand";
 
-/// Columns over which the greatest value is taken.
+/// Columns over which the maximum value is taken.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Demand {
     /// What it is, with its place.
@@ -22,7 +22,7 @@ pub(super) struct Demand {
 }
 
 impl Demand {
-    /// Greatest value in a row; missing values, such as the time of a contact that did not
+    /// Maximum value in a row; missing values, such as the time of a contact that did not
     /// happen, count as none.
     fn of(&self, values: &[f64]) -> f64 {
         self.columns.iter().map(|c| values[*c]).fold(0.0, f64::max)

@@ -282,7 +282,7 @@ impl Evaluation<'_> {
 
     /// The least width from which on the frequency stays at or below the target. Counts
     /// change only at the demands of the runs, which are looked at one by one, from the
-    /// greatest down.
+    /// maximum down.
     fn minimum(&self, column: usize, target: f64) -> Option<MinimumGap> {
         let hazard = self.settings.hazard.as_ref()?;
         let mut demands: Vec<f64> = self

@@ -37,14 +37,14 @@ pub enum FragilityFit {
     /// All runs up to one intensity stay below the state and all from another on reach it,
     /// or only one intensity lies between: any narrow curve there is as likely.
     Step {
-        /// Greatest intensity at which no run reaches the state; zero if there is none.
+        /// Maximum intensity at which no run reaches the state; zero if there is none.
         lower: f64,
         /// Least intensity from which on all runs reach it; infinite if there is none.
         upper: f64,
     },
     /// No run reaches the state, up to this intensity.
     Never {
-        /// Greatest intensity of the analysis.
+        /// Maximum intensity of the analysis.
         up_to: f64,
     },
     /// Every run reaches it, from this intensity on.

@@ -1,4 +1,4 @@
-//! Finished runs on the disk, a few of them a file.
+//! Finished runs on the disk, a few of them per file.
 //!
 //! A file that HDF5 was writing when its process was killed may be lost as a whole.
 //! Finished runs therefore go into small files of their own, pieces, each a part file that

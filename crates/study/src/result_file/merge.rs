@@ -12,8 +12,8 @@ use crate::error::StudyError;
 /// How shards are merged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MergeOptions {
-    /// Shards that different builds of the program made may be mixed; the result says which
-    /// build made which.
+    /// Shards that different builds of the program computed may be mixed; the result says which
+    /// build computed which.
     pub mixed_builds: bool,
     /// What to do with shards that have no checksum.
     pub without_checksum: WithoutChecksum,
@@ -30,7 +30,7 @@ pub struct MergeReport {
     pub collapsed: usize,
     /// Shards without a checksum: damage that does not show in their form was not seen.
     pub unchecked: Vec<PathBuf>,
-    /// Builds that made the shards, each with them, if there are several.
+    /// Builds that computed the shards, each with them, if there are several.
     pub builds: Vec<String>,
 }
 
@@ -138,7 +138,7 @@ const MOST_NAMED: usize = 1000;
 /// Rows that are read at once to see whether they can be read.
 const READ_AT_ONCE: usize = 1024;
 
-/// The builds that made the shards, in order of their first shards.
+/// The builds that computed the shards, in order of their first shards.
 fn builds<'r>(ordered: &[&'r ResultReader]) -> Vec<&'r str> {
     let mut builds: Vec<&str> = Vec::new();
     for reader in ordered {
@@ -186,7 +186,7 @@ fn with_shards(ordered: &[&ResultReader], builds: &[&str]) -> Vec<String> {
     builds.iter().map(line).collect()
 }
 
-/// The versions that made the shards.
+/// The versions that computed the shards.
 fn versions(ordered: &[&ResultReader]) -> String {
     let mut versions: Vec<&str> = Vec::new();
     for reader in ordered {

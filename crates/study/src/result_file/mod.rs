@@ -1,5 +1,5 @@
 //! The HDF5 file of a study, netCDF-4 style: dimensions `run`, `storey` and `level`, a
-//! coordinate for every variable. The layout is in `docs/studies.md`.
+//! coordinate for every variable. The layout is in `docs/reference/studies.md`.
 
 mod datasets;
 mod merge;

@@ -1,4 +1,4 @@
-//! The rows as a Parquet table: a row a run, a column for every variable and value, of the
+//! The rows as a Parquet table: a row per run, a column for every variable and value, of the
 //! same names as in CSV.
 
 use std::fs::File;

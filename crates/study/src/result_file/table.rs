@@ -1,4 +1,4 @@
-//! The rows as a table, CSV or Parquet: a line a run, a column for every variable and value.
+//! The rows as a table, CSV or Parquet: a line per run, a column for every variable and value.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

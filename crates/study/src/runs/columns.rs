@@ -48,25 +48,25 @@ const QUANTITIES: [Quantity; 17] = [
         Axis::Storey,
         "peak_displacement",
         "m",
-        "greatest displacement relative to the ground",
+        "maximum displacement relative to the ground",
     ),
     quantity(
         Axis::Storey,
         "peak_drift_ratio",
         "1",
-        "greatest storey drift over storey height",
+        "maximum storey drift over storey height",
     ),
     quantity(
         Axis::Storey,
         "peak_storey_shear",
         "N",
-        "greatest storey shear",
+        "maximum storey shear",
     ),
     quantity(
         Axis::Storey,
         "peak_acceleration_absolute",
         "m s-2",
-        "greatest absolute floor acceleration",
+        "maximum absolute floor acceleration",
     ),
     quantity(Axis::Level, "impacts", "1", "number of impacts"),
     quantity(
@@ -79,21 +79,21 @@ const QUANTITIES: [Quantity; 17] = [
         Axis::Level,
         "peak_force",
         "N",
-        "greatest contact force, missing for rigid impacts",
+        "maximum contact force, missing for rigid impacts",
     ),
-    quantity(Axis::Level, "peak_penetration", "m", "greatest penetration"),
+    quantity(Axis::Level, "peak_penetration", "m", "maximum penetration"),
     quantity(
         Axis::Level,
         "approach_velocity_max",
         "m s-1",
-        "greatest velocity at closure",
+        "maximum velocity at closure",
     ),
     quantity(Axis::Level, "impulse", "N s", "impulse of all impacts"),
     quantity(
         Axis::Level,
         "impulse_max",
         "N s",
-        "greatest impulse of one impact",
+        "maximum impulse of one impact",
     ),
     quantity(
         Axis::Level,
@@ -129,7 +129,7 @@ const QUANTITIES: [Quantity; 17] = [
         Axis::Run,
         "energy_residual_ratio",
         "1",
-        "greatest residual of the energy ledger over the largest input",
+        "maximum residual of the energy ledger over the largest input",
     ),
 ];
 
@@ -138,7 +138,7 @@ const ISOLATED_DEMAND: Quantity = quantity(
     Axis::Level,
     "isolated_demand",
     "m",
-    "greatest approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
+    "maximum approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
 
 /// Whether a name is taken by the results.

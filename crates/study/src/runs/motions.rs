@@ -14,7 +14,7 @@ use crate::study_file::{IntensityMeasure, RecordKind, Study, Target};
 #[derive(Debug, Clone)]
 pub(crate) struct Motion {
     pub record: Arc<Accelerogram>,
-    /// Hash of the bytes of its file, or of its samples if it was made.
+    /// Hash of the bytes of its file, or of its samples if it is synthetic.
     pub sha256: String,
     /// Intensity as recorded, if the study scales to one.
     pub intensity: Option<f64>,

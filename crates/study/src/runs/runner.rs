@@ -251,7 +251,7 @@ impl<'s> Runner<'s> {
         }
     }
 
-    /// Identity of a run; that of a motion which cannot be read hangs on its name, and the
+    /// Identity of a run; that of a motion which cannot be read depends on its name, and the
     /// factor on the intensity wanted.
     fn identity(
         &self,

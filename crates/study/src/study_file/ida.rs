@@ -11,21 +11,21 @@ use super::{IntensityMeasure, hazard_file};
 /// A demand whose exceedance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DemandKind {
-    /// Greatest floor displacement (m).
+    /// Maximum floor displacement (m).
     Displacement,
-    /// Greatest drift ratio (-).
+    /// Maximum drift ratio (-).
     DriftRatio,
-    /// Greatest storey shear (N).
+    /// Maximum storey shear (N).
     StoreyShear,
-    /// Greatest absolute floor acceleration (m/s2).
+    /// Maximum absolute floor acceleration (m/s2).
     AccelerationAbsolute,
-    /// Greatest contact force (N).
+    /// Maximum contact force (N).
     ContactForce,
-    /// Greatest impulse of one impact (N s).
+    /// Maximum impulse of one impact (N s).
     Impulse,
     /// Number of impacts.
     Impacts,
-    /// Greatest relative displacement of the isolated buildings (m).
+    /// Maximum relative displacement of the isolated buildings (m).
     IsolatedDemand,
 }
 

@@ -12,9 +12,9 @@ use crate::error::StudyError;
 /// record.
 #[derive(Debug, Clone, PartialEq)]
 pub enum IntensityMeasure {
-    /// Greatest ground acceleration (m/s2).
+    /// Maximum ground acceleration (m/s2).
     PeakGroundAcceleration,
-    /// Greatest ground velocity (m/s), from rest, exact for an acceleration that is linear
+    /// Maximum ground velocity (m/s), from rest, exact for an acceleration that is linear
     /// between samples.
     PeakGroundVelocity,
     /// Geometric mean of pseudo-spectral accelerations (m/s2) over some periods: one

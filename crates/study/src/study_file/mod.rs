@@ -40,7 +40,7 @@ pub struct Study {
     pub design: Design,
     /// Runs that are stored at once.
     pub chunk: usize,
-    /// Whether the greatest relative displacement of the isolated buildings is wanted.
+    /// Whether the maximum relative displacement of the isolated buildings is wanted.
     pub isolated_demand: bool,
     /// What an incremental dynamic analysis evaluates.
     pub ida: Option<IdaSettings>,
@@ -92,7 +92,7 @@ pub(crate) struct RecordSource {
 pub(crate) enum RecordKind {
     /// A file, read as this case says; and what makes this case of the base.
     File { case: Box<Case>, edits: Edits },
-    /// A motion made from a seed.
+    /// A synthetic motion from a seed.
     Made {
         record: Box<Accelerogram>,
         /// The command that makes it, but for the file that it goes into.
@@ -118,7 +118,7 @@ impl Study {
     pub fn read(path: &FilePath) -> Result<Self, StudyError> {
         let source = pounding_case::read_text(path, "study").map_err(|mut error| {
             if !path.is_file() {
-                error.help = Some("give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/studies.md says what stands in it".to_owned());
+                error.help = Some("give the path of a study file (TOML), such as examples/sweep_three_storey_pair/study.toml; docs/reference/studies.md says what stands in it".to_owned());
             }
             StudyError::Text {
                 error: Box::new(error),

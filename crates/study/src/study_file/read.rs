@@ -66,7 +66,7 @@ fn whole(reader: &Reader<'_>, file: &Path) -> Result<Study> {
             reader.keep(Err::<(), _>(reader.error(
                 span,
                 message,
-                "see docs/studies.md",
+                "see docs/reference/studies.md",
             )))?;
         }
     }

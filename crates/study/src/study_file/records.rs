@@ -1,4 +1,4 @@
-//! The motions of a study: files, and motions made from seeds.
+//! The motions of a study: files, and synthetic motions from seeds.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -174,7 +174,7 @@ fn synthetic(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<RecordSource>
         Some(v) => reader.quantity(v, key, dimension),
         None => Ok(default),
     };
-    // An angle a second, such as "15.6 rad/s", is a circular frequency.
+    // An angle per second, such as "15.6 rad/s", is a circular frequency.
     let frequency = |value: &Value<'_>, key: &str| {
         let text = value.get_ref().as_str().unwrap_or_default();
         let turns = if text.contains("rad") { TAU } else { 1.0 };

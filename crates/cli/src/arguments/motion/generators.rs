@@ -94,7 +94,7 @@ pub struct RickerArguments {
     /// Peak acceleration, such as "0.3 g"
     #[arg(long)]
     pub amplitude: String,
-    /// Period of the greatest Fourier amplitude
+    /// Period of the maximum Fourier amplitude
     #[arg(long)]
     pub period: String,
     /// Time of the peak [default: 1.5 periods]

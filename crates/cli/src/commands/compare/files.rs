@@ -73,7 +73,7 @@ fn places(c: &Comparison, (m, r): (usize, usize), run: &ModelRun) -> Vec<[String
         };
         if quantity.is_of_building() {
             let without = c.own[r].isolated[of].storeys.iter();
-            for (s, (with, alone)) in run.storeys[of].iter().zip(without).enumerate() {
+            for (s, (with, isolated)) in run.storeys[of].iter().zip(without).enumerate() {
                 let here = |d: &&StoreyDifference| (d.building, d.storey, d.kind) == (of, s, kind);
                 let difference = c.storey_differences.iter().find(here);
                 let differs = difference.is_some_and(|d| d.models[r].contains(&m));
@@ -87,7 +87,7 @@ fn places(c: &Comparison, (m, r): (usize, usize), run: &ModelRun) -> Vec<[String
                 let place = format!("storey {}", s + 1);
                 add(
                     value,
-                    kind.peak(alone).value,
+                    kind.peak(isolated).value,
                     "peak of the storey",
                     place,
                     differs,
@@ -121,8 +121,8 @@ pub fn figure(c: &Comparison) -> Result<String, Failure> {
             .filter(|(_, q)| q.kind == kind)
             .flat_map(|(q, quantity)| {
                 c.records.iter().enumerate().map(move |(r, record)| {
-                    let alone = c.isolated[r][q];
-                    let ratio = |m: usize| ((m + 1) as f64, c.value(m, r, q) / alone);
+                    let isolated = c.isolated[r][q];
+                    let ratio = |m: usize| ((m + 1) as f64, c.value(m, r, q) / isolated);
                     Curve {
                         name: format!("{}, {record}", quantity.of),
                         points: (0..c.models.len())

@@ -1,4 +1,4 @@
-//! `pounding compare`: does the answer hang on the impact model?
+//! `pounding compare`: is the answer sensitive to the impact model?
 
 mod files;
 mod numbers;

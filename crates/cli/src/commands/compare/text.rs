@@ -120,13 +120,13 @@ fn values(c: &Comparison, record: usize) -> String {
             format!("{:.digits$}", x / size)
         }
     };
-    let mut alone = vec!["(no pounding)".to_owned(), "-".to_owned()];
-    alone.extend(
+    let mut isolated = vec!["(no pounding)".to_owned(), "-".to_owned()];
+    isolated.extend(
         columns
             .iter()
             .map(|(q, x)| cell(c.isolated[record][*q], x.kind)),
     );
-    table.add_row(alone);
+    table.add_row(isolated);
     let mut failures = String::new();
     for (m, model) in c.models.iter().enumerate() {
         if let Err(diagnosis) = &model.records[record] {
@@ -352,7 +352,7 @@ fn storey_differences(c: &Comparison) -> String {
     )
 }
 
-/// Levels that close, or stay open, against the demand of the buildings alone.
+/// Levels that close, or stay open, against the demand of the isolated buildings.
 fn level_differences(c: &Comparison) -> String {
     if c.level_differences.is_empty() {
         return String::new();
@@ -394,7 +394,7 @@ fn level_differences(c: &Comparison) -> String {
     }
     let more = more(rows.len());
     format!(
-        "\nLevels where `pounding gap` answers differently: its demand, of the buildings alone, closes a level that models leave open, or the reverse, as a building that was hit moves otherwise\n{table}\n{more}"
+        "\nLevels where `pounding gap` answers differently: its demand, of the isolated buildings, closes a level that models leave open, or the reverse, as a building that was hit moves otherwise\n{table}\n{more}"
     )
 }
 
@@ -414,11 +414,11 @@ fn remarks(c: &Comparison) -> String {
             text.push_str(&format!("  {name} is from secondary sources: {how}\n"));
         }
         let notes = model.calibrated.iter().flatten().flat_map(|g| &g.notes);
-        let mut told: Vec<&String> = Vec::new();
+        let mut reported: Vec<&String> = Vec::new();
         for note in notes {
-            if !told.contains(&note) {
+            if !reported.contains(&note) {
                 text.push_str(&format!("  {name}: {note}\n"));
-                told.push(note);
+                reported.push(note);
             }
         }
     }

@@ -44,7 +44,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
         let status = rule.status();
         text.push_str(&format!(
             "  {}: {}; {}: {}\n",
-            rule.name(),
+            rule.title(None),
             rule.formula(),
             status.name(),
             status.remark()
@@ -72,7 +72,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
 }
 
 fn numbers() -> Value {
-    let cards = descriptors().iter().map(|p| {
+    let descriptors = descriptors().iter().map(|p| {
         json!({
             "name": p.name, "region": p.region, "edition": p.edition, "clause": p.clause,
             "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
@@ -84,5 +84,5 @@ fn numbers() -> Value {
     let missing = unavailable()
         .iter()
         .map(|u| json!({"region": u.region, "edition": u.edition, "reason": u.reason}));
-    json!({"provisions": cards.collect::<Vec<_>>(), "unavailable": missing.collect::<Vec<_>>()})
+    json!({"provisions": descriptors.collect::<Vec<_>>(), "unavailable": missing.collect::<Vec<_>>()})
 }

@@ -2,7 +2,7 @@
 
 use pounding_case::Case;
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_separation::Basis;
+use pounding_separation::{Basis, EffectiveProperties};
 use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
@@ -31,7 +31,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     }
     if !case.links.is_empty() {
         text.push_str(
-            "  links stay in place in all that follows: \"alone\" means without contact\n",
+            "  links stay in place in all that follows: \"isolated\" means without contact\n",
         );
     }
     text.push_str(&warning_lines(&check.warnings));
@@ -149,12 +149,9 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         "status",
     ]);
     for c in &gap.combinations {
-        let level = gap.told_level(c);
+        let level = gap.reported_level(c);
         let width = |r: usize| c.records.get(r)?.get(level).map(|l| l.width);
-        let name = match c.effective {
-            Some(effective) => format!("{} ({})", c.rule.name(), effective.name()),
-            None => c.rule.name().to_owned(),
-        };
+        let name = c.rule.title(c.effective.map(EffectiveProperties::name));
         let satisfied = Judgement::Satisfied(c.satisfied_by(&gap.levels));
         let judged = (satisfied, c.status.name());
         table.add_row(with_factor(
@@ -188,7 +185,7 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         counted(check.records.len(), "record"),
     );
     text.push_str(
-        "\"from memory\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
+        "\"unverified\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
     );
     if gap.codes.iter().any(|c| c.caution().is_some()) {
         text.push_str(&elastic_only(check));
@@ -343,7 +340,7 @@ fn provided(check: &GapCheck) -> String {
     )
 }
 
-/// A row a building, with the record under which each ratio is a maximum.
+/// A row per building, with the record under which each ratio is a maximum.
 fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
     let all: Vec<_> = check
         .records

@@ -19,7 +19,8 @@ pub fn reachable(chosen: &Chosen, length: f64) -> Result<(), Failure> {
     let (Some(stiffness), Some(yield_force)) = (value("stiffness"), value("yield_force")) else {
         return Ok(());
     };
-    let integrated = chosen.law.internal_variables() > 0 || chosen.card.name == INTEGRATED_ENERGY;
+    let integrated =
+        chosen.law.internal_variables() > 0 || chosen.descriptor.name == INTEGRATED_ENERGY;
     let sharper = value("exponent").map_or(1.0, |n| (n / USUAL_EXPONENT).max(1.0));
     let (ratio, most) = (length * stiffness / yield_force, LONGEST / sharper);
     if !integrated || ratio <= most {
@@ -30,7 +31,7 @@ pub fn reachable(chosen: &Chosen, length: f64) -> Result<(), Failure> {
             "a path of {} m in all is {} times the yield deformation of {}, which is integrated along its path up to {} times",
             significant(length),
             significant(ratio),
-            chosen.card.name,
+            chosen.descriptor.name,
             significant(most)
         ),
         Some(

@@ -9,17 +9,17 @@ use pounding_hysteresis::{
 };
 use serde_json::{Map, Value, json};
 
-use super::card::verification;
+use super::descriptor::verification;
 use crate::commands::models::numbers::plain;
 use crate::failure::Failure;
 
 /// A law, ready to be driven.
 pub struct Chosen {
-    /// Its card.
-    pub card: &'static LawDescriptor,
+    /// Its descriptor.
+    pub descriptor: &'static LawDescriptor,
     /// Parameters, given and filled in.
     pub parameters: LawParameters,
-    /// Names of those that were filled in from the card's example.
+    /// Names of those that were filled in from the descriptor's example.
     pub filled: Vec<String>,
     /// The law itself.
     pub law: Box<dyn HysteresisLaw>,
@@ -27,14 +27,14 @@ pub struct Chosen {
 
 /// The law with the parameters of `--set`: without any, those of its example; else what
 /// is missing and has no default is taken from there.
-pub fn choose(card: &'static LawDescriptor, set: &[String]) -> Result<Chosen, Failure> {
-    let mut parameters = given(card, set)?;
+pub fn choose(descriptor: &'static LawDescriptor, set: &[String]) -> Result<Chosen, Failure> {
+    let mut parameters = given(descriptor, set)?;
     // The example's coefficient belongs to the example's exponent.
-    let free = card.parameters.iter().find(|p| p.name == "exponent");
+    let free = descriptor.parameters.iter().find(|p| p.name == "exponent");
     let default = free.and_then(|p| p.default).filter(|_| !set.is_empty());
     let own_exponent = parameters.values.get("exponent").copied().or(default);
     let foreign = |name: &str| {
-        let unit = card.parameters.iter().find(|p| p.name == name);
+        let unit = descriptor.parameters.iter().find(|p| p.name == name);
         let by_exponent = unit.is_some_and(|p| {
             matches!(
                 p.unit,
@@ -42,24 +42,27 @@ pub fn choose(card: &'static LawDescriptor, set: &[String]) -> Result<Chosen, Fa
                     | ParameterUnit::NewtonSecondPerMetreToExponent
             )
         });
-        let example = card.example.iter().find(|(name, _)| *name == "exponent");
+        let example = descriptor
+            .example
+            .iter()
+            .find(|(name, _)| *name == "exponent");
         by_exponent && own_exponent.is_some() && example.map(|e| e.1) != own_exponent
     };
     let required = |name: &str| {
-        let known = card.parameters.iter().find(|p| p.name == name);
+        let known = descriptor.parameters.iter().find(|p| p.name == name);
         known.is_some_and(|p| p.default.is_none())
     };
     let mut filled = Vec::new();
-    for (name, value) in card.example {
+    for (name, value) in descriptor.example {
         let wanted = set.is_empty() || required(name);
         if wanted && !foreign(name) && !parameters.values.contains_key(*name) {
             parameters.values.insert((*name).to_owned(), *value);
             filled.push((*name).to_owned());
         }
     }
-    let law = build(card.name, &parameters).map_err(|e| refused(e, &filled))?;
+    let law = build(descriptor.name, &parameters).map_err(|e| refused(e, &filled))?;
     Ok(Chosen {
-        card,
+        descriptor,
         parameters,
         filled,
         law,
@@ -67,7 +70,7 @@ pub fn choose(card: &'static LawDescriptor, set: &[String]) -> Result<Chosen, Fa
 }
 
 /// The parameters of `--set` (SI), each checked for its dimension.
-pub fn given(card: &'static LawDescriptor, set: &[String]) -> Result<LawParameters, Failure> {
+pub fn given(descriptor: &'static LawDescriptor, set: &[String]) -> Result<LawParameters, Failure> {
     let mut texts: Vec<(&ParameterDescriptor, &str, &str)> = Vec::new();
     for text in set {
         let (key, value) = text.split_once('=').ok_or_else(|| {
@@ -77,11 +80,11 @@ pub fn given(card: &'static LawDescriptor, set: &[String]) -> Result<LawParamete
             )
         })?;
         let key = key.trim();
-        let known = card.parameters.iter().find(|p| p.name == key);
+        let known = descriptor.parameters.iter().find(|p| p.name == key);
         let parameter = known.ok_or_else(|| HysteresisError::UnknownParameter {
-            law: card.name,
+            law: descriptor.name,
             parameter: key.to_owned(),
-            known: card.parameters.iter().map(|p| p.name).collect(),
+            known: descriptor.parameters.iter().map(|p| p.name).collect(),
         })?;
         if texts.iter().any(|(p, _, _)| p.name == key) {
             return Err(Failure::input(
@@ -96,14 +99,14 @@ pub fn given(card: &'static LawDescriptor, set: &[String]) -> Result<LawParamete
     let mut parameters = LawParameters::default();
     for (parameter, text, value) in texts {
         let exponent = parameters.values.get("exponent").copied();
-        let value = quantity(card, parameter, exponent, (text, value))?;
+        let value = quantity(descriptor, parameter, exponent, (text, value))?;
         parameters.values.insert(parameter.name.to_owned(), value);
     }
     Ok(parameters)
 }
 
 fn quantity(
-    card: &LawDescriptor,
+    descriptor: &LawDescriptor,
     parameter: &ParameterDescriptor,
     exponent: Option<f64>,
     (text, value): (&str, &str),
@@ -111,16 +114,19 @@ fn quantity(
     let quantity = parse_quantity(value)
         .map_err(|e| Failure::input(format!("--set {text}: {e}"), Some(e.help())))?;
     // Without a given exponent that of the example holds, unless the law has a default.
-    let free = card.parameters.iter().find(|p| p.name == "exponent");
-    let example = card.example.iter().find(|(name, _)| *name == "exponent");
+    let free = descriptor.parameters.iter().find(|p| p.name == "exponent");
+    let example = descriptor
+        .example
+        .iter()
+        .find(|(name, _)| *name == "exponent");
     let required = free.is_some_and(|p| p.default.is_none());
     let exponent = exponent.or(example.filter(|_| required).map(|e| e.1));
-    let wanted = law_parameter_dimension(card, parameter, exponent);
+    let wanted = law_parameter_dimension(descriptor, parameter, exponent);
     match quantity.dimension {
         Some(found) if found != wanted => Err(Failure::input(
             format!(
                 "`{}` of law {} must be {wanted}, but \"{}\" is {found}",
-                parameter.name, card.name, quantity.text
+                parameter.name, descriptor.name, quantity.text
             ),
             Some("correct the unit; plain numbers are SI".to_owned()),
         )),
@@ -138,7 +144,7 @@ fn refused(error: HysteresisError, filled: &[String]) -> Failure {
     };
     if matches!(error, HysteresisError::Inconsistent { .. }) && !filled.is_empty() {
         help.push_str(&format!(
-            "; from the example of the card are {}",
+            "; from the example of the descriptor are {}",
             filled.join(", ")
         ));
     }
@@ -146,16 +152,16 @@ fn refused(error: HysteresisError, filled: &[String]) -> Failure {
 }
 
 /// Unit of a parameter as case files and arguments take it; empty without one.
-pub fn unit(card: &LawDescriptor, parameters: &LawParameters, parameter: &str) -> String {
+pub fn unit(descriptor: &LawDescriptor, parameters: &LawParameters, parameter: &str) -> String {
     let given = parameters.values.get("exponent").copied();
-    let free = card.parameters.iter().find(|p| p.name == "exponent");
+    let free = descriptor.parameters.iter().find(|p| p.name == "exponent");
     let exponent = given.or(free.and_then(|p| p.default)).unwrap_or(1.0);
     // Sums of decimal powers carry noise that no reader wants to see.
     let power = |power: f64| match (power * 1e9).round() / 1e9 {
         1.0 => String::new(),
         power => format!("^{power}"),
     };
-    let known = card.parameters.iter().find(|p| p.name == parameter);
+    let known = descriptor.parameters.iter().find(|p| p.name == parameter);
     match known.map(|p| p.unit) {
         None | Some(ParameterUnit::One) => String::new(),
         Some(ParameterUnit::NewtonPerMetreToExponent) => format!("N/m{}", power(2.0 + exponent)),
@@ -168,7 +174,10 @@ pub fn unit(card: &LawDescriptor, parameters: &LawParameters, parameter: &str) -
 
 impl Chosen {
     /// The law of a fitted density.
-    pub fn fitted(card: &'static LawDescriptor, density: &IwanDensity) -> Result<Self, Failure> {
+    pub fn fitted(
+        descriptor: &'static LawDescriptor,
+        density: &IwanDensity,
+    ) -> Result<Self, Failure> {
         let parameters = LawParameters::from_pairs(&[
             ("density", density.density),
             ("exponent", density.exponent),
@@ -178,8 +187,8 @@ impl Chosen {
             ("residual_stiffness", density.residual_stiffness),
         ]);
         Ok(Self {
-            card,
-            law: build(card.name, &parameters)?,
+            descriptor,
+            law: build(descriptor.name, &parameters)?,
             parameters,
             filled: Vec::new(),
         })
@@ -187,7 +196,7 @@ impl Chosen {
 
     /// A value with its unit as case files and arguments take it, and whether it has one.
     pub fn with_unit(&self, name: &str, value: f64) -> (String, bool) {
-        let unit = unit(self.card, &self.parameters, name);
+        let unit = unit(self.descriptor, &self.parameters, name);
         if unit.is_empty() {
             (plain(value), false)
         } else {
@@ -195,10 +204,10 @@ impl Chosen {
         }
     }
 
-    /// Parameters that are not left at their default, in the order of the card.
+    /// Parameters that are not left at their default, in the order of the descriptor.
     pub fn stated(&self) -> impl Iterator<Item = (&'static str, f64)> {
         let values = &self.parameters.values;
-        self.card
+        self.descriptor
             .parameters
             .iter()
             .filter_map(|p| Some((p.name, *values.get(p.name)?)))
@@ -213,23 +222,23 @@ impl Chosen {
                 .collect()
         };
         let (own, example) = (list(false), list(true));
-        let mut text = format!("{} - {}\n", self.card.name, self.card.title);
+        let mut text = format!("{} - {}\n", self.descriptor.name, self.descriptor.title);
         if !own.is_empty() {
             text.push_str(&format!("  {}\n", own.join(", ")));
         }
         if !example.is_empty() {
             text.push_str(&format!(
-                "  from the example of its card: {}\n",
+                "  from the example of its descriptor: {}\n",
                 example.join(", ")
             ));
         }
-        text.push_str(&format!("  {}\n", verification(self.card)));
+        text.push_str(&format!("  {}\n", verification(self.descriptor)));
         text
     }
 
     /// The law and its parameters as `key=value` pairs for the head of a file.
     pub fn pairs(&self) -> String {
-        let mut text = format!("law={}", self.card.name);
+        let mut text = format!("law={}", self.descriptor.name);
         for (name, value) in self.stated() {
             text.push_str(&format!(" {name}={value:e}"));
         }
@@ -239,16 +248,19 @@ impl Chosen {
     /// The law and its parameters for machines.
     pub fn json(&self) -> Map<String, Value> {
         let mut object = Map::new();
-        object.insert("law".into(), json!(self.card.name));
-        object.insert("title".into(), json!(self.card.title));
+        object.insert("law".into(), json!(self.descriptor.name));
+        object.insert("title".into(), json!(self.descriptor.title));
         object.insert("parameters".into(), json!(self.parameters.values));
         object.insert("filled_from_example".into(), json!(self.filled));
-        object.insert("rate_dependent".into(), json!(self.card.rate_dependent));
+        object.insert(
+            "rate_dependent".into(),
+            json!(self.descriptor.rate_dependent),
+        );
         object.insert(
             "initial_stiffness".into(),
             json!(self.law.initial_stiffness()),
         );
-        object.insert("verification".into(), json!(verification(self.card)));
+        object.insert("verification".into(), json!(verification(self.descriptor)));
         object
     }
 }

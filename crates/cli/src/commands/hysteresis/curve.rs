@@ -57,7 +57,7 @@ pub fn curve(
     bounds::finite_pairs(&pairs)?;
     Ok(Some(DissipationCurve {
         pairs,
-        period: chosen.card.rate_dependent.then_some(cycling.period),
+        period: chosen.descriptor.rate_dependent.then_some(cycling.period),
     }))
 }
 
@@ -93,7 +93,11 @@ impl DissipationCurve {
     /// The curve in a table, for people.
     pub fn text(&self) -> String {
         let mut table = Table::new();
-        table.set_header(["amplitude (mm)", "dissipated a cycle (J)", "log-log slope"]);
+        table.set_header([
+            "amplitude (mm)",
+            "dissipated per cycle (J)",
+            "log-log slope",
+        ]);
         for column in table.column_iter_mut() {
             column.set_cell_alignment(CellAlignment::Right);
         }

@@ -24,11 +24,11 @@ pub struct State {
 /// One cycle.
 #[derive(Debug, Clone, Copy)]
 pub struct Cycle {
-    /// Greatest deformation (m).
-    pub greatest: f64,
-    /// Least deformation (m).
-    pub least: f64,
-    /// Greatest absolute force (N).
+    /// Maximum deformation (m).
+    pub maximum: f64,
+    /// Minimum deformation (m).
+    pub minimum: f64,
+    /// Maximum absolute force (N).
     pub peak_force: f64,
     /// Energy dissipated (J).
     pub dissipated: f64,
@@ -52,8 +52,8 @@ impl Cycle {
         let range = start.deformation - far.deformation;
         let forces = states[before..=after].iter().map(|s| s.force.abs());
         Self {
-            greatest: start.deformation.max(far.deformation),
-            least: start.deformation.min(far.deformation),
+            maximum: start.deformation.max(far.deformation),
+            minimum: start.deformation.min(far.deformation),
             peak_force: forces.fold(0.0, f64::max),
             dissipated: end.dissipated - start.dissipated,
             secant_stiffness: (force_at(states, before) - force_at(states, turn)) / range,
@@ -65,7 +65,7 @@ impl Cycle {
     /// for a (Jacobsen, Transactions of the ASME 52 (1930) 169). None without such a
     /// spring.
     pub fn equivalent_damping_ratio(&self) -> Option<f64> {
-        let half = 0.5 * (self.greatest - self.least);
+        let half = 0.5 * (self.maximum - self.minimum);
         let ratio = self.dissipated / (std::f64::consts::TAU * self.secant_stiffness * half * half);
         // A damper alone has no stiffness but round-off.
         let springs = self.secant_stiffness * half > 1.0e-9 * self.peak_force;
@@ -134,7 +134,7 @@ impl Loop {
         }
         let peak = self.states.iter().map(|s| s.force.abs());
         let total = format!(
-            "greatest force {} kN, dissipated in all {} J\n",
+            "maximum force {} kN, dissipated in all {} J\n",
             significant(1.0e-3 * peak.fold(0.0, f64::max)),
             significant(self.dissipated())
         );
@@ -151,7 +151,7 @@ impl Loop {
             .iter()
             .map(|c| {
                 json!({
-                    "greatest_deformation": c.greatest, "least_deformation": c.least,
+                    "greatest_deformation": c.maximum, "least_deformation": c.minimum,
                     "peak_force": c.peak_force, "dissipated": c.dissipated,
                     "secant_stiffness": c.secant_stiffness,
                     "equivalent_damping_ratio": c.equivalent_damping_ratio(),
@@ -174,7 +174,7 @@ impl Loop {
 impl Cycle {
     /// Ends (mm), force (kN), energy (J), stiffness (kN/m) and damping (%), as texts.
     pub fn cells(&self, number: fn(f64) -> String) -> [String; 6] {
-        let range = self.greatest - self.least;
+        let range = self.maximum - self.minimum;
         // What is round-off beside the work of the peak force is shown as nothing.
         let shown = |value: f64, scale: f64| {
             let value = if value.abs() < 1.0e-11 * scale {
@@ -185,8 +185,8 @@ impl Cycle {
             number(value)
         };
         [
-            number(1.0e3 * self.greatest),
-            number(1.0e3 * self.least),
+            number(1.0e3 * self.maximum),
+            number(1.0e3 * self.minimum),
             number(1.0e-3 * self.peak_force),
             shown(self.dissipated, self.peak_force * range),
             shown(1.0e-3 * self.secant_stiffness, self.peak_force / range),

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 const LAW: &str = "iwan_six_parameter";
 /// Exponents from which a fit sets out where none is given.
 const EXPONENTS: [f64; 3] = [-0.7, -0.3, 0.2];
-/// Shares of the greatest amplitude from which phi_2 sets out where none is given.
+/// Shares of the maximum amplitude from which phi_2 sets out where none is given.
 const SHARES: [f64; 3] = [0.1, 0.5, 2.0];
 
 /// A fitted density beside what was measured.
@@ -118,10 +118,10 @@ fn read(path: &Path, unknowns: usize) -> Result<Vec<(f64, f64)>, Failure> {
 /// Where the fit sets out: every combination of what is not given.
 fn guesses(start: &LawParameters, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
     let get = |name: &str| start.values.get(name).copied();
-    let greatest = measured.iter().map(|(a, _)| *a).fold(0.0, f64::max);
+    let maximum = measured.iter().map(|(a, _)| *a).fold(0.0, f64::max);
     let exponents = get("exponent").map_or_else(|| EXPONENTS.to_vec(), |e| vec![e]);
     let ends = get("phi_2").map_or_else(
-        || SHARES.iter().map(|s| s * greatest).collect(),
+        || SHARES.iter().map(|s| s * maximum).collect(),
         |end| vec![end],
     );
     let mut guesses = Vec::new();

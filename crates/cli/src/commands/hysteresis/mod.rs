@@ -1,11 +1,11 @@
 //! `pounding hysteresis`: the laws of storeys and links, and their laboratory.
 
 mod bounds;
-mod card;
 mod chosen;
 mod columns;
 pub(super) mod curve;
 mod cycles;
+mod descriptor;
 mod fit;
 mod motion;
 mod output;
@@ -61,17 +61,17 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
         ));
     }
     if arguments.json {
-        return print(&pretty(&card::json(law)));
+        return print(&pretty(&descriptor::json(law)));
     }
-    print(&card::text(law))
+    print(&descriptor::text(law))
 }
 
 fn list(as_json: bool) -> Result<(), Failure> {
     if as_json {
-        let cards: Vec<_> = descriptors().iter().map(|d| card::json(d)).collect();
-        return print(&pretty(&json!(cards)));
+        let descriptors: Vec<_> = descriptors().iter().map(|d| descriptor::json(d)).collect();
+        return print(&pretty(&json!(descriptors)));
     }
-    print(&card::list(descriptors()))
+    print(&descriptor::list(descriptors()))
 }
 
 fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> Result<(), Failure> {

@@ -260,7 +260,7 @@ fn history(law: &LawDescriptor, source: &Source, speed: Option<f64>) -> Result<P
     if law.rate_dependent && !timed && speed.is_none() {
         return Err(Failure::input(
             format!(
-                "the force of law {} depends on the rate of deformation, which the history does not tell",
+                "the force of law {} depends on the rate of deformation, which the history does not state",
                 law.name
             ),
             Some("add --rate \"20 mm/s\", or a column of times: time_s,deformation_mm".to_owned()),

@@ -39,7 +39,7 @@ pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
 
 /// Draws the loop and the dissipation curve below it; a measured curve dashed.
 pub fn write_svg(path: &Path, results: &Results) -> Result<(), Failure> {
-    let name = results.chosen.card.name;
+    let name = results.chosen.descriptor.name;
     let mut panels = Vec::new();
     let mut references = Vec::new();
     if let Some(driven) = &results.driven {

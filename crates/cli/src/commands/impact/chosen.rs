@@ -18,7 +18,7 @@ const EXAMPLE_RESTITUTION: f64 = 0.65;
 
 /// One model with its parameters.
 pub struct Chosen {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Parameters, given and filled in.
     pub parameters: ModelParameters,
@@ -82,7 +82,7 @@ fn descriptors(arguments: &ImpactArguments) -> Result<Vec<&'static ModelDescript
             return Err(Failure::input(
                 format!("model {} is asked for twice", descriptor.name),
                 Some(format!(
-                    "leave \"{name}\" out: one name or alias a model is enough"
+                    "leave \"{name}\" out: one name or alias per model is enough"
                 )),
             ));
         }

@@ -21,17 +21,17 @@ pub fn remarks(chosen: &[&Chosen]) -> String {
             secondary.push((one.descriptor.name, how.to_owned()));
         }
     }
-    let alone = chosen.len() == 1;
+    let single = chosen.len() == 1;
     [
-        lines("filled from the example", &filled, alone),
-        lines("keeps its own separation", &own, alone),
-        lines("from secondary sources", &secondary, alone),
+        lines("filled from the example", &filled, single),
+        lines("keeps its own separation", &own, single),
+        lines("from secondary sources", &secondary, single),
     ]
     .concat()
 }
 
 /// One line for all models of which the same is to be said.
-fn lines(what: &str, said: &[(&str, String)], alone: bool) -> String {
+fn lines(what: &str, said: &[(&str, String)], single: bool) -> String {
     let mut texts: Vec<&str> = Vec::new();
     for (_, text) in said {
         if !texts.contains(&text.as_str()) {
@@ -44,7 +44,7 @@ fn lines(what: &str, said: &[(&str, String)], alone: bool) -> String {
             .filter(|(_, t)| t == text)
             .map(|(n, _)| *n)
             .collect();
-        if alone {
+        if single {
             format!("{what}: {text}\n")
         } else {
             format!("{what}: {}: {text}\n", names.join(", "))

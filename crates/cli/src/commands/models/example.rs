@@ -32,7 +32,7 @@ pub struct Shown {
 
 /// Everything that is computed for a page.
 pub struct Example {
-    /// The model's card.
+    /// The model's descriptor.
     pub descriptor: &'static ModelDescriptor,
     /// Example collisions with the model's own separation rule.
     pub shown: Vec<Shown>,

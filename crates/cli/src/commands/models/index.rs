@@ -7,7 +7,7 @@ use super::numbers::fixed;
 /// The index of all models.
 pub fn index(examples: &[Example]) -> String {
     let mut text = format!(
-        "\n# Impact models\n\n{} models, grouped by family. Families, conventions and separation rules are explained in\n[contact laws](../contact-laws.md), stiffnesses in [contact stiffness](../contact-stiffness.md); to add a\nmodel, see [the guide](../add-an-impact-model.md).\n\n**Recommended** models return the restitution asked for, whatever mass, stiffness and speed. Mean errors\nare those of the achieved restitution in a free collision, over requested restitutions of 0.1, 0.2, ...\n1.0 and of 0.5 to 0.8, with the separation rule that the model has by default. `secondary sources`: the\nformula or a constant could not be read in the paper itself; the page says what was. Models that take no\nrestitution show what their example returns.\n",
+        "\n# Impact models\n\n{} models, grouped by family. Families, conventions and separation rules are explained in\n[contact laws](../../theory/contact-laws.md), stiffnesses in [contact stiffness](../../how-to/contact-stiffness.md); to add a\nmodel, see [the guide](../../how-to/add-an-impact-model.md).\n\n**Recommended** models return the restitution asked for, whatever mass, stiffness and speed. Mean errors\nare those of the achieved restitution in a free collision, over requested restitutions of 0.1, 0.2, ...\n1.0 and of 0.5 to 0.8, with the separation rule that the model has by default. `secondary sources`: the\nformula or a constant could not be read in the paper itself; the page says what was. Models that take no\nrestitution show what their example returns.\n",
         examples.len()
     );
     let mut families: Vec<&str> = Vec::new();
@@ -56,7 +56,7 @@ fn member(example: &Example) -> String {
             format!("(example returns {}) | -", fixed(returned, 4))
         },
         |(_, table)| {
-            let mean = |least, greatest| fixed(table.mean_error_percent(least, greatest), 2);
+            let mean = |minimum, maximum| fixed(table.mean_error_percent(minimum, maximum), 2);
             format!("{} | {}", mean(0.1, 1.0), mean(0.5, 0.8))
         },
     );

@@ -3,7 +3,7 @@
 use crate::tables::Table;
 use pounding_gap_element::{ModelDescriptor, Verification};
 
-/// One line a model.
+/// One line per model.
 pub fn table(chosen: &[&ModelDescriptor]) -> String {
     let mut table = Table::new();
     table.set_header(["name", "law", "class", "checked"]);

@@ -1,6 +1,6 @@
-//! `pounding models`: the cards of the impact models, and the pages made of them.
+//! `pounding models`: the descriptors of the impact models, and the pages written from them.
 
-mod card;
+mod descriptor;
 mod example;
 mod index;
 mod list;
@@ -28,11 +28,16 @@ pub fn models(name: Option<&str>, as_json: bool, folder: Option<&Path>) -> Resul
         None => registry::descriptors().to_vec(),
     };
     if as_json {
-        let cards: Vec<_> = chosen.iter().map(|d| card::json(d)).collect();
-        return print(&pretty(&json!(cards)));
+        let descriptors: Vec<_> = chosen.iter().map(|d| descriptor::json(d)).collect();
+        return print(&pretty(&json!(descriptors)));
     }
     if name.is_some() {
-        return print(&chosen.iter().map(|d| card::text(d)).collect::<String>());
+        return print(
+            &chosen
+                .iter()
+                .map(|d| descriptor::text(d))
+                .collect::<String>(),
+        );
     }
     print(&list::table(&chosen))
 }

@@ -124,7 +124,7 @@ fn separation(d: &ModelDescriptor) -> String {
         names[0].push_str(" (default)");
     }
     format!(
-        "Separation: {}. What the rules mean: [contact laws](../contact-laws.md#separation-rules).\n",
+        "Separation: {}. What the rules mean: [contact laws](../../theory/contact-laws.md#separation-rules).\n",
         names.join(", ")
     )
 }
@@ -166,7 +166,7 @@ fn usage(d: &ModelDescriptor) -> String {
         "the example collision"
     };
     let stiffness = if d.parameters.iter().any(|p| p.name == "stiffness") {
-        "\nWhere a stiffness comes from: [contact stiffness](../contact-stiffness.md).\n"
+        "\nWhere a stiffness comes from: [contact stiffness](../../how-to/contact-stiffness.md).\n"
     } else {
         ""
     };

@@ -29,7 +29,7 @@ fn time(text: &str, name: &str) -> Result<f64, Failure> {
     value(text, name, Dimension::TIME)
 }
 
-/// In Hz: an angle a second, such as "15.6 rad/s", is a circular one.
+/// In Hz: an angle per second, such as "15.6 rad/s", is a circular one.
 fn frequency(text: &str, name: &str) -> Result<f64, Failure> {
     let found = value(text, name, Dimension::FREQUENCY)?;
     Ok(if text.contains("rad") {

@@ -17,7 +17,7 @@ use crate::commands::{pretty, print};
 use crate::failure::Failure;
 use crate::plot;
 
-/// One series with what was made of it.
+/// One series with its measures.
 pub struct Shown {
     /// As in the file.
     pub series: Series,

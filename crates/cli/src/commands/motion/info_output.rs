@@ -38,7 +38,7 @@ fn header(file: &ShownFile) -> String {
         "{}\nformat {}, SHA-256 {}",
         file.file, first.format, first.sha256
     );
-    let mut told: Vec<String> = Vec::new();
+    let mut reported: Vec<String> = Vec::new();
     for one in &file.series {
         let origin = &one.series.origin;
         let corner = |f: Option<f64>| f.map_or("none stated".to_owned(), |f| format!("{f} Hz"));
@@ -59,9 +59,9 @@ fn header(file: &ShownFile) -> String {
             origin.title,
             processing(origin)
         );
-        if !told.contains(&line) {
+        if !reported.contains(&line) {
             let _ = writeln!(text, "{}", line.trim());
-            told.push(line);
+            reported.push(line);
         }
     }
     text
@@ -75,7 +75,7 @@ fn has_steps(origin: &Origin) -> bool {
 fn processing(origin: &Origin) -> &'static str {
     match origin.processing {
         Processing::Unstated if has_steps(origin) => {
-            "made or processed by the steps that the lines \"before: Step\" name"
+            "generated or processed by the steps that the lines \"before: Step\" name"
         }
         Processing::Unstated => "the file does not say how it was processed",
         Processing::Raw => "not corrected",
@@ -88,7 +88,7 @@ fn in_unit(value: f64, unit: &str, unit_in_si: f64) -> String {
     format!("{} {unit}", shown(value / unit_in_si))
 }
 
-/// The value of greatest magnitude as the file has it, with sign and unit.
+/// The value of largest magnitude as the file has it, with sign and unit.
 fn peak_of_samples(series: &Series) -> String {
     in_unit(series.signed_peak().0, series.unit, series.unit_in_si)
 }
@@ -97,7 +97,7 @@ fn peak_of_header(peak: &HeaderPeak) -> String {
     in_unit(peak.value, peak.unit, peak.unit_in_si)
 }
 
-/// Where the header's signs are not those of the samples: a line a series, and what
+/// Where the header's signs are not those of the samples: a line per series, and what
 /// it means.
 fn opposite_signs(file: &ShownFile) -> String {
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! `pounding motion`: recorded and made motions.
+//! `pounding motion`: recorded and synthetic motions.
 
 mod convert;
 mod generators;

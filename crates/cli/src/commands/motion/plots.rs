@@ -107,7 +107,7 @@ pub fn over(name: &str, x: &[f64], y: &[f64], factor: f64) -> Curve {
     }
 }
 
-/// Samples at even steps; of long records the least and greatest of each stretch.
+/// Samples at even steps; of long records the minimum and maximum of each stretch.
 fn curve(name: &str, samples: &[f64], step: f64, factor: f64) -> Curve {
     let point = |i: usize| (i as f64 * step, samples[i] * factor);
     let stretch = samples.len().div_ceil(POINTS / 2);

@@ -82,7 +82,7 @@ pub fn acceleration(path: &Path, arguments: &ReadArguments) -> Result<Accelerogr
 }
 
 /// What was read, for the screen.
-pub fn told(record: &Accelerogram) -> String {
+pub fn reported(record: &Accelerogram) -> String {
     let mut text = String::new();
     for line in record.echo() {
         text.push_str(&format!("  {line}\n"));

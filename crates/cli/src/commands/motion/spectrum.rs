@@ -104,7 +104,7 @@ fn responses(arguments: &SpectrumArguments) -> Result<(), Failure> {
     } else {
         format!(
             "{}{}",
-            reading::told(&record),
+            reading::reported(&record),
             tables::response_text(&spectra)
         )
     })
@@ -140,8 +140,8 @@ fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
     } else {
         format!(
             "{}{}{}",
-            reading::told(&first),
-            reading::told(&second),
+            reading::reported(&first),
+            reading::reported(&second),
             tables::rotated_text(&spectra)
         )
     })
@@ -184,6 +184,6 @@ fn fourier(arguments: &SpectrumArguments) -> Result<(), Failure> {
         }))
     } else {
         let table = tables::fourier_text(&frequencies, &amplitudes, &how);
-        format!("{}{table}", reading::told(&record))
+        format!("{}{table}", reading::reported(&record))
     })
 }

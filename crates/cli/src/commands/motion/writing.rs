@@ -1,4 +1,4 @@
-//! A motion that was made or changed: its file, its picture, what is said of it.
+//! A synthetic or processed motion: its file, its figure, its report.
 
 use std::path::Path;
 
@@ -34,16 +34,16 @@ pub fn finish(
         plots::histories(path, &[plots::Named::at_rest(title, motion)])?;
     }
     if output.json {
-        let mut told = json!({
+        let mut object = json!({
             "output": output.output, "samples": motion.samples().len(),
             "time_step": motion.time_step(), "peak_acceleration": motion.peak(),
             "scale": motion.scale(), "steps": motion.steps(),
             "warnings": motion.origin().map_or(&[][..], |o| &o.warnings),
         });
-        if let (Some(told), Value::Object(more)) = (told.as_object_mut(), more) {
-            told.extend(more);
+        if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
+            object.extend(more);
         }
-        return print(&pretty(&told));
+        return print(&pretty(&object));
     }
     let mut text = format!("{title}\n");
     if let Some(origin) = motion.origin() {

@@ -179,9 +179,9 @@ fn table_2() -> Result<Comparison, CalibrationError> {
     for law in &TABLE_2 {
         let free = restitutions(law.model, law.separation, &DROP_TEST.free())?;
         let read = restitutions(law.model, law.separation, &DROP_TEST)?;
-        for ((least, greatest, name), printed) in RANGES.into_iter().zip([law.all, law.middle]) {
-            let free = mean_error_percent(&free, least, greatest);
-            let read = mean_error_percent(&read, least, greatest);
+        for ((minimum, maximum, name), printed) in RANGES.into_iter().zip([law.all, law.middle]) {
+            let free = mean_error_percent(&free, minimum, maximum);
+            let read = mean_error_percent(&read, minimum, maximum);
             lines.push(Line {
                 cells: vec![
                     text(law.model),

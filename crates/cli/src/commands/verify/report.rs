@@ -1,4 +1,4 @@
-//! Published beside computed, with a verdict a line.
+//! Published beside computed, with a verdict per line.
 
 use crate::tables::Table;
 use pounding_catalogue::wording::counted;

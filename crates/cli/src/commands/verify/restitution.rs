@@ -34,15 +34,15 @@ const COLUMNS: [(&str, &str); 14] = [
     ("largest_difference", "difference"),
 ];
 
-/// One line a law.
+/// One line per law.
 pub fn part() -> Result<Part, Failure> {
     let mut lines = REFERENCES
         .iter()
         .map(referenced)
         .collect::<Result<Vec<_>, _>>()?;
-    for card in registry::descriptors() {
-        if card.takes_restitution() && !has_reference(card) {
-            lines.push(computed(card)?);
+    for descriptor in registry::descriptors() {
+        if descriptor.takes_restitution() && !has_reference(descriptor) {
+            lines.push(computed(descriptor)?);
         }
     }
     Ok(Part {
@@ -62,15 +62,15 @@ pub fn part() -> Result<Part, Failure> {
     })
 }
 
-fn has_reference(card: &ModelDescriptor) -> bool {
+fn has_reference(descriptor: &ModelDescriptor) -> bool {
     REFERENCES
         .iter()
-        .any(|r| r.model == card.name || card.aliases.iter().any(|a| a.name == r.model))
+        .any(|r| r.model == descriptor.name || descriptor.aliases.iter().any(|a| a.name == r.model))
 }
 
 fn referenced(reference: &RestitutionReference) -> Result<Line, GapElementError> {
-    let card = registry::find(reference.model)?;
-    let table = run(card, &reference.parameters()?)?;
+    let descriptor = registry::find(reference.model)?;
+    let table = run(descriptor, &reference.parameters()?)?;
     let pairs = table.rows.iter().zip(&reference.achieved);
     let difference =
         largest(pairs.map(|(row, expected)| (row.outcome.restitution - expected).abs()));
@@ -89,22 +89,27 @@ fn referenced(reference: &RestitutionReference) -> Result<Line, GapElementError>
 }
 
 /// A law without a reference row.
-fn computed(card: &'static ModelDescriptor) -> Result<Line, GapElementError> {
-    let mut parameters = card.example_parameters(1.0);
+fn computed(descriptor: &'static ModelDescriptor) -> Result<Line, GapElementError> {
+    let mut parameters = descriptor.example_parameters(1.0);
     parameters.values.remove("restitution");
-    let table = run(card, &parameters)?;
+    let table = run(descriptor, &parameters)?;
     Ok(Line {
-        cells: line(card.name, &table, nothing()),
+        cells: line(descriptor.name, &table, nothing()),
         verdict: Verdict::ComputedOnly,
         claimed: Verdict::ComputedOnly,
     })
 }
 
 fn run(
-    card: &'static ModelDescriptor,
+    descriptor: &'static ModelDescriptor,
     parameters: &ModelParameters,
 ) -> Result<RestitutionTable, GapElementError> {
-    restitution_table(card, parameters, &BODIES, &CollisionOptions::default())
+    restitution_table(
+        descriptor,
+        parameters,
+        &BODIES,
+        &CollisionOptions::default(),
+    )
 }
 
 fn line(name: &str, table: &RestitutionTable, difference: Cell) -> Vec<Cell> {

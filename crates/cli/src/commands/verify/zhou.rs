@@ -207,7 +207,7 @@ fn adams(stiffness: f64) -> Result<Comparison, Failure> {
 fn findings() -> Vec<String> {
     [
         "The numbers of the paper's table 1 are lost, so these are computed values beside independent references; only 2.94 delta_max / v0 can be held against print, and it agrees.",
-        "That the greatest penetration does not depend on e holds for the explicit form alone: it takes the speed from the elastic trajectory. Integrated, the same law penetrates 6 to 14 % less, hits 10 to 21 % softer, and returns 0.68 for 0.3.",
+        "That the maximum penetration does not depend on e holds for the explicit form alone: it takes the speed from the elastic trajectory. Integrated, the same law penetrates 6 to 14 % less, hits 10 to 21 % softer, and returns 0.68 for 0.3.",
         "The recommended c_max of 0.1 to 1 % of k is a ratio of numbers in N, mm and s. It returns 0.23 to 0.04 here, so 0.3 to 0.8 lie outside it: 0.8 needs 0.0068 %. Taken in SI the same percentage means a dashpot 31.6 times as strong.",
     ]
     .map(str::to_owned)

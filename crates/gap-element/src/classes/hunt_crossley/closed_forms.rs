@@ -78,7 +78,7 @@ pub(crate) fn damping_factor_approach_only(e: f64) -> f64 {
     solve_increasing(|y| e - restitution_approach_only(y), 1.0e-16, 2.0 / (e * e))
 }
 
-/// Greatest penetration (m) of a free collision with damping factor `y`.
+/// Maximum penetration (m) of a free collision with damping factor `y`.
 fn peak_penetration(stiffness: f64, exponent: f64, y: f64, velocity: f64, mass: f64) -> f64 {
     let power = exponent + 1.0;
     (power * mass * velocity * velocity / (2.0 * stiffness) * approach_loss(y)).powf(1.0 / power)

@@ -15,8 +15,8 @@ use crate::parameters::{
     DAMPING_FACTOR, EXPONENT, LINEAR_STIFFNESS, ModelParameters, POWER_STIFFNESS, RESTITUTION,
 };
 
-/// What all cards of the class share; the exponent is free, 3/2 by default.
-pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
+/// What all descriptors of the class share; the exponent is free, 3/2 by default.
+pub(crate) const DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "",
     aliases: &[],
     title: "",
@@ -46,7 +46,7 @@ pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
 };
 
 /// The same with the exponent 1.
-pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
+pub(crate) const LINEAR_DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "Hunt-Crossley class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_FACTOR],
     constants: &[
@@ -60,7 +60,7 @@ pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
         },
     ],
     example: &[("stiffness", 9.35e7)],
-    ..CARD
+    ..DESCRIPTOR
 };
 
 /// `F = k delta^n (1 + y v / v0)` with one relation `y(e)`.
@@ -91,7 +91,7 @@ impl HuntCrossley {
         }))
     }
 
-    /// The model from its card, the parameters and the paper's relation `y(e)`.
+    /// The model from its descriptor, the parameters and the paper's relation `y(e)`.
     pub(crate) fn build(
         descriptor: &'static ModelDescriptor,
         parameters: &ModelParameters,

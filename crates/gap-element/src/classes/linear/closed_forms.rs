@@ -60,7 +60,7 @@ fn ratio_of_decrement(wanted: f64) -> f64 {
     )
 }
 
-/// Greatest penetration (m): the oscillator's first peak, which damping in
+/// Maximum penetration (m): the oscillator's first peak, which damping in
 /// restitution does not change.
 fn peak_penetration(stiffness: f64, exponent: f64, zeta: f64, velocity: f64, mass: f64) -> f64 {
     let power = exponent + 1.0;

@@ -16,8 +16,8 @@ use crate::parameters::{
     DAMPING_RATIO, EXPONENT, LINEAR_STIFFNESS, ModelParameters, POWER_STIFFNESS, RESTITUTION,
 };
 
-/// What all cards of the class share; the exponent is free, 3/2 by default.
-pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
+/// What all descriptors of the class share; the exponent is free, 3/2 by default.
+pub(crate) const DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "",
     aliases: &[],
     title: "",
@@ -47,7 +47,7 @@ pub(crate) const CARD: ModelDescriptor = ModelDescriptor {
 };
 
 /// The same with the exponent 1.
-pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
+pub(crate) const LINEAR_DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "linear class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_RATIO],
     constants: &[
@@ -61,7 +61,7 @@ pub(crate) const LINEAR_CARD: ModelDescriptor = ModelDescriptor {
         },
     ],
     example: &[("stiffness", 9.35e7)],
-    ..CARD
+    ..DESCRIPTOR
 };
 
 /// `F = k delta^n + c delta^((n-1)/2) v` with one relation `zeta(e)`.
@@ -77,7 +77,7 @@ pub(crate) struct LinearClass {
 }
 
 impl LinearClass {
-    /// A law with the exponent 1 from its card, the parameters and the paper's
+    /// A law with the exponent 1 from its descriptor, the parameters and the paper's
     /// relation `zeta(e)`.
     pub(crate) fn build(
         descriptor: &'static ModelDescriptor,
@@ -127,7 +127,7 @@ impl ImpactModel for LinearClass {
         Collision {
             approach_velocity,
             effective_mass,
-            // The third is not on the card: it spares a root at every evaluation.
+            // The third is not on the descriptor: it spares a root at every evaluation.
             constants: [self.stiffness, constant, dashpot, 0.0],
         }
     }

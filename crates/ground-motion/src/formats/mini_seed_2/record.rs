@@ -44,7 +44,7 @@ pub(super) struct Record {
     pub start_text: StartText,
     /// Number of samples.
     pub count: usize,
-    /// Samples a second.
+    /// Samples per second.
     pub rate: f64,
     data: usize,
     encoding: u8,
@@ -136,7 +136,7 @@ impl Record {
         let rate = blockettes.rate.unwrap_or(nominal);
         let count = usize::from(numbers.unsigned(30));
         if count > 0 && !(rate.is_finite() && rate > 0.0) {
-            return Err(error(32, format!("{rate} samples a second")));
+            return Err(error(32, format!("{rate} samples per second")));
         }
         let data = usize::from(numbers.unsigned(44));
         if count > 0 && !(HEADER..blockettes.length).contains(&data) {

@@ -1,4 +1,4 @@
-//! Design spectra of codes, one code a file.
+//! Design spectra of codes, one code per file.
 
 mod asce_7_2016;
 mod eurocode_8_2004;
@@ -9,7 +9,7 @@ use crate::spectra::{TargetSpectrum, logarithmic_periods};
 pub use asce_7_2016::Asce7Of2016;
 pub use eurocode_8_2004::{Eurocode8Of2004, GroundType, SpectrumType};
 
-/// Points between two corners: with straight lines between logarithms, the greatest
+/// Points between two corners: with straight lines between logarithms, the maximum
 /// error of a quadratic piece is below 1e-4.
 const POINTS: usize = 80;
 

@@ -2,15 +2,15 @@
 
 use pounding_hysteresis::{LawDescriptor, Verification, build};
 
-use super::super::card::dependence;
 use super::super::chosen::Chosen;
+use super::super::descriptor::dependence;
 use super::Example;
 use crate::commands::impact::numbers::significant;
 use crate::commands::models::numbers::plain;
 
 /// The page as Markdown.
 pub fn page(example: &Example) -> String {
-    let d = example.chosen.card;
+    let d = example.chosen.descriptor;
     let sections = [
         head(d),
         parameters(d),
@@ -92,7 +92,7 @@ fn cycles(example: &Example) -> String {
         .stated()
         .map(|(name, value)| format!("`{name}` {}", chosen.with_unit(name, value).0))
         .collect();
-    let rate = if chosen.card.rate_dependent {
+    let rate = if chosen.descriptor.rate_dependent {
         " Harmonic cycles of one second."
     } else {
         ""
@@ -100,7 +100,7 @@ fn cycles(example: &Example) -> String {
     let mut text = format!(
         "## Example\n\n{}.{rate}\n\n![Force over deformation of the example, {1}]({1}.svg)\n\nEach cycle from its positive peak back there:\n\n| from (mm) | to (mm) | peak force (kN) | dissipated (J) | secant stiffness (kN/m) | equivalent damping (%) |\n|---|---|---|---|---|---|\n",
         values.join(", "),
-        chosen.card.name,
+        chosen.descriptor.name,
     );
     for cycle in &example.driven.cycles {
         text.push_str(&format!("| {} |\n", cycle.cells(significant).join(" | ")));
@@ -110,9 +110,9 @@ fn cycles(example: &Example) -> String {
 
 fn usage(example: &Example) -> String {
     let chosen = &example.chosen;
-    let name = chosen.card.name;
+    let name = chosen.descriptor.name;
     let mut text = "## Use it\n\n".to_owned();
-    match initial_stiffness(chosen.card).filter(|_| carries_a_storey(chosen.card)) {
+    match initial_stiffness(chosen.descriptor).filter(|_| carries_a_storey(chosen.descriptor)) {
         Some(stiffness) => text.push_str(&format!(
             "As the law of storeys, whose `stiffness` it starts with:\n\n```toml\n[[building]]\nname = \"left\"\nstoreys = 2\nmass = \"25 t\"\nstiffness = \"{} N/m\"\nheight = \"3 m\"\ndamping = {{ stiffness_proportional = 0.05 }}\nlaw = {{ model = \"{name}\"{} }}\n```\n\n",
             plain(stiffness),

@@ -1,0 +1,128 @@
+//! The descriptors of the laws, for people and for machines.
+
+use crate::tables::Table;
+use pounding_hysteresis::{LawDescriptor, Verification};
+use serde_json::{Value, json};
+
+use crate::commands::models::numbers::plain;
+
+/// One line per law.
+pub fn list(laws: &[&LawDescriptor]) -> String {
+    let mut table = Table::new();
+    table.set_header(["name", "law and its parameters", "checked"]);
+    for d in laws {
+        let law = format!("{}\n{}", d.title, parameters(d));
+        table.add_row([d.name, &law, checked(d)]);
+    }
+    format!(
+        "{table}\nParameters in brackets have a default.\n\n`pounding hysteresis NAME` shows formula, parameters, source and traps; with --cycles \"10 mm,20 mm\",\n--history FILE or --dissipation \"0.1 mm,10 mm\" it drives the law."
+    )
+}
+
+/// The names of the parameters, those with a default in brackets, three per line.
+fn parameters(d: &LawDescriptor) -> String {
+    let names: Vec<String> = d
+        .parameters
+        .iter()
+        .map(|p| match p.default {
+            Some(_) => format!("[{}]", p.name),
+            None => p.name.to_owned(),
+        })
+        .collect();
+    let lines: Vec<String> = names.chunks(3).map(|line| line.join(", ")).collect();
+    lines.join("\n")
+}
+
+/// How far the law has been checked, in a word or two.
+pub fn checked(d: &LawDescriptor) -> &'static str {
+    match d.verification {
+        Verification::Verified(_) => "verified",
+        Verification::SecondarySources(_) => "secondary sources",
+    }
+}
+
+/// How far the law has been checked, and against what.
+pub fn verification(d: &LawDescriptor) -> String {
+    match d.verification {
+        Verification::Verified(how) => format!("verified against: {how}"),
+        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
+    }
+}
+
+/// What the force depends on.
+pub fn dependence(d: &LawDescriptor) -> &'static str {
+    if d.rate_dependent {
+        "deformation, its history and its rate"
+    } else {
+        "deformation and its history, not on the rate"
+    }
+}
+
+/// The descriptor as text.
+pub fn text(d: &LawDescriptor) -> String {
+    let mut text = format!(
+        "{} - {}\n\n  {}\n\nforce of      {}\nsource        {}\nstatus        {}\n",
+        d.name,
+        d.title,
+        d.formula.split(";  ").collect::<Vec<_>>().join("\n  "),
+        dependence(d),
+        d.citation,
+        verification(d)
+    );
+    for alias in d.aliases {
+        text.push_str(&format!(
+            "also called   {}: {}\n",
+            alias.name, alias.citation
+        ));
+    }
+    text.push_str("\nparameters\n");
+    for p in d.parameters {
+        let default = p
+            .default
+            .map_or_else(|| ", required".to_owned(), |x| format!(", default {x}"));
+        text.push_str(&format!(
+            "  {:20} {:14} {}  in {}{default}\n",
+            p.name,
+            p.unit.symbol(),
+            p.explanation,
+            p.range()
+        ));
+    }
+    text.push_str("\nexample, SI\n");
+    for (name, value) in d.example {
+        text.push_str(&format!("  {name} = {}\n", plain(*value)));
+    }
+    text.push_str(&format!(
+        "  cycled to {} m to see all branches\n\nwhat to know\n",
+        plain(d.example_amplitude)
+    ));
+    for trap in d.traps {
+        text.push_str(&format!("  - {trap}\n"));
+    }
+    text
+}
+
+/// The descriptor as JSON.
+pub fn json(d: &LawDescriptor) -> Value {
+    let parameters: Vec<_> = d
+        .parameters
+        .iter()
+        .map(|p| json!({"name": p.name, "unit": p.unit.symbol(), "range": p.range(), "default": p.default, "required": p.default.is_none(), "explanation": p.explanation}))
+        .collect();
+    let aliases: Vec<_> = d
+        .aliases
+        .iter()
+        .map(|a| json!({"name": a.name, "citation": a.citation}))
+        .collect();
+    let example: serde_json::Map<String, Value> = d
+        .example
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), json!(value)))
+        .collect();
+    json!({
+        "name": d.name, "aliases": aliases, "title": d.title, "formula": d.formula,
+        "citation": d.citation, "rate_dependent": d.rate_dependent, "parameters": parameters,
+        "example": example, "example_amplitude": d.example_amplitude,
+        "verification": verification(d), "traps": d.traps,
+    })
+}

@@ -1,0 +1,79 @@
+//! The descriptor of one model, for people and for machines.
+
+use pounding_gap_element::{ModelDescriptor, Verification};
+use serde_json::json;
+
+/// How far the model has been checked, and against what.
+pub fn verification(d: &ModelDescriptor) -> String {
+    match d.verification {
+        Verification::Verified(how) => format!("verified against: {how}"),
+        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
+    }
+}
+
+/// The descriptor as text.
+pub fn text(d: &ModelDescriptor) -> String {
+    let mut text = format!(
+        "{} - {}\n\n  {}\n\nclass         {}\nsource        {}\nstatus        {}\n",
+        d.name,
+        d.title,
+        d.formula,
+        d.class,
+        d.citation,
+        verification(d)
+    );
+    if !d.aliases.is_empty() {
+        for alias in d.aliases {
+            text.push_str(&format!(
+                "also called   {}: {}\n",
+                alias.name, alias.citation
+            ));
+        }
+    }
+    let mut rules: Vec<_> = d
+        .separation_rules
+        .iter()
+        .map(|r| r.name().to_owned())
+        .collect();
+    if rules.len() > 1 {
+        rules[0].push_str(" (default)");
+    }
+    text.push_str(&format!(
+        "separation    {}\n\nparameters\n",
+        rules.join(", ")
+    ));
+    for p in d.parameters {
+        let default = p
+            .default
+            .map_or_else(String::new, |x| format!(", default {x}"));
+        let required = if p.required { ", required" } else { "" };
+        text.push_str(&format!(
+            "  {:14} {:6} {}  in {}{default}{required}\n",
+            p.name,
+            d.unit_symbol(p.unit),
+            p.explanation,
+            p.range()
+        ));
+    }
+    text.push_str("\nwhat to know\n");
+    for trap in d.traps {
+        text.push_str(&format!("  - {trap}\n"));
+    }
+    text
+}
+
+/// The descriptor as JSON.
+pub fn json(d: &ModelDescriptor) -> serde_json::Value {
+    let parameters: Vec<_> = d
+        .parameters
+        .iter()
+        .map(|p| json!({"name": p.name, "unit": d.unit_symbol(p.unit), "range": p.range(), "default": p.default, "required": p.required, "explanation": p.explanation}))
+        .collect();
+    json!({
+        "name": d.name, "recommended": d.recommended,
+        "aliases": d.aliases.iter().map(|a| json!({"name": a.name, "citation": a.citation})).collect::<Vec<_>>(), "title": d.title, "formula": d.formula,
+        "citation": d.citation, "class": d.class, "parameters": parameters,
+        "separation_rules": d.separation_rules.iter().map(|r| r.name()).collect::<Vec<_>>(),
+        "verification": verification(d), "traps": d.traps,
+    })
+}

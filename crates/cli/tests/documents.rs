@@ -1,0 +1,298 @@
+//! The documents of the repository are true: links lead somewhere, no page is out of
+//! reach, paths that the source names are there, and commands, keys and numbers are those of the program.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.canonicalize().unwrap()
+}
+
+/// Files below `folder`, but for what is built, downloaded or hidden.
+fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_file() {
+            found.push(path);
+        } else if name == ".github" || !(name.starts_with('.') || name == "target" || name == "out")
+        {
+            walk(&path, found);
+        }
+    }
+}
+
+fn files(ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    walk(&root(), &mut found);
+    found.retain(|path| path.extension().is_some_and(|e| e == ending));
+    found.sort();
+    found
+}
+
+fn shown(path: &Path) -> String {
+    let path = path.strip_prefix(root()).unwrap_or(path);
+    path.display().to_string().replace('\\', "/")
+}
+
+/// The text of a page without its fenced blocks, in which brackets are code.
+fn prose(page: &Path) -> String {
+    let text = std::fs::read_to_string(page).unwrap();
+    let mut fenced = false;
+    let mut kept = String::new();
+    for line in text.lines() {
+        let fence = line.trim_start().starts_with("```");
+        fenced ^= fence;
+        if !fenced && !fence {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+/// Targets of the links and images of a page that lead into the repository: a path and the
+/// heading in it, either of which may be empty.
+fn links(page: &Path) -> Vec<(String, String)> {
+    let text = prose(page);
+    let targets = text
+        .split("](")
+        .skip(1)
+        .map(|p| p.split(')').next().unwrap());
+    let local = targets.filter(|t| !t.contains("://") && !t.starts_with("mailto:"));
+    local
+        .map(|target| {
+            let (path, heading) = target.split_once('#').unwrap_or((target, ""));
+            (path.to_owned(), heading.to_owned())
+        })
+        .collect()
+}
+
+/// Anchors of the headings of a page, as GitHub makes them.
+fn anchors(page: &Path) -> BTreeSet<String> {
+    let text = prose(page);
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    headings
+        .map(|line| {
+            let words = line.trim_start_matches('#').trim().to_lowercase();
+            let kept = words
+                .chars()
+                .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+            kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+        })
+        .collect()
+}
+
+/// The file that a link of `page` leads to; a folder shows its `README.md`.
+fn target(page: &Path, path: &str) -> Option<PathBuf> {
+    if path.is_empty() {
+        return Some(page.to_owned());
+    }
+    let there = page.parent().unwrap().join(path).canonicalize().ok()?;
+    let readme = there.join("README.md");
+    Some(if readme.exists() { readme } else { there })
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let pages = files("md");
+    assert!(pages.len() > 90, "{}", pages.len());
+    let (mut checked, mut wrong) = (0, Vec::new());
+    for page in &pages {
+        for (path, heading) in links(page) {
+            let there = target(page, &path);
+            let found = there.is_some_and(|file| {
+                heading.is_empty()
+                    || file.extension().is_some_and(|e| e == "md")
+                        && anchors(&file).contains(&heading)
+            });
+            checked += 1;
+            if !found {
+                wrong.push(format!("{}: {path}#{heading}", shown(page)));
+            }
+        }
+    }
+    assert!(checked > 300, "{checked}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn every_page_is_reached_from_the_readme() {
+    let start = root().join("README.md");
+    let mut reached = BTreeSet::from([start.clone()]);
+    let mut next = vec![start];
+    while let Some(page) = next.pop() {
+        for (path, _) in links(&page) {
+            if let Some(there) = target(&page, &path)
+                && there.extension().is_some_and(|e| e == "md")
+                && reached.insert(there.clone())
+            {
+                next.push(there);
+            }
+        }
+    }
+    let mut orphans: Vec<_> = files("md").iter().map(|page| shown(page)).collect();
+    let reached: BTreeSet<_> = reached.iter().map(|page| shown(page)).collect();
+    orphans.retain(|page| !reached.contains(page) && !page.starts_with(".github"));
+    assert!(orphans.is_empty(), "no page leads to {orphans:#?}");
+}
+
+/// Messages, comments and descriptors name pages by their paths in the repository.
+#[test]
+fn pages_that_the_source_names_exist() {
+    let mut named = BTreeMap::new();
+    for file in files("rs") {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for folder in ["tutorial", "how-to", "reference", "theory"] {
+            for (at, start) in text.match_indices(&format!("docs/{folder}/")) {
+                let rest = &text[at + start.len()..];
+                let end = rest.find(|c: char| !(c.is_alphanumeric() || "-_./".contains(c)));
+                let path = format!("{start}{}", &rest[..end.unwrap_or(rest.len())]);
+                let path = path.trim_end_matches(['.', '/']).to_owned();
+                named.entry(path).or_insert_with(|| shown(&file));
+            }
+        }
+    }
+    assert!(named.len() >= 5, "{named:?}");
+    named.retain(|path, _| !root().join(path).exists());
+    assert!(named.is_empty(), "no such page: {named:#?}");
+}
+
+fn page(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The fenced block of this language on a page.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let (_, rest) = page.split_once(&format!("```{language}\n")).unwrap();
+    rest.split_once("```").unwrap().0
+}
+
+fn pounding() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    command.env("NO_COLOR", "1").env("COLUMNS", "300");
+    command.current_dir(root());
+    command
+}
+
+fn printed(command: &mut Command, what: &str) -> String {
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{what}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The README is a page, and what it shows is what its command prints.
+#[test]
+fn the_readme() {
+    let readme = page("README.md");
+    let words = readme.split_whitespace().count();
+    assert!(words < 400, "{words} words");
+    let (_, command) = block(&readme, "sh")
+        .split_once("--bin pounding -- ")
+        .unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let figure = folder.path().join("pair.svg");
+    let words: Vec<&str> = command.split_whitespace().collect();
+    let [run, case, "--plot", "pair.svg"] = words[..] else {
+        panic!("{words:?}");
+    };
+    let shown = printed(
+        pounding()
+            .args([run, case, "--no-output", "--plot"])
+            .arg(&figure),
+        command,
+    );
+    assert!(figure.exists());
+    let lines: Vec<&str> = block(&readme, "text")
+        .lines()
+        .filter(|l| *l != "...")
+        .collect();
+    assert!(lines.len() >= 3, "{lines:?}");
+    for line in lines {
+        assert!(shown.lines().any(|l| l == line), "{line}\n{shown}");
+    }
+}
+
+#[test]
+fn every_command_has_its_line() {
+    let page = page("docs/reference/commands.md");
+    let rows: Vec<&str> = page
+        .lines()
+        .filter(|l| l.starts_with("| `pounding"))
+        .collect();
+    let names = |text: &str, name: &str| {
+        text.split(|c: char| !(c.is_alphanumeric() || "-_".contains(c)))
+            .any(|word| word == name)
+    };
+    for command in pounding_cli::command().get_subcommands() {
+        let start = format!("`pounding {}", command.get_name());
+        let of_it: Vec<_> = rows.iter().filter(|row| row.contains(&start)).collect();
+        assert!(!of_it.is_empty(), "{start}");
+        for inner in command.get_subcommands() {
+            let named = of_it.iter().any(|row| names(row, inner.get_name()));
+            assert!(named, "{start} {}", inner.get_name());
+        }
+    }
+}
+
+/// Keys of a part of the JSON Schema, and of all parts in it.
+fn keys(schema: &serde_json::Value, found: &mut BTreeSet<String>) {
+    match schema {
+        serde_json::Value::Object(map) => {
+            if let Some(serde_json::Value::Object(properties)) = map.get("properties") {
+                found.extend(properties.keys().cloned());
+            }
+            map.values().for_each(|value| keys(value, found));
+        }
+        serde_json::Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_of_the_case_file_is_documented() {
+    let schema = printed(pounding().arg("schema"), "schema");
+    let mut found = BTreeSet::new();
+    keys(&serde_json::from_str(&schema).unwrap(), &mut found);
+    assert!(found.len() > 80, "{found:?}");
+    let pages: String = [
+        "case-file",
+        "ground-motions",
+        "yielding-storeys-and-links",
+        "gap-check",
+    ]
+    .iter()
+    .map(|name| page(&format!("docs/reference/{name}.md")))
+    .collect();
+    let named: BTreeSet<&str> = pages
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .collect();
+    found.retain(|key| !named.contains(key.as_str()));
+    assert!(found.is_empty(), "no page names {found:?}");
+}
+
+/// The case of the page, and every kind of damping in its table.
+#[test]
+fn the_case_file_of_the_reference_is_accepted() {
+    let page = page("docs/reference/case-file.md");
+    let motions = root().join("ground_motions");
+    let case = block(&page, "toml").replace("../../ground_motions", motions.to_str().unwrap());
+    let kinds = page.lines().filter_map(|line| {
+        let kind = line.strip_prefix("| `{ ")?.split_once('`')?.0;
+        Some(format!("damping = {{ {kind}"))
+    });
+    let kinds: Vec<String> = kinds.collect();
+    assert_eq!(kinds.len(), 6);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let first = "damping = { stiffness_proportional = 0.05 }";
+    assert!(case.contains(first));
+    for kind in kinds {
+        std::fs::write(&file, case.replacen(first, &kind, 1)).unwrap();
+        printed(pounding().arg("check").arg(&file), &kind);
+    }
+}

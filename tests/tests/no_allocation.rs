@@ -1,4 +1,4 @@
-//! Nothing is allocated while a run goes on: not in open flight, not at events, not in
+//! Nothing is allocated while a run goes on: not between contacts, not at events, not in
 //! contacts, whatever their law.
 #![allow(clippy::unwrap_used)]
 

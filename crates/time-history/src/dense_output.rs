@@ -3,13 +3,13 @@
 //! never change which steps are taken.
 
 use crate::contact::Contacts;
-use crate::dynamics::Layout;
-use crate::engagement::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
-use crate::error::TimeHistoryError;
-use crate::free_flight::{
-    Four, FreeFlight, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring,
+use crate::contact_episode::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
+use crate::contact_free::{
+    ContactFree, Four, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring,
     step_over, transform_fours,
 };
+use crate::dynamics::Layout;
+use crate::error::TimeHistoryError;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{Recorder, Sample, StepView, fill};
 use crate::system::System;
@@ -22,17 +22,17 @@ pub(crate) const AT_ONCE: usize = 4;
 /// Displacement, velocity and absolute acceleration.
 const QUANTITIES: usize = 3;
 
-/// What observers of a run need beside the step: room, and who they are.
+/// What observers of a run need beside the step: space, and who they are.
 pub(crate) struct Observers<'a, 'b> {
     pub recorders: &'a mut [&'b mut dyn Recorder],
-    room: Option<Room>,
+    workspace: Option<Workspace>,
     /// End of the run (s).
     end: f64,
 }
 
 /// Work space.
 #[derive(Debug)]
-pub(crate) struct Room {
+pub(crate) struct Workspace {
     /// Modal displacements, velocities and absolute accelerations at the time asked for.
     displacement: Vec<Lane>,
     velocity: Vec<Lane>,
@@ -62,7 +62,7 @@ struct Kept {
     forces: Vec<f64>,
 }
 
-impl Room {
+impl Workspace {
     pub(crate) fn new(system: &System) -> Self {
         let layout = Layout::of(system);
         let lanes = layout.dofs.div_ceil(WIDTH);
@@ -92,7 +92,7 @@ impl Room {
 #[derive(Clone, Copy)]
 pub(crate) enum Motion<'a> {
     /// Without contact.
-    Free(Flown<'a>),
+    Free(ContactFreeStep<'a>),
     /// As a series.
     Series(&'a Series),
     /// Between two points of the pair.
@@ -101,7 +101,7 @@ pub(crate) enum Motion<'a> {
 
 /// A sample without contact.
 #[derive(Clone, Copy)]
-pub(crate) struct Flown<'a> {
+pub(crate) struct ContactFreeStep<'a> {
     /// Motion at both ends; its works count from those of the run's state.
     pub start: &'a Modal,
     pub end: &'a Modal,
@@ -112,7 +112,7 @@ pub(crate) struct Flown<'a> {
 /// A step in the coordinates of the modes.
 pub(crate) struct ModalStep<'a> {
     pub system: &'a System,
-    pub constants: &'a FreeFlight,
+    pub constants: &'a ContactFree,
     pub rows: &'a LevelRows,
     /// Contacts during the step.
     pub contacts: &'a Contacts,
@@ -134,7 +134,7 @@ impl<'a, 'b> Observers<'a, 'b> {
         end: f64,
     ) -> Self {
         Self {
-            room: (!recorders.is_empty()).then(|| Room::new(system)),
+            workspace: (!recorders.is_empty()).then(|| Workspace::new(system)),
             recorders,
             end,
         }
@@ -148,9 +148,9 @@ impl<'a, 'b> Observers<'a, 'b> {
     /// Shows a step to all.
     pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
         let last = step.start + step.length >= self.end * (1.0 - 1.0e-12);
-        if let Some(room) = &mut self.room {
+        if let Some(workspace) = &mut self.workspace {
             for recorder in self.recorders.iter_mut() {
-                recorder.step(&mut StepView::of_modes(step, room, last))?;
+                recorder.step(&mut StepView::of_modes(step, workspace, last))?;
             }
         }
         Ok(())
@@ -159,40 +159,40 @@ impl<'a, 'b> Observers<'a, 'b> {
 
 impl ModalStep<'_> {
     /// Responses at times inside the step.
-    pub(crate) fn samples(&self, times: &[f64], room: &mut Room, out: &mut [Sample]) {
+    pub(crate) fn samples(&self, times: &[f64], workspace: &mut Workspace, out: &mut [Sample]) {
         let groups = times.chunks(AT_ONCE).zip(out.chunks_mut(AT_ONCE));
         for (times, out) in groups {
-            self.few_samples(times, room, out);
+            self.few_samples(times, workspace, out);
         }
     }
 
     /// The same at [`AT_ONCE`] times at most, with one pass over the mode shapes.
-    fn few_samples(&self, times: &[f64], room: &mut Room, out: &mut [Sample]) {
+    fn few_samples(&self, times: &[f64], workspace: &mut Workspace, out: &mut [Sample]) {
         let n = Layout::of(self.system).dofs;
         for (k, time) in times.iter().enumerate() {
-            self.move_to(self.offset(*time), room);
-            let kept = &mut room.kept[k];
+            self.move_to(self.offset(*time), workspace);
+            let kept = &mut workspace.kept[k];
             let [q, p, a] = &mut kept.modal;
-            std::mem::swap(q, &mut room.displacement);
-            std::mem::swap(p, &mut room.velocity);
-            std::mem::swap(a, &mut room.absolute);
-            kept.works.copy_from_slice(&room.state[2 * n..]);
-            kept.forces.copy_from_slice(&room.forces);
+            std::mem::swap(q, &mut workspace.displacement);
+            std::mem::swap(p, &mut workspace.velocity);
+            std::mem::swap(a, &mut workspace.absolute);
+            kept.works.copy_from_slice(&workspace.state[2 * n..]);
+            kept.forces.copy_from_slice(&workspace.forces);
         }
-        self.to_floors(times.len(), room);
+        self.to_floors(times.len(), workspace);
         for (k, (time, out)) in times.iter().zip(out).enumerate() {
             let [displacement, velocity, absolute] = std::array::from_fn(|quantity| {
                 let column = k * QUANTITIES + quantity;
-                &room.floors[column / 4][column % 4]
+                &workspace.floors[column / 4][column % 4]
             });
-            gather(displacement, &mut room.state[..n]);
-            gather(velocity, &mut room.state[n..2 * n]);
+            gather(displacement, &mut workspace.state[..n]);
+            gather(velocity, &mut workspace.state[n..2 * n]);
             out.acceleration_absolute.resize(n, 0.0);
             gather(absolute, &mut out.acceleration_absolute);
-            let kept = &room.kept[k];
-            room.state[2 * n..].copy_from_slice(&kept.works);
+            let kept = &workspace.kept[k];
+            workspace.state[2 * n..].copy_from_slice(&kept.works);
             let ground = self.ground.0 + self.ground.1 * self.offset(*time);
-            let motion = (room.state.as_slice(), kept.forces.as_slice());
+            let motion = (workspace.state.as_slice(), kept.forces.as_slice());
             fill(self.system, self.contacts, (*time, ground), motion, out);
         }
     }
@@ -202,10 +202,10 @@ impl ModalStep<'_> {
     }
 
     /// The floors' motion at so many of the times that are kept.
-    fn to_floors(&self, times: usize, room: &mut Room) {
-        let Room {
+    fn to_floors(&self, times: usize, workspace: &mut Workspace) {
+        let Workspace {
             kept, floors, all, ..
-        } = room;
+        } = workspace;
         let last = times * QUANTITIES - 1;
         let [first, second, third] = floors;
         let four = |number: usize, floors| Four {
@@ -222,27 +222,27 @@ impl ModalStep<'_> {
     }
 
     /// Motion of the modes, works and contact forces `offset` (s) after the start.
-    fn move_to(&self, offset: f64, room: &mut Room) {
+    fn move_to(&self, offset: f64, workspace: &mut Workspace) {
         let layout = Layout::of(self.system);
         let n = layout.dofs;
-        room.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
-        room.forces.fill(0.0);
+        workspace.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
+        workspace.forces.fill(0.0);
         let works = match self.motion {
-            Motion::Free(flown) => self.free(flown, offset, room),
-            Motion::Series(series) => self.series(series, offset, room),
-            Motion::Pair(scene, span) => self.pair(scene, span, offset, room),
+            Motion::Free(free_step) => self.free(free_step, offset, workspace),
+            Motion::Series(series) => self.series(series, offset, workspace),
+            Motion::Pair(scene, span) => self.pair(scene, span, offset, workspace),
         };
-        room.state[layout.input()] += works.0;
-        room.state[layout.viscous()] += works.1;
+        workspace.state[layout.input()] += works.0;
+        workspace.state[layout.viscous()] += works.1;
     }
 
-    /// Greatest value above `floor` that the displacement of the left floor less that of the
+    /// Maximum value above `floor` that the displacement of the left floor less that of the
     /// right one takes, with its time (s).
     pub(crate) fn approach(
         &self,
         floors: (Option<usize>, Option<usize>),
         floor: f64,
-        room: &mut Room,
+        workspace: &mut Workspace,
     ) -> Option<(f64, f64)> {
         let rows = &self.constants.rows.floors;
         let [left, right] = [floors.0, floors.1].map(|i| i.map(|i| &rows[i]));
@@ -251,16 +251,16 @@ impl ModalStep<'_> {
                 let found = series.maximum_of_difference((left, right), floor);
                 found.map(|(theta, top)| (self.start + theta * self.length, top))
             }
-            Motion::Free(flown) => {
+            Motion::Free(free_step) => {
                 let dot = |row: Option<&ModalRow>, q: &[Lane]| row.map_or(0.0, |r| r.dot(q));
                 let at = |q: &[Lane]| dot(left, q) - dot(right, q);
-                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(flown.over, i));
-                let ends = [flown.start, flown.end].map(|m| at(&m.displacement));
+                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(free_step.over, i));
+                let ends = [free_step.start, free_step.end].map(|m| at(&m.displacement));
                 let over = over(floors.0) + over(floors.1);
                 if ends[0].max(ends[1]) + over <= floor {
                     return None;
                 }
-                self.approach_of_free(flown.start, (left, right), floor, room)
+                self.approach_of_free(free_step.start, (left, right), floor, workspace)
             }
             Motion::Pair(_, span) => {
                 let of = |row: Option<&ModalRow>| {
@@ -281,52 +281,61 @@ impl ModalStep<'_> {
         start: &Modal,
         rows: (Option<&ModalRow>, Option<&ModalRow>),
         floor: f64,
-        room: &mut Room,
+        workspace: &mut Workspace,
     ) -> Option<(f64, f64)> {
         let rate = self.constants.fastest;
         let parts = (self.length / Series::longest(rate)).ceil().max(1.0);
         let step = self.length / parts;
-        room.displacement.copy_from_slice(&start.displacement);
-        room.velocity.copy_from_slice(&start.velocity);
+        workspace.displacement.copy_from_slice(&start.displacement);
+        workspace.velocity.copy_from_slice(&start.velocity);
         let (mut best, mut above) = (None, floor);
         for part in 0..parts as usize {
             let offset = part as f64 * step;
             let from = SeriesStep {
-                displacement: &room.displacement,
-                velocity: &room.velocity,
+                displacement: &workspace.displacement,
+                velocity: &workspace.velocity,
                 ground: (self.ground.0 + self.ground.1 * offset, self.ground.1),
                 step,
                 rate,
                 terms: 0,
             };
-            room.free.expand(self.constants, self.rows, &[], &from);
-            if let Some((theta, top)) = room.free.maximum_of_difference(rows, above) {
+            workspace.free.expand(self.constants, self.rows, &[], &from);
+            if let Some((theta, top)) = workspace.free.maximum_of_difference(rows, above) {
                 above = top;
                 best = Some((self.start + offset + theta * step, top));
             }
             let modes = &self.constants.modes;
-            let (q, p) = (&mut room.displacement, &mut room.velocity);
-            room.free.end(modes, q, p, &mut room.absolute);
+            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
+            workspace.free.end(modes, q, p, &mut workspace.absolute);
         }
         best
     }
 
     /// Motion without contact after `offset` (s). Returns the works of ground motion and
     /// damping (J) from those of the run's state on.
-    fn free(&self, flown: Flown<'_>, offset: f64, room: &mut Room) -> (f64, f64) {
+    fn free(
+        &self,
+        free_step: ContactFreeStep<'_>,
+        offset: f64,
+        workspace: &mut Workspace,
+    ) -> (f64, f64) {
         let modes = &self.constants.modes;
-        let Room {
+        let Workspace {
             displacement,
             velocity,
             absolute,
             parts,
             oldest,
             ..
-        } = room;
+        } = workspace;
         // Times this close are one, but for round-off.
         let close = 8.0 * f64::EPSILON * (self.start + self.length);
         let at_end = self.length - offset <= close;
-        let from = if at_end { flown.end } else { flown.start };
+        let from = if at_end {
+            free_step.end
+        } else {
+            free_step.start
+        };
         displacement.copy_from_slice(&from.displacement);
         velocity.copy_from_slice(&from.velocity);
         let works = [&from.input, &from.viscous].map(|w| sum(w));
@@ -346,10 +355,10 @@ impl ModalStep<'_> {
         (works[0], works[1])
     }
 
-    fn series(&self, series: &Series, offset: f64, room: &mut Room) -> (f64, f64) {
+    fn series(&self, series: &Series, offset: f64, workspace: &mut Workspace) -> (f64, f64) {
         let layout = Layout::of(self.system);
         let theta = (offset / self.length).clamp(0.0, 1.0);
-        let cut = &mut room.series;
+        let cut = &mut workspace.series;
         cut.copy_from(series);
         if theta < 1.0 && theta > 0.0 {
             cut.shorten(theta);
@@ -357,28 +366,34 @@ impl ModalStep<'_> {
         let modes = &self.constants.modes;
         let mut works = (0.0, 0.0);
         if theta > 0.0 {
-            let (q, p) = (&mut room.displacement, &mut room.velocity);
-            cut.end(modes, q, p, &mut room.absolute);
+            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
+            cut.end(modes, q, p, &mut workspace.absolute);
             let done = cut.works(modes);
             works = (done.input, done.viscous);
             cut.contact_works();
         } else {
-            let (q, p) = (&mut room.displacement, &mut room.velocity);
+            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
             cut.start(q, p);
-            cut.start_acceleration(modes, &mut room.absolute);
+            cut.start_acceleration(modes, &mut workspace.absolute);
         }
-        for touch in &room.series.touches {
+        for touch in &workspace.series.touches {
             if theta > 0.0 {
-                room.state[layout.work(touch.level)] += touch.works.0;
-                room.forces[touch.level] = room.series.at(&touch.force, 1.0).0;
+                workspace.state[layout.work(touch.level)] += touch.works.0;
+                workspace.forces[touch.level] = workspace.series.at(&touch.force, 1.0).0;
             } else {
-                room.forces[touch.level] = touch.force[0];
+                workspace.forces[touch.level] = touch.force[0];
             }
         }
         works
     }
 
-    fn pair(&self, scene: &Scene<'_>, span: &Span<'_>, offset: f64, room: &mut Room) -> (f64, f64) {
+    fn pair(
+        &self,
+        scene: &Scene<'_>,
+        span: &Span<'_>,
+        offset: f64,
+        workspace: &mut Workspace,
+    ) -> (f64, f64) {
         let layout = Layout::of(self.system);
         let theta = span.clock.place_of(offset);
         let (mut input, mut viscous) = (0.0, 0.0);
@@ -386,36 +401,36 @@ impl ModalStep<'_> {
         for (node, weight) in GAUSS {
             let place = node * theta;
             let time = weight * theta * span.clock.span() * span.clock.rate(place);
-            self.within(span, place, room);
+            self.within(span, place, workspace);
             let ground = self.ground.0 + self.ground.1 * span.clock.offset(place);
             for (c, m) in self.constants.modes.iter().enumerate() {
                 for l in 0..WIDTH {
-                    let p = room.velocity[c][l];
+                    let p = workspace.velocity[c][l];
                     input -= time * m.participation[l] * ground * p;
                     viscous += time * m.damping[l] * p * p;
                 }
             }
             for touch in scene.touches {
-                let (force, rate) = self.force(touch, room);
-                room.state[layout.work(touch.level)] += time * force * rate;
+                let (force, rate) = self.force(touch, workspace);
+                workspace.state[layout.work(touch.level)] += time * force * rate;
             }
         }
-        self.within(span, theta, room);
-        let (q, p) = (&room.displacement, &room.velocity);
-        restoring(&self.constants.modes, q, p, &mut room.absolute);
+        self.within(span, theta, workspace);
+        let (q, p) = (&workspace.displacement, &workspace.velocity);
+        restoring(&self.constants.modes, q, p, &mut workspace.absolute);
         for touch in scene.touches {
-            let (force, _) = self.force(touch, room);
-            self.rows.levels[touch.level].add(-force, &mut room.absolute);
-            room.forces[touch.level] = force;
+            let (force, _) = self.force(touch, workspace);
+            self.rows.levels[touch.level].add(-force, &mut workspace.absolute);
+            workspace.forces[touch.level] = force;
         }
         (input, viscous)
     }
 
-    /// Force (N) and rate of penetration (m/s) of a closed level at the motion in `room`.
-    fn force(&self, touch: &Touch, room: &Room) -> (f64, f64) {
+    /// Force (N) and rate of penetration (m/s) of a closed level at the motion in `workspace`.
+    fn force(&self, touch: &Touch, workspace: &Workspace) -> (f64, f64) {
         let row = &self.rows.levels[touch.level];
-        let delta = row.dot(&room.displacement) - touch.width;
-        let rate = row.dot(&room.velocity);
+        let delta = row.dot(&workspace.displacement) - touch.width;
+        let rate = row.dot(&workspace.velocity);
         let level = &self.system.levels()[touch.level];
         (touch.contact.force(level, delta, rate).value, rate)
     }
@@ -441,15 +456,15 @@ impl ModalStep<'_> {
     }
 
     /// Displacements and velocities of the modes at `theta` of a step of the pair.
-    fn within(&self, span: &Span<'_>, theta: f64, room: &mut Room) {
+    fn within(&self, span: &Span<'_>, theta: f64, workspace: &mut Workspace) {
         for c in 0..self.constants.modes.len() {
             for l in 0..WIDTH {
                 let at = |motion: &[Vec<Lane>; 4]| -> [f64; 4] {
                     std::array::from_fn(|k| motion[k][c][l])
                 };
                 let (a, b) = (at(&span.start.motion), at(&span.end.motion));
-                room.displacement[c][l] = value(&span.displacement(a, b), theta);
-                room.velocity[c][l] = value(&span.velocity(a, b), theta);
+                workspace.displacement[c][l] = value(&span.displacement(a, b), theta);
+                workspace.velocity[c][l] = value(&span.velocity(a, b), theta);
             }
         }
     }

@@ -1,9 +1,9 @@
 //! The run: steps, events, peaks, ledger.
 
-mod engage;
-mod engaged_steps;
+mod contact_episode;
+mod contact_free;
+mod episode_steps;
 mod event_handling;
-mod open_flight;
 mod result;
 mod rigid_impacts;
 mod stepped_impacts;
@@ -24,7 +24,7 @@ use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
 use crate::system::System;
-use engage::{Left, Open};
+use contact_episode::{Left, Open};
 use rigid_impacts::RigidImpacts;
 
 /// Events closer together than this (s) are one event.
@@ -48,7 +48,7 @@ const LONGEST_TOUCH: f64 = 1.0e-5;
 /// Events without progress before the run is given up.
 const CHATTER: usize = 10_000;
 
-/// Integrates a system: a pure function of its arguments. `progress` is told the
+/// Integrates a system: a pure function of its arguments. `progress` is given the
 /// part of the duration that is done, a few hundred times a run.
 ///
 /// # Errors
@@ -65,13 +65,13 @@ pub fn run(
     let mut driver = Driver::new(system, options);
     let mut observers = Observers::new(system, recorders, duration);
     driver.begin(observers.recorders)?;
-    let mut told = 0.0;
+    let mut reported = 0.0;
     let mut sample = 0;
     while segment(system, sample, duration).is_some() {
         let mut from = 0.0;
         if driver.open.is_some() {
-            sample += driver.fly(sample, duration, &mut observers)?;
-            match driver.engage(sample, duration, &mut observers)? {
+            sample += driver.propagate(sample, duration, &mut observers)?;
+            match driver.contact_episode(sample, duration, &mut observers)? {
                 Left::At(next) => {
                     sample = next;
                     from = f64::NAN;
@@ -87,8 +87,8 @@ pub fn run(
             sample += 1;
         }
         let done = (sample as f64 * system.ground().time_step / duration).min(1.0);
-        if done - told >= 0.004 {
-            told = done;
+        if done - reported >= 0.004 {
+            reported = done;
             progress(done);
         }
     }
@@ -176,11 +176,11 @@ struct Driver<'a> {
     stalled: usize,
     last_ground: f64,
     rigid: RigidImpacts,
-    /// Exact open flight, where the method and the buildings allow it.
+    /// Exact contact-free motion, where the method and the buildings allow it.
     open: Option<Open<'a>>,
     /// Terms of Taylor series in the coordinates of the modes.
     series_terms: u64,
-    /// Room for the history of an element on trial.
+    /// Space for the history of an element on trial.
     spare: Option<History>,
 }
 
@@ -226,7 +226,7 @@ impl<'a> Driver<'a> {
             spare: None,
             dynamics,
         }
-        .ready_to_fly()
+        .ready_for_contact_free()
     }
 
     fn begin(&mut self, recorders: &mut [&mut dyn Recorder]) -> Result<(), TimeHistoryError> {
@@ -316,7 +316,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// Tells recorders of the impacts that are over.
+    /// Shows recorders the impacts that are over.
     fn hand_out_impacts(
         &mut self,
         recorders: &mut [&mut dyn Recorder],

@@ -105,7 +105,7 @@ impl Segment {
     }
 }
 
-/// Room for this many levels that are stuck at one time; more make it grow.
+/// Space for this many levels that are stuck at one time; more make it grow.
 const STUCK_TOGETHER: usize = 32;
 
 /// Right-hand side with its work space.
@@ -137,7 +137,7 @@ impl<'a> Dynamics<'a> {
             stuck: Vec::with_capacity(layout.levels),
             matrix: Vec::with_capacity(together * together),
             right: Vec::with_capacity(together),
-            solver: SmallSolver::with_room(together),
+            solver: SmallSolver::with_capacity(together),
             scratch: system.elements().first().map(|e| e.law.virgin()),
         }
     }
@@ -303,7 +303,7 @@ impl<'a> Dynamics<'a> {
     /// components `at` of the state that their own floors call for: the bits of
     /// [`Dynamics::accelerations`] for little of its work where damping couples many floors.
     /// Returns false, and does nothing, where it would not be so.
-    pub(crate) fn hold_alone(
+    pub(crate) fn held_by_itself(
         &mut self,
         contacts: &Contacts,
         ground: f64,
@@ -321,7 +321,7 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Acceleration of floor `i` alone relative to the ground (m/s2) while levels are stuck,
-    /// after [`Dynamics::hold_alone`] at the same place.
+    /// after [`Dynamics::held_by_itself`] at the same place.
     pub(crate) fn held_acceleration_of(
         &self,
         contacts: &Contacts,
@@ -516,7 +516,7 @@ mod tests {
             assert!(forces[0].abs() > 1.0 && forces[4].abs() > 1.0, "{forces:?}");
             dynamics.forces.fill(f64::NAN);
             let at = |k: usize| state[k];
-            assert!(dynamics.hold_alone(&contacts, ground, &at));
+            assert!(dynamics.held_by_itself(&contacts, ground, &at));
             for l in [0, 2, 4] {
                 assert_eq!(dynamics.forces[l].to_bits(), forces[l].to_bits(), "{l}");
             }

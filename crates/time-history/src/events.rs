@@ -215,7 +215,10 @@ impl Finder {
         }
         let ground = context.segment.ground(tau + theta * step);
         let (contacts, state) = (context.contacts, &self.state);
-        if !context.dynamics.hold_alone(contacts, ground, &|k| state[k]) {
+        if !context
+            .dynamics
+            .held_by_itself(contacts, ground, &|k| state[k])
+        {
             let now = Instant::within(ground, method.information().implicit, theta * step);
             let out = &mut self.acceleration;
             context.dynamics.accelerations(contacts, now, state, out);

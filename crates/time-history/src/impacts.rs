@@ -66,7 +66,7 @@ impl Track {
     }
 }
 
-/// Room for impacts before the log has to grow.
+/// Space for impacts before the log has to grow.
 const IMPACTS: usize = 1024;
 
 /// Impacts in the order in which they were found.

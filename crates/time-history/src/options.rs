@@ -214,7 +214,7 @@ fn rigid_throughout(system: &System) -> Result<(), TimeHistoryError> {
 /// Clearance (m) below which rigid floors between two walls count as held.
 const LEAST_CLEARANCE: f64 = 1.0e-9;
 
-/// Rigid floors in a row from wall to wall need room: without it they cannot move, and
+/// Rigid floors in a row from wall to wall need clearance: without it they cannot move, and
 /// a prestress between the walls is as good a solution as none.
 fn rigid_rows_have_clearance(system: &System) -> Result<(), TimeHistoryError> {
     let levels = system.levels();

@@ -3,11 +3,11 @@
 use crate::methods::Information;
 use crate::warnings::Warning;
 
-/// A greatest absolute value and when it happened.
+/// A maximum absolute value and when it happened.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peak {
-    /// Greatest absolute value, in the unit of the quantity.
+    /// Maximum absolute value, in the unit of the quantity.
     #[cfg_attr(feature = "serde", serde(rename = "peak"))]
     pub value: f64,
     /// Time (s); zero if the quantity never left zero.
@@ -73,7 +73,7 @@ impl BuildingOutcome {
 
 impl YieldingStorey {
     /// Whether a law that does not depend on the velocity dissipated more than round-off
-    /// makes of the work of the greatest shear.
+    /// makes of the work of the maximum shear.
     fn dissipates_without_velocity(&self, peaks: &StoreyPeaks) -> bool {
         const ROUND_OFF: f64 = 1.0e-9;
         let of_velocity = pounding_hysteresis::find(self.law).is_ok_and(|law| law.rate_dependent);
@@ -88,7 +88,7 @@ impl YieldingStorey {
 pub struct YieldingStorey {
     /// Name of the law.
     pub law: &'static str,
-    /// Greatest drift over the drift at first yield (-), with its time; `None` for a law
+    /// Maximum drift over the drift at first yield (-), with its time; `None` for a law
     /// without a yield force.
     pub ductility: Option<Peak>,
     /// Drift at the end of the run less what unloading by the initial stiffness gives
@@ -102,11 +102,11 @@ pub struct YieldingStorey {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LinkLevelOutcome {
-    /// Greatest deformation (m).
+    /// Maximum deformation (m).
     pub deformation: Peak,
-    /// Greatest force (N).
+    /// Maximum force (N).
     pub force: Peak,
-    /// Greatest deformation over that at first yield or slip (-); `None` for a law
+    /// Maximum deformation over that at first yield or slip (-); `None` for a law
     /// without such a force.
     pub ductility: Option<Peak>,
     /// Deformation at the end of the run (m), signed.
@@ -148,9 +148,9 @@ pub struct Impact {
     /// so it differs from the restitution of a free collision; NaN if still
     /// closed or if the gap closed at zero speed.
     pub achieved_restitution: f64,
-    /// Greatest force (N) with its time; NaN for a velocity jump, which has none.
+    /// Maximum force (N) with its time; NaN for a velocity jump, which has none.
     pub peak_force: Peak,
-    /// Greatest penetration (m) with its time.
+    /// Maximum penetration (m) with its time.
     pub peak_penetration: Peak,
     /// Impulse of the contact force (N s).
     pub impulse: f64,
@@ -168,13 +168,13 @@ pub struct LevelOutcome {
     pub impacts: usize,
     /// Time of the first contact (s).
     pub first_contact: Option<f64>,
-    /// Greatest force (N); NaN where there were velocity jumps alone.
+    /// Maximum force (N); NaN where there were velocity jumps alone.
     pub peak_force: Peak,
-    /// Greatest penetration (m).
+    /// Maximum penetration (m).
     pub peak_penetration: Peak,
-    /// Greatest impulse of a single impact (N s).
+    /// Maximum impulse of a single impact (N s).
     pub impulse_max: f64,
-    /// Greatest relative velocity at closure (m/s).
+    /// Maximum relative velocity at closure (m/s).
     pub approach_velocity_max: f64,
     /// Energy dissipated in the contact (J).
     pub energy_dissipated: f64,

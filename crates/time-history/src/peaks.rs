@@ -17,15 +17,15 @@ use crate::polynomial::{
 #[derive(Debug)]
 pub(crate) struct Peaks {
     pub storeys: Vec<StoreyPeaks>,
-    /// Greatest force of each level during its present impact (N).
+    /// Maximum force of each level during its present impact (N).
     pub force: Vec<Peak>,
-    /// Greatest penetration of each level during its present impact (m).
+    /// Maximum penetration of each level during its present impact (m).
     pub penetration: Vec<Peak>,
     /// Peaks of every element: deformation (m) and force (N).
     pub elements: Vec<ElementPeaks>,
     state: Vec<f64>,
     /// Accelerations at the start and at the end of the present step, where many floors
-    /// have their greatest ones, and at the last place inside it, with these places; NaN
+    /// have their maximum ones, and at the last place inside it, with these places; NaN
     /// before they are known.
     acceleration: [Vec<f64>; 3],
     at: [f64; 3],
@@ -156,8 +156,8 @@ impl Peaks {
         };
         let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
-        let greatest = self.elements[index].force.value;
-        if bound(&fitted).max(bound(&fitted.map(|c| -c))) <= greatest * NEAR {
+        let maximum = self.elements[index].force.value;
+        if bound(&fitted).max(bound(&fitted.map(|c| -c))) <= maximum * NEAR {
             return;
         }
         for (theta, sample) in fit_nodes().iter().zip(samples) {
@@ -238,7 +238,7 @@ impl Peaks {
                 peak.raise((own + ground).abs(), time);
                 return;
             }
-            if context.dynamics.hold_alone(contacts, ground, &at) {
+            if context.dynamics.held_by_itself(contacts, ground, &at) {
                 let floor = (i, ground);
                 let own = (context.dynamics).held_acceleration_of(contacts, floor, &at);
                 let peak = &mut self.storeys[i].acceleration_absolute;

@@ -212,7 +212,7 @@ pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
         return None;
     }
     if (end - start).abs() > 4.0 * sagitta {
-        // No turning point: the greater end is the greatest value.
+        // No turning point: the greater end is the maximum value.
         let (theta, top) = if end > start {
             (1.0, end)
         } else {
@@ -275,7 +275,7 @@ impl Search<'_> {
                 let theta = polish(self.falling, (left, right), 1.0e-9);
                 self.take(value(self.function, theta), theta);
             }
-            // It falls and rises: an end is the greatest.
+            // It falls and rises: an end is the maximum.
             (1, _) => {}
             _ => {
                 let middle = 0.5 * (left + right);

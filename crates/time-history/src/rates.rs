@@ -14,7 +14,7 @@ use crate::system::System;
 pub(crate) struct Rates {
     /// Bound for the buildings without contact (1/s).
     buildings: f64,
-    /// Greatest eigenvalues of `M^-1 K` (1/s2) and `M^-1 C` (1/s) of the buildings.
+    /// Maximum eigenvalues of `M^-1 K` (1/s2) and `M^-1 C` (1/s) of the buildings.
     stiffness: f64,
     damping: f64,
     /// Stiffness (1/s2) and damping (1/s) that contacts and elements add at every degree
@@ -112,7 +112,7 @@ impl Rates {
 }
 
 /// Bound of the magnitudes of all eigenvalues of free motion (1/s). Below critical
-/// damping it is the greatest circular frequency; above it a mode forgets its velocity
+/// damping it is the maximum circular frequency; above it a mode forgets its velocity
 /// faster than it would swing.
 pub(crate) fn fastest_rate(buildings: &[Arc<ShearBuilding>]) -> f64 {
     let rates = buildings.iter().map(|b| match b.damping() {
@@ -132,7 +132,7 @@ fn uncoupled(building: &ShearBuilding) -> f64 {
 }
 
 /// An eigenvalue `s` solves `s^2 + c s + w = 0` with the Rayleigh quotients of its
-/// vector, `c` at most the greatest eigenvalue of `M^-1 C` and `w` that of `M^-1 K`:
+/// vector, `c` at most the maximum eigenvalue of `M^-1 C` and `w` that of `M^-1 K`:
 /// `|s| = sqrt(w)` if it is complex, `|s| <= c` if it is real.
 fn coupled(building: &ShearBuilding) -> f64 {
     let omega = building.modes().circular_frequency.iter();

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::contact::Contacts;
-use crate::dense_output::{AT_ONCE, ModalStep, Room};
+use crate::dense_output::{AT_ONCE, ModalStep, Workspace};
 use crate::dynamics::{Dynamics, Instant, Layout};
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
@@ -54,7 +54,7 @@ enum Source<'a, 'b, 'c> {
     /// The polynomials of a method.
     Method(MethodStep<'a, 'b, 'c>),
     /// The motion of the modes.
-    Modes(&'a ModalStep<'a>, &'a mut Room),
+    Modes(&'a ModalStep<'a>, &'a mut Workspace),
 }
 
 /// A step of a method in the coordinates of the floors.
@@ -72,8 +72,12 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
         Self { source, last }
     }
 
-    pub(crate) fn of_modes(step: &'a ModalStep<'a>, room: &'a mut Room, last: bool) -> Self {
-        let source = Source::Modes(step, room);
+    pub(crate) fn of_modes(
+        step: &'a ModalStep<'a>,
+        workspace: &'a mut Workspace,
+        last: bool,
+    ) -> Self {
+        let source = Source::Modes(step, workspace);
         Self { source, last }
     }
 
@@ -116,11 +120,11 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
                     step.sample(*time, out);
                 }
             }
-            Source::Modes(step, room) => step.samples(times, room, out),
+            Source::Modes(step, workspace) => step.samples(times, workspace, out),
         }
     }
 
-    /// Greatest value above `floor` (m) that the displacement of the degree of freedom `left`
+    /// Maximum value above `floor` (m) that the displacement of the degree of freedom `left`
     /// less that of `right` takes within the step, with its time (s). `None` is the ground.
     pub(crate) fn approach(
         &mut self,
@@ -135,7 +139,7 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
                 let found = maximum_above(&difference(&of(left), &of(right)), floor);
                 found.map(|(theta, top)| (step.start() + theta * step.step, top))
             }
-            Source::Modes(step, room) => step.approach((left, right), floor, room),
+            Source::Modes(step, workspace) => step.approach((left, right), floor, workspace),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::outcome::{Outcome, Peak};
 use crate::recorder::{Recorder, Sample, StepView};
 use crate::system::System;
 
-/// Greatest approach of each pair of floors, left displacement minus right displacement
+/// Maximum approach of each pair of floors, left displacement minus right displacement
 /// (m), with its time. The extremum is that of the method's own interpolant inside each
 /// step: no output grid lies between the motion and the number. Never negative: floors
 /// that never come closer than at rest have zero.
@@ -30,7 +30,7 @@ impl RelativeDisplacement {
         }
     }
 
-    /// Greatest approach so far, in the order of [`System::levels`].
+    /// Maximum approach so far, in the order of [`System::levels`].
     #[must_use]
     pub fn peaks(&self) -> &[Peak] {
         &self.peaks
@@ -68,7 +68,7 @@ pub fn isolated_demand(
     options: &RunOptions,
 ) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
     let mut recorder = RelativeDisplacement::of_levels(system);
-    let alone = system.without_gaps();
-    let outcome = run(&alone, options, &mut [&mut recorder], &mut |_| {})?;
+    let isolated = system.without_gaps();
+    let outcome = run(&isolated, options, &mut [&mut recorder], &mut |_| {})?;
     Ok((outcome, recorder.peaks))
 }

@@ -15,8 +15,8 @@ pub(crate) struct SmallSolver {
 }
 
 impl SmallSolver {
-    /// With room for systems of this size.
-    pub(crate) fn with_room(size: usize) -> Self {
+    /// With space for systems of this size.
+    pub(crate) fn with_capacity(size: usize) -> Self {
         Self {
             matrix: Vec::with_capacity(size * size),
             forward: Vec::with_capacity(size),

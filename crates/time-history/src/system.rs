@@ -18,9 +18,9 @@ pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
+use crate::contact_free::ContactFree;
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
-use crate::free_flight::FreeFlight;
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
 #[derive(Debug, Clone)]
@@ -93,9 +93,9 @@ pub struct System {
     elements: Vec<Element>,
     links: Vec<Link>,
     bands: Option<Bands>,
-    /// What open flight needs, made when it is first asked for; shared by all systems with
+    /// What contact-free motion needs, made when it is first asked for; shared by all systems with
     /// these buildings and this step.
-    free_flight: Arc<OnceLock<Option<FreeFlight>>>,
+    contact_free: Arc<OnceLock<Option<ContactFree>>>,
 }
 
 impl System {
@@ -119,7 +119,7 @@ impl System {
             ground,
             initial: vec![0.0; 2 * mass.len()],
             bands: Bands::of(&buildings),
-            free_flight: Arc::default(),
+            contact_free: Arc::default(),
             buildings,
             mass,
         }
@@ -286,14 +286,16 @@ impl System {
         }
     }
 
-    /// Constants of open flight; `None` if the damping of a building couples its modes,
+    /// Constants of contact-free motion; `None` if the damping of a building couples its modes,
     /// or where elements have a memory.
-    pub(crate) fn free_flight(&self) -> Option<&FreeFlight> {
+    pub(crate) fn contact_free(&self) -> Option<&ContactFree> {
         if !self.elements.is_empty() {
             return None;
         }
         let step = self.ground.time_step;
-        let constants = self.free_flight.get_or_init(|| FreeFlight::new(self, step));
+        let constants = self
+            .contact_free
+            .get_or_init(|| ContactFree::new(self, step));
         constants.as_ref()
     }
 

@@ -106,7 +106,7 @@ pub enum Warning {
     Drift {
         /// Name of the building.
         building: String,
-        /// Storey with the greatest one, from 1.
+        /// Storey with the maximum one, from 1.
         storey: usize,
         /// Drift ratio (-).
         ratio: f64,

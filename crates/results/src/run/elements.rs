@@ -66,7 +66,7 @@ pub(super) fn finish_storeys(
     for (name, long_name, values) in [
         (
             "ductility",
-            "greatest drift over the drift at first yield; NaN without a yield force",
+            "maximum drift over the drift at first yield; NaN without a yield force",
             ductility,
         ),
         (

@@ -18,7 +18,7 @@ use crate::methods::Context;
 use crate::outcome::Peak;
 use crate::polynomial::{derivative, first_rise, value};
 
-/// Round-off of a displacement or a velocity, as a part of the greatest one.
+/// Round-off of a displacement or a velocity, as a part of the maximum one.
 const ROUND_OFF: f64 = 1.0e-14;
 
 impl Driver<'_> {

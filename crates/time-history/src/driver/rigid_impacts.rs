@@ -20,7 +20,7 @@ use crate::outcome::Peak;
 /// own round-off of about 1e-17 m, in which lower hops would drown.
 const LOWEST_HOP: f64 = 1.0e-12;
 
-/// Round-off of a velocity, as a part of the greatest one.
+/// Round-off of a velocity, as a part of the maximum one.
 const ROUND_OFF: f64 = 1.0e-14;
 
 /// Longest time (s) for which a level is let be.

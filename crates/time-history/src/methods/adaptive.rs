@@ -30,7 +30,7 @@ pub(crate) struct Adaptive {
     rates: Rates,
 }
 
-/// Greatest product of a step and of the fastest rate. The pair is stable in the left half
+/// Maximum product of a step and of the fastest rate. The pair is stable in the left half
 /// of the disc of radius 5.96. Beyond it whatever is faster than the step grows up to the
 /// tolerance and stays there as noise, with its own changes of sign and events, which a
 /// control of errors cannot see.

@@ -7,13 +7,13 @@ use crate::polynomial::Polynomial;
 use crate::rates::fastest_rate;
 use crate::system::System;
 
-/// Greatest product of rate and step for the Taylor series, for the fastest mode
+/// Maximum product of rate and step for the Taylor series, for the fastest mode
 /// and for the stiffest contact: the interpolant of degree 7, on which recorded samples
 /// and the work of the damping rest, then errs by less than 3e-11 of the mode's amplitude,
 /// and 1e-10 of the penetration.
 const LONGEST: (f64, f64) = (SERIES, 0.4);
 
-/// Open flight by the exact step of the modes (`free_flight`), a Taylor series to
+/// Contact-free motion by the exact step of the modes (`contact_free`), a Taylor series to
 /// round-off while all closed contacts are affine, the adaptive pair for the others.
 #[derive(Debug, Clone)]
 pub(crate) struct EventDriven {

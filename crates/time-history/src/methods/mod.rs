@@ -85,7 +85,7 @@ pub(crate) trait Method {
     /// the force starts with a power of time that no polynomial follows.
     fn restart(&mut self, smooth: bool);
     fn counts(&self) -> Counts;
-    /// Whether open flight may be left to the exact step of the modes.
+    /// Whether contact-free motion may be left to the exact step of the modes.
     fn flies(&self) -> bool {
         false
     }

@@ -3,9 +3,9 @@
 //! forces of the floors would cost the square of their number.
 
 use super::chain::{AffineContact, Sums, TERMS};
-use crate::engagement::LevelRows;
-use crate::free_flight::{
-    Four, FreeFlight, Lane, WIDTH, gather, spread, transform, transform_fours,
+use crate::contact_episode::LevelRows;
+use crate::contact_free::{
+    ContactFree, Four, Lane, WIDTH, gather, spread, transform, transform_fours,
 };
 use crate::polynomial::{Polynomial, septic, value};
 use crate::system::System;
@@ -51,7 +51,7 @@ impl ModalSeries {
         if n <= LARGE || system.bands().is_some() {
             return None;
         }
-        let constants = system.free_flight()?;
+        let constants = system.contact_free()?;
         let lanes = constants.modes.len();
         let zeros = || vec![Lane::ZERO; lanes];
         let known = || Known {
@@ -77,7 +77,7 @@ impl ModalSeries {
     /// ground acceleration and its change over the step. Returns the number of terms.
     pub(crate) fn sum(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         contacts: &[AffineContact],
         (load, h): ([f64; 2], f64),
         start: &[f64],
@@ -104,7 +104,7 @@ impl ModalSeries {
     }
 
     /// Takes the start of the step, and the term of order zero.
-    fn begin(&mut self, constants: &FreeFlight, start: &[f64]) {
+    fn begin(&mut self, constants: &ContactFree, start: &[f64]) {
         if self.known[1].floors == start {
             self.known.swap(0, 1);
         } else if self.known[0].floors != start {
@@ -130,7 +130,7 @@ impl ModalSeries {
     /// Adds term `k`; returns whether the next ones are negligible.
     fn add_term(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         contacts: &[AffineContact],
         k: usize,
         (ground, h): (f64, f64),
@@ -181,7 +181,7 @@ impl ModalSeries {
     }
 
     /// Sums of the floors from those of the modes.
-    fn write_floors(&mut self, constants: &FreeFlight, out: &mut Sums) {
+    fn write_floors(&mut self, constants: &ContactFree, out: &mut Sums) {
         let [d, v, integral, s0, s1, s2, e0, e1, e2] = &self.sums;
         let shapes = &constants.shapes;
         let ([os0, os1, os2], [oe0, oe1, oe2]) = (&mut out.start, &mut out.end);

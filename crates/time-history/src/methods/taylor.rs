@@ -118,7 +118,7 @@ impl Taylor {
     ) {
         let n = self.layout.dofs;
         let load = [context.segment.ground(tau), context.segment.slope * h];
-        let constants = context.dynamics.system.free_flight();
+        let constants = context.dynamics.system.contact_free();
         self.terms += match (&mut self.chain, self.modal.as_mut().zip(constants)) {
             (Some(chain), _) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
             (None, Some((modal, constants))) => {

@@ -9,11 +9,11 @@ impl System {
     /// what depends on the buildings alone stays shared with this system.
     #[must_use]
     pub fn under(&self, ground: GroundAcceleration) -> Self {
-        // Constants of open flight belong to one time step.
+        // Constants of contact-free motion belong to one time step.
         let same_step = ground.time_step == self.ground.time_step;
         Self {
-            free_flight: if same_step {
-                Arc::clone(&self.free_flight)
+            contact_free: if same_step {
+                Arc::clone(&self.contact_free)
             } else {
                 Arc::default()
             },

@@ -7,7 +7,7 @@ use super::transform::to_floors;
 use multiversion::multiversion;
 use std::ops::{Index, IndexMut};
 
-use super::constants::FreeFlight;
+use super::constants::ContactFree;
 
 /// Eight values side by side, in one line of the cache.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -111,8 +111,8 @@ pub(crate) struct ModeLanes {
     /// `2 zeta omega`.
     pub damping: Lane,
     /// Bounds of the mode's part in floor acceleration, and in the second derivative of
-    /// absolute floor acceleration: weights of `|q'| + omega |q|`, of the greatest ground
-    /// acceleration, and of its greatest slope.
+    /// absolute floor acceleration: weights of `|q'| + omega |q|`, of the maximum ground
+    /// acceleration, and of its maximum slope.
     pub acceleration_bound: [Lane; 2],
     pub snap_bound: [Lane; 3],
 }
@@ -192,10 +192,10 @@ impl Track {
 }
 
 /// Bounds of what displacements and drifts can do between samples beyond their values
-/// there, for these sizes of the modes and this greatest ground acceleration.
+/// there, for these sizes of the modes and this maximum ground acceleration.
 #[inline(always)]
 pub(crate) fn overshoots(
-    constants: &FreeFlight,
+    constants: &ContactFree,
     size: &[Lane],
     largest: f64,
     modal: &mut [Lane],
@@ -214,10 +214,10 @@ pub(crate) fn overshoots(
     to_floors(&constants.drift_magnitudes, modal, drift);
 }
 
-/// The same for absolute acceleration, with the greatest slope of the ground's.
+/// The same for absolute acceleration, with the maximum slope of the ground's.
 #[inline(always)]
 pub(crate) fn acceleration_overshoots(
-    constants: &FreeFlight,
+    constants: &ContactFree,
     size: &[Lane],
     (largest, slope): (f64, f64),
     modal: &mut [Lane],
@@ -239,7 +239,7 @@ pub(crate) fn acceleration_overshoots(
 /// Whether the bound of floor acceleration, told by the overshoot of displacement, is
 /// below all peaks of absolute acceleration.
 #[inline(always)]
-pub(crate) fn is_low(constants: &FreeFlight, displacement: &[Lane], peak: &[Lane]) -> bool {
+pub(crate) fn is_low(constants: &ContactFree, displacement: &[Lane], peak: &[Lane]) -> bool {
     let eighth = constants.eighth();
     let mut low = true;
     for (over, peak) in displacement.iter().zip(peak) {

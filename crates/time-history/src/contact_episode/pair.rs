@@ -8,7 +8,7 @@ use super::point::Point;
 use super::rows::{LevelRows, total};
 use super::series::Works;
 use super::touch::Touch;
-use crate::free_flight::{FreeFlight, Lane, WIDTH, add, mul, scale};
+use crate::contact_free::{ContactFree, Lane, WIDTH, add, mul, scale};
 use crate::system::System;
 
 /// Sizes (m, m/s) below which displacements and velocities are controlled absolutely.
@@ -17,7 +17,7 @@ const SIZE: [f64; 2] = [1.0e-2, 1.0e-1];
 /// What a step needs to know beside its start.
 #[derive(Clone, Copy)]
 pub(crate) struct Scene<'a> {
-    pub constants: &'a FreeFlight,
+    pub constants: &'a ContactFree,
     pub rows: &'a LevelRows,
     pub system: &'a System,
     pub touches: &'a [Touch],

@@ -30,7 +30,7 @@ pub(crate) struct Oscillator {
     pub participation: f64,
 }
 
-/// Greatest product of frequency and sub-step; the series then converges in about
+/// Maximum product of frequency and sub-step; the series then converges in about
 /// twelve terms, and its terms hardly cancel.
 const SUB_STEP: f64 = 0.25;
 /// Terms of the series, enough for round-off.

@@ -1,9 +1,9 @@
-//! Open flight over a block of samples at once: most blocks neither touch nor peak,
+//! Contact-free motion over a block of samples at once: most blocks neither touch nor peak,
 //! and one comparison of every floor, storey and level says so.
 
 use multiversion::multiversion;
 
-use super::constants::FreeFlight;
+use super::constants::ContactFree;
 use super::lanes::{
     Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, at, overshoots, step_modes,
 };
@@ -30,9 +30,9 @@ pub(super) struct Block {
     /// after sample.
     displacement: Vec<Lane>,
     acceleration: Vec<Lane>,
-    /// Greatest `|q'| + omega |q|` of every mode over the block.
+    /// Maximum `|q'| + omega |q|` of every mode over the block.
     size: Vec<Lane>,
-    /// Greatest floor displacement and drift, and greatest closing of levels.
+    /// Maximum floor displacement and drift, and maximum closing of levels.
     pub floors: Extremes,
     pub drifts: Extremes,
     pub levels: Extremes,
@@ -42,12 +42,12 @@ pub(super) struct Block {
     pub accelerations: Extremes,
     /// Overshoots of displacement, drift and absolute acceleration.
     pub over: [Vec<Lane>; 3],
-    /// Greatest ground acceleration and slope.
+    /// Maximum ground acceleration and slope.
     largest: (f64, f64),
     modal: Vec<Lane>,
 }
 
-/// Greatest values over the block, and the values at every sample.
+/// Maximum values over the block, and the values at every sample.
 #[derive(Debug, Clone)]
 pub(super) struct Extremes {
     pub top: Vec<Lane>,
@@ -106,8 +106,8 @@ impl Block {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn fly(
-    constants: &FreeFlight,
+pub(super) fn propagate(
+    constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
     block: &mut Block,
@@ -151,7 +151,7 @@ pub(super) fn fly(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn advance(constants: &FreeFlight, samples: &[f64], now: &mut Modal) {
+pub(super) fn advance(constants: &ContactFree, samples: &[f64], now: &mut Modal) {
     for (c, m) in constants.modes.iter().enumerate() {
         let mut state = [
             now.displacement[c],
@@ -200,14 +200,14 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
-/// Extremes of absolute floor acceleration over the block that was flown last.
+/// Extremes of absolute floor acceleration over the block that was advanced last.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
+pub(super) fn accelerations(constants: &ContactFree, block: &mut Block) {
     let (a, count) = (&block.acceleration, constants.modes.len());
     rows(&constants.floor_rows, a, count, &mut block.accelerations);
     acceleration_overshoots(
@@ -219,7 +219,7 @@ pub(super) fn accelerations(constants: &FreeFlight, block: &mut Block) {
     );
 }
 
-/// Eight modes over the block. Returns state and works at the end, and the greatest
+/// Eight modes over the block. Returns state and works at the end, and the maximum
 /// size at the starts of the steps.
 #[inline(always)]
 fn modes(
@@ -269,14 +269,14 @@ fn rows(rows: &[Rows], q: &[Lane], stride: usize, out: &mut Extremes) {
                 }
             }
         }
-        *top = greatest(&sums);
+        *top = maximum(&sums);
         *values = sums;
     }
 }
 
-/// Greatest magnitudes of eight lanes.
+/// Maximum magnitudes of eight lanes.
 #[inline(always)]
-fn greatest(values: &[Lane; BLOCK]) -> Lane {
+fn maximum(values: &[Lane; BLOCK]) -> Lane {
     let mut most = Lane::ZERO;
     for value in values {
         for l in 0..WIDTH {
@@ -303,7 +303,7 @@ fn drifts(above: &[Lane], floors: &Extremes, out: &mut Extremes) {
                 drifts[s][l] = u[l] - above[l] * below[l];
             }
         }
-        out.top[c] = greatest(&drifts);
+        out.top[c] = maximum(&drifts);
         out.values[c] = drifts;
     }
 }

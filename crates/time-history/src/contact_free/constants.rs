@@ -1,17 +1,17 @@
-//! What open flight needs to know of the buildings: made once, shared by all runs.
+//! What contact-free motion needs to know of the buildings: made once, shared by all runs.
 
 use pounding_shear_building::{Damping, ShearBuilding};
 
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
-use crate::engagement::FloorRows;
+use crate::contact_episode::FloorRows;
 use crate::rates::fastest_rate;
 use crate::system::System;
 
 /// Exact steps, mode shapes and bounds of all buildings for one length of step.
 #[derive(Debug, Clone)]
-pub(crate) struct FreeFlight {
+pub(crate) struct ContactFree {
     /// Length of a step (s).
     pub step: f64,
     /// Rate of the fastest mode of all buildings (1/s).
@@ -44,11 +44,11 @@ pub(crate) struct Fine {
     pub modes: Vec<ModeLanes>,
 }
 
-/// Greatest product of the fastest rate and the fine step: the interpolant then errs by
+/// Maximum product of the fastest rate and the fine step: the interpolant then errs by
 /// less than 1e-8 of the amplitude of the fastest mode.
 const FINE: f64 = 0.7;
 
-impl FreeFlight {
+impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
     /// couples its modes.
     pub(crate) fn new(system: &System, step: f64) -> Option<Self> {

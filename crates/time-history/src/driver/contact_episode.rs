@@ -1,27 +1,27 @@
 //! Following contacts in the coordinates of the modes.
 
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
-use crate::dense_output::Observers;
-use crate::dynamics::Segment;
-use crate::engagement::{
+use crate::contact_episode::{
     LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
     stored,
 };
+use crate::contact_free::{ContactFree, ContactFreePhase, Lane};
+use crate::dense_output::Observers;
+use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
-use crate::free_flight::{Flight, FreeFlight, Lane};
 use crate::options::MethodChoice;
 use crate::system::System;
 
-/// Exact open flight, and contacts between flights.
+/// Exact contact-free motion, and contacts between contact-free phases.
 pub(super) struct Open<'a> {
-    pub constants: &'a FreeFlight,
-    pub flight: Flight,
-    pub engagement: Engagement,
+    pub constants: &'a ContactFree,
+    pub phase: ContactFreePhase,
+    pub contact_episode: ContactEpisode,
 }
 
 /// Work space of contacts.
-pub(super) struct Engagement {
+pub(super) struct ContactEpisode {
     pub rows: LevelRows,
     pub touches: Vec<Touch>,
     pub series: Series,
@@ -43,7 +43,7 @@ pub(super) struct Engagement {
     pub derived: bool,
 }
 
-/// Where an engagement ended.
+/// Where a contact episode ended.
 pub(super) enum Left {
     /// With all gaps open, before this sample.
     At(usize),
@@ -53,7 +53,7 @@ pub(super) enum Left {
 
 impl<'a> Open<'a> {
     pub(super) fn new(system: &'a System, method: &MethodChoice) -> Option<Self> {
-        let constants = system.free_flight()?;
+        let constants = system.contact_free()?;
         let lanes = constants.modes.len();
         let levels = system.levels().len();
         let MethodChoice::EventDriven { relative_tolerance } = *method else {
@@ -61,8 +61,8 @@ impl<'a> Open<'a> {
         };
         let zeros = || vec![Lane::ZERO; lanes];
         Some(Self {
-            flight: Flight::new(system),
-            engagement: Engagement {
+            phase: ContactFreePhase::new(system),
+            contact_episode: ContactEpisode {
                 rows: LevelRows::new(constants, system),
                 touches: Vec::with_capacity(levels),
                 series: Series::new(lanes, levels),
@@ -84,19 +84,19 @@ impl<'a> Open<'a> {
 }
 
 impl Open<'_> {
-    /// Gives the motion back to flight.
+    /// Goes back to contact-free motion.
     fn put_back(&mut self) {
-        self.flight.moved = true;
-        let [q, p, ..] = &self.engagement.pair.start.motion;
-        self.flight.now.displacement.copy_from_slice(q);
-        self.flight.now.velocity.copy_from_slice(p);
+        self.phase.moved = true;
+        let [q, p, ..] = &self.contact_episode.pair.start.motion;
+        self.phase.now.displacement.copy_from_slice(q);
+        self.phase.now.velocity.copy_from_slice(p);
     }
 }
 
 impl Driver<'_> {
     /// Follows the motion from the start of a sample until all gaps are open at the end
     /// of one, or until something comes up that the coordinates of the modes do not cover.
-    pub(super) fn engage(
+    pub(super) fn contact_episode(
         &mut self,
         sample: usize,
         duration: f64,
@@ -105,12 +105,12 @@ impl Driver<'_> {
         let Some(mut open) = self.open.take() else {
             return Ok(Left::Within(sample, 0.0));
         };
-        let left = self.engage_with(&mut open, (sample, duration), observers);
+        let left = self.begin_episode_with(&mut open, (sample, duration), observers);
         self.open = Some(open);
         left
     }
 
-    fn engage_with(
+    fn begin_episode_with(
         &mut self,
         open: &mut Open<'_>,
         (first, duration): (usize, f64),
@@ -123,17 +123,17 @@ impl Driver<'_> {
         }
         let Open {
             constants,
-            flight,
-            engagement,
+            phase,
+            contact_episode,
         } = &mut *open;
         let (system, peaks) = ((self.system, &self.contacts), &self.peaks.storeys);
-        flight.board(constants, system, peaks, &self.state);
-        let [q, p, ..] = &mut engagement.pair.start.motion;
-        engagement.listed = false;
-        q.copy_from_slice(&flight.now.displacement);
-        p.copy_from_slice(&flight.now.velocity);
+        phase.take_state(constants, system, peaks, &self.state);
+        let [q, p, ..] = &mut contact_episode.pair.start.motion;
+        contact_episode.listed = false;
+        q.copy_from_slice(&phase.now.displacement);
+        p.copy_from_slice(&phase.now.velocity);
         while let Some(segment) = segment(self.system, sample, duration) {
-            if let Some(tau) = self.engage_segment(open, &segment, observers)? {
+            if let Some(tau) = self.begin_episode_in_segment(open, &segment, observers)? {
                 if sample > first || tau > 0.0 {
                     open.put_back();
                 }
@@ -153,14 +153,14 @@ impl Driver<'_> {
     /// Evaluations, or terms of series, in the coordinates of the modes.
     pub(super) fn evaluations_in_modes(&self) -> u64 {
         let open = self.open.as_ref();
-        self.series_terms + open.map_or(0, |o| o.engagement.pair.evaluations)
+        self.series_terms + open.map_or(0, |o| o.contact_episode.pair.evaluations)
     }
 
     /// Leaves the coordinates of the modes.
     fn leave(&mut self, open: &mut Open<'_>, time: f64) -> Result<(), TimeHistoryError> {
         let peaks = &mut self.peaks.storeys;
-        open.flight
-            .disembark(open.constants, self.system, peaks, &mut self.state);
+        open.phase
+            .return_state(open.constants, self.system, peaks, &mut self.state);
         self.method.restart(true);
         self.balance(time)
     }
@@ -170,7 +170,7 @@ impl Driver<'_> {
         if let Some(mut open) = self.open.take() {
             self.leave(&mut open, time)?;
             let peaks = &mut self.peaks.storeys;
-            open.flight.finish(open.constants, self.system, peaks);
+            open.phase.finish(open.constants, self.system, peaks);
             self.open = Some(open);
         }
         Ok(())
@@ -178,16 +178,16 @@ impl Driver<'_> {
 
     /// Integrates over one interval between samples. Returns a time within it (s) if it
     /// cannot go on from there.
-    fn engage_segment(
+    fn begin_episode_in_segment(
         &mut self,
         open: &mut Open<'_>,
         segment: &Segment,
         observers: &mut Observers<'_, '_>,
     ) -> Result<Option<f64>, TimeHistoryError> {
         let mut tau = 0.0;
-        open.engagement.derived = false;
+        open.contact_episode.derived = false;
         while tau < segment.length {
-            let e = &mut open.engagement;
+            let e = &mut open.contact_episode;
             if !e.listed {
                 if !list(&self.contacts, &mut e.touches) {
                     return Ok(Some(tau));
@@ -207,14 +207,14 @@ impl Driver<'_> {
             }
             let rest = segment.length - tau;
             let longest = rest.min(quiet);
-            let e = &open.engagement;
+            let e = &open.contact_episode;
             let series = if e.affine {
                 Some(longest)
             } else if e.powers {
                 let p = &e.pair.start.motion[1];
                 let touches = e.touches.iter().map(|t| {
                     let rate = e.rows.levels[t.level].dot(p);
-                    (open.flight.penetration[t.level], rate)
+                    (open.phase.penetration[t.level], rate)
                 });
                 e.lengths.of_series(touches, longest)
             } else {
@@ -258,18 +258,18 @@ impl Driver<'_> {
     ) -> Result<(), TimeHistoryError> {
         let Open {
             constants,
-            flight,
-            engagement,
+            phase,
+            contact_episode,
         } = &mut *open;
         let n = self.dynamics.layout.dofs;
-        let [q, p, ..] = &engagement.pair.start.motion;
-        flight.land_from(constants, (q, p), &mut self.state[..2 * n]);
+        let [q, p, ..] = &contact_episode.pair.start.motion;
+        phase.state_of(constants, (q, p), &mut self.state[..2 * n]);
         let smooth = self.process(segment, tau, event, whole)?;
-        let engagement = &mut open.engagement;
-        engagement.lengths.restart(smooth);
-        engagement.listed = false;
-        engagement.derived = false;
-        open.flight.acceleration_known = false;
+        let contact_episode = &mut open.contact_episode;
+        contact_episode.lengths.restart(smooth);
+        contact_episode.listed = false;
+        contact_episode.derived = false;
+        open.phase.acceleration_known = false;
         Ok(())
     }
 
@@ -282,28 +282,28 @@ impl Driver<'_> {
     ) -> Result<(), TimeHistoryError> {
         let Open {
             constants,
-            flight,
-            engagement,
+            phase,
+            contact_episode,
         } = open;
         let layout = self.dynamics.layout;
-        let [q, p, ..] = &engagement.pair.start.motion;
+        let [q, p, ..] = &contact_episode.pair.start.motion;
         self.statistics.steps += 1;
         if step > SIMULTANEOUS {
             self.at_once.fill(0);
             self.mute.fill(Mute::No);
             self.stalled = 0;
         }
-        let rows = &engagement.rows.levels;
-        for (l, penetration) in flight.penetration.iter_mut().enumerate() {
-            *penetration = engagement.closings[l] - self.contacts.width(l);
+        let rows = &contact_episode.rows.levels;
+        for (l, penetration) in phase.penetration.iter_mut().enumerate() {
+            *penetration = contact_episode.closings[l] - self.contacts.width(l);
         }
-        for touch in &engagement.touches {
+        for touch in &contact_episode.touches {
             let l = touch.level;
-            let motion = (flight.penetration[l], rows[l].dot(p));
+            let motion = (phase.penetration[l], rows[l].dot(p));
             self.contacts.commit_level(self.system, l, motion);
         }
-        if !engagement.affine {
-            refresh(&self.contacts, &mut engagement.touches);
+        if !contact_episode.affine {
+            refresh(&self.contacts, &mut contact_episode.touches);
         }
         let worked: f64 = (0..layout.levels).map(|l| self.state[layout.work(l)]).sum();
         let input = self.state[layout.input()];

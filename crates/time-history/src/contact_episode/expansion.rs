@@ -5,7 +5,7 @@ use multiversion::multiversion;
 use super::rows::{ModalRow, total};
 use super::series::{Series, Works};
 use super::tables::{PARTS, TERMS, sample};
-use crate::free_flight::{Lane, ModeLanes, WIDTH};
+use crate::contact_free::{Lane, ModeLanes, WIDTH};
 
 /// A remainder below this, relative to the motion, is round-off.
 const NEGLIGIBLE: f64 = 1.0e-17;

@@ -2,12 +2,12 @@
 //!
 //! While a response grows, every swing has a higher peak than the last, and a look
 //! between the samples of each would be wasted. What could be a peak is noted with a
-//! rigorous upper bound; what lies below the greatest sample in the end never needs a
+//! rigorous upper bound; what lies below the maximum sample in the end never needs a
 //! look.
 
 use super::block::{self, BLOCK};
 use super::closer_look::CloserLook;
-use super::constants::FreeFlight;
+use super::constants::ContactFree;
 use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
@@ -69,10 +69,10 @@ impl Candidates {
         }
     }
 
-    /// Makes room for those of one more block.
+    /// Makes space for those of one more block.
     pub(super) fn make_room(
         &mut self,
-        (constants, system): (&FreeFlight, &System),
+        (constants, system): (&ContactFree, &System),
         tracks: &mut Three<'_>,
         wanted: usize,
     ) {
@@ -137,7 +137,7 @@ impl Candidates {
     /// all floors.
     pub(super) fn settle(
         &mut self,
-        (constants, system): (&FreeFlight, &System),
+        (constants, system): (&ContactFree, &System),
         tracks: &mut Three<'_>,
     ) {
         let mut list = std::mem::take(&mut self.list);
@@ -155,7 +155,7 @@ impl Candidates {
     /// Looks at the sample that these candidates have in common.
     fn look_at(
         &mut self,
-        (constants, system): (&FreeFlight, &System),
+        (constants, system): (&ContactFree, &System),
         group: &[Candidate],
         tracks: &mut Three<'_>,
     ) {

@@ -1,16 +1,16 @@
 //! Steps in the coordinates of the modes: by the series, or by the pair.
 
-use super::engage::Open;
+use super::contact_episode::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
-use crate::dense_output::{ModalStep, Motion, Observers};
-use crate::dynamics::Segment;
-use crate::engagement::{
+use crate::contact_episode::{
     Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
     closings, in_series, in_span, note_floors_of_series, note_floors_of_span, soon_after,
 };
+use crate::contact_free::{ContactFreePhase, Lane, add, scale};
+use crate::dense_output::{ModalStep, Motion, Observers};
+use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
-use crate::free_flight::{Flight, Lane, add, scale};
 use crate::outcome::Peak;
 use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
 
@@ -44,8 +44,8 @@ impl Driver<'_> {
     ) -> Result<Option<Taken>, TimeHistoryError> {
         let Open {
             constants,
-            flight,
-            engagement: e,
+            phase,
+            contact_episode: e,
         } = open;
         let rate = e.series.rate();
         let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
@@ -62,10 +62,10 @@ impl Driver<'_> {
         };
         e.series.expand(constants, &e.rows, &e.touches, &from);
         self.series_terms += e.series.terms() as u64;
-        if !flight.acceleration_known {
+        if !phase.acceleration_known {
             e.series
                 .start_acceleration(&constants.modes, &mut e.absolute);
-            begin_acceleration(constants, &e.absolute, &mut flight.tracks(), start);
+            begin_acceleration(constants, &e.absolute, &mut phase.tracks(), start);
         }
         let mut whole = whole;
         if !e.affine {
@@ -87,7 +87,7 @@ impl Driver<'_> {
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
             (&e.series, &e.touches),
-            (&e.closings, over, &flight.penetration),
+            (&e.closings, over, &phase.penetration),
             &mut self.finder.candidates,
             |level, theta| mute[level].hides(theta * whole, at_once[level]),
         );
@@ -117,7 +117,7 @@ impl Driver<'_> {
             })?;
         }
         self.note_series(open, start);
-        let e = &mut open.engagement;
+        let e = &mut open.contact_episode;
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         e.derived = false;
         if !e.affine {
@@ -130,8 +130,8 @@ impl Driver<'_> {
     fn note_series(&mut self, open: &mut Open<'_>, start: f64) {
         let Open {
             constants,
-            flight,
-            engagement: e,
+            phase,
+            contact_episode: e,
         } = open;
         let works = e.series.works(&constants.modes);
         let layout = self.dynamics.layout;
@@ -141,10 +141,10 @@ impl Driver<'_> {
             constants,
             &e.series,
             (&e.pair.end.motion[0], &e.absolute),
-            &mut flight.tracks(),
+            &mut phase.tracks(),
             start,
         );
-        flight.acceleration_known = true;
+        phase.acceleration_known = true;
         e.series.contact_works();
         for touch in &e.series.touches {
             let (work, impulse) = touch.works;
@@ -172,8 +172,8 @@ impl Driver<'_> {
     ) -> Result<Taken, TimeHistoryError> {
         let Open {
             constants,
-            flight,
-            engagement: e,
+            phase,
+            contact_episode: e,
         } = open;
         let start = segment.start + tau;
         let scene = Scene {
@@ -188,12 +188,12 @@ impl Driver<'_> {
             e.pair.derive_start(&scene);
             e.derived = true;
         }
-        begin(&scene, &e.pair, flight, &mut e.absolute, start);
+        begin(&scene, &e.pair, phase, &mut e.absolute, start);
         let mut trial = self.accurate(&scene, &mut e.pair, &mut e.lengths, (start, longest))?;
         let whole = trial.tried.length;
         e.pair.derive_end(&scene, whole);
         let mut step = whole;
-        let event = self.event_of(&scene, &e.pair, flight, &trial.clock, longest);
+        let event = self.event_of(&scene, &e.pair, phase, &trial.clock, longest);
         if let Some((found, time)) = &event {
             if *time <= EVENT_TOLERANCE {
                 return Ok((0.0, Some((*found, whole))));
@@ -235,7 +235,7 @@ impl Driver<'_> {
                 motion: Motion::Pair(&scene, &span),
             })?;
         }
-        note_floors_of_span(&scene, &span, &mut e.rates, &mut flight.tracks(), start);
+        note_floors_of_span(&scene, &span, &mut e.rates, &mut phase.tracks(), start);
         self.note_contacts(&scene, &span, &e.pair, start);
         closings(&e.rows, &e.pair.end.motion[0], &mut e.closings);
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
@@ -280,7 +280,7 @@ impl Driver<'_> {
         &mut self,
         scene: &Scene<'_>,
         pair: &Pair,
-        flight: &Flight,
+        phase: &ContactFreePhase,
         clock: &Clock,
         longest: f64,
     ) -> Option<(Candidate, f64)> {
@@ -295,7 +295,7 @@ impl Driver<'_> {
             scene,
             &self.contacts,
             &span,
-            &flight.penetration,
+            &phase.penetration,
             candidates,
             |level, theta| mute[level].hides(clock.offset(theta), at_once[level]),
         );
@@ -330,16 +330,22 @@ impl Driver<'_> {
 }
 
 /// Takes the floors' accelerations at the start of a step, where they may have jumped.
-fn begin(scene: &Scene<'_>, pair: &Pair, flight: &mut Flight, absolute: &mut [Lane], start: f64) {
-    if flight.acceleration_known {
+fn begin(
+    scene: &Scene<'_>,
+    pair: &Pair,
+    phase: &mut ContactFreePhase,
+    absolute: &mut [Lane],
+    start: f64,
+) {
+    if phase.acceleration_known {
         return;
     }
     let modes = pair.start.motion[2].iter().zip(&scene.constants.modes);
     for ((a, m), absolute) in modes.zip(absolute.iter_mut()) {
         *absolute = add(*a, scale(scene.ground.0, m.participation));
     }
-    begin_acceleration(scene.constants, absolute, &mut flight.tracks(), start);
-    flight.acceleration_known = true;
+    begin_acceleration(scene.constants, absolute, &mut phase.tracks(), start);
+    phase.acceleration_known = true;
 }
 
 /// Takes the peaks of one closed level.

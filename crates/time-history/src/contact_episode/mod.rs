@@ -1,4 +1,4 @@
-//! Contacts in the coordinates of the modes: what follows open flight when a gap closes.
+//! Contacts in the coordinates of the modes: what follows contact-free motion when a gap closes.
 //!
 //! Classical damping keeps the modes apart, so that a building's own motion costs a few
 //! operations a mode, and a contact adds a force along one fixed row of the modes.

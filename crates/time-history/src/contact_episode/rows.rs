@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-use crate::free_flight::{FreeFlight, Lane, WIDTH};
+use crate::contact_free::{ContactFree, Lane, WIDTH};
 use crate::system::{ContactLevel, System};
 
 /// One linear function of the modal displacements, over the lanes where it is not zero.
@@ -29,7 +29,7 @@ impl ModalRow {
 pub(crate) struct FloorRows {
     pub floors: Vec<ModalRow>,
     pub drifts: Vec<ModalRow>,
-    /// Greatest entry of each mode at any floor.
+    /// Maximum entry of each mode at any floor.
     pub size: Vec<Lane>,
 }
 
@@ -191,7 +191,7 @@ pub(crate) fn closings(rows: &LevelRows, q: &[Lane], out: &mut [f64]) {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn stored(constants: &FreeFlight, q: &[Lane], p: &[Lane]) -> f64 {
+pub(crate) fn stored(constants: &ContactFree, q: &[Lane], p: &[Lane]) -> f64 {
     let mut energies = Lane::ZERO;
     for (c, m) in constants.modes.iter().enumerate() {
         for l in 0..WIDTH {
@@ -215,7 +215,7 @@ impl FloorRows {
         total(&sum)
     }
 
-    pub(crate) fn new(constants: &FreeFlight, mass: &[f64]) -> Self {
+    pub(crate) fn new(constants: &ContactFree, mass: &[f64]) -> Self {
         // Columns of Phi' M over the masses are the floors' rows of Phi.
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
             let inverse = &constants.inverse[constants.building[i]];
@@ -251,7 +251,7 @@ impl FloorRows {
 }
 
 impl LevelRows {
-    pub(crate) fn new(constants: &FreeFlight, system: &System) -> Self {
+    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
             let row = &constants.rows.floors[i];
             (row.weights.clone(), row.first_lane, sign)

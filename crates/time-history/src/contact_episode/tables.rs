@@ -1,6 +1,6 @@
 //! Powers of the points at which series are sampled.
 
-use crate::free_flight::{Lane, WIDTH};
+use crate::contact_free::{Lane, WIDTH};
 use crate::polynomial::fit_nodes;
 
 /// Terms of a series at most, that of order zero included.
@@ -130,9 +130,9 @@ pub(super) fn sum_and_bend(terms: &Terms, last: usize) -> (f64, f64) {
     (total(sums), total(bends))
 }
 
-/// Greatest magnitude of the terms from this one on.
+/// Maximum magnitude of the terms from this one on.
 #[inline(always)]
-pub(super) fn greatest(terms: &[f64]) -> f64 {
+pub(super) fn maximum(terms: &[f64]) -> f64 {
     let mut most = [0.0; 4];
     let (fours, rest) = terms.as_chunks::<4>();
     for four in fours {
@@ -175,7 +175,7 @@ mod tests {
             near(found.0, sum);
             near(found.1, bend);
             let most = terms.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
-            assert_eq!(greatest(&terms[..=last]), most);
+            assert_eq!(maximum(&terms[..=last]), most);
         }
     }
 }

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::rows::LevelRows;
 use super::touch::Touch;
-use crate::free_flight::{FreeFlight, Lane, WIDTH};
+use crate::contact_free::{ContactFree, Lane, WIDTH};
 use crate::system::System;
 
 /// A closed level at one time: penetration (m) and three derivatives, force (N) and its
@@ -35,7 +35,7 @@ impl Point {
     /// ground acceleration with its slope.
     pub(crate) fn derive(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         rows: &LevelRows,
         (system, touches): (&System, &[Touch]),
         ground: (f64, f64),
@@ -64,7 +64,7 @@ impl Point {
 ))]
 fn derive(
     point: &mut Point,
-    constants: &FreeFlight,
+    constants: &ContactFree,
     rows: &LevelRows,
     (system, touches): (&System, &[Touch]),
     ground: (f64, f64),

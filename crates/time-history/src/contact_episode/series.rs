@@ -3,14 +3,14 @@
 use super::expansion;
 use super::powers::Law;
 use super::rows::{LevelRows, ModalRow};
-use super::tables::{TERMS, Tables, Terms, greatest, sample, sum_and_bend, value_and_slope};
+use super::tables::{TERMS, Tables, Terms, maximum, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
-use crate::free_flight::{FreeFlight, Lane, ModeLanes, WIDTH, scale};
+use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, scale};
 use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
-/// Greatest product of rate and step.
+/// Maximum product of rate and step.
 const LONGEST: f64 = 1.2;
 
 /// Relative size below which a leading term is what a root that was just passed leaves.
@@ -148,7 +148,7 @@ impl Series {
     /// Expands the motion over a step.
     pub(crate) fn expand(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         rows: &LevelRows,
         touches: &[Touch],
         from: &SeriesStep<'_>,
@@ -269,7 +269,7 @@ impl Series {
         self.touches.clone_from(&other.touches);
     }
 
-    /// Greatest value above `floor` of one row less another, with its theta.
+    /// Maximum value above `floor` of one row less another, with its theta.
     pub(crate) fn maximum_of_difference(
         &self,
         (left, right): (Option<&ModalRow>, Option<&ModalRow>),
@@ -332,7 +332,7 @@ impl Series {
         let is_noise = |k: usize, noise: f64| {
             let term = terms[k].abs();
             // Beyond the last stands what longer series left.
-            !(term > noise && term > NEGLIGIBLE_START * greatest(&terms[k..=self.last]))
+            !(term > noise && term > NEGLIGIBLE_START * maximum(&terms[k..=self.last]))
         };
         // Most start clear of zero.
         if !is_noise(0, CLEAR_OF_ZERO) {
@@ -365,7 +365,7 @@ impl Series {
         value_and_slope(terms, self.last, theta)
     }
 
-    /// Greatest value above `floor`, with its theta.
+    /// Maximum value above `floor`, with its theta.
     pub(crate) fn maximum(&self, terms: &Terms, floor: f64) -> Option<(f64, f64)> {
         let (after, bend) = self.end_and_bend(terms);
         if terms[0].max(after) + bend <= floor {

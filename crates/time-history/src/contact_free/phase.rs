@@ -1,24 +1,24 @@
-//! The flight over many samples.
+//! Contact-free motion over many samples.
 
 use std::ops::Range;
 
 use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
-use super::constants::FreeFlight;
+use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, Track, WIDTH, at, balance, drifts, gather, is_low, restoring, spread,
 };
 use super::transform::transform;
 use crate::contact::Contacts;
-use crate::dense_output::{Flown, ModalStep, Motion, Observers};
+use crate::contact_episode::{LevelRows, Tracks};
+use crate::dense_output::{ContactFreeStep, ModalStep, Motion, Observers};
 use crate::dynamics::Layout;
-use crate::engagement::{LevelRows, Tracks};
 use crate::error::TimeHistoryError;
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::system::System;
 
-/// What is to be flown.
-pub(crate) struct Leg<'a> {
+/// What is to be advanced.
+pub(crate) struct SampleRange<'a> {
     pub system: &'a System,
     pub contacts: &'a Contacts,
     /// Samples from this one on, at most up to that one.
@@ -26,18 +26,18 @@ pub(crate) struct Leg<'a> {
     pub to: usize,
 }
 
-/// What a flight writes down.
-pub(crate) struct Logbook<'a> {
+/// What a contact-free phase writes down.
+pub(crate) struct EnergyAccounts<'a> {
     /// The whole state, of which the works are written.
     pub state: &'a mut [f64],
     pub largest_input: &'a mut f64,
-    /// Greatest residual that the energy balance of a flown sample can have (J).
+    /// Maximum residual that the energy balance of a contact-free sample can have (J).
     pub residual: f64,
 }
 
 /// The motion in the coordinates of the modes, with its peaks.
 #[derive(Debug, Clone)]
-pub(crate) struct Flight {
+pub(crate) struct ContactFreePhase {
     pub now: Modal,
     displacement: Track,
     drift: Track,
@@ -47,8 +47,8 @@ pub(crate) struct Flight {
     /// Present penetrations.
     pub penetration: Vec<f64>,
     /// Whether state and peaks are those of the run, and whether the state has changed
-    /// since it came aboard.
-    aboard: bool,
+    /// since it was taken over.
+    holds_state: bool,
     pub moved: bool,
     modal: Vec<Lane>,
     start_energy: Vec<Lane>,
@@ -56,11 +56,11 @@ pub(crate) struct Flight {
     block: Block,
     candidates: Candidates,
     /// The motion from sample to sample, for observers.
-    replay: Modal,
-    replayed: Modal,
+    sample_start: Modal,
+    sample_end: Modal,
 }
 
-impl Flight {
+impl ContactFreePhase {
     pub(crate) fn new(system: &System) -> Self {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
@@ -72,30 +72,30 @@ impl Flight {
             acceleration: Track::new(lanes),
             acceleration_known: false,
             penetration: vec![0.0; system.levels().len()],
-            aboard: false,
+            holds_state: false,
             moved: false,
             modal: zeros(),
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
             candidates: Candidates::new(lanes, dofs),
-            replay: Modal::new(lanes),
-            replayed: Modal::new(lanes),
+            sample_start: Modal::new(lanes),
+            sample_end: Modal::new(lanes),
         }
     }
 
     /// Takes state and peaks over, unless it has them.
-    pub(crate) fn board(
+    pub(crate) fn take_state(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         (system, contacts): (&System, &Contacts),
         peaks: &[StoreyPeaks],
         state: &[f64],
     ) {
-        if self.aboard {
+        if self.holds_state {
             return;
         }
-        self.aboard = true;
+        self.holds_state = true;
         self.moved = false;
         let n = system.degrees_of_freedom();
         for (modal, from) in [
@@ -116,16 +116,16 @@ impl Flight {
     }
 
     /// Hands state and peaks back. What could still be a peak is kept for
-    /// [`Flight::finish`].
-    pub(crate) fn disembark(
+    /// [`ContactFreePhase::finish`].
+    pub(crate) fn return_state(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         system: &System,
         peaks: &mut [StoreyPeaks],
         state: &mut [f64],
     ) {
-        if self.aboard {
-            self.aboard = false;
+        if self.holds_state {
+            self.holds_state = false;
             let n = system.degrees_of_freedom();
             // There and back again would be round-off, which matters to floors in touch.
             let back = [(&self.now.displacement, 0), (&self.now.velocity, n)];
@@ -140,7 +140,7 @@ impl Flight {
     /// Settles what could still be a peak.
     pub(crate) fn finish(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         system: &System,
         peaks: &mut [StoreyPeaks],
     ) {
@@ -155,9 +155,9 @@ impl Flight {
     }
 
     /// Floor displacements and velocities from those of the modes.
-    pub(crate) fn land_from(
+    pub(crate) fn state_of(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         (q, p): (&[Lane], &[Lane]),
         state: &mut [f64],
     ) {
@@ -177,64 +177,69 @@ impl Flight {
         }
     }
 
-    /// Flies samples until a gap could close in one or the leg ends. Returns how many.
-    pub(crate) fn fly(
+    /// Advances samples until a gap could close in one or the range ends. Returns how many.
+    pub(crate) fn propagate(
         &mut self,
-        constants: &FreeFlight,
-        leg: &Leg<'_>,
-        book: &mut Logbook<'_>,
+        constants: &ContactFree,
+        range: &SampleRange<'_>,
+        accounts: &mut EnergyAccounts<'_>,
         (rows, observers): (&LevelRows, &mut Observers<'_, '_>),
     ) -> Result<usize, TimeHistoryError> {
-        self.take_off(constants);
-        let before = book.state[Layout::of(leg.system).input()];
-        let mut sample = leg.from;
-        while sample < leg.to {
-            let count = BLOCK.min(leg.to - sample);
+        self.begin(constants);
+        let before = accounts.state[Layout::of(range.system).input()];
+        let mut sample = range.from;
+        while sample < range.to {
+            let count = BLOCK.min(range.to - sample);
             if !observers.is_empty() {
-                self.replay.copy_from(&self.now);
+                self.sample_start.copy_from(&self.now);
             }
-            let flown = self.fly_block(constants, leg, (sample, count));
+            let advanced = self.propagate_block(constants, range, (sample, count));
             if !observers.is_empty() {
-                let samples = sample..sample + flown;
-                self.show(constants, leg, samples, (book.state, rows, &mut *observers))?;
+                let samples = sample..sample + advanced;
+                self.show(
+                    constants,
+                    range,
+                    samples,
+                    (accounts.state, rows, &mut *observers),
+                )?;
             }
-            if flown > 0 {
+            if advanced > 0 {
                 self.moved = true;
-                sample += flown;
+                sample += advanced;
                 let (modes, start) = (&constants.modes, &self.start_energy);
                 let input = balance(modes, &self.now, start, &mut self.drifted);
-                *book.largest_input = book.largest_input.max((before + input).abs());
+                *accounts.largest_input = accounts.largest_input.max((before + input).abs());
             }
-            if flown < count {
+            if advanced < count {
                 break;
             }
         }
-        let layout = Layout::of(leg.system);
+        let layout = Layout::of(range.system);
         let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
-        book.state[layout.input()] += sum(&self.now.input);
-        book.state[layout.viscous()] += sum(&self.now.viscous);
-        book.residual = sum(&self.drifted);
-        Ok(sample - leg.from)
+        accounts.state[layout.input()] += sum(&self.now.input);
+        accounts.state[layout.viscous()] += sum(&self.now.viscous);
+        accounts.residual = sum(&self.drifted);
+        Ok(sample - range.from)
     }
 
-    /// Shows samples that were flown to observers, from the motion before them on.
+    /// Shows samples that were advanced to observers, from the motion before them on.
     fn show(
         &mut self,
-        constants: &FreeFlight,
-        leg: &Leg<'_>,
+        constants: &ContactFree,
+        range: &SampleRange<'_>,
         samples: Range<usize>,
         (state, rows, observers): (&[f64], &LevelRows, &mut Observers<'_, '_>),
     ) -> Result<(), TimeHistoryError> {
-        let ground = &leg.system.ground().samples;
+        let ground = &range.system.ground().samples;
         for sample in samples {
-            self.replayed.copy_from(&self.replay);
+            self.sample_end.copy_from(&self.sample_start);
             let both = &ground[sample..=sample + 1];
-            block::advance(constants, both, &mut self.replayed);
+            block::advance(constants, both, &mut self.sample_end);
             observers.show(&ModalStep {
-                system: leg.system,
+                system: range.system,
                 constants,
                 rows,
-                contacts: leg.contacts,
+                contacts: range.contacts,
                 state,
                 start: sample as f64 * constants.step,
                 length: constants.step,
@@ -242,18 +247,18 @@ impl Flight {
                     ground[sample],
                     (ground[sample + 1] - ground[sample]) / constants.step,
                 ),
-                motion: Motion::Free(Flown {
-                    start: &self.replay,
-                    end: &self.replayed,
+                motion: Motion::Free(ContactFreeStep {
+                    start: &self.sample_start,
+                    end: &self.sample_end,
                     over: &self.block.over[0],
                 }),
             })?;
-            std::mem::swap(&mut self.replay, &mut self.replayed);
+            std::mem::swap(&mut self.sample_start, &mut self.sample_end);
         }
         Ok(())
     }
 
-    fn take_off(&mut self, constants: &FreeFlight) {
+    fn begin(&mut self, constants: &ContactFree) {
         for field in [
             &mut self.now.input,
             &mut self.now.viscous,
@@ -288,29 +293,29 @@ impl Flight {
         }
     }
 
-    /// Flies up to a block of samples. Returns how many it is sure that nothing closes
+    /// Advances up to a block of samples. Returns how many it is sure that nothing closes
     /// in.
-    fn fly_block(
+    fn propagate_block(
         &mut self,
-        constants: &FreeFlight,
-        leg: &Leg<'_>,
+        constants: &ContactFree,
+        range: &SampleRange<'_>,
         (sample, count): (usize, usize),
     ) -> usize {
-        let ground = &leg.system.ground().samples[sample..=sample + count];
+        let ground = &range.system.ground().samples[sample..=sample + count];
         let mut samples = [ground[count]; BLOCK + 1];
         samples[..=count].copy_from_slice(ground);
-        block::fly(constants, &self.now, &samples, &mut self.block);
-        let clear = clear_samples(leg, &self.block, &self.penetration, count);
+        block::propagate(constants, &self.now, &samples, &mut self.block);
+        let clear = clear_samples(range, &self.block, &self.penetration, count);
         if clear == 0 {
             return 0;
         }
-        let wanted = 3 * BLOCK * leg.system.degrees_of_freedom();
+        let wanted = 3 * BLOCK * range.system.degrees_of_freedom();
         let tracks = &mut [
             &mut self.displacement,
             &mut self.drift,
             &mut self.acceleration,
         ];
-        let place = (constants, leg.system);
+        let place = (constants, range.system);
         self.candidates.make_room(place, tracks, wanted);
         let low = is_low(constants, &self.block.over[0], &self.acceleration.peak);
         if !low {
@@ -336,14 +341,14 @@ impl Flight {
             block.accelerations.copy_after(clear, now);
         }
         for (l, penetration) in self.penetration.iter_mut().enumerate() {
-            *penetration = block.levels.after(clear, l) - leg.contacts.width(l);
+            *penetration = block.levels.after(clear, l) - range.contacts.width(l);
         }
         clear
     }
 
     /// Takes the peaks at the first samples of the block, and notes where there could be
     /// higher ones between them.
-    fn note_peaks(&mut self, constants: &FreeFlight, (first, count): (usize, usize), low: bool) {
+    fn note_peaks(&mut self, constants: &ContactFree, (first, count): (usize, usize), low: bool) {
         let (block, now) = (&self.block, &self.now);
         let all = [
             (
@@ -423,19 +428,27 @@ fn below(values: &Extremes, track: &Track, overshoot: &[Lane]) -> bool {
         let (over, peak) = (overshoot[c], track.peak[c]);
         for l in 0..WIDTH {
             let start = now[l].abs();
-            let greatest = if top[l] > start { top[l] } else { start };
-            all &= greatest + over[l] <= peak[l];
+            let maximum = if top[l] > start { top[l] } else { start };
+            all &= maximum + over[l] <= peak[l];
         }
     }
     all
 }
 
 /// Number of the first samples of the block in which no gap can close.
-fn clear_samples(leg: &Leg<'_>, block: &Block, penetration: &[f64], count: usize) -> usize {
+fn clear_samples(
+    range: &SampleRange<'_>,
+    block: &Block,
+    penetration: &[f64],
+    count: usize,
+) -> usize {
     let mut clear = count;
-    for (l, level) in leg.system.levels().iter().enumerate() {
+    for (l, level) in range.system.levels().iter().enumerate() {
         let over = |floor: Option<usize>| floor.map_or(0.0, |i| at(&block.over[0], i));
-        let (width, over) = (leg.contacts.width(l), over(level.left) + over(level.right));
+        let (width, over) = (
+            range.contacts.width(l),
+            over(level.left) + over(level.right),
+        );
         if (at(&block.levels.top, l) - width).max(penetration[l]) + over <= 0.0 {
             continue;
         }

@@ -1,10 +1,10 @@
-//! Leaving open flight to the exact step of the modes.
+//! Leaving contact-free motion to the exact step of the modes.
 
-use super::engage::Open;
+use super::contact_episode::Open;
 use super::{Driver, Mute};
+use crate::contact_free::{EnergyAccounts, SampleRange};
 use crate::dense_output::Observers;
 use crate::error::TimeHistoryError;
-use crate::free_flight::{Leg, Logbook};
 use crate::system::System;
 
 /// Storeys of the largest building from which terms of tridiagonal matrices cost less than
@@ -19,16 +19,16 @@ fn is_cheaper_by_series(system: &System) -> bool {
 }
 
 impl Driver<'_> {
-    pub(super) fn ready_to_fly(mut self) -> Self {
+    pub(super) fn ready_for_contact_free(mut self) -> Self {
         if self.method.flies() && !is_cheaper_by_series(self.system) {
             self.open = Open::new(self.system, &self.options.method);
         }
         self
     }
 
-    /// Flies from this sample on while no gap can close and no peak can lie between
-    /// samples. Returns the number of samples flown.
-    pub(super) fn fly(
+    /// Advances from this sample on while no gap can close and no peak can lie between
+    /// samples. Returns the number of samples advanced.
+    pub(super) fn propagate(
         &mut self,
         sample: usize,
         duration: f64,
@@ -36,48 +36,48 @@ impl Driver<'_> {
     ) -> Result<usize, TimeHistoryError> {
         let Some(Open {
             constants,
-            flight,
-            engagement,
+            phase,
+            contact_episode,
         }) = &mut self.open
         else {
             return Ok(0);
         };
         let ground = self.system.ground();
         let whole = (duration / ground.time_step * (1.0 + 1.0e-12)).floor() as usize;
-        let leg = Leg {
+        let range = SampleRange {
             system: self.system,
             contacts: &self.contacts,
             from: sample,
             to: whole.min(ground.samples.len().saturating_sub(1)),
         };
         let quiet = self.mute.iter().all(|m| *m == Mute::No);
-        if !self.contacts.closed().is_empty() || !quiet || leg.from >= leg.to {
+        if !self.contacts.closed().is_empty() || !quiet || range.from >= range.to {
             return Ok(0);
         }
-        flight.board(
+        phase.take_state(
             constants,
             (self.system, &self.contacts),
             &self.peaks.storeys,
             &self.state,
         );
-        let mut book = Logbook {
+        let mut accounts = EnergyAccounts {
             state: &mut self.state,
             largest_input: &mut self.ledger.largest_input,
             residual: 0.0,
         };
-        let watched = (&engagement.rows, observers);
-        let flown = flight.fly(constants, &leg, &mut book, watched)?;
-        if flown > 0 {
-            let residual = self.residual.abs() + book.residual;
+        let watched = (&contact_episode.rows, observers);
+        let advanced = phase.propagate(constants, &range, &mut accounts, watched)?;
+        if advanced > 0 {
+            let residual = self.residual.abs() + accounts.residual;
             if !residual.is_finite() {
-                return Err(self.not_finite((sample + flown) as f64 * ground.time_step));
+                return Err(self.not_finite((sample + advanced) as f64 * ground.time_step));
             }
             self.largest_residual = self.largest_residual.max(residual);
-            self.last_ground = ground.samples[sample + flown];
-            self.statistics.steps += flown as u64;
+            self.last_ground = ground.samples[sample + advanced];
+            self.statistics.steps += advanced as u64;
             self.at_once.fill(0);
             self.stalled = 0;
         }
-        Ok(flown)
+        Ok(advanced)
     }
 }

@@ -6,8 +6,8 @@ use super::pair::Scene;
 use super::rows::FloorRows;
 use super::series::Series;
 use super::span::Span;
-use crate::free_flight::{
-    FreeFlight, Lane, Track, WIDTH, drifts, raise, raise_now, to_floors, transform,
+use crate::contact_free::{
+    ContactFree, Lane, Track, WIDTH, drifts, raise, raise_now, to_floors, transform,
 };
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
@@ -20,7 +20,7 @@ pub(crate) struct Tracks<'a> {
 
 /// Absolute accelerations of the floors at the start of a step, which may have jumped.
 pub(crate) fn begin_acceleration(
-    constants: &FreeFlight,
+    constants: &ContactFree,
     absolute: &[Lane],
     tracks: &mut Tracks<'_>,
     time: f64,
@@ -32,7 +32,7 @@ pub(crate) fn begin_acceleration(
 /// Takes the peaks within a series; `absolute` are the modal absolute accelerations and
 /// `displacement` the modal displacements at its end.
 pub(crate) fn note_floors_of_series(
-    constants: &FreeFlight,
+    constants: &ContactFree,
     series: &Series,
     (displacement, absolute): (&[Lane], &[Lane]),
     tracks: &mut Tracks<'_>,
@@ -76,7 +76,7 @@ pub(crate) fn note_floors_of_series(
     "aarch64+neon"
 ))]
 fn values(
-    constants: &FreeFlight,
+    constants: &ContactFree,
     series: &Series,
     (displacement, absolute): (&[Lane], &[Lane]),
     tracks: &mut Tracks<'_>,
@@ -201,7 +201,7 @@ impl Rates {
     }
 
     /// Takes the rates at the start or the end of a span.
-    fn take(&mut self, constants: &FreeFlight, span: &Span<'_>, slope: f64, end: usize) {
+    fn take(&mut self, constants: &ContactFree, span: &Span<'_>, slope: f64, end: usize) {
         let point = if end == 0 { span.start } else { span.end };
         let shapes = &constants.shapes;
         transform(shapes, &point.motion[1], &mut self.ends[0][end]);

@@ -4,8 +4,8 @@ use super::clock::Clock;
 use super::pair::{Pair, Scene};
 use super::search::event_guard;
 use crate::contact::Contacts;
+use crate::contact_free::{Lane, WIDTH};
 use crate::events::EventKind;
-use crate::free_flight::{Lane, WIDTH};
 
 /// An event this close to the end of a trial step, as a part of it, needs no other one:
 /// the state is moved there by its own derivatives.

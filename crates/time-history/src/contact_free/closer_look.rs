@@ -1,8 +1,8 @@
-//! A closer look at one sample of open flight: between points so dense that every
+//! A closer look at one sample of contact-free motion: between points so dense that every
 //! floor moves on a polynomial of degree 7.
 
 use super::candidates::Quantity;
-use super::constants::{Fine, FreeFlight};
+use super::constants::{ContactFree, Fine};
 use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
 use super::transform::{Four, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
@@ -44,7 +44,7 @@ impl Point {
 
     /// Derivatives of the modes from their displacements and velocities by the equation of
     /// motion and its derivatives.
-    fn derive(&mut self, constants: &FreeFlight, (ground, slope): (f64, f64)) {
+    fn derive(&mut self, constants: &ContactFree, (ground, slope): (f64, f64)) {
         for (c, m) in constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let (damping, gamma) = (m.damping[l], m.participation[l]);
@@ -61,7 +61,7 @@ impl Point {
     }
 
     /// The same of absolute acceleration.
-    fn derive_absolute(&mut self, constants: &FreeFlight) {
+    fn derive_absolute(&mut self, constants: &ContactFree) {
         for k in 0..4 {
             let (q, p) = (&self.modes[k], &self.modes[k + 1]);
             restoring(&constants.modes, q, p, &mut self.restoring[k]);
@@ -124,7 +124,7 @@ impl CloserLook {
     }
 
     /// Goes on by one fine step.
-    pub(super) fn advance(&mut self, constants: &FreeFlight, fine: &Fine, ground: Ground) {
+    pub(super) fn advance(&mut self, constants: &ContactFree, fine: &Fine, ground: Ground) {
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
             self.end.derive(constants, (ground.start, ground.slope));
@@ -163,7 +163,7 @@ impl CloserLook {
     }
 
     /// Absolute accelerations at both ends, where they are not known.
-    fn derive_absolute(&mut self, constants: &FreeFlight) {
+    fn derive_absolute(&mut self, constants: &ContactFree) {
         let wanted = [&self.wanted[0], &self.wanted[1]].map(Vec::as_slice);
         for point in [&mut self.start, &mut self.end] {
             if !point.absolute_known {
@@ -193,7 +193,7 @@ impl CloserLook {
     /// acceleration.
     pub(super) fn function(
         &mut self,
-        constants: &FreeFlight,
+        constants: &ContactFree,
         quantity: Quantity,
         floor: usize,
     ) -> Polynomial {

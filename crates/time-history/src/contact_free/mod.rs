@@ -1,7 +1,7 @@
-//! Open flight: linear buildings between impacts, advanced a sample at a time by the
+//! Contact-free motion: linear buildings between impacts, advanced a sample at a time by the
 //! exact step of their modes.
 //!
-//! A sample is flown only if nothing can happen inside it. Both questions - can a gap
+//! A sample is advanced only if nothing can happen inside it. Both questions - can a gap
 //! close, can a peak lie between the samples - are answered by a rigorous bound: a
 //! function lies below the larger of its end values plus `h^2 / 8` times a bound of
 //! its second derivative, and it has no extremum inside if its change exceeds `h^2 / 2`
@@ -13,16 +13,16 @@ mod block;
 mod candidates;
 mod closer_look;
 mod constants;
-mod flight;
 mod lanes;
 mod mode_step;
+mod phase;
 mod transform;
 
 pub(crate) use block::step_over;
-pub(crate) use constants::FreeFlight;
-pub(crate) use flight::{Flight, Leg, Logbook};
+pub(crate) use constants::ContactFree;
 pub(crate) use lanes::{
     Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
     restoring, scale, spread,
 };
+pub(crate) use phase::{ContactFreePhase, EnergyAccounts, SampleRange};
 pub(crate) use transform::{Four, to_floors, transform, transform_fours};

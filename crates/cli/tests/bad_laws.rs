@@ -106,7 +106,7 @@ fn laws_of_storeys() {
     refused(
         &with("\"120 kN\"", "[\"120 kN\"]"),
         "",
-        &["1 values", "2 places", "without brackets"],
+        &["1 value where there are 2 places", "without brackets"],
     );
     refused(&with("{ ", "{ storeys = [3], "), "", &["storey 3"]);
     refused(

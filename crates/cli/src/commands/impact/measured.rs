@@ -68,7 +68,11 @@ impl Source<'_> {
         if samples.len() < 3 {
             return Err(self.error(
                 end,
-                format!("too few rows of numbers: {}", samples.len()),
+                format!(
+                    "{} of numbers {} too few",
+                    counted(samples.len(), "row"),
+                    agreeing(&samples.len(), "is", "are")
+                ),
                 "a force history takes three rows at least, better fifty",
             ));
         }

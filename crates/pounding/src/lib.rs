@@ -114,7 +114,7 @@ pub use pounding_time_history as time_history;
 pub mod prelude {
     pub use pounding_shear_building::Damping;
     pub use pounding_time_history::{
-        GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink,
+        GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink, Summary,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time};

@@ -25,6 +25,8 @@ mod rates;
 mod recorder;
 mod relative_displacement;
 mod small_solver;
+#[cfg(feature = "serde")]
+mod summary;
 mod system;
 mod warnings;
 
@@ -38,6 +40,8 @@ pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, History, Recorder, Sample, SampleSink, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
+#[cfg(feature = "serde")]
+pub use summary::Summary;
 pub use system::{
     ContactLevel, Floor, Gap, GroundAcceleration, LevelPlace, Link, LinkedPair, System,
     UnequalFloors, more_pairs,

@@ -229,6 +229,7 @@ pub struct Energy {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ledger {
     /// At the end of the run.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub end: Energy,
     /// Largest input energy of the run, at its accepted steps (J).
     pub largest_input: f64,

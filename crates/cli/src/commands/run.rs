@@ -9,15 +9,16 @@ use pounding_case::Case;
 use pounding_files::FileUse;
 use pounding_results::{RunEnding, RunHead, RunWriter, check_size};
 use pounding_time_history::{
-    GridRecorder, Outcome, Recorder, SampleSink, TimeHistoryError, run as integrate,
+    GridRecorder, Outcome, Recorder, SampleSink, Summary, TimeHistoryError, run as integrate,
 };
+use serde_json::json;
 
 use super::progress::{Progress, Unit};
 use super::{have_a_place, name_left_over, pretty, print, reads_too};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
-use crate::{json, plot, tables};
+use crate::{plot, tables};
 
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -72,12 +73,8 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         picture.responses.draw(path)?;
     }
     if arguments.json {
-        return print(&pretty(&json::outcome(
-            &assembly.system,
-            &outcome,
-            &isolated,
-            &warnings,
-        )));
+        let summary = Summary::of(&assembly.system, (&outcome, &isolated), &warnings);
+        return print(&pretty(&json!(summary)));
     }
     let mut text = tables::report(&tables::Run {
         case: &case,

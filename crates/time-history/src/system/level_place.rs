@@ -45,6 +45,22 @@ impl LevelPlace {
     }
 }
 
+/// Label, storeys and elevations; a wall has neither storey nor elevation.
+#[cfg(feature = "serde")]
+impl serde::Serialize for LevelPlace {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+
+        let mut place = serializer.serialize_struct("LevelPlace", 5)?;
+        place.serialize_field("level", &self.label())?;
+        place.serialize_field("left_storey", &self.storeys[0])?;
+        place.serialize_field("right_storey", &self.storeys[1])?;
+        place.serialize_field("left_elevation", &self.elevations[0])?;
+        place.serialize_field("right_elevation", &self.elevations[1])?;
+        place.end()
+    }
+}
+
 /// Storeys and elevations: `3-3 (9 m | 9 m)`, or `3-wall (9 m | wall)`.
 impl fmt::Display for LevelPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,0 +1,128 @@
+//! The answer of a run as one object for machines, by `serde`: SI units, full precision.
+
+use pounding_gap_element::Verification;
+use serde::Serialize;
+
+use crate::outcome::{
+    Ledger, LevelOutcome, LinkLevelOutcome, Outcome, Statistics, StoreyPeaks, YieldingStorey,
+};
+use crate::system::{LevelPlace, System};
+
+/// A run beside that of the same buildings without gaps: what `pounding run --json` prints.
+///
+/// Numbers that are none (NaN) are written as `null`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary<'a> {
+    status: &'static str,
+    method: &'static str,
+    end_time: f64,
+    buildings: Vec<Building<'a>>,
+    gaps: Vec<Gap<'a>>,
+    links: Vec<Link<'a>>,
+    energy: Ledger,
+    statistics: Statistics,
+    warnings: &'a [String],
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Building<'a> {
+    name: &'a str,
+    elevation: &'a [f64],
+    storeys: &'a [StoreyPeaks],
+    yielding: &'a [Option<YieldingStorey>],
+    isolated: &'a [StoreyPeaks],
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Gap<'a> {
+    name: &'a str,
+    model: Option<&'static str>,
+    from_secondary_sources: bool,
+    between: &'a [String; 2],
+    levels: Vec<Level<'a>>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Level<'a> {
+    #[serde(flatten)]
+    outcome: &'a LevelOutcome,
+    #[serde(flatten)]
+    place: LevelPlace,
+    width: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Link<'a> {
+    name: &'a str,
+    law: &'static str,
+    levels: Vec<LinkLevel<'a>>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct LinkLevel<'a> {
+    #[serde(flatten)]
+    outcome: &'a LinkLevelOutcome,
+    #[serde(flatten)]
+    place: LevelPlace,
+}
+
+impl<'a> Summary<'a> {
+    /// Of a run of a system, of the run of [`System::isolated`], and of what the user should
+    /// know.
+    #[must_use]
+    pub fn of(
+        system: &'a System,
+        (outcome, isolated): (&'a Outcome, &'a Outcome),
+        warnings: &'a [String],
+    ) -> Self {
+        let buildings = outcome.buildings.iter().zip(&isolated.buildings);
+        let buildings = buildings.zip(system.buildings());
+        let buildings = buildings.map(|((with, without), building)| Building {
+            name: &with.name,
+            elevation: building.elevations(),
+            storeys: &with.storeys,
+            yielding: &with.yielding,
+            isolated: &without.storeys,
+        });
+        let gaps = outcome.gaps.iter().zip(system.gaps()).map(|(gap, place)| {
+            let levels = system.levels_of(place);
+            let descriptor = levels.first().map(|l| l.model.descriptor());
+            let secondary = descriptor
+                .is_some_and(|d| matches!(d.verification, Verification::SecondarySources(_)));
+            let levels = gap.levels.iter().zip(levels).map(|(outcome, level)| Level {
+                outcome,
+                place: level.place,
+                width: level.width,
+            });
+            Gap {
+                name: &gap.name,
+                model: descriptor.map(|d| d.name),
+                from_secondary_sources: secondary,
+                between: &place.between,
+                levels: levels.collect(),
+            }
+        });
+        let links = outcome.links.iter().enumerate().map(|(index, link)| {
+            let places = system.link_levels(index);
+            let levels = link.levels.iter().zip(places);
+            Link {
+                name: &link.name,
+                law: link.law,
+                levels: levels
+                    .map(|(outcome, place)| LinkLevel { outcome, place })
+                    .collect(),
+            }
+        });
+        Self {
+            status: "complete",
+            method: outcome.method.name,
+            end_time: outcome.end_time,
+            buildings: buildings.collect(),
+            gaps: gaps.collect(),
+            links: links.collect(),
+            energy: outcome.energy,
+            statistics: outcome.statistics,
+            warnings,
+        }
+    }
+}

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use pounding_time_history::{
-    GridRecorder, GroundAcceleration, MethodChoice, Recorder, RunOptions, System, run,
+    GridRecorder, GroundAcceleration, History, MethodChoice, Recorder, RunOptions, Sample,
+    SampleSink, System, TimeHistoryError, run,
 };
 use verification::{Failure, REFERENCE_MODELS, ReferenceCases, reference_system};
 
@@ -14,7 +15,21 @@ const RUNS: usize = 15;
 /// Step of the output grid (s): that of the examples.
 const GRID: f64 = 0.01;
 
-/// Time of a run with all histories in memory over that of the run alone, for every case and
+/// Responses in blocks, as what writes them to a file takes them.
+#[derive(Default)]
+struct Blocks(History);
+
+impl SampleSink for Blocks {
+    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
+        self.0.push(sample);
+        if self.0.len() == 1024 {
+            self.0.clear();
+        }
+        Ok(())
+    }
+}
+
+/// Time of a run with all histories but their writing over that of the run alone, for every case and
 /// model.
 pub(crate) fn ratios(
     reference: &ReferenceCases,
@@ -52,7 +67,7 @@ fn times(system: &System) -> Result<(f64, f64), Failure> {
         run(system, &options, &mut [], &mut |_| {})?;
         alone.push(thread_seconds() - start);
         let start = thread_seconds();
-        let mut recorder = GridRecorder::new(GRID)?;
+        let mut recorder = GridRecorder::into_sink(GRID, Blocks::default())?;
         let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
         run(system, &options, &mut recorders, &mut |_| {})?;
         recorded.push(thread_seconds() - start);

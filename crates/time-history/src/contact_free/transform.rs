@@ -69,6 +69,15 @@ pub(crate) fn transform_fours(shapes: &[Shapes], fours: &mut [Four<'_>]) {
             }
         }
     }
+    if shapes.iter().all(|b| b.modes <= STRIP) {
+        // Small shapes stay in the cache by themselves.
+        for four in fours.iter_mut() {
+            for building in shapes {
+                add_small(building, four);
+            }
+        }
+        return;
+    }
     let mut packed: Packed = [[[0.0; 4]; FOURS]; STRIP];
     for fours in fours.chunks_mut(FOURS) {
         for building in shapes {
@@ -91,6 +100,30 @@ pub(crate) fn transform_fours(shapes: &[Shapes], fours: &mut [Four<'_>]) {
                     }
                 }
             }
+        }
+    }
+}
+
+/// Adds all columns of a small building to the lanes of floors that are wanted.
+#[inline(always)]
+fn add_small(building: &Shapes, four: &mut Four<'_>) {
+    for k in 0..building.lanes {
+        let lane = building.first_lane + k;
+        if !four.wanted[lane] {
+            continue;
+        }
+        let columns = &building.columns[k * building.modes..(k + 1) * building.modes];
+        let mut sums: [Lane; 4] = std::array::from_fn(|v| four.floors[v][lane]);
+        for (j, column) in columns.iter().enumerate() {
+            for (sum, modal) in sums.iter_mut().zip(four.modal) {
+                let x = at(modal, building.first_mode + j);
+                for l in 0..WIDTH {
+                    sum[l] += column[l] * x;
+                }
+            }
+        }
+        for (floors, sum) in four.floors.iter_mut().zip(sums) {
+            floors[lane] = sum;
         }
     }
 }
@@ -148,7 +181,12 @@ mod tests {
 
     #[test]
     fn many_at_once_have_the_bits_of_one_after_another() {
-        let counts = [150_usize, 221];
+        for counts in [[150, 221], [3, 6], [64, 1]] {
+            many_at_once(counts);
+        }
+    }
+
+    fn many_at_once(counts: [usize; 2]) {
         let lanes = (counts[0] + counts[1]).div_ceil(WIDTH);
         let shapes = shapes(counts);
         let modal: Vec<Vec<Lane>> = (0..20)

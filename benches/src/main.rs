@@ -53,7 +53,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         }
         ["prototype"] => report::prototype(&reference, &ground),
         ["scaling"] => report::only_scaling(reference, &ground),
-        ["recording"] => recording::ratios(&reference, &ground),
+        ["recording", only @ ..] => recording::ratios(&reference, &ground, only),
         ["sweeps"] => report::only_sweeps(&reference, &ground),
         ["sweep", runs] => report::one_sweep(&reference, &ground, runs.parse()?),
         ["cases", folder] => write_cases(&reference, &ground, Path::new(folder)),

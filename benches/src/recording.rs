@@ -29,17 +29,19 @@ impl SampleSink for Blocks {
     }
 }
 
-/// Time of a run with all histories but their writing over that of the run alone, for every case and
-/// model.
+/// Time of a run with all histories but their writing over that of the run alone, for every
+/// case and model, or for those that are named.
 pub(crate) fn ratios(
     reference: &ReferenceCases,
     ground: &GroundAcceleration,
+    only: &[&str],
 ) -> Result<String, Failure> {
+    let wanted = |place: usize, name: &str| only.get(place).is_none_or(|o| *o == name);
     let mut text = String::from(
         "| case | model | run (ms) | with histories (ms) | ratio |\n|---|---|---|---|---|\n",
     );
-    for (name, case) in &reference.cases {
-        for model in REFERENCE_MODELS {
+    for (name, case) in reference.cases.iter().filter(|c| wanted(0, c.0)) {
+        for model in REFERENCE_MODELS.into_iter().filter(|m| wanted(1, m)) {
             let system = reference_system(case, model, ground.clone(), 1.0)?;
             let (alone, recorded) = times(&system)?;
             writeln!(

@@ -7,6 +7,7 @@
 //! where unit and step came from. Whatever is done to it, or how it was
 //! generated, is reported by a list of [`StepRecord`]s.
 
+pub mod distributions;
 pub mod generators;
 pub mod matching;
 pub mod measures;
@@ -25,7 +26,6 @@ mod quantity;
 mod recording;
 mod select;
 mod source;
-mod special_functions;
 mod step_record;
 mod text;
 mod time_column;

@@ -5,6 +5,13 @@
 //! more for 2,000); that of more storeys as the tridiagonal one that it is. Frequencies
 //! then follow from the shapes as Rayleigh quotients (relative error below 1e-15 at 200
 //! storeys).
+//!
+//! Both give the same bits on every processor, on which result files of one study made on
+//! several machines rely. `faer` does not: it chooses vector widths and block sizes by the
+//! processor at run time, without a way to fix them, and 20 storeys already have other shapes
+//! with vector units than without. Nor would it gain much here (faer 0.24, one thread): 1.1,
+//! 26 and 327 ms for 100, 400 and 1,000 storeys against 1.2 (nalgebra), 35 and 227 ms, with
+//! residuals of 5e-15 of the norm against 1.3e-16.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 

@@ -26,21 +26,38 @@ pub fn run_many<T: Send>(
     make: impl Fn(usize) -> Result<System, TimeHistoryError> + Sync,
     keep: impl Fn(usize, Result<Outcome, TimeHistoryError>) -> T + Sync,
 ) -> Vec<T> {
+    in_parallel(count, threads, |number| {
+        let outcome = make(number).and_then(|s| run(&s, options, &mut [], &mut |_| {}));
+        keep(number, outcome)
+    })
+}
+
+/// Does `work` for the numbers from zero to `count - 1`, begun in this order, on so many
+/// threads (at least one, the caller's among them). Results are in the order of the numbers.
+///
+/// # Panics
+/// If `work` panics.
+pub fn in_parallel<T: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
     let next = AtomicUsize::new(0);
-    let work = || {
+    let one_thread = || {
         let mut kept = Vec::new();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             if number >= count {
                 return kept;
             }
-            let outcome = make(number).and_then(|s| run(&s, options, &mut [], &mut |_| {}));
-            kept.push((number, keep(number, outcome)));
+            kept.push((number, work(number)));
         }
     };
     let mut kept = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(count)).map(|_| scope.spawn(work)).collect();
-        let mut kept = work();
+        let others: Vec<_> = (1..threads.min(count))
+            .map(|_| scope.spawn(one_thread))
+            .collect();
+        let mut kept = one_thread();
         for other in others {
             match other.join() {
                 Ok(more) => kept.extend(more),

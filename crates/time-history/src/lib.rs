@@ -30,7 +30,7 @@ mod summary;
 mod system;
 mod warnings;
 
-pub use batch::run_many;
+pub use batch::{in_parallel, run_many};
 pub use driver::run;
 pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;

@@ -9,11 +9,11 @@ use realfft::num_complex::Complex64;
 
 pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
 
+use crate::distributions::{gamma_quantile, ln_gamma};
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
 use crate::generators::{Generated, TimeGrid};
 use crate::measures::GRAVITY;
-use crate::special_functions::{gamma_quantile, ln_gamma};
 use crate::step_record::StepRecord;
 
 const STEP: &str = "rezaeian_der_kiureghian_2010";

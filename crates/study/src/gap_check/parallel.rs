@@ -1,7 +1,6 @@
-//! Work on all cores, in the order of its numbers.
+//! Work on all cores, in the order of its numbers, with its progress.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Given how many of how many pieces of work are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -14,37 +13,15 @@ pub(crate) fn in_parallel<T: Send>(
     progress: Progress<'_>,
     work: impl Fn(usize) -> T + Sync,
 ) -> Vec<T> {
-    let next = AtomicUsize::new(0);
     let done = Mutex::new(0);
-    let one_thread = || {
-        let mut kept = Vec::new();
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= count {
-                return kept;
-            }
-            kept.push((number, work(number)));
-            // Counted under the lock: nobody is reported of fewer after more.
-            let mut done = done.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            *done += 1;
-            progress(*done, count);
-        }
-    };
-    let mut kept = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(count))
-            .map(|_| scope.spawn(one_thread))
-            .collect();
-        let mut kept = one_thread();
-        for other in others {
-            match other.join() {
-                Ok(more) => kept.extend(more),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
+    pounding_time_history::in_parallel(count, threads, |number| {
+        let kept = work(number);
+        // Counted under the lock: nobody is reported of fewer after more.
+        let mut done = done.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        *done += 1;
+        progress(*done, count);
         kept
-    });
-    kept.sort_unstable_by_key(|(number, _)| *number);
-    kept.into_iter().map(|(_, kept)| kept).collect()
+    })
 }
 
 #[cfg(test)]

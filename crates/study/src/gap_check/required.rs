@@ -1,7 +1,9 @@
 //! The gap that a target probability of contact asks for.
 
+use pounding_ground_motion::distributions::normal_quantile;
+
 use super::GapCheckOptions;
-use super::statistics::{normal_quantile, tolerance_factor};
+use super::statistics::tolerance_factor;
 
 /// A lognormal distribution fitted to demands, and its quantile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +114,7 @@ mod tests {
     #[test]
     fn fit_by_hand() {
         let e = std::f64::consts::E;
-        let p = 1.0 - crate::gap_check::statistics::normal(1.0);
+        let p = 1.0 - pounding_ground_motion::distributions::normal_distribution(1.0);
         let fit = required_gap(&[1.0 / e, e], &options(p)).lognormal.unwrap();
         assert!((fit.median - 1.0).abs() < 1.0e-12);
         assert!((fit.dispersion - 2.0_f64.sqrt()).abs() < 1.0e-12);

@@ -1,43 +1,8 @@
 //! Distributions that bounds of small samples need.
 
-use std::f64::consts::PI;
-
-/// Beyond this many standard deviations the normal distribution is taken as 0 or 1: it
-/// differs by less than 1e-15.
-const FAR: f64 = 8.0;
-
-/// Standard normal distribution function. Source: Marsaglia, Journal of Statistical
-/// Software 11 (2004) no. 4, the series in odd powers.
-pub(crate) fn normal(x: f64) -> f64 {
-    if x.abs() > FAR {
-        return if x > 0.0 { 1.0 } else { 0.0 };
-    }
-    let (mut sum, mut term, mut odd) = (x, x, 1.0);
-    while term.abs() > 1.0e-18 * sum.abs() && term != 0.0 {
-        odd += 2.0;
-        term *= x * x / odd;
-        sum += term;
-    }
-    0.5 + sum * (-0.5 * x * x).exp() / (2.0 * PI).sqrt()
-}
-
-/// The argument at which an increasing function reaches a value, between two bounds.
-fn inverse(mut low: f64, mut high: f64, wanted: f64, of: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if of(middle) < wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// Standard normal quantile.
-pub(crate) fn normal_quantile(probability: f64) -> f64 {
-    inverse(-FAR, FAR, probability, normal)
-}
+use pounding_ground_motion::distributions::{
+    argument_at, beta_quantile, normal_distribution, normal_quantile,
+};
 
 /// Distribution function of the noncentral t distribution: `P(Z + noncentrality <= t S)`
 /// with `S^2` chi-square over its degrees of freedom, by Simpson's rule over `S`.
@@ -66,7 +31,7 @@ fn noncentral_t(t: f64, degrees: f64, noncentrality: f64) -> f64 {
         };
         let density = weight * (logarithm(s) - top).exp();
         whole += density;
-        sum += density * normal(t * s - noncentrality);
+        sum += density * normal_distribution(t * s - noncentrality);
     }
     sum / whole
 }
@@ -85,64 +50,31 @@ pub(crate) fn tolerance_factor(size: usize, probability: f64, confidence: f64) -
     {
         reach *= 2.0;
     }
-    inverse(-reach, reach, confidence, |t| {
+    argument_at(confidence, -reach, reach, |t| {
         noncentral_t(t, degrees, shift)
     }) / root
 }
 
 /// Two-sided bounds of a probability of which `hits` of `trials` were seen. Source:
-/// Clopper and Pearson, Biometrika 26 (1934) 404.
+/// Clopper and Pearson, Biometrika 26 (1934) 404, as quantiles of beta distributions.
 #[must_use]
 pub fn binomial_bounds(hits: usize, trials: usize, confidence: f64) -> (f64, f64) {
     let tail = 0.5 * (1.0 - confidence);
-    let low = if hits == 0 {
-        0.0
-    } else {
-        inverse(0.0, 1.0, tail, |p| 1.0 - at_most(hits - 1, trials, p))
+    let (seen, missed) = (hits as f64, trials.saturating_sub(hits) as f64);
+    let low = match hits {
+        0 => 0.0,
+        _ => beta_quantile(seen, missed + 1.0, tail),
     };
-    let high = if hits >= trials {
-        1.0
-    } else {
-        inverse(0.0, 1.0, 1.0 - tail, |p| 1.0 - at_most(hits, trials, p))
+    let high = match missed {
+        0.0 => 1.0,
+        _ => beta_quantile(seen + 1.0, missed, 1.0 - tail),
     };
     (low, high)
-}
-
-/// Probability of at most `hits` in `trials`.
-fn at_most(hits: usize, trials: usize, p: f64) -> f64 {
-    if p <= 0.0 {
-        return 1.0;
-    }
-    if p >= 1.0 {
-        return 0.0;
-    }
-    let mut logarithm = trials as f64 * (-p).ln_1p();
-    let odds = p.ln() - (-p).ln_1p();
-    let mut sum = logarithm.exp();
-    for i in 1..=hits {
-        logarithm += odds + ((trials - i + 1) as f64 / i as f64).ln();
-        sum += logarithm.exp();
-    }
-    sum.min(1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Abramowitz and Stegun, table 26.1.
-    #[test]
-    fn normal_distribution() {
-        for (x, p) in [
-            (0.0, 0.5),
-            (1.0, 0.841_344_746_068_543),
-            (2.0, 0.977_249_868_051_821),
-            (-3.0, 0.001_349_898_031_630),
-        ] {
-            assert!((normal(x) - p).abs() < 1.0e-14, "{x}");
-        }
-        assert!((normal_quantile(0.95) - 1.644_853_626_951_472).abs() < 1.0e-12);
-    }
 
     /// One-sided tolerance factors of normal samples at 95 % confidence: Natrella,
     /// Experimental Statistics, NBS Handbook 91 (1963), table A-7.
@@ -169,7 +101,7 @@ mod tests {
     #[test]
     fn two_records() {
         let found = tolerance_factor(2, 0.5, 0.95);
-        let exact = (PI * 0.45).tan() / 2.0_f64.sqrt();
+        let exact = (std::f64::consts::PI * 0.45).tan() / 2.0_f64.sqrt();
         assert!((found - exact).abs() < 1.0e-6, "{found} {exact}");
     }
 

@@ -1,6 +1,6 @@
 //! Fragility from counts: a lognormal curve by maximum likelihood.
 
-use super::normal::{normal_density, normal_distribution, normal_quantile};
+use pounding_ground_motion::distributions::{normal_density, normal_distribution, normal_quantile};
 
 /// How often a state was reached at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]

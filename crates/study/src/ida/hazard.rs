@@ -1,7 +1,8 @@
 //! From a fragility and the hazard at a site to a mean annual frequency.
 
+use pounding_ground_motion::distributions::normal_distribution;
+
 use super::fragility::{Fragility, FragilityFit};
-use super::normal::normal_distribution;
 use crate::study_file::HazardCurve;
 
 impl HazardCurve {

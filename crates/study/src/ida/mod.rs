@@ -4,11 +4,9 @@ mod demands;
 mod evaluation;
 mod fragility;
 mod hazard;
-mod normal;
 
 pub use evaluation::{
     GapResult, IdaReport, IntensityLevel, LimitResult, MinimumGap, PoundingDemand, evaluate,
 };
 pub use fragility::{Counts, Fragility, FragilityFit, fit};
 pub use hazard::mean_annual_frequency;
-pub use normal::{normal_distribution, normal_quantile};

@@ -7,11 +7,11 @@
 
 use std::f64::consts::PI;
 
+use crate::distributions::{argument_at, beta_quantile, gamma_quantile, normal_distribution};
 use crate::error::{GroundMotionError, within};
 use crate::generators::noise::Noise;
 use crate::generators::rezaeian_der_kiureghian_2010::RezaeianDerKiureghian2010;
 use crate::measures::GRAVITY;
-use crate::special_functions::{beta_distribution, gamma_quantile, normal_distribution, quantile};
 
 const STEP: &str = "rezaeian_der_kiureghian_2010 scenario";
 /// Draws after which no parameters are found.
@@ -129,15 +129,14 @@ impl RezaeianDerKiureghianScenario {
     /// Parameters of six normal variables.
     fn parameters(normal: [f64; 6], high_pass: f64) -> RezaeianDerKiureghian2010 {
         let part = normal.map(normal_distribution);
-        let beta =
-            |i: usize, a: f64, b: f64| quantile(part[i], 0.0, 1.0, |x| beta_distribution(a, b, x));
+        let beta = |i: usize, a: f64, b: f64| beta_quantile(a, b, part[i]);
         let square = (LN_ARIAS.0 + LN_ARIAS.1 * normal[0]).exp() * GRAVITY * GRAVITY;
         RezaeianDerKiureghian2010 {
             arias_intensity: square * PI / (2.0 * GRAVITY),
             significant_duration: 5.0 + 40.0 * beta(1, 1.1314, 2.4474),
             middle_time: 0.5 + 39.5 * beta(2, 1.5792, 3.6405),
             middle_frequency: 1.4330 * gamma_quantile(4.0982, part[3]),
-            frequency_rate: quantile(part[4], RATE_RANGE.0, RATE_RANGE.1, rate_distribution),
+            frequency_rate: argument_at(part[4], RATE_RANGE.0, RATE_RANGE.1, rate_distribution),
             damping: 0.02 + 0.98 * beta(5, 1.4250, 5.7208),
             high_pass,
         }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use pounding_catalogue::wording::{agreeing, counted};
+use pounding_shear_building::{NAMES, is_name};
 use toml::de::DeValue;
 
 use crate::error::{CaseError, Errors};
@@ -238,17 +239,10 @@ fn check_name(
     what: &str,
 ) -> Result<Located<String>, CaseError> {
     let text = &name.value;
-    let bad = text.trim() != text
-        || matches!(text.as_str(), "" | "." | "..")
-        || text.contains(|c: char| c == '/' || c.is_control());
-    if !bad {
+    if is_name(text) {
         return Ok(name);
     }
-    Err(reader.error(
-        name.span,
-        format!("{text:?} cannot name a {what}"),
-        "a name is not empty, not \".\" or \"..\", and has no slash, no control characters and no blanks at its ends",
-    ))
+    Err(reader.error(name.span, format!("{text:?} cannot name a {what}"), NAMES))
 }
 
 /// The tables of an array of tables; none if the key is absent.

@@ -1,5 +1,5 @@
-//! What happens when a command is asked to end: by Ctrl-C (SIGINT), or by a batch system or
-//! a shutdown (SIGTERM).
+//! What happens when a command is asked to end: by Ctrl-C (SIGINT), by a batch system or
+//! a shutdown (SIGTERM, SIGXCPU), or by a terminal that is closed (SIGHUP).
 //!
 //! A sweep stores the runs that have finished first; everything else ends at once. Either
 //! way no file is left half-written, none that stood before is lost, and the exit code is
@@ -35,12 +35,21 @@ struct State {
 pub fn listen() -> Result<(), Failure> {
     #[cfg(unix)]
     {
-        use signal_hook::consts::{SIGINT, SIGTERM};
+        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGXFSZ};
         let failed = |e: std::io::Error| {
             let help = "the system allows no more threads or files; end other programs";
             Failure::computation(format!("cannot listen for signals: {e}"), Some(help.into()))
         };
-        let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]).map_err(failed)?;
+        // A file beyond the limit of its size is an error of writing, not an end: the flag that
+        // nobody looks at keeps the signal from ending the process.
+        let beyond = std::sync::Arc::new(AtomicBool::new(false));
+        signal_hook::flag::register(SIGXFSZ, beyond).map_err(failed)?;
+        let mut awaited = vec![SIGINT, SIGTERM, SIGXCPU];
+        // `nohup` asks for the terminal's end to be ignored.
+        if !is_ignored(SIGHUP) {
+            awaited.push(SIGHUP);
+        }
+        let mut signals = signal_hook::iterator::Signals::new(awaited).map_err(failed)?;
         let thread = std::thread::Builder::new().name("signals".to_owned());
         let listener = thread.spawn(move || {
             for _ in signals.forever() {
@@ -51,6 +60,16 @@ pub fn listen() -> Result<(), Failure> {
     }
     #[cfg(not(unix))]
     Ok(())
+}
+
+/// Whether this process was started with the signal ignored; not known beside Linux, where it
+/// is taken as not ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Says which command goes on where this one ends; an interrupted command prints it.

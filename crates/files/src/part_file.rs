@@ -39,13 +39,17 @@ impl PartFile {
     /// names will be replaced, not the link.
     ///
     /// # Errors
-    /// If the target is a folder or a device, or the folder does not exist or cannot be
+    /// If the target is a folder, a device or read-only, or the folder does not exist or cannot be
     /// written to.
     pub fn beside(target: &Path) -> Result<Self> {
         let target = behind_links(target);
         // Renaming would put the file in the place of a device, such as /dev/stdout.
         if target.exists() && !target.is_file() {
             return Err(Error::other("it is not a regular file"));
+        }
+        // Renaming asks the folder alone: who takes away the right to write means the file.
+        if target.metadata().is_ok_and(|m| m.permissions().readonly()) {
+            return Err(Error::other("it is read-only"));
         }
         let folder = folder_of(&target);
         let prefix = format!("{}{}-", start_of_name(&target), std::process::id());

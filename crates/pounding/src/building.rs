@@ -27,19 +27,33 @@ pub struct Storey {
 pub struct Building {
     name: String,
     storeys: Vec<Storey>,
-    damping: Damping,
+    damping: Option<Damping>,
     p_delta: bool,
     law: Option<(String, Vec<(String, f64)>)>,
 }
 
+/// Refuses parameters that are given twice.
+pub(crate) fn once<'p>(of: &str, names: impl Iterator<Item = &'p str>) -> Result<(), Error> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            return Err(Error::Twice {
+                of: of.to_owned(),
+                parameter: name.to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
 impl Building {
-    /// A shear building without storeys as yet, undamped.
+    /// A shear building without storeys as yet. Whether it is damped must be said.
     #[must_use]
     pub fn shear(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
             storeys: Vec::new(),
-            damping: Damping::MassProportional { ratio: 0.0 },
+            damping: None,
             p_delta: false,
             law: None,
         }
@@ -61,8 +75,14 @@ impl Building {
     /// Damps the building.
     #[must_use]
     pub fn damping(mut self, damping: Damping) -> Self {
-        self.damping = damping;
+        self.damping = Some(damping);
         self
+    }
+
+    /// Leaves the building without damping.
+    #[must_use]
+    pub fn undamped(self) -> Self {
+        self.damping(Damping::MassProportional { ratio: 0.0 })
     }
 
     /// Lets gravity act through the drifts.
@@ -93,20 +113,18 @@ impl Building {
 
     pub(crate) fn build(&self) -> Result<Arc<ShearBuilding>, Error> {
         let each = |of: fn(&Storey) -> f64| self.storeys.iter().map(of).collect();
-        let refused = |source| Error::Building {
+        let damping = self.damping.clone().ok_or_else(|| Error::NoDamping {
             building: self.name.clone(),
-            source,
-        };
+        })?;
         let gravity = if self.p_delta { STANDARD_GRAVITY } else { 0.0 };
         let building = ShearBuilding::under_gravity(
             self.name.clone(),
             each(|s| s.mass.si()),
             each(|s| s.stiffness.si()),
             each(|s| s.height.si()),
-            self.damping.clone(),
+            damping,
             gravity,
-        )
-        .map_err(refused)?;
+        )?;
         let Some((name, parameters)) = &self.law else {
             return Ok(Arc::new(building));
         };
@@ -115,7 +133,7 @@ impl Building {
             .iter()
             .map(|s| self.storey_law(s, name, parameters));
         let laws = laws.collect::<Result<Vec<_>, _>>()?;
-        Ok(Arc::new(building.with_laws(laws).map_err(refused)?))
+        Ok(Arc::new(building.with_laws(laws)?))
     }
 
     fn storey_law(
@@ -124,10 +142,11 @@ impl Building {
         name: &str,
         parameters: &[(String, f64)],
     ) -> Result<Option<StoreyLaw>, Error> {
-        let refused = |source| Error::Law {
+        let refused = |reason| Error::Law {
             building: self.name.clone(),
-            source,
+            reason,
         };
+        once(&self.name, parameters.iter().map(|p| p.0.as_str()))?;
         let descriptor = pounding_hysteresis::find(name).map_err(refused)?;
         let mut values = LawParameters::default();
         values.values.extend(parameters.iter().cloned());

@@ -7,16 +7,51 @@ use pounding_shear_building::ShearBuildingError;
 use pounding_time_history::TimeHistoryError;
 
 /// What can go wrong between a description and its results.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A building cannot be.
-    #[error("building {building}: {source}")]
-    Building {
+    /// A building cannot be; the error names it.
+    #[error(transparent)]
+    Building(#[from] ShearBuildingError),
+    /// A building that is not said to be damped, nor to be undamped.
+    #[error("building {building} has no damping")]
+    NoDamping {
         /// Its name.
         building: String,
+    },
+    /// A name that cannot stand in messages and results, or is taken.
+    #[error("{name:?} cannot name a {what}: {reason}")]
+    Name {
+        /// The name.
+        name: String,
+        /// Building or gap.
+        what: &'static str,
         /// Why.
-        source: ShearBuildingError,
+        reason: &'static str,
+    },
+    /// A gap none of whose floors may touch.
+    #[error("gap {gap} has no contact level")]
+    NoLevel {
+        /// Name of the gap.
+        gap: String,
+    },
+    /// Floors at different elevations that were named as a pair.
+    #[error("gap {gap}: {floors} differ in elevation by {difference} m")]
+    NotLevel {
+        /// Name of the gap.
+        gap: String,
+        /// The first pair.
+        floors: String,
+        /// Difference (m).
+        difference: f64,
+    },
+    /// A parameter that is given twice.
+    #[error("{of}: parameter `{parameter}` is given twice")]
+    Twice {
+        /// Gap or building.
+        of: String,
+        /// Name of the parameter.
+        parameter: String,
     },
     /// A gap without width or impact model.
     #[error("gap {gap} has no {what}")]
@@ -27,20 +62,20 @@ pub enum Error {
         what: &'static str,
     },
     /// An impact model that is not known, or its parameters.
-    #[error("gap {gap}: {source}")]
+    #[error("gap {gap}: {reason}")]
     Model {
         /// Name of the gap.
         gap: String,
         /// Why.
-        source: GapElementError,
+        reason: GapElementError,
     },
     /// A law of storeys that is not known, or its parameters.
-    #[error("building {building}: {source}")]
+    #[error("building {building}: {reason}")]
     Law {
         /// Its name.
         building: String,
         /// Why.
-        source: HysteresisError,
+        reason: HysteresisError,
     },
     /// A gap names a building that is not there.
     #[error("gap {gap}: there is no building \"{building}\"")]
@@ -91,6 +126,14 @@ pub enum Error {
     #[cfg(feature = "hdf5")]
     #[error(transparent)]
     Result(#[from] pounding_results::WriteError),
+    /// The result would be larger than any disk.
+    #[cfg(feature = "hdf5")]
+    #[error(transparent)]
+    TooLarge(#[from] pounding_results::ResponsesTooLarge),
+    /// The result would replace the case file or the record.
+    #[cfg(feature = "hdf5")]
+    #[error(transparent)]
+    FileUse(#[from] pounding_files::FileUseError),
 }
 
 impl Error {
@@ -98,10 +141,21 @@ impl Error {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Building { .. } => None,
+            Self::Building(_) | Self::Twice { .. } => None,
+            Self::NoDamping { .. } => {
+                Some("damp it by `.damping(...)`, or say `.undamped()`".to_owned())
+            }
+            Self::Name { .. } => Some("give it another name".to_owned()),
+            Self::NoLevel { .. } => {
+                Some("name pairs of storeys by `.levels(...)`, or correct the storey heights".to_owned())
+            }
+            Self::NotLevel { .. } => Some(
+                "name floors at equal elevation; `.floor_to_floor()` lets these act on each other as if they were level, a simplification that leaves out the columns which they hit"
+                    .to_owned(),
+            ),
             Self::Incomplete { what, .. } => Some(format!("give it one: `.{what}(...)`")),
-            Self::Model { source, .. } => source.help(),
-            Self::Law { source, .. } => source.help(),
+            Self::Model { reason, .. } => reason.help(),
+            Self::Law { reason, .. } => reason.help(),
             Self::UnknownBuilding { nearest, .. } => {
                 let name = nearest.as_ref()?;
                 Some(format!("did you mean \"{name}\"? A rigid wall is \"wall\""))
@@ -120,6 +174,21 @@ impl Error {
             Self::Case(error) => error.help(),
             #[cfg(feature = "hdf5")]
             Self::Result(error) => Some(error.help()),
+            #[cfg(feature = "hdf5")]
+            Self::TooLarge(error) => Some(error.help()),
+            #[cfg(feature = "hdf5")]
+            Self::FileUse(error) => Some(error.help()),
+        }
+    }
+}
+
+/// Message and help: what a `main` that returns this error prints.
+impl std::fmt::Debug for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{self}")?;
+        match self.help() {
+            Some(help) => write!(f, "\n  help: {help}"),
+            None => Ok(()),
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use pounding_gap_element::{ImpactModel, ModelParameters, registry};
+use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};
 
+use crate::building::once;
 use crate::error::Error;
 use crate::units::Length;
 
@@ -25,7 +26,7 @@ pub(crate) enum Levels {
 #[derive(Debug, Clone)]
 enum Model {
     None,
-    Named(String, ModelParameters),
+    Named(String, Vec<(String, f64)>),
     Own(Arc<dyn ImpactModel>),
 }
 
@@ -36,6 +37,8 @@ pub struct Gap {
     width: Option<Length>,
     pub(crate) levels: Levels,
     model: Model,
+    separation: Option<SeparationRule>,
+    pub(crate) floor_to_floor: bool,
 }
 
 impl Gap {
@@ -48,6 +51,8 @@ impl Gap {
             width: None,
             levels: Levels::All,
             model: Model::None,
+            separation: None,
+            floor_to_floor: false,
         }
     }
 
@@ -66,8 +71,8 @@ impl Gap {
         name: impl Into<String>,
         parameters: impl IntoIterator<Item = (&'p str, f64)>,
     ) -> Self {
-        let parameters: Vec<_> = parameters.into_iter().collect();
-        self.model = Model::Named(name.into(), ModelParameters::from_pairs(&parameters));
+        let parameters = parameters.into_iter().map(|(k, v)| (k.to_owned(), v));
+        self.model = Model::Named(name.into(), parameters.collect());
         self
     }
 
@@ -85,8 +90,22 @@ impl Gap {
         self
     }
 
-    /// Lets these pairs of storeys touch, left and right, numbered from 1. Pairs at different
-    /// elevations act on each other as if they were level, with a warning. Beside a wall its
+    /// How the model lets the floors part, where it offers more than one rule.
+    #[must_use]
+    pub fn separation(mut self, rule: SeparationRule) -> Self {
+        self.separation = Some(rule);
+        self
+    }
+
+    /// Lets named floors at different elevations act on each other as if they were level, a
+    /// simplification that leaves out the columns which they hit; the outcome warns of it.
+    #[must_use]
+    pub fn floor_to_floor(mut self) -> Self {
+        self.floor_to_floor = true;
+        self
+    }
+
+    /// Lets these pairs of storeys touch, left and right, numbered from 1. Beside a wall its
     /// number is not looked at.
     #[must_use]
     pub fn levels(mut self, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
@@ -111,9 +130,14 @@ impl Gap {
         match &self.model {
             Model::Own(model) => Ok(Arc::clone(model)),
             Model::Named(name, parameters) => {
-                let model = registry::build(name, parameters).map_err(|source| Error::Model {
+                once(&self.name(), parameters.iter().map(|p| p.0.as_str()))?;
+                let parameters = ModelParameters {
+                    values: parameters.iter().cloned().collect(),
+                    separation: self.separation,
+                };
+                let model = registry::build(name, &parameters).map_err(|reason| Error::Model {
                     gap: self.name(),
-                    source,
+                    reason,
                 })?;
                 Ok(model.into())
             }

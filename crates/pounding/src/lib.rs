@@ -9,31 +9,35 @@
 //! ```
 //! use pounding::prelude::*;
 //!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let storey = |mass, stiffness| Storey {
-//!     mass: Mass::tonnes(mass),
-//!     stiffness: Stiffness::meganewtons_per_metre(stiffness),
-//!     height: Length::metres(3.0),
-//! };
-//! let damping = Damping::StiffnessProportional { ratio: 0.05 };
-//! let light = Building::shear("light").storeys(3, storey(25.0, 3.46)).damping(damping.clone());
-//! let heavy = Building::shear("heavy").storeys(3, storey(1000.0, 2215.0)).damping(damping);
-//! let gap = Gap::between("light", "heavy")
-//!     .width(Length::millimetres(20.0))
-//!     .model("jankowski_2005", [("stiffness", 2.75e9), ("restitution", 0.65)]);
-//! # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../ground_motions/");
-//! # let record = format!("{folder}el_centro_1940_ns.csv");
-//! let motion = GroundMotion::read(&record)?.scaled_to(Acceleration::gravities(0.3))?;
-//! let model = Simulation::of([light, heavy]).gap(gap).ground_motion(motion).build()?;
-//! # let folder = tempfile::tempdir()?;
-//! # let result = folder.path().join("pair.h5");
-//! let outcome = model.run_to_file(&result)?;
-//! let roof = &outcome.gaps[0].levels[2];
-//! println!("{} impacts, {:.0} kN", roof.impacts, roof.peak_force.value / 1e3); // 22 impacts, 1163 kN
-//! # assert_eq!(roof.impacts, 22);
-//! # assert_eq!(format!("{:.0}", roof.peak_force.value / 1e3), "1163");
-//! # Ok(())
-//! # }
+//! fn main() -> Result<(), Error> {
+//!     let storey = |mass, stiffness| Storey {
+//!         mass: Mass::tonnes(mass),
+//!         stiffness: Stiffness::meganewtons_per_metre(stiffness),
+//!         height: Length::metres(3.0),
+//!     };
+//!     let damping = Damping::StiffnessProportional { ratio: 0.05 };
+//!     let light = Building::shear("light").storeys(3, storey(25.0, 3.46)).damping(damping.clone());
+//!     let heavy = Building::shear("heavy").storeys(3, storey(1000.0, 2215.0)).damping(damping);
+//!     let gap = Gap::between("light", "heavy")
+//!         .width(Length::millimetres(20.0))
+//!         .model("jankowski_2005", [("stiffness", 2.75e9), ("restitution", 0.65)]);
+//! #   let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! #   std::env::set_current_dir(root).expect("the repository");
+//!     let motion = GroundMotion::read("ground_motions/el_centro_1940_ns.csv")?;
+//!     let motion = motion.scaled_to(Acceleration::gravities(0.3))?;
+//!     let model = Simulation::of([light, heavy]).gap(gap).ground_motion(motion).build()?;
+//! #   let folder = tempfile::tempdir().expect("a folder");
+//! #   std::env::set_current_dir(&folder).expect("the folder");
+//!     let outcome = model.run_to_file("pair.h5")?;
+//!     for warning in &outcome.warnings {
+//!         println!("{warning}");
+//!     }
+//!     let roof = &outcome.gaps[0].levels[2];
+//!     println!("{} impacts, {:.0} kN", roof.impacts, roof.peak_force.value / 1e3);
+//!     assert_eq!(roof.impacts, 22);
+//!     assert_eq!(format!("{:.0}", roof.peak_force.value / 1e3), "1163");
+//!     Ok(())
+//! }
 //! ```
 //!
 //! All numbers of an [`Outcome`](prelude::Outcome) are SI; it implements `serde::Serialize`.
@@ -45,9 +49,10 @@
 //!
 //! ```
 //! # use pounding::prelude::*;
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/three_storey_pair/case.toml");
-//! let model = Model::read(case)?;
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let model = Model::read("examples/three_storey_pair/case.toml")?;
 //! let (pounding, isolated) = (model.run()?, model.isolated().run()?);
 //! let roof = |outcome: &Outcome| outcome.buildings[0].storeys[2].displacement.value;
 //! assert!(roof(&pounding) < roof(&isolated));
@@ -61,9 +66,10 @@
 //!
 //! ```
 //! # use pounding::prelude::*;
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/three_storey_pair/case.toml");
-//! # let model = Model::read(case)?;
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! # let model = Model::read("examples/three_storey_pair/case.toml")?;
 //! let mut recorder = GridRecorder::new(0.005)?;
 //! let outcome = model.run_with(&mut [&mut recorder])?;
 //! assert_eq!(outcome, model.run()?);
@@ -103,9 +109,15 @@ pub use gap::Gap;
 pub use record::GroundMotion;
 pub use simulation::{Model, Simulation};
 
+#[cfg(feature = "toml")]
+pub use pounding_assembly as assembly;
+#[cfg(feature = "toml")]
+pub use pounding_case as case;
 pub use pounding_gap_element as gap_element;
 pub use pounding_ground_motion as ground_motion;
 pub use pounding_hysteresis as hysteresis;
+#[cfg(feature = "hdf5")]
+pub use pounding_results as results;
 pub use pounding_separation as separation;
 pub use pounding_shear_building as shear_building;
 pub use pounding_time_history as time_history;

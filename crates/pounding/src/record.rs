@@ -1,6 +1,6 @@
 //! Ground motions.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use pounding_ground_motion::processing::Scale;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions, read};
@@ -10,7 +10,11 @@ use crate::units::{Acceleration, Time};
 
 /// The motion of the ground that all buildings stand on.
 #[derive(Debug, Clone)]
-pub struct GroundMotion(Accelerogram);
+pub struct GroundMotion {
+    accelerogram: Accelerogram,
+    /// Where it was read.
+    file: Option<PathBuf>,
+}
 
 impl GroundMotion {
     /// Reads a record in one of the formats that agencies publish, found from its content.
@@ -20,7 +24,10 @@ impl GroundMotion {
     /// # Errors
     /// A file that cannot be read, with its line.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self(read(path.as_ref(), &ReadOptions::default())?))
+        Ok(Self {
+            accelerogram: read(path.as_ref(), &ReadOptions::default())?,
+            file: Some(path.as_ref().to_owned()),
+        })
     }
 
     /// A motion of these accelerations at even steps from time zero on, linear in between.
@@ -33,7 +40,7 @@ impl GroundMotion {
     ) -> Result<Self, Error> {
         let samples = accelerations.into_iter().map(Acceleration::si).collect();
         let unit = AccelerationUnit::MetrePerSecondSquared;
-        Ok(Self(Accelerogram::new(samples, unit, step.si())?))
+        Ok(Accelerogram::new(samples, unit, step.si())?.into())
     }
 
     /// Scaled to a peak ground acceleration.
@@ -41,19 +48,29 @@ impl GroundMotion {
     /// # Errors
     /// A peak that is not positive, or a motion that is zero.
     pub fn scaled_to(&self, peak: Acceleration) -> Result<Self, Error> {
-        let factor = Scale::PeakAcceleration(peak.si()).factor(&self.0)?;
-        Ok(Self(self.0.scaled_by(factor)?))
+        let factor = Scale::PeakAcceleration(peak.si()).factor(&self.accelerogram)?;
+        Ok(Self {
+            accelerogram: self.accelerogram.scaled_by(factor)?,
+            file: self.file.clone(),
+        })
     }
 
     /// The samples, their step, and where they come from.
     #[must_use]
     pub fn accelerogram(&self) -> &Accelerogram {
-        &self.0
+        &self.accelerogram
+    }
+
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
     }
 }
 
 impl From<Accelerogram> for GroundMotion {
     fn from(accelerogram: Accelerogram) -> Self {
-        Self(accelerogram)
+        Self {
+            accelerogram,
+            file: None,
+        }
     }
 }

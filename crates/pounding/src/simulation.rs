@@ -2,7 +2,9 @@
 
 use pounding_catalogue::suggestion;
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{ELEVATION_TOLERANCE, floor_without_partner, level_pairs};
+use pounding_shear_building::{
+    ELEVATION_TOLERANCE, NAMES, floor_without_partner, is_name, level_pairs,
+};
 use pounding_time_history::{
     Floor, GroundAcceleration, MethodChoice, Outcome, Recorder, RunOptions, System,
     TimeHistoryError, run,
@@ -37,6 +39,8 @@ pub struct Model {
     pub(crate) title: String,
     /// Text of the case file, empty for what was built by code.
     pub(crate) source: String,
+    /// Files that it was made of, each with what it is: no result replaces them.
+    pub(crate) files: Vec<(&'static str, std::path::PathBuf)>,
 }
 
 /// Step of recorded responses unless another is asked for (s).
@@ -89,6 +93,7 @@ impl Simulation {
     pub fn build(&self) -> Result<Model, Error> {
         let motion = self.motion.as_ref().ok_or(Error::NoGroundMotion)?;
         let accelerogram = motion.accelerogram().clone();
+        self.check_names()?;
         let buildings = self.buildings.iter().map(Building::build);
         let buildings = buildings.collect::<Result<Vec<_>, _>>()?;
         let ground = GroundAcceleration {
@@ -107,6 +112,11 @@ impl Simulation {
             output_step: OUTPUT_STEP,
             title: String::new(),
             source: String::new(),
+            files: motion
+                .file()
+                .map(|f| ("record", f.to_owned()))
+                .into_iter()
+                .collect(),
         })
     }
 
@@ -116,6 +126,37 @@ impl Simulation {
     /// Those of [`build`](Self::build) and of [`Model::run`].
     pub fn run(&self) -> Result<Outcome, Error> {
         self.build()?.run()
+    }
+
+    /// Buildings and gaps are called by their names, and stand under them in results.
+    fn check_names(&self) -> Result<(), Error> {
+        let mut seen = std::collections::BTreeSet::new();
+        for name in self.buildings.iter().map(Building::name) {
+            let reason = match name {
+                WALL => Some("it is that of the rigid wall"),
+                _ if !is_name(name) => Some(NAMES),
+                _ if !seen.insert(name) => Some("another building has it"),
+                _ => None,
+            };
+            if let Some(reason) = reason {
+                return Err(Error::Name {
+                    name: name.to_owned(),
+                    what: "building",
+                    reason,
+                });
+            }
+        }
+        let mut seen = std::collections::BTreeSet::new();
+        for gap in &self.gaps {
+            if !seen.insert(gap.name()) {
+                return Err(Error::Name {
+                    name: gap.name(),
+                    what: "gap",
+                    reason: "another gap is between the same buildings",
+                });
+            }
+        }
+        Ok(())
     }
 
     fn add(&self, gap: &Gap, system: &mut System) -> Result<(), Error> {
@@ -130,12 +171,23 @@ impl Simulation {
             return Err(Error::NotNeighbours { gap: gap.name() });
         }
         let pairs = pairs(gap, sides, system)?;
+        if pairs.is_empty() {
+            return Err(Error::NoLevel { gap: gap.name() });
+        }
         let (width, model) = (gap.built_width()?, gap.built_model()?);
         let pairs = pairs
             .into_iter()
             .map(|(left, right)| (left, right, width, model.clone()));
         system.add_gap(&gap.name(), gap.between.clone(), pairs.collect())?;
-        Ok(())
+        let unequal = system.gaps().last().map(|g| system.unequal_floors(g));
+        match unequal.unwrap_or_default().first() {
+            Some(first) if !gap.floor_to_floor => Err(Error::NotLevel {
+                gap: gap.name(),
+                floors: first.floors(),
+                difference: first.difference,
+            }),
+            _ => Ok(()),
+        }
     }
 
     /// The building on a side of a gap; `None` is a wall.
@@ -273,7 +325,10 @@ impl Model {
         let case = pounding_case::Case::read(path.as_ref());
         let case = case.map_err(pounding_assembly::AssemblyError::from)?;
         let assembly = pounding_assembly::assemble(&case)?;
+        let mut files = vec![("case", path.as_ref().to_owned())];
+        files.extend(case.files());
         Ok(Self {
+            files,
             system: assembly.system,
             accelerogram: assembly.accelerogram,
             options: assembly.options,
@@ -290,12 +345,19 @@ impl Model {
     /// ledger to a result file: what `pounding run` writes.
     ///
     /// # Errors
-    /// As [`run`](Self::run); a file that cannot be written. What stood under its name is
-    /// untouched then.
+    /// As [`run`](Self::run); a file that cannot be written, or that is the case file or the
+    /// record. What stood under its name is untouched then.
     pub fn run_to_file(&self, path: impl AsRef<std::path::Path>) -> Result<Outcome, Error> {
         use pounding_results::{RunEnding, RunHead, RunWriter};
         use pounding_time_history::GridRecorder;
 
+        let mut files = pounding_files::FileUse::new();
+        for (role, file) in &self.files {
+            files.reads(*role, file);
+        }
+        files.writes("result", path.as_ref());
+        files.check()?;
+        pounding_results::check_size(&self.system, self.options.duration, self.output_step)?;
         let started = std::time::Instant::now();
         let head = RunHead {
             title: &self.title,
@@ -312,10 +374,15 @@ impl Model {
             return Err(failure.into());
         }
         let outcome = outcome?;
-        let isolated = self.isolated().run()?;
+        let isolated = self.isolated().run();
         let record = self.accelerogram.origin().map(|o| o.warnings.clone());
         let mut warnings = record.unwrap_or_default();
         warnings.extend(outcome.warnings.iter().map(ToString::to_string));
+        // What is there for comparison does not take the result away.
+        let isolated = isolated.unwrap_or_else(|error| {
+            warnings.push(format!("without gaps and links: {error}"));
+            outcome.with_unknown_peaks()
+        });
         writer.responses.finish(&RunEnding {
             outcome: &outcome,
             isolated: &isolated,

@@ -107,7 +107,7 @@ fn what_is_wrong_is_said_with_its_place_and_a_remedy() {
             height: Length::metres(height),
             ..storey(1000.0, 2215.0)
         };
-        Building::shear("heavy").storeys(3, storey)
+        Building::shear("heavy").storeys(3, storey).undamped()
     };
     let light = || building("light", 25.0, 3.46);
     let of = |buildings: Vec<Building>, gap: Gap| {
@@ -152,6 +152,114 @@ fn what_is_wrong_is_said_with_its_place_and_a_remedy() {
     assert!(said.contains("no ground motion") && help.contains(".ground_motion("));
     let (said, _) = refused(&of(vec![Building::shear("light"), heavy()], gap()));
     assert!(said.contains("light"), "{said}");
+}
+
+/// What a case file refuses, the library refuses too.
+#[test]
+fn what_a_case_file_refuses_is_refused() {
+    let light = || building("light", 25.0, 3.46);
+    let heavy = || building("heavy", 1000.0, 2215.0);
+    let of = |buildings: Vec<Building>, gaps: Vec<Gap>| {
+        let simulation = Simulation::of(buildings).ground_motion(el_centro());
+        refused(&gaps.into_iter().fold(simulation, Simulation::gap))
+    };
+    let (said, _) = of(vec![light(), heavy()], vec![gap(), gap()]);
+    assert!(said.contains("another gap"), "{said}");
+    let (said, help) = of(vec![light(), heavy()], vec![gap().levels([])]);
+    assert!(said.contains("no contact level") && help.contains(".levels("));
+    let high = Building::shear("heavy")
+        .storeys(
+            3,
+            Storey {
+                height: Length::metres(3.4),
+                ..storey(1000.0, 2215.0)
+            },
+        )
+        .undamped();
+    let none = gap().matching_floors_only();
+    let (said, _) = of(vec![light(), high.clone()], vec![none]);
+    assert!(said.contains("no contact level"), "{said}");
+    let pair = || gap().levels([(3, 3)]);
+    let (said, help) = of(vec![light(), high.clone()], vec![pair()]);
+    assert!(said.contains("differ in elevation"), "{said}");
+    assert!(help.contains(".floor_to_floor()"), "{help}");
+    let meant = Simulation::of([light(), high])
+        .gap(pair().floor_to_floor())
+        .ground_motion(el_centro());
+    assert!(!meant.run().unwrap().warnings.is_empty());
+    let bare = Building::shear("light").storeys(3, storey(25.0, 3.46));
+    let (said, help) = of(vec![bare, heavy()], vec![gap()]);
+    assert!(said.contains("no damping") && help.contains(".undamped()"));
+    for name in ["wall", "a/b", "", ".", "light "] {
+        let (said, _) = of(vec![building(name, 25.0, 3.46), heavy()], vec![]);
+        assert!(said.contains("cannot name a building"), "{name:?}: {said}");
+    }
+    let (said, _) = of(vec![light(), light()], vec![]);
+    assert!(said.contains("another building"), "{said}");
+    let twice = gap().model("hertz_1882", [("stiffness", 1e9), ("stiffness", 2e9)]);
+    let (said, _) = of(vec![light(), heavy()], vec![twice]);
+    assert!(said.contains("`stiffness` is given twice"), "{said}");
+    let (said, _) = of(vec![light(), heavy()], vec![gap().levels([(4, 3)])]);
+    assert!(said.contains("light has no storey 4"), "{said}");
+}
+
+/// A result never takes the place of what it was made of.
+#[test]
+fn no_result_replaces_an_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    std::fs::copy(record, file("r.csv")).unwrap();
+    let case = root().join("examples/three_storey_pair/case.toml");
+    let case = std::fs::read_to_string(case).unwrap();
+    let case = case.replace("../../ground_motions/el_centro_1940_ns.csv", "r.csv");
+    std::fs::write(file("case.toml"), &case).unwrap();
+    let model = Model::read(file("case.toml")).unwrap();
+    for name in ["case.toml", "r.csv", "./case.toml"] {
+        let error = model.run_to_file(file(name)).unwrap_err();
+        assert!(matches!(error, Error::FileUse(_)), "{name}: {error}");
+    }
+    assert_eq!(std::fs::read_to_string(file("case.toml")).unwrap(), case);
+    let motion = GroundMotion::read(file("r.csv")).unwrap();
+    let simulation = Simulation::of([building("light", 25.0, 3.46)]).ground_motion(motion);
+    let built = simulation.duration(Time::seconds(1.0)).build().unwrap();
+    assert!(built.run_to_file(file("r.csv")).is_err());
+    built.run_to_file(file("r.h5")).unwrap();
+}
+
+/// Where the buildings have no end without their neighbours, the run keeps its result.
+#[test]
+fn a_run_is_not_lost_with_its_comparison() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r.h5");
+    let weak = Building::shear("s")
+        .storey(Storey {
+            mass: Mass::tonnes(25.0),
+            stiffness: Stiffness::meganewtons_per_metre(0.4),
+            height: Length::metres(3.0),
+        })
+        .damping(Damping::StiffnessProportional { ratio: 0.02 })
+        .law(
+            "bilinear",
+            [("yield_force", 2.0e3), ("hardening_ratio", 0.0)],
+        )
+        .p_delta();
+    let wall = |left: &str, right: &str| {
+        Gap::between(left, right)
+            .width(Length::millimetres(10.0))
+            .model("hertz_1882", [("stiffness", 1.0e9)])
+    };
+    let model = Simulation::of([weak])
+        .gap(wall("wall", "s"))
+        .gap(wall("s", "wall"))
+        .ground_motion(el_centro())
+        .build()
+        .unwrap();
+    let error = model.isolated().run().unwrap_err();
+    assert!(error.to_string().contains("collapsed"), "{error}");
+    let outcome = model.run_to_file(&path).unwrap();
+    assert!(outcome.gaps[0].levels[0].impacts > 0);
+    assert!(path.exists());
 }
 
 /// A wall on either side has all floors, and a gap that is wide enough leaves the buildings

@@ -45,7 +45,7 @@ pub enum OpenError {
 }
 
 impl OpenError {
-    /// What to do about it; `None` where that hangs on what the file was to be.
+    /// What to do about it; `None` where that depends on what the file was to be.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         match self {

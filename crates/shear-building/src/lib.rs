@@ -9,6 +9,7 @@ mod damping;
 mod elevation;
 mod error;
 mod modes;
+mod names;
 mod tridiagonal;
 mod tridiagonal_eigen;
 
@@ -19,4 +20,5 @@ pub use elevation::{
 };
 pub use error::ShearBuildingError;
 pub use modes::Modes;
+pub use names::{NAMES, is_name};
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

@@ -255,6 +255,28 @@ pub struct Statistics {
     pub newton_iterations: u64,
 }
 
+impl Outcome {
+    /// The same with all peaks of storeys unknown (NaN): what stands in for the run without
+    /// gaps where that one failed.
+    #[must_use]
+    pub fn with_unknown_peaks(&self) -> Self {
+        let unknown = Peak {
+            value: f64::NAN,
+            time: f64::NAN,
+        };
+        let mut outcome = self.clone();
+        for storey in outcome.buildings.iter_mut().flat_map(|b| &mut b.storeys) {
+            *storey = StoreyPeaks {
+                displacement: unknown,
+                drift_ratio: unknown,
+                storey_shear: unknown,
+                acceleration_absolute: unknown,
+            };
+        }
+        outcome
+    }
+}
+
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

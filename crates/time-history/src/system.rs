@@ -233,8 +233,9 @@ impl System {
                 return Ok(None);
             };
             let building = self.buildings.get(b).filter(|x| s < x.storeys());
+            let name = || self.buildings.get(b).map_or("the building", |b| b.name());
             let building =
-                building.ok_or_else(|| wrong(format!("building {b} has no storey {}", s + 1)))?;
+                building.ok_or_else(|| wrong(format!("{} has no storey {}", name(), s + 1)))?;
             Ok(Some((
                 self.offsets[b] + s,
                 s + 1,

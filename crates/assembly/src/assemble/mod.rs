@@ -8,6 +8,7 @@ pub use again::{assemble_with_record, regap};
 use std::sync::Arc;
 
 use pounding_case::{Building, Case, CaseError, Damping, Errors, Gap, Located, Parameter, Side};
+use pounding_catalogue::suggestion;
 use pounding_gap_element::{
     ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
@@ -336,6 +337,16 @@ fn separation_rule(
         })
 }
 
+/// Names of the methods.
+const METHODS: [&str; 6] = [
+    "adaptive",
+    "event_driven",
+    "newmark",
+    "hht_alpha",
+    "runge_kutta_4",
+    "moreau_jean",
+];
+
 fn options(case: &Case) -> Result<RunOptions, CaseError> {
     let analysis = &case.analysis;
     let step = || {
@@ -376,10 +387,10 @@ fn options(case: &Case) -> Result<RunOptions, CaseError> {
             return Err(case.error(
                 analysis.method.span.clone(),
                 format!("unknown method \"{other}\""),
-                Some(
-                    "methods are adaptive, event_driven, newmark, hht_alpha, runge_kutta_4, moreau_jean"
-                        .to_owned(),
-                ),
+                Some(match suggestion::misspelt(other, METHODS) {
+                    Some(name) => format!("did you mean \"{name}\"?"),
+                    None => format!("methods are {}", METHODS.join(", ")),
+                }),
             ));
         }
     };

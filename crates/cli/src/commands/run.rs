@@ -60,7 +60,15 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     })?;
     drop(progress);
     let wall_time = started.elapsed().as_secs_f64();
-    let warnings = assembly.with_those_of_the_record(&outcome.warnings);
+    let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
+    // What the buildings do without their neighbours is for comparison: where it has no end,
+    // the run still has one.
+    let isolated = isolated.unwrap_or_else(|error| {
+        warnings.push(format!(
+            "without gaps and links: {error}; there is nothing to compare with"
+        ));
+        outcome.with_unknown_peaks()
+    });
     if let Some(writer) = writer {
         writer.responses.finish(&RunEnding {
             outcome: &outcome,
@@ -123,17 +131,20 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
             Some(folder) if stem == "case" => folder,
             _ => stem.to_owned(),
         };
-        PathBuf::from(name).with_extension("h5")
+        // Appended: of a name with a dot, such as gap_0.5, all of it tells the runs apart.
+        let mut name = name;
+        name.push(".h5");
+        PathBuf::from(name)
     })
 }
 
 /// The run and, at the same time, the same buildings without gaps. Neither depends on the
-/// other, so that threads do not change a bit of either.
+/// other, so that threads do not change a bit of either. The second may fail by itself.
 fn integrate_both(
     assembly: &Assembly,
     recorders: &mut [&mut dyn Recorder],
     progress: &Progress,
-) -> Result<(Outcome, Outcome), TimeHistoryError> {
+) -> Result<(Outcome, Result<Outcome, TimeHistoryError>), TimeHistoryError> {
     let options = &assembly.options;
     let system = assembly.system.isolated();
     // Thousandths, of which contacts and recording take more.
@@ -156,6 +167,6 @@ fn integrate_both(
             // No thread to be had.
             Err(_) => without(),
         };
-        Ok((outcome?, isolated?))
+        Ok((outcome?, isolated))
     })
 }

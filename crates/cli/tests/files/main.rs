@@ -10,4 +10,5 @@ mod part_files;
 mod progress;
 mod races;
 #[cfg(unix)]
+mod results;
 mod signals;

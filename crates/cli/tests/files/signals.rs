@@ -41,6 +41,8 @@ fn a_run_ends_at_once_and_loses_nothing() {
         ("run long.toml -o old.h5 --plot old.svg", "-TERM"),
         ("run long.toml -o old.h5", "-INT"),
         ("run long.toml -o new.h5", "-TERM"),
+        ("run long.toml -o old.h5", "-HUP"),
+        ("run long.toml -o new.h5", "-XCPU"),
         ("gap long.toml --csv old.svg", "-TERM"),
         ("compare long.toml --csv old.svg", "-INT"),
     ] {

@@ -85,7 +85,8 @@ pub(super) fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<(
 
 /// A UTF-8 text attribute.
 pub(super) fn text(location: &Location, name: &str, value: &str) -> Result<()> {
-    let value = unicode(&format!("attribute {name}"), value)?;
+    // A text ends at a NUL here.
+    let value = unicode(&format!("attribute {name}"), &value.replace('\0', " "))?;
     location
         .new_attr::<VarLenUnicode>()
         .create(name)?

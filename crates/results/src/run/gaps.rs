@@ -109,12 +109,10 @@ pub(super) fn finish(file: &hdf5::File, system: &System, outcome: &Outcome) -> R
         let impacts = outcome.impacts.iter().filter(|i| i.gap == index);
         let rows: Vec<ImpactRow> = impacts.map(ImpactRow::new).collect();
         let impacts = rows_of(&group, "impacts", &rows)?;
-        if !rows.is_empty() {
-            let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
-            let number = series(&group, "impact", "1", "number of the impact", &numbers)?;
-            dimension_scales::make_scale(&number, "impact")?;
-            dimension_scales::attach(&impacts, &number, 0)?;
-        }
+        let numbers: Vec<f64> = (1..=rows.len()).map(|i| i as f64).collect();
+        let number = series(&group, "impact", "1", "number of the impact", &numbers)?;
+        dimension_scales::make_scale(&number, "impact")?;
+        dimension_scales::attach(&impacts, &number, 0)?;
         text(
             &impacts,
             "long_name",

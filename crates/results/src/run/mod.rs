@@ -102,7 +102,7 @@ impl<'a> RunWriter<'a> {
             reason,
         };
         let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
-        let (file, tables) = begin(part.path(), head).map_err(|e| failed(e.to_string()))?;
+        let (file, tables) = begin(part.path(), head).map_err(|e| failed(reason_of(&e)))?;
         Ok(Self {
             system: head.system,
             path: path.to_owned(),
@@ -144,7 +144,7 @@ impl<'a> RunWriter<'a> {
         drop((tables, file));
         let failed = |reason: String| WriteError { path, reason };
         if let Err(e) = written {
-            return Err(failed(e.to_string()));
+            return Err(failed(reason_of(&e)));
         }
         checksum::append(part.path())
             .and_then(|()| part.finish())
@@ -156,10 +156,19 @@ impl SampleSink for RunWriter<'_> {
     fn take(&mut self, sample: &Sample) -> std::result::Result<(), TimeHistoryError> {
         self.tables.block.push(sample);
         self.tables.write_if_full().map_err(|e| {
-            let failure = self.failure.insert(e.to_string());
+            let failure = self.failure.insert(reason_of(&e));
             TimeHistoryError::Recorder(failure.clone())
         })
     }
+}
+
+/// Why HDF5 could not write: of its call stack, what the system said, or else the first line.
+fn reason_of(error: &hdf5::Error) -> String {
+    let text = error.to_string();
+    let quoted = text.split("error message = '").nth(1);
+    let said = quoted.and_then(|rest| rest.split('\'').next());
+    let first = || text.lines().next().unwrap_or_default();
+    said.unwrap_or_else(first).to_owned()
 }
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
@@ -189,9 +198,7 @@ fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
     let names = ("acceleration", "m s-2", "ground acceleration");
     let acceleration = tables.add(&ground, names, acceleration)?;
     dimension_scales::attach(&acceleration, &time, 0)?;
-    // A text here ends at a NUL, which titles of damaged headers may have.
-    let echo = head.accelerogram.echo().join("\n");
-    text(&ground, "record", &echo.replace('\0', " "))?;
+    text(&ground, "record", &head.accelerogram.echo().join("\n"))?;
     buildings::begin(&file, system, &mut tables, &time)?;
     gaps::begin(&file, system, &mut tables, &time)?;
     elements::begin_links(&file, system, &mut tables, &time)?;
@@ -248,11 +255,7 @@ fn share_time(group: &Group) -> Result<()> {
 fn run(file: &hdf5::File, ending: &RunEnding<'_>) -> Result<()> {
     let group = file.create_group("run")?;
     text(&group, "method", ending.outcome.method.title)?;
-    text(
-        &group,
-        "warnings",
-        &ending.warnings.join("\n").replace('\0', " "),
-    )?;
+    text(&group, "warnings", &ending.warnings.join("\n"))?;
     let statistics = ending.outcome.statistics;
     for (name, value) in [
         ("steps", statistics.steps),

@@ -1,0 +1,133 @@
+//! Results of `run`: under which names, beside what stands there, and what is worth keeping.
+#![cfg(unix)]
+
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Stdio};
+
+use super::fixture::{Fixture, message};
+use super::part_files::no_part_file;
+
+/// The whole name of a case file stands in that of its result: gap_0.5 and gap_0.7 are two.
+#[test]
+fn names_with_dots_are_kept() {
+    let fixture = Fixture::new();
+    for name in ["gap_0.5", "gap_0.7"] {
+        std::fs::copy(
+            fixture.path("case.toml"),
+            fixture.path(&format!("{name}.toml")),
+        )
+        .unwrap();
+        let output = fixture.run(&["run", &format!("{name}.toml")]);
+        assert!(output.status.success(), "{}", message(&output));
+        assert!(fixture.path(&format!("{name}.h5")).is_file(), "{name}");
+    }
+}
+
+/// Renaming asks the folder alone, but who takes away the right to write means the file.
+#[test]
+fn a_read_only_result_is_not_replaced() {
+    let fixture = Fixture::new();
+    let old = fixture.path("old.h5");
+    std::fs::write(&old, "kept").unwrap();
+    std::fs::set_permissions(&old, std::fs::Permissions::from_mode(0o444)).unwrap();
+    let output = fixture.run(&["run", "case.toml", "-o", "old.h5"]);
+    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+    assert!(
+        message(&output).contains("read-only"),
+        "{}",
+        message(&output)
+    );
+    assert_eq!(std::fs::read_to_string(&old).unwrap(), "kept");
+}
+
+/// A limit of the size of files (SIGXFSZ) is an output that could not be written, in few words.
+#[test]
+fn a_limit_of_size_is_an_error_of_writing() {
+    let fixture = Fixture::new();
+    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
+    let dense = case.replace(
+        "duration = \"2 s\"",
+        "duration = \"20 s\"\noutput_step = \"1 ms\"",
+    );
+    assert!(dense != case);
+    std::fs::write(fixture.path("dense.toml"), dense).unwrap();
+    // 100 blocks of 512 or 1024 bytes.
+    let script = "ulimit -f 100; exec \"$0\" run dense.toml -o new.h5";
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_pounding")])
+        .env("NO_COLOR", "1")
+        .stdin(Stdio::null())
+        .current_dir(fixture.path(""))
+        .output()
+        .unwrap();
+    let text = message(&output);
+    assert_eq!(output.status.code(), Some(4), "{text}");
+    assert!(
+        text.contains("new.h5") && !text.contains("18446744073709551615"),
+        "{text}"
+    );
+    assert!(!text.contains("0x"), "{text}");
+    assert!(!fixture.path("new.h5").exists());
+    no_part_file(&fixture.path("").canonicalize().unwrap());
+}
+
+/// Between two walls the storey stands; without them it collapses, which takes nothing from
+/// the run but its comparison.
+#[test]
+fn a_run_is_not_lost_with_its_comparison() {
+    let fixture = Fixture::new();
+    let wall = |between: &str| {
+        format!(
+            "[[gap]]\nbetween = {between}\nwidth = \"10 mm\"\nmodel = \"jankowski_2005\"\nstiffness = \"2.75e9 N/m^1.5\"\ndamping_ratio = 0.35\n"
+        )
+    };
+    let building = "[[building]]\nname = \"s\"\np_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"2 kN\" }\nstoreys = 1\nmass = \"100 t\"\nstiffness = \"3.46 MN/m\"\nheight = \"1 m\"\ndamping = { stiffness_proportional = 0.05 }\n";
+    let motion = "[ground_motion]\nfile = \"long.csv\"\n";
+    let case = [
+        building,
+        &wall("[\"wall\", \"s\"]"),
+        &wall("[\"s\", \"wall\"]"),
+        motion,
+    ];
+    std::fs::write(fixture.path("walls.toml"), case.concat()).unwrap();
+    let mut record = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
+    for i in 0..600 {
+        let t = f64::from(i) * 0.02;
+        record.push_str(&format!("{t:.2},{:.5}\n", 0.3 + 0.4 * (7.0 * t).sin()));
+    }
+    std::fs::write(fixture.path("long.csv"), record).unwrap();
+    let output = fixture.run(&["run", "walls.toml", "-o", "walls.h5", "--json"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let building = &result["buildings"][0];
+    assert!(
+        building["storeys"][0]["displacement"]["peak"]
+            .as_f64()
+            .unwrap()
+            > 0.0
+    );
+    assert!(building["isolated"][0]["displacement"]["peak"].is_null());
+    assert!(result["gaps"][0]["levels"][0]["impacts"].as_u64().unwrap() > 0);
+    let warnings = result["warnings"].to_string();
+    assert!(
+        warnings.contains("without gaps and links: s collapsed"),
+        "{warnings}"
+    );
+    let page = fixture.run(&["report", "walls.h5"]);
+    assert!(page.status.success(), "{}", message(&page));
+    let text = fixture.run(&["run", "walls.toml", "--no-output"]);
+    assert!(!String::from_utf8_lossy(&text.stdout).contains("NaN"));
+}
+
+#[test]
+fn texts_with_a_nul_are_written() {
+    let fixture = Fixture::new();
+    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
+    std::fs::write(
+        fixture.path("nul.toml"),
+        format!("title = \"a\\u0000b\"\n{case}"),
+    )
+    .unwrap();
+    let output = fixture.run(&["run", "nul.toml", "-o", "nul.h5"]);
+    assert!(output.status.success(), "{}", message(&output));
+}

@@ -10,6 +10,8 @@ use std::process::Command;
 fn written(arguments: &[&str], code: i32) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
         .args(arguments)
+        // By which help is wrapped.
+        .env_remove("COLUMNS")
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
         .output()
         .unwrap();

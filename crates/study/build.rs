@@ -1,6 +1,10 @@
 //! What the program is built of and for, as far as the results of runs may hang on it: the
 //! sources of the crates that compute, with their dependencies, and the target. The same
 //! sources give the same text on every machine: neither git nor the clock is asked.
+//!
+//! In a package from a registry the other crates are not beside this one. There the version
+//! names the sources: it never changes its content, and packages ask for one another by their
+//! exact version.
 
 use std::env::{var, vars};
 use std::path::{Path, PathBuf};
@@ -21,7 +25,31 @@ const COMPUTING: [&str; 9] = [
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let crates = PathBuf::from(var("CARGO_MANIFEST_DIR")?).join("..");
+    let own = PathBuf::from(var("CARGO_MANIFEST_DIR")?);
+    // Cargo adds this file to what it packages.
+    let sources = match own.join("Cargo.toml.orig").is_file() {
+        true => "packaged".to_owned(),
+        false => format!("sources {}", digits(&own.join(".."))?),
+    };
+    let mut features: Vec<String> = vars()
+        .filter_map(|(name, _)| Some(name.strip_prefix("CARGO_FEATURE_")?.to_lowercase()))
+        .collect();
+    features.sort();
+    let features = match features.is_empty() {
+        true => String::new(),
+        false => format!(", features {}", features.join(",")),
+    };
+    println!(
+        "cargo::rustc-env=POUNDING_BUILD=version {}, {sources}, target {}, instructions {}{features}",
+        var("CARGO_PKG_VERSION")?,
+        var("TARGET")?,
+        var("CARGO_CFG_TARGET_FEATURE").unwrap_or_default(),
+    );
+    Ok(())
+}
+
+/// The beginning of a checksum of all that computes, in the folder of the crates.
+fn digits(crates: &Path) -> std::io::Result<String> {
     let mut files = Vec::new();
     for name in COMPUTING {
         let folder = crates.join(name).join("src");
@@ -37,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // By names that do not hang on the machine.
     let mut files: Vec<_> = files
         .into_iter()
-        .map(|path| (name(&crates, &path), path))
+        .map(|path| (name(crates, &path), path))
         .collect();
     files.sort();
     let mut hash = Sha256::new();
@@ -49,25 +77,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         hash.update((content.len() as u64).to_le_bytes());
         hash.update(content);
     }
-    let digits: String = hash.finalize()[..8]
+    Ok(hash.finalize()[..8]
         .iter()
         .map(|byte| format!("{byte:02x}"))
-        .collect();
-    let mut features: Vec<String> = vars()
-        .filter_map(|(name, _)| Some(name.strip_prefix("CARGO_FEATURE_")?.to_lowercase()))
-        .collect();
-    features.sort();
-    let features = match features.is_empty() {
-        true => String::new(),
-        false => format!(", features {}", features.join(",")),
-    };
-    println!(
-        "cargo::rustc-env=POUNDING_BUILD=version {}, sources {digits}, target {}, instructions {}{features}",
-        var("CARGO_PKG_VERSION")?,
-        var("TARGET")?,
-        var("CARGO_CFG_TARGET_FEATURE").unwrap_or_default(),
-    );
-    Ok(())
+        .collect())
 }
 
 /// All files below a folder.

@@ -124,3 +124,37 @@ fn the_solver_needs_no_files() {
         assert!(!tree.contains(none), "the solver needs {none}");
     }
 }
+
+/// `cargo package` refuses a dependency in a folder without a version, and with another version
+/// the study's build text would not name the sources of the crates it is built of.
+#[test]
+fn libraries_can_be_packaged() {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version=1", "--no-deps", "--offline"])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mut libraries = 0;
+    for package in metadata["packages"].as_array().unwrap() {
+        let name = package["name"].as_str().unwrap();
+        let published = package["publish"].is_null();
+        let of_the_repository = ["pounding-cli", "verification", "benchmarks"];
+        assert_eq!(published, !of_the_repository.contains(&name), "{name}");
+        if !published {
+            continue;
+        }
+        libraries += 1;
+        assert!(package["description"].is_string(), "{name}");
+        assert!(package["license"].is_string(), "{name}");
+        let exactly = format!("={}", package["version"].as_str().unwrap());
+        for dependency in package["dependencies"].as_array().unwrap() {
+            if !dependency["path"].is_null() {
+                let needed = &dependency["name"];
+                assert_eq!(dependency["req"], exactly, "{name} needs {needed}");
+            }
+        }
+    }
+    assert_eq!(libraries + 1, table().len());
+}

@@ -23,8 +23,10 @@ mod sweep;
 
 /// What this program was built of and for, as far as the results of runs may depend on it:
 /// version, hash of the sources of the crates that compute and of the versions of their
-/// dependencies, target, instructions that the compiler may use anywhere, and features. Runs
-/// of two builds are not mixed in a result unless that is asked for.
+/// dependencies, target, instructions that the compiler may use anywhere, and features. Built
+/// from a package of a registry it holds the version, which names the sources there, instead of
+/// the hash, and does not know the versions of other dependencies. Runs of two builds are not
+/// mixed in a result unless that is asked for.
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
 pub use design::{Design, MOST_DIMENSIONS};

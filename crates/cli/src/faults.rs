@@ -13,7 +13,7 @@ use crate::failure::Failure;
 /// Reads and validates a case file. With `own_record`, errors of one kind do not hide that
 /// its record is missing.
 pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
-    faults::read_case(path, own_record).map_err(|e| Failure::case(e.error, &e.source_text))
+    faults::read_case(path, own_record).map_err(|e| Failure::case(*e.error, &e.source_text))
 }
 
 /// The system of a case under its own record.

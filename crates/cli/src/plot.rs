@@ -43,14 +43,17 @@ pub struct Responses<'s> {
     forces: Vec<Thinned>,
 }
 
+/// Time and value.
+type Point = (f64, f64);
+
 /// A curve that keeps the extremes of more and more samples in one when it gets too long.
 #[derive(Default)]
 struct Thinned {
-    points: Vec<(f64, f64)>,
+    points: Vec<Point>,
     /// Samples in a pair of points, or 1 while every sample is a point.
     samples: usize,
     /// Samples, the smallest and the greatest of them, that are no points yet.
-    open: Option<(usize, (f64, f64), (f64, f64))>,
+    open: Option<(usize, Point, Point)>,
 }
 
 impl Thinned {
@@ -178,7 +181,7 @@ mod tests {
         assert!(curve.points.contains(&(654_321.0, value(654_321))));
         assert!(curve.points.is_sorted_by(|a, b| a.0 <= b.0));
         let low = curve.points.iter().fold(0.0_f64, |m, p| m.min(p.1));
-        let least = (0..977).map(|i| value(i)).fold(0.0_f64, f64::min);
+        let least = (0..977).map(value).fold(0.0_f64, f64::min);
         assert_eq!(low, least);
         assert!(curve.points.last().is_some_and(|p| p.0 > 999_900.0));
     }

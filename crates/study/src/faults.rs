@@ -27,7 +27,7 @@ const MOST_STOREYS: usize = 200;
 #[error("{error}")]
 pub struct FaultyCase {
     /// All that was found.
-    pub error: CaseError,
+    pub error: Box<CaseError>,
     /// The text that it points into; empty where the file cannot be read.
     pub source_text: String,
 }
@@ -40,10 +40,13 @@ pub struct FaultyCase {
 pub fn read_case(path: &Path, own_record: bool) -> Result<Case, FaultyCase> {
     // Read once: a pipe has nothing to give a second time.
     let source_text = pounding_case::read_text(path, "case").map_err(|error| FaultyCase {
-        error,
+        error: Box::new(error),
         source_text: String::new(),
     })?;
-    parse_case(&source_text, path, own_record).map_err(|error| FaultyCase { error, source_text })
+    parse_case(&source_text, path, own_record).map_err(|error| FaultyCase {
+        error: Box::new(error),
+        source_text,
+    })
 }
 
 /// The same of a text that was read from a file.

@@ -138,13 +138,16 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
     })
 }
 
+/// The outcome of the buildings without gaps, or why there is none.
+type Isolated = Result<Outcome, TimeHistoryError>;
+
 /// The run and, at the same time, the same buildings without gaps. Neither depends on the
 /// other, so that threads do not change a bit of either. The second may fail by itself.
 fn integrate_both(
     assembly: &Assembly,
     recorders: &mut [&mut dyn Recorder],
     progress: &Progress,
-) -> Result<(Outcome, Result<Outcome, TimeHistoryError>), TimeHistoryError> {
+) -> Result<(Outcome, Isolated), TimeHistoryError> {
     let options = &assembly.options;
     let system = assembly.system.isolated();
     // Thousandths, of which contacts and recording take more.

@@ -1,6 +1,6 @@
 //! From a case to the system that the solver integrates: the place where words meet physics.
 //!
-//! [`assemble`] reads the record of a [`Case`](pounding_case::Case), processes and scales it,
+//! [`assemble()`] reads the record of a [`Case`](pounding_case::Case), processes and scales it,
 //! finds impact models and laws by their names, checks units against what each parameter
 //! wants, and builds the [`System`](pounding_time_history::System).
 //!

@@ -79,6 +79,19 @@ impl Failure {
         }
     }
 
+    /// Failures of one kind, such as bad inputs, as one: that of the first where they differ.
+    pub fn together(failures: Vec<Self>) -> Self {
+        let mut reports = Vec::new();
+        for failure in failures {
+            match failure {
+                Self::Input(report) => reports.push(report),
+                Self::Inputs(more) => reports.extend(more),
+                other => return other,
+            }
+        }
+        Self::inputs(reports)
+    }
+
     /// Bad input without a place in a file.
     pub fn input(message: impl Into<String>, help: Option<String>) -> Self {
         Self::Input(plain(message.into(), help))

@@ -106,11 +106,132 @@ const IDA: &str = r#"case = "case.toml"
 [[variable]]
 synthetic = { model = "rezaeian_der_kiureghian_2010", count = 2, seed = 1, time_step = "0.01 s", duration = "30 s", significant_duration = "12 s", middle_time = "8 s", middle_frequency = "3.5 1/s", frequency_rate = "-0.06 1/s^2", damping = 0.3, high_pass = "0.1 Hz" }
 [[variable]]
-intensity = "pga"
+intensity = "peak_ground_acceleration"
 from = "0.1 g"
 to = "0.4 g"
 count = 3
 "#;
+
+/// What a study and its case say wrongly is reported together, first that of the study in
+/// the order of its file: a part does not hide another, nor the case the study, and nothing
+/// is said that only follows.
+#[test]
+fn errors_of_a_study_and_its_case_are_reported_together() {
+    let reported = |command: &str, study: &str, case: &str, wanted: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("study.toml"), study).unwrap();
+        let output = run_in(folder.path(), case, &record(), &[command, "study.toml"]);
+        let text = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        let mut from = 0;
+        for part in wanted {
+            let at = text[from..].find(part);
+            from += at.unwrap_or_else(|| panic!("\"{part}\" after {from} in: {text}"));
+        }
+        assert_eq!(text.matches("help:").count(), wanted.len(), "{text}");
+        let count = format!("{} errors", wanted.len());
+        assert!(text.contains(&count), "{text}");
+    };
+    let faulty = CASE.replacen("25 t", "25 q", 1);
+    // An unknown key at the root, of a path and of a variable; values that are none.
+    let sweep = r#"titel = "a"
+case = "case.toml"
+[[variable]]
+path = "gap.0.stiffness"
+from = "90 MN/m"
+to = "95 Mn/m"
+count = 0
+[[variable]]
+path = "building.a.mas"
+values = ["20 t", "30 t"]
+[[variable]]
+path = "gap.0.width"
+from = "1 cm"
+to = "3 cm"
+count = -1
+spaceing = "linear"
+[[variable]]
+path = "gap.3.restitution"
+values = [0.5, "0.6 t", "x"]
+[design]
+kind = "sobol"
+runs = 0
+[output]
+chunk = 0
+isolated_demand = "yes"
+"#;
+    let of_sweep = [
+        "study.toml:1:1: unknown key `titel`",
+        "study.toml:6:6: `to`",
+        "study.toml:7:9: `count` must",
+        "study.toml:9:8: the case refuses this for `building.a.mas`: unknown key `mas`",
+        "study.toml:15:9: `count` must",
+        "study.toml:16:1: unknown key `spaceing`",
+        "study.toml:18:8: `gap` has 1 entry",
+        "study.toml:19:25: `values`",
+        "study.toml:22:8: `runs` must",
+        "study.toml:24:9: `chunk` must",
+        "study.toml:25:19: `isolated_demand` must",
+    ];
+    reported("sweep", sweep, CASE, &of_sweep);
+    // With a case that is not sound, whether it takes values is not known.
+    let mut with_case = of_sweep.to_vec();
+    with_case.retain(|part| !part.contains("refuses"));
+    with_case.push("case.toml:6:8: `mass`");
+    reported("sweep", sweep, &faulty, &with_case);
+    let ida = r#"case = "case.toml"
+[[variable]]
+synthetic = { model = "nosuch", count = 0, duration = "30 m", significant_duration = "12 s", middle_time = "8 s", middle_frequncy = "3 Hz" }
+[[variable]]
+intensity = "spectral_accel"
+building = "c"
+damping = 2
+form = "0.1 g"
+to = "0.4 q"
+count = 1
+[ida]
+gaps = ["20 mm", "30 kg"]
+hazard = "nosuch.csv"
+target_frequency = -1
+confidence = 2
+limits = 3
+[[ida.limit]]
+name = 3
+demand = "acceleration"
+building = "lihgt"
+storey = 0
+exceeds = "2 x"
+"#;
+    let of_ida = [
+        "study.toml:3:23: unknown model of motions",
+        "study.toml:3:41: `count` must",
+        "study.toml:3:55: `duration` must be",
+        "study.toml:3:115: unknown key `middle_frequncy`",
+        "study.toml:5:13: unknown intensity measure",
+        "study.toml:6:12: the case has no building \"c\"",
+        "study.toml:7:11: `damping` = 2",
+        "study.toml:8:1: unknown key `form`",
+        "study.toml:9:6: `to`",
+        "study.toml:10:9: `count` must",
+        "study.toml:12:18: `gaps` must be",
+        "study.toml:13:10: nosuch.csv",
+        "study.toml:14:20: `target_frequency` = -1",
+        "study.toml:15:14: `confidence` lies",
+        "study.toml:16:1: unknown key `limits`",
+        "study.toml:18:8: `name` must be",
+        "study.toml:19:10: unknown demand",
+        "study.toml:20:12: the case has no building \"lihgt\"",
+        "study.toml:21:10: `storey` must be",
+        "study.toml:22:11: `exceeds`",
+    ];
+    reported("ida", ida, CASE, &of_ida);
+    // A case that is not TOML has no buildings to compare names with.
+    let broken = CASE.replacen("title = ", "title ", 1);
+    let mut with_case = of_ida.to_vec();
+    with_case.retain(|part| !part.contains("no building"));
+    with_case.push("case.toml:2:7: this is not TOML");
+    reported("ida", ida, &broken, &with_case);
+}
 
 /// What the three parts of the file say wrongly is told at once, in the order of the file:
 /// one part does not hide another, and nothing is said that only follows.

@@ -21,6 +21,12 @@ pub enum StudyError {
         /// The text that it points into.
         source_text: String,
     },
+    /// Things wrong in several files that were read together.
+    #[error("{}", lines(errors))]
+    Several {
+        /// Each file's.
+        errors: Vec<StudyError>,
+    },
     /// The case of the study cannot be assembled.
     #[error(transparent)]
     Base(#[from] AssemblyError),
@@ -186,7 +192,24 @@ fn unread(count: usize, of: usize) -> String {
     }
 }
 
+/// Errors, a line each.
+fn lines(errors: &[StudyError]) -> String {
+    let lines: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    lines.join("\n")
+}
+
 impl StudyError {
+    /// One error of some, of which there is at least one.
+    pub(crate) fn of_all(mut errors: Vec<Self>) -> Self {
+        match errors.pop() {
+            Some(only) if errors.is_empty() => only,
+            last => {
+                errors.extend(last);
+                Self::Several { errors }
+            }
+        }
+    }
+
     /// Why a result could not be read, without its path.
     pub(crate) fn reason(&self) -> String {
         match self {
@@ -201,6 +224,7 @@ impl StudyError {
     pub fn help(&self) -> Option<String> {
         let text = match self {
             Self::Text { error, .. } => return error.help.clone(),
+            Self::Several { errors } => return errors.first().and_then(Self::help),
             Self::Base(error) => return error.help(),
             Self::GroundMotion(error) => return error.help(),
             Self::Records { .. } => {

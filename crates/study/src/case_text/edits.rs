@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
+use pounding_catalogue::wording::agreeing;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -70,7 +71,11 @@ pub(crate) fn find(source: &str, path: &Path) -> Result<Found, Lost> {
             },
             (DeValue::Array(items), Step::Index(index)) => items.get(*index).ok_or_else(|| {
                 (
-                    format!("`{shown}` has {} entries, counted from 0", items.len()),
+                    format!(
+                        "`{shown}` has {} {}, counted from 0",
+                        items.len(),
+                        agreeing(&items.len(), "entry", "entries")
+                    ),
                     "correct the number".to_owned(),
                 )
             })?,
@@ -126,6 +131,16 @@ pub(crate) fn options_of_gap(
 ) -> Result<(Vec<Range<usize>>, usize), Lost> {
     let mine = |key: &str| key == "model" || !OF_ANY_GAP.contains(&key);
     entries(source, path, mine)
+}
+
+/// Names of the buildings of a case that is TOML, in the order of the file.
+pub(crate) fn building_names(source: &str) -> Vec<String> {
+    let Ok(tree) = DeTable::parse(source) else {
+        return Vec::new();
+    };
+    let buildings = get(tree.get_ref(), "building").and_then(|v| v.get_ref().as_array());
+    let names = buildings.into_iter().flatten().map(name_of);
+    names.map(Option::unwrap_or_default).collect()
 }
 
 /// All that says which record to read and how, but for some keys, and the end of the header
@@ -294,7 +309,7 @@ mod tests {
                 .1
                 .contains("did you mean `light-wall`")
         );
-        assert!(lost("gap.3.width").0.contains("1 entries"));
+        assert!(lost("gap.3.width").0.contains("1 entry,"));
         assert!(lost("gaps.0.width").1.contains("gap"));
         assert!(lost("gap.0.width.1").0.contains("single value"));
         assert!(lost("analysis.step").0.contains("no `analysis`"));

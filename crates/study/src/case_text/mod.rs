@@ -8,6 +8,8 @@ mod edits;
 mod identity;
 mod path;
 
-pub(crate) use edits::{Edits, Entry, Lost, apply, entry, options_of_gap, options_of_motion};
+pub(crate) use edits::{
+    Edits, Entry, Lost, apply, building_names, entry, options_of_gap, options_of_motion,
+};
 pub(crate) use identity::{canonical, hexadecimal};
 pub(crate) use path::Path;

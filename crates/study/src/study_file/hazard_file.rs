@@ -46,25 +46,33 @@ struct Table<'t> {
     measure: &'t IntensityMeasure,
 }
 
-/// Reads points from a file of two columns; lines that start with `#` are comments. A
-/// header names them with their units, in either order; without one the first line is a
-/// point already: intensity in SI, frequency in 1/year.
+/// The text of a file.
 ///
 /// # Errors
-/// All that is wrong in the file, each with its line.
-pub(super) fn read(
-    path: &Path,
-    measure: &IntensityMeasure,
-) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
-    let file = path.display().to_string();
-    let text = read_text(path, "hazard").map_err(|e| {
+/// A file that cannot be read.
+pub(super) fn text(path: &Path) -> Result<String, Vec<Refusal>> {
+    read_text(path, "hazard").map_err(|e| {
         let relative = "a path in a study is relative to the folder of the study".to_owned();
         let help = match path.is_file() {
             true => e.help.clone().unwrap_or(relative),
             false => relative,
         };
         vec![(e.to_string(), help)]
-    })?;
+    })
+}
+
+/// Reads points from a file of two columns; lines that start with `#` are comments. A
+/// header names them with their units, in either order; without one the first line is a
+/// point already: intensity in SI, frequency in 1/year.
+///
+/// # Errors
+/// All that is wrong in the file, each with its line.
+pub(super) fn points(
+    path: &Path,
+    text: &str,
+    measure: &IntensityMeasure,
+) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
+    let file = path.display().to_string();
     Table { file, measure }.points(text.trim_start_matches('\u{feff}'))
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_case::{Case, Dimension};
+use pounding_case::Dimension;
 
-use super::reader::{Reader, Result, Table, Value};
+use super::context::Context;
+use super::reader::{Reader, Result, Table, Value, Wrong};
 use super::values::numbers;
 use super::{IntensityMeasure, hazard_file};
 
@@ -104,40 +105,40 @@ pub struct IdaSettings {
 const IDA: [&str; 5] = ["gaps", "limit", "hazard", "target_frequency", "confidence"];
 const LIMIT: [&str; 6] = ["name", "demand", "building", "storey", "level", "exceeds"];
 
-/// Reads `[ida]`; `record` and `intensity` are the indices of these variables.
+/// Reads `[ida]`; `variables` are the indices of record and intensity, whose measure this is.
 pub(super) fn settings(
     reader: &Reader<'_>,
     value: &Value<'_>,
-    base: &Case,
-    folder: &Path,
-    variables: (usize, usize, IntensityMeasure),
+    context: &Context<'_>,
+    variables: Option<(usize, usize)>,
+    measure: Option<IntensityMeasure>,
 ) -> Result<IdaSettings> {
     let table = reader.table(value, "[ida]", &IDA)?;
-    let (record, intensity, measure) = variables;
-    let limits = table.get("limit").map_or(Ok(Vec::new()), |v| {
+    let limits = table.or("limit", Vec::new(), |v| {
         let items = reader.list(v, "limit")?;
-        reader.all(items.iter().map(|item| limit(reader, item, base)))
+        reader.all(items.iter().map(|item| limit(reader, item, context)))
     });
-    let limits = reader.keep(limits)?;
-    let hazard = table
-        .get("hazard")
-        .map(|v| hazard(reader, v, &measure, folder));
-    let hazard = reader.keep(hazard.transpose())?;
+    let limits = reader.keep(limits);
+    let hazard = table.or("hazard", None, |v| {
+        hazard(reader, v, measure.as_ref(), context.folder).map(Some)
+    });
+    let hazard = reader.keep(hazard);
     let hazard_file = table
         .get("hazard")
         .and_then(|v| v.get_ref().as_str())
-        .map(|name| folder.join(name));
-    let per_year = |v: &Value<'_>| reader.positive(v, "target_frequency", Dimension::NUMBER);
-    let target_frequency = table.get("target_frequency").map(per_year).transpose();
-    let target_frequency = reader.keep(target_frequency)?;
-    if let (Some(v), None) = (table.get("target_frequency"), table.get("hazard")) {
-        reader.keep(Err::<(), _>(reader.error(
+        .map(|name| context.folder.join(name));
+    let target_frequency = table.optional("target_frequency", |v| {
+        reader.positive(v, "target_frequency", Dimension::NUMBER)
+    });
+    let no_hazard = table.get("hazard").is_none() && !table.lacks("hazard");
+    if let (Some(v), true) = (table.get("target_frequency"), no_hazard) {
+        reader.check(Err(reader.error(
             v.span(),
             "a target frequency needs a hazard curve",
             "add `hazard = [[intensity, frequency], ...]` or the name of a CSV file",
-        )))?;
+        )));
     }
-    let confidence = table.get("confidence").map_or(Ok(0.95), |v| {
+    let confidence = table.or("confidence", 0.95, |v| {
         let c = reader.positive(v, "confidence", Dimension::NUMBER)?;
         if c < 1.0 {
             return Ok(c);
@@ -148,16 +149,14 @@ pub(super) fn settings(
             "for example 0.95",
         ))
     });
-    let confidence = reader.keep(confidence)?;
-    let gaps = table
-        .get("gaps")
-        .map_or(Ok(Vec::new()), |v| gaps(reader, v));
-    let gaps = reader.keep(gaps)?;
-    let (Some(gaps), Some(limits), Some(hazard), Some(target_frequency), Some(confidence)) =
-        (gaps, limits, hazard, target_frequency, confidence)
+    let confidence = reader.keep(confidence);
+    let gaps = reader.keep(table.or("gaps", Vec::new(), |v| gaps(reader, v)));
+    let (Some(gaps), Some(limits), Some(hazard), Some(confidence), Some(measure)) =
+        (gaps, limits, hazard, confidence, measure)
     else {
-        return Err(reader.lost());
+        return Err(Wrong::Recorded);
     };
+    let (record, intensity) = variables.ok_or(Wrong::Recorded)?;
     Ok(IdaSettings {
         record,
         intensity,
@@ -175,11 +174,8 @@ pub(super) fn settings(
 fn gaps(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<f64>> {
     let positive = |v: &Value<'_>, key: &str| reader.positive(v, key, Dimension::LENGTH);
     if value.get_ref().as_table().is_none() {
-        return reader
-            .list(value, "gaps")?
-            .iter()
-            .map(|v| positive(v, "gaps"))
-            .collect();
+        let items = reader.list(value, "gaps")?;
+        return reader.all(items.iter().map(|v| positive(v, "gaps")));
     }
     let keys = ["values", "from", "to", "count", "spacing"];
     let table: Table<'_, '_> = reader.table(value, "gaps", &keys)?;
@@ -198,99 +194,119 @@ fn gaps(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<f64>> {
     Ok((0..count).map(number).collect())
 }
 
-fn limit(reader: &Reader<'_>, value: &Value<'_>, base: &Case) -> Result<Limit> {
+fn limit(reader: &Reader<'_>, value: &Value<'_>, context: &Context<'_>) -> Result<Limit> {
     let table = reader.table(value, "[[ida.limit]]", &LIMIT)?;
+    let name = table.required("name").and_then(|v| reader.text(v, "name"));
+    let name = reader.keep(name);
+    let demand = reader.keep(demand(&table));
+    let exceeds = table.required("exceeds").and_then(|v| match demand {
+        Some((_, dimension)) => reader.positive(v, "exceeds", dimension),
+        None => Ok(reader.any_quantity(v, "exceeds")?.value),
+    });
+    let exceeds = reader.keep(exceeds);
+    let building = table.or("building", None, |v| context.building(reader, v).map(Some));
+    let building = reader.keep(building);
+    table.not_both("building", "level")?;
+    table.not_both("storey", "level")?;
+    let count = |key| table.or(key, None, |v| reader.count(v, key, 1).map(Some));
+    let storey = reader.keep(count("storey"));
+    let level = reader.keep(count("level"));
+    let (Some(building), Some(storey), Some(level)) = (building, storey, level) else {
+        return Err(Wrong::Recorded);
+    };
+    if let Some(v) = table.get("storey") {
+        match (storey, building) {
+            (Some(n), Some(b)) => {
+                let storeys = context.base()?.case.buildings[b].mass.len();
+                if n > storeys {
+                    return Err(reader.error(
+                        v.span(),
+                        format!("the building has no storey {n}"),
+                        format!("it has {storeys}"),
+                    ));
+                }
+            }
+            _ if table.lacks("building") => {}
+            _ => {
+                return Err(reader.error(
+                    v.span(),
+                    "a storey of which building?",
+                    "add `building = \"...\"`",
+                ));
+            }
+        }
+    }
+    let (name, (demand, _), exceeds) = match (name, demand, exceeds) {
+        (Some(name), Some(demand), Some(exceeds)) => (name, demand, exceeds),
+        _ => return Err(Wrong::Recorded),
+    };
+    Ok(Limit {
+        name,
+        demand,
+        building,
+        place: storey.or(level).map(|n| n - 1),
+        exceeds,
+    })
+}
+
+/// The demand of a limit, and its dimension.
+fn demand(table: &Table<'_, '_>) -> Result<(DemandKind, Dimension)> {
+    let reader = table.reader;
     let place = table.required("demand")?;
     let name = reader.text(place, "demand")?;
     let known = DemandKind::ALL.into_iter().find(|(_, n, _)| *n == name);
-    let Some((demand, _, dimension)) = known else {
-        let names = DemandKind::ALL.map(|(_, n, _)| n);
-        return Err(reader.error(
-            place.span(),
-            format!("unknown demand \"{name}\""),
-            format!("known are {}", names.join(", ")),
-        ));
-    };
-    let building = table.get("building").map(|v| {
-        let name = reader.text(v, "building")?;
-        let at = base.buildings.iter().position(|b| b.name.value == name);
-        at.ok_or_else(|| {
+    known
+        .map(|(demand, _, dimension)| (demand, dimension))
+        .ok_or_else(|| {
+            let names = DemandKind::ALL.map(|(_, n, _)| n);
             reader.error(
-                v.span(),
-                format!("the case has no building \"{name}\""),
-                "correct the name",
+                place.span(),
+                format!("unknown demand \"{name}\""),
+                format!("known are {}", names.join(", ")),
             )
         })
-    });
-    let building = building.transpose()?;
-    table.not_both("building", "level")?;
-    table.not_both("storey", "level")?;
-    let key = if table.get("level").is_some() {
-        "level"
-    } else {
-        "storey"
-    };
-    let number = table
-        .get(key)
-        .map(|v| reader.count(v, key, 1))
-        .transpose()?;
-    if let (Some(v), Some(n), Some(b)) = (table.get("storey"), number, building) {
-        let storeys = base.buildings[b].mass.len();
-        if n > storeys {
-            return Err(reader.error(
-                v.span(),
-                format!("the building has no storey {n}"),
-                format!("it has {storeys}"),
-            ));
-        }
-    }
-    if let (Some(v), None) = (table.get("storey"), building) {
-        return Err(reader.error(
-            v.span(),
-            "a storey of which building?",
-            "add `building = \"...\"`",
-        ));
-    }
-    Ok(Limit {
-        name: reader.text(table.required("name")?, "name")?,
-        demand,
-        building,
-        place: number.map(|n| n - 1),
-        exceeds: reader.positive(table.required("exceeds")?, "exceeds", dimension)?,
-    })
 }
 
 /// Points, or the name of a CSV file of two columns.
 fn hazard(
     reader: &Reader<'_>,
     value: &Value<'_>,
-    measure: &IntensityMeasure,
+    measure: Option<&IntensityMeasure>,
     folder: &Path,
 ) -> Result<HazardCurve> {
     let wrong = |reason: String| {
         let help = "give intensities (SI, or with a unit) and mean annual frequencies (1/year), intensities rising, frequencies falling";
         reader.error(value.span(), format!("the hazard curve: {reason}"), help)
     };
+    let refused = |refusals: Vec<hazard_file::Refusal>| {
+        for (message, help) in refusals {
+            reader.check(Err(reader.error(value.span(), message, help)));
+        }
+        Wrong::Recorded
+    };
     let points = match value.get_ref().as_str() {
-        Some(name) => hazard_file::read(&folder.join(name), measure).map_err(|refusals| {
-            let wrong = refusals.into_iter();
-            let wrong = wrong.map(|(m, help)| Err(reader.error(value.span(), m, help)));
-            match reader.all::<()>(wrong) {
-                Err(e) => e,
-                Ok(_) => reader.lost(),
-            }
-        })?,
+        Some(name) => {
+            let text = hazard_file::text(&folder.join(name)).map_err(refused)?;
+            let measure = measure.ok_or(Wrong::Recorded)?;
+            hazard_file::points(&folder.join(name), &text, measure).map_err(refused)?
+        }
         None => {
+            let intensity = |v| match measure {
+                Some(measure) => reader.positive(v, "hazard", measure.dimension()),
+                None => Ok(reader.any_quantity(v, "hazard")?.value),
+            };
             let point = |item| match reader.list(item, "hazard")? {
-                [a, b] => Ok((
-                    reader.positive(a, "hazard", measure.dimension())?,
-                    reader.positive(b, "hazard", Dimension::NUMBER)?,
-                )),
+                [a, b] => {
+                    let frequency = reader.positive(b, "hazard", Dimension::NUMBER);
+                    let point = reader.keep(intensity(a)).zip(reader.keep(frequency));
+                    point.ok_or(Wrong::Recorded)
+                }
                 _ => Err(wrong("a point is a pair".to_owned())),
             };
             reader.all(reader.list(value, "hazard")?.iter().map(point))?
         }
     };
+    measure.ok_or(Wrong::Recorded)?;
     HazardCurve::new(points).map_err(|e| wrong(e.to_string()))
 }
 

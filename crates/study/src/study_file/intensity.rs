@@ -1,11 +1,12 @@
 //! Intensity measures to which records are scaled.
 
-use pounding_case::{Case, Dimension};
+use pounding_case::Dimension;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
 
-use super::reader::{Result, Table};
+use super::context::Context;
+use super::reader::{Result, Table, Wrong};
 use crate::error::StudyError;
 
 /// What is held at a value by scaling a record. Every measure grows in proportion to the
@@ -87,59 +88,52 @@ impl IntensityMeasure {
     }
 }
 
-/// First periods (s) of the buildings of a case.
-pub(super) type FirstPeriods = Vec<f64>;
-
-/// Reads `intensity` with `building`, `buildings`, `period`, `periods` and `damping`.
-pub(super) fn intensity(
-    table: &Table<'_, '_>,
-    base: &Case,
-    first: &FirstPeriods,
-) -> Result<IntensityMeasure> {
+/// Reads `intensity` with `building`, `period` and `damping`.
+pub(super) fn intensity(table: &Table<'_, '_>, context: &Context<'_>) -> Result<IntensityMeasure> {
     let reader = table.reader;
     let value = table.required("intensity")?;
     let name = reader.text(value, "intensity")?;
+    let of_ground = match name.as_str() {
+        "peak_ground_acceleration" => Some(IntensityMeasure::PeakGroundAcceleration),
+        "peak_ground_velocity" => Some(IntensityMeasure::PeakGroundVelocity),
+        _ => None,
+    };
+    if let Some(measure) = of_ground {
+        for key in ["building", "period", "damping"] {
+            if let Some(extra) = table.get(key) {
+                reader.check(Err(reader.error(
+                    extra.span(),
+                    format!("`{key}` has no meaning for {name}"),
+                    "remove it",
+                )));
+            }
+        }
+        return Ok(measure);
+    }
     let averaged = match name.as_str() {
-        "peak_ground_acceleration" | "peak_ground_velocity" => {
-            for key in ["building", "period", "damping"] {
-                if let Some(extra) = table.get(key) {
-                    return Err(reader.error(
-                        extra.span(),
-                        format!("`{key}` has no meaning for {name}"),
-                        "remove it",
-                    ));
-                }
-            }
-            return Ok(match name.as_str() {
-                "peak_ground_acceleration" => IntensityMeasure::PeakGroundAcceleration,
-                _ => IntensityMeasure::PeakGroundVelocity,
-            });
-        }
-        "spectral_acceleration" => false,
-        "average_spectral_acceleration" => true,
-        _ => {
-            return Err(reader.error(
-                value.span(),
-                format!("unknown intensity measure \"{name}\""),
-                "known are peak_ground_acceleration, peak_ground_velocity, spectral_acceleration, average_spectral_acceleration",
-            ));
-        }
+        "spectral_acceleration" => Ok(false),
+        "average_spectral_acceleration" => Ok(true),
+        _ => Err(reader.error(
+            value.span(),
+            format!("unknown intensity measure \"{name}\""),
+            "known are peak_ground_acceleration, peak_ground_velocity, spectral_acceleration, average_spectral_acceleration",
+        )),
     };
-    let damping = match table.get("damping") {
-        Some(v) => {
-            let ratio = reader.positive(v, "damping", Dimension::NUMBER)?;
-            if ratio >= 1.0 {
-                return Err(reader.error(
-                    v.span(),
-                    format!("`damping` = {ratio} must be a ratio below 1"),
-                    "5 % is 0.05, or \"5 %\"",
-                ));
-            }
-            ratio
+    let averaged = reader.keep(averaged);
+    let damping = table.or("damping", 0.05, |v| {
+        let ratio = reader.positive(v, "damping", Dimension::NUMBER)?;
+        if ratio < 1.0 {
+            return Ok(ratio);
         }
-        None => 0.05,
-    };
-    let periods = periods(table, base, first)?;
+        Err(reader.error(
+            v.span(),
+            format!("`damping` = {ratio} must be a ratio below 1"),
+            "5 % is 0.05, or \"5 %\"",
+        ))
+    });
+    let damping = reader.keep(damping);
+    let periods = periods(table, context)?;
+    let (averaged, damping) = averaged.zip(damping).ok_or(Wrong::Recorded)?;
     Ok(IntensityMeasure::SpectralAcceleration {
         periods: if averaged { band(&periods) } else { periods },
         damping,
@@ -147,41 +141,31 @@ pub(super) fn intensity(
 }
 
 /// The periods that a table names, by themselves or by buildings.
-fn periods(table: &Table<'_, '_>, base: &Case, first: &FirstPeriods) -> Result<Vec<f64>> {
+fn periods(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Vec<f64>> {
     let reader = table.reader;
     table.not_both("building", "period")?;
     if let Some(value) = table.get("period") {
         let read = |v| reader.positive(v, "period", Dimension::TIME);
         return match reader.list(value, "period") {
-            Ok(items) => items.iter().map(read).collect(),
+            Ok(items) => reader.all(items.iter().map(read)),
             Err(_) => Ok(vec![read(value)?]),
         };
     }
     let Some(value) = table.get("building") else {
         // Neither building is the one that counts.
-        return Ok(first.clone());
+        return Ok(context.base()?.first_periods.clone());
     };
     let items = match value.get_ref().as_array() {
         Some(_) => reader.list(value, "building")?.iter().collect(),
         None => vec![value],
     };
-    let period = |item: &&super::reader::Value<'_>| {
-        let name = reader.text(item, "building")?;
-        let at = base.buildings.iter().position(|b| b.name.value == name);
-        at.map(|i| first[i]).ok_or_else(|| {
-            let names: Vec<&str> = base
-                .buildings
-                .iter()
-                .map(|b| b.name.value.as_str())
-                .collect();
-            reader.error(
-                item.span(),
-                format!("the case has no building \"{name}\""),
-                format!("its buildings are {}", names.join(", ")),
-            )
-        })
-    };
-    items.iter().map(period).collect()
+    let at = reader.all(
+        items
+            .into_iter()
+            .map(|item| context.building(&reader, item)),
+    )?;
+    let first = &context.base()?.first_periods;
+    Ok(at.into_iter().map(|i| first[i]).collect())
 }
 
 /// From 0.2 to 3 times the geometric mean of some periods.

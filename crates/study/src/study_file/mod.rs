@@ -1,5 +1,6 @@
 //! The study file: a case, what varies in it, and how it is sampled.
 
+mod context;
 mod files;
 mod hazard_file;
 mod ida;

@@ -1,17 +1,19 @@
 //! From the TOML tree to a study.
 
+use std::cell::RefCell;
 use std::path::Path;
 
 use pounding_assembly::{AssemblyError, assemble_with_record};
-use pounding_case::{Case, CaseError, Errors};
+use pounding_case::{CaseError, Errors};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use toml::de::DeTable;
 
 use crate::faults::{parse_case, with_all};
 
-use super::reader::{Reader, Result, Table, Value};
-use super::variables::{Context, variable};
-use super::{RecordSource, Study, Target, Values, Variable, ida, records};
+use super::context::{Base, Context};
+use super::reader::{Reader, Result, Table, Value, Wrong};
+use super::variables::variable;
+use super::{IntensityMeasure, RecordSource, Study, Target, Values, Variable, ida, records};
 use crate::design::Design;
 use crate::error::StudyError;
 
@@ -22,37 +24,34 @@ const OUTPUT: [&str; 2] = ["chunk", "isolated_demand"];
 /// lost, and files that are not too many.
 const CHUNK: usize = 256;
 
-pub(super) fn study(source: &str, file: &Path) -> Result<Study> {
+pub(super) fn study(source: &str, file: &Path) -> std::result::Result<Study, StudyError> {
     let name = file.display().to_string();
-    let errors = Errors::default();
+    let (errors, elsewhere) = (Errors::default(), RefCell::default());
     let reader = Reader {
         file: &name,
         source,
         errors: &errors,
+        elsewhere: &elsewhere,
     };
-    // What is wrong elsewhere, such as in the case, comes after all that is wrong here.
-    let (study, elsewhere) = match whole(&reader, file).map(|s| reader.keep(Ok(s))) {
-        Ok(study) => (study?, None),
-        Err(e) => match reader.keep(Err(e)) {
-            Ok(study) => (study, None),
-            Err(e) => (None, Some(e)),
-        },
-    };
+    let study = reader.keep(whole(&reader, file));
     let text = |error| StudyError::Text {
         error: Box::new(error),
         source_text: source.to_owned(),
     };
-    errors.finish(Ok(())).map_err(text)?;
-    match (study, elsewhere) {
-        (Some(study), _) => Ok(study),
-        (None, Some(e)) => Err(e),
-        (None, None) => {
-            let error = CaseError::new(&name, source, 0..0, "the study cannot be read", None);
-            Err(text(error))
+    let here = errors.finish(Ok(())).map_err(text).err();
+    let mut wrong: Vec<_> = here.into_iter().chain(elsewhere.into_inner()).collect();
+    match study {
+        Some(study) if wrong.is_empty() => return Ok(study),
+        None if wrong.is_empty() => {
+            let nothing = CaseError::new(&name, source, 0..0, "the study cannot be read", None);
+            wrong.push(text(nothing));
         }
+        _ => {}
     }
+    Err(StudyError::of_all(wrong))
 }
 
+/// The study, if it is whole; all that is wrong is recorded.
 fn whole(reader: &Reader<'_>, file: &Path) -> Result<Study> {
     let (tree, wrong) = DeTable::parse_recoverable(reader.source);
     let mut starts: Vec<usize> = Vec::new();
@@ -63,75 +62,68 @@ fn whole(reader: &Reader<'_>, file: &Path) -> Result<Study> {
         if !starts.contains(&line) {
             starts.push(line);
             let message = format!("this is not TOML: {}", e.message());
-            reader.keep(Err::<(), _>(reader.error(
+            reader.check(Err(reader.error(
                 span,
                 message,
                 "see docs/reference/studies.md",
-            )))?;
+            )));
         }
     }
     if !starts.is_empty() {
-        return Err(reader.lost());
+        return Err(Wrong::Recorded);
     }
-    let root = Table::open(*reader, tree.get_ref(), 0..0, "the study", &STUDY);
-    let title = reader.keep(
-        root.get("title")
-            .map(|v| reader.text(v, "title"))
-            .transpose(),
-    )?;
-    let output = reader.keep(output(&root))?;
+    let root = Table::new(*reader, tree.get_ref(), 0..0, "the study", &STUDY);
+    let title = root.optional("title", |v| reader.text(v, "title"));
+    let output = reader.keep(output(&root));
     let folder = file.parent().unwrap_or(Path::new(""));
-    let base = base(&root, folder)?;
-    let first_periods = first_periods(&base)?;
-    let context = Context {
-        base: &base,
-        folder,
-        first_periods: &first_periods,
-    };
-    let (variables, records) = variables(&root, &context)?;
-    if root.lacks("variable") {
-        return Err(reader.lost());
-    }
-    let design = reader.keep(design(&root, &variables))?;
-    let ida = match root.get("ida") {
-        Some(value) => {
-            let chosen = ida_variables(reader, value, &variables)?;
-            Some(ida::settings(reader, value, &base, folder, chosen)?)
-        }
-        None => None,
-    };
-    let (Some(title), Some((chunk, demand)), Some(design)) = (title, output, design) else {
-        return Err(reader.lost());
+    let context = reader
+        .keep(context(&root, folder))
+        .unwrap_or_else(|| Context::unknown(folder));
+    let read = reader.keep(variables(&root, &context));
+    let whole = read.as_ref().filter(|v| v.whole);
+    let design = reader.keep(design(&root, whole.map(|v| &*v.variables)));
+    let ida = root.optional("ida", |value| {
+        let measure = read
+            .as_ref()
+            .and_then(|v| v.variables.iter().find_map(intensity_of));
+        let both = whole.map(|v| ida_variables(reader, value, &v.variables));
+        let both = both.and_then(|b| reader.keep(b));
+        ida::settings(reader, value, &context, both, measure)
+    });
+    let (Some(base), Some(read), Some((chunk, demand)), Some(design)) =
+        (context.base, read, output, design)
+    else {
+        return Err(Wrong::Recorded);
     };
     Ok(Study {
         title: title.unwrap_or_default(),
         file: file.to_owned(),
         source: reader.source.to_owned(),
-        variables,
+        variables: read.variables,
         design,
         chunk,
         isolated_demand: demand || ida.is_some(),
         ida,
-        records: records.unwrap_or_else(|| vec![records::of_case(&base)]),
-        base,
+        records: read
+            .records
+            .unwrap_or_else(|| vec![records::of_case(&base.case)]),
+        base: base.case,
     })
 }
 
-fn base(root: &Table<'_, '_>, folder: &Path) -> Result<Case> {
+/// The case and what can be known of it.
+fn context<'c>(root: &Table<'_, '_>, folder: &'c Path) -> Result<Context<'c>> {
+    let reader = root.reader;
     let value = root.required("case")?;
-    let path = folder.join(root.reader.text(value, "case")?);
+    let path = folder.join(reader.text(value, "case")?);
     let source = pounding_case::read_text(&path, "case").map_err(|e| {
         let relative = "`case` is relative to the folder of the study".to_owned();
         let help = match path.is_file() {
             true => e.help.clone().unwrap_or(relative),
             false => relative,
         };
-        root.reader.error(value.span(), e.to_string(), help)
+        reader.error(value.span(), e.to_string(), help)
     })?;
-    let error = |e| StudyError::Text {
-        error: Box::new(e),
-        source_text: source.clone(),
-    };
     // Without records of its own the study takes that of the case.
     let variables = root.get("variable").and_then(|v| v.get_ref().as_array());
     let names_records = |v: &Value<'_>| {
@@ -142,72 +134,91 @@ fn base(root: &Table<'_, '_>, folder: &Path) -> Result<Case> {
         })
     };
     let own_record = !variables.into_iter().flatten().any(names_records);
-    let case = parse_case(&source, &path, own_record).map_err(error)?;
-    match assemble_with_record(&case, &two_samples()?) {
-        Err(e) => match with_all(e, &case, own_record) {
-            AssemblyError::Case(e) => Err(error(e)),
-            e => Err(e.into()),
-        },
-        Ok(_) => Ok(case),
-    }
+    let base = base(&source, &path, own_record).map_err(|e| reader.elsewhere(e));
+    Ok(Context {
+        base: base.ok(),
+        text: Some(source).filter(|text| DeTable::parse(text).is_ok()),
+        folder,
+    })
 }
 
-fn two_samples() -> Result<Accelerogram> {
+/// The case, if it is sound.
+fn base(source: &str, path: &Path, own_record: bool) -> std::result::Result<Base, StudyError> {
+    let error = |e| StudyError::Text {
+        error: Box::new(e),
+        source_text: source.to_owned(),
+    };
+    let case = parse_case(source, path, own_record).map_err(error)?;
     let unit = AccelerationUnit::MetrePerSecondSquared;
-    Ok(Accelerogram::new(vec![0.0; 2], unit, 1.0)?)
-}
-
-/// First period of each building.
-fn first_periods(base: &Case) -> Result<Vec<f64>> {
-    let system = assemble_with_record(base, &two_samples()?)?.system;
+    let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
+    let system = match assemble_with_record(&case, &at_rest) {
+        Ok(assembly) => assembly.system,
+        Err(e) => match with_all(e, &case, own_record) {
+            AssemblyError::Case(e) => return Err(error(e)),
+            e => return Err(e.into()),
+        },
+    };
     let first = |b: &std::sync::Arc<_>| {
         let building: &pounding_shear_building::ShearBuilding = b;
         building.modes().period.iter().copied().fold(0.0, f64::max)
     };
-    Ok(system.buildings().iter().map(first).collect())
+    let first_periods = system.buildings().iter().map(first).collect();
+    Ok(Base {
+        case,
+        first_periods,
+    })
 }
 
-fn variables(
-    root: &Table<'_, '_>,
-    context: &Context<'_>,
-) -> Result<(Vec<Variable>, Option<Vec<RecordSource>>)> {
+/// The variables that could be read.
+struct Variables {
+    variables: Vec<Variable>,
+    /// Whether these are all.
+    whole: bool,
+    records: Option<Vec<RecordSource>>,
+}
+
+fn variables(root: &Table<'_, '_>, context: &Context<'_>) -> Result<Variables> {
     let reader = root.reader;
-    let value = root.required("variable")?;
-    let mut variables: Vec<Variable> = Vec::new();
-    let mut records = None;
-    let items = reader.list(value, "variable")?;
-    let read = reader.all(items.iter().map(|item| variable(&reader, item, context)))?;
-    for (item, (variable, named)) in items.iter().zip(read) {
-        if let Some(named) = named {
-            if records.is_some() {
+    let items = reader.list(root.required("variable")?, "variable")?;
+    let mut read = Variables {
+        variables: Vec::new(),
+        whole: true,
+        records: None,
+    };
+    for item in items {
+        let sound = variable(&reader, item, context).and_then(|(variable, named)| {
+            if named.is_some() && read.records.is_some() {
                 return Err(reader.error(
                     item.span(),
                     "records are given twice",
                     "put them into one list",
                 ));
             }
-            records = Some(named);
-        }
-        if let Some(other) = variables.iter().find(|v| collide(v, &variable)) {
-            return Err(reader.error(
-                item.span(),
-                format!(
+            if let Some(other) = read.variables.iter().find(|v| collide(v, &variable)) {
+                let both = format!(
                     "\"{}\" and \"{}\" vary the same entry",
                     other.name, variable.name
-                ),
-                "remove one of them",
-            ));
+                );
+                return Err(reader.error(item.span(), both, "remove one of them"));
+            }
+            if read.variables.iter().any(|v| v.name == variable.name) {
+                return Err(reader.error(
+                    item.span(),
+                    format!("two variables have the name \"{}\"", variable.name),
+                    "give each its own `name`",
+                ));
+            }
+            Ok((variable, named))
+        });
+        match reader.keep(sound) {
+            Some((variable, named)) => {
+                read.variables.push(variable);
+                read.records = read.records.or(named);
+            }
+            None => read.whole = false,
         }
-        if variables.iter().any(|v| v.name == variable.name) {
-            return Err(reader.error(
-                item.span(),
-                format!("two variables have the name \"{}\"", variable.name),
-                "give each its own `name`",
-            ));
-        }
-        variables.push(variable);
     }
-    Ok((variables, records))
+    Ok(read)
 }
 
 /// Whether two variables change the same bytes of the case, or the same property of the
@@ -245,37 +256,41 @@ fn collide(a: &Variable, b: &Variable) -> bool {
 /// Kinds of designs.
 const KINDS: [&str; 4] = ["grid", "list", "latin_hypercube", "sobol"];
 
-fn design(root: &Table<'_, '_>, variables: &[Variable]) -> Result<Design> {
+fn design(root: &Table<'_, '_>, variables: Option<&[Variable]>) -> Result<Design> {
     let reader = root.reader;
+    let variables = variables.ok_or(Wrong::Recorded);
     let Some(value) = root.get("design") else {
-        return grid(root, root.span.clone(), variables);
+        return match root.lacks("design") {
+            true => Err(Wrong::Recorded),
+            false => grid(&reader, root.span.clone(), variables?),
+        };
     };
     let table = reader.table(value, "[design]", &DESIGN)?;
-    let (kind, place) = match table.get("kind") {
-        Some(v) => (reader.text(v, "kind")?, v.span()),
-        None => ("grid".to_owned(), value.span()),
-    };
+    let runs = table.optional("runs", |v| reader.count(v, "runs", 1));
+    let seed = table.optional("seed", |v| reader.count(v, "seed", 0));
+    let kind = table.or("kind", "grid".to_owned(), |v| reader.text(v, "kind"))?;
+    let place = table.get("kind").unwrap_or(value).span();
     if !KINDS.contains(&kind.as_str()) {
         let help = format!("known are {}", KINDS.join(", "));
         return Err(reader.error(place, format!("unknown design \"{kind}\""), help));
     }
-    let counted = matches!(kind.as_str(), "grid" | "list");
-    for key in ["runs", "seed"] {
-        if let (Some(v), true) = (table.get(key), counted) {
-            let message = format!("`{key}` has no meaning for {kind}");
-            return Err(reader.error(v.span(), message, "remove it"));
+    if matches!(kind.as_str(), "grid" | "list") {
+        for key in ["runs", "seed"] {
+            if let Some(v) = table.get(key) {
+                let message = format!("`{key}` has no meaning for {kind}");
+                reader.check(Err(reader.error(v.span(), message, "remove it")));
+            }
         }
+        return match kind.as_str() {
+            "grid" => grid(&reader, place, variables?),
+            _ => list(&reader, &place, variables?),
+        };
     }
-    match kind.as_str() {
-        "grid" => return grid(root, place, variables),
-        "list" => return list(&reader, &place, variables),
-        _ => {}
-    }
-    let runs = reader.count(table.required("runs")?, "runs", 1)?;
-    let seed = table.get("seed").map(|v| reader.count(v, "seed", 0));
-    let seed = seed.transpose()?.map(|s| s as u64);
+    table.required("runs")?;
+    let runs = runs.ok_or(Wrong::Recorded)?;
+    let seed = seed.map(|s| s as u64);
     if kind == "sobol" {
-        return Design::sobol(runs, seed, variables.len())
+        return Design::sobol(runs, seed, variables?.len())
             .map_err(|reason| reader.error(place, reason, "use latin_hypercube"));
     }
     Ok(Design::LatinHypercube {
@@ -285,13 +300,13 @@ fn design(root: &Table<'_, '_>, variables: &[Variable]) -> Result<Design> {
 }
 
 fn grid(
-    root: &Table<'_, '_>,
+    reader: &Reader<'_>,
     place: std::ops::Range<usize>,
     variables: &[Variable],
 ) -> Result<Design> {
-    let sizes = variables.iter().map(|v| {
+    let sizes = reader.all(variables.iter().map(|v| {
         v.values.count().ok_or_else(|| {
-            root.reader.error(
+            reader.error(
                 place.clone(),
                 format!(
                     "the range of \"{}\" has no `count`, which a grid needs",
@@ -300,13 +315,12 @@ fn grid(
                 "add `count = ...` to the variable",
             )
         })
-    });
-    let sizes = sizes.collect::<Result<Vec<_>>>()?;
+    }))?;
     let runs = sizes.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));
     // Numbers of runs stay exact in the results.
     match runs.filter(|n| *n <= 1 << 48) {
         Some(_) => Ok(Design::Grid { sizes }),
-        None => Err(root.reader.error(
+        None => Err(reader.error(
             place,
             "the grid has more runs than can be counted",
             "make it coarser",
@@ -338,36 +352,37 @@ fn output(root: &Table<'_, '_>) -> Result<(usize, bool)> {
     };
     let reader = root.reader;
     let table = reader.table(value, "[output]", &OUTPUT)?;
-    let chunk = table
-        .get("chunk")
-        .map_or(Ok(CHUNK), |v| reader.count(v, "chunk", 1))?;
-    let demand = table
-        .get("isolated_demand")
-        .map_or(Ok(false), |v| reader.flag(v, "isolated_demand"))?;
-    Ok((chunk, demand))
+    let chunk = table.or("chunk", CHUNK, |v| reader.count(v, "chunk", 1));
+    let demand = table.or("isolated_demand", false, |v| {
+        reader.flag(v, "isolated_demand")
+    });
+    let (chunk, demand) = (reader.keep(chunk), reader.keep(demand));
+    chunk.zip(demand).ok_or(Wrong::Recorded)
 }
 
-/// The variables that an incremental dynamic analysis is made of.
+/// The measure of a variable that is an intensity.
+fn intensity_of(variable: &Variable) -> Option<IntensityMeasure> {
+    match &variable.target {
+        Target::Intensity(measure) => Some(measure.clone()),
+        _ => None,
+    }
+}
+
+/// Indices of the two variables that an incremental dynamic analysis is made of: the record
+/// and the intensity.
 fn ida_variables(
     reader: &Reader<'_>,
     place: &Value<'_>,
     variables: &[Variable],
-) -> Result<(usize, usize, super::IntensityMeasure)> {
-    let record = variables
-        .iter()
-        .position(|v| matches!(v.target, Target::Record));
-    let intensity = variables
-        .iter()
-        .enumerate()
-        .find_map(|(i, v)| match &v.target {
-            Target::Intensity(measure) => Some((i, measure.clone())),
-            _ => None,
-        });
+) -> Result<(usize, usize)> {
+    let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
+    let record = at(&|v| matches!(v.target, Target::Record));
+    let intensity = at(&|v| intensity_of(v).is_some());
     match (record, intensity) {
-        (Some(record), Some((intensity, measure))) if variables.len() == 2 => {
+        (Some(record), Some(intensity)) if variables.len() == 2 => {
             match variables[intensity].values {
                 Values::Range { count: None, .. } => {}
-                _ => return Ok((record, intensity, measure)),
+                _ => return Ok((record, intensity)),
             }
             Err(reader.error(
                 place.span(),

@@ -1,5 +1,6 @@
 //! Walking the TOML tree of a study with places.
 
+use std::cell::RefCell;
 use std::num::IntErrorKind;
 use std::ops::Range;
 
@@ -11,7 +12,16 @@ use toml::de::{DeTable, DeValue};
 use crate::error::StudyError;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
-pub(super) type Result<T> = std::result::Result<T, StudyError>;
+pub(super) type Result<T> = std::result::Result<T, Wrong>;
+
+/// Why something has no value.
+#[derive(Debug)]
+pub(super) enum Wrong {
+    /// This is wrong in the study file.
+    Here(Box<CaseError>),
+    /// What was recorded before: nothing more is said of what follows from it.
+    Recorded,
+}
 
 /// A text being read.
 #[derive(Clone, Copy)]
@@ -20,6 +30,8 @@ pub(super) struct Reader<'a> {
     pub source: &'a str,
     /// What was found wrong so far.
     pub errors: &'a Errors,
+    /// What was found wrong in other files, such as the case.
+    pub elsewhere: &'a RefCell<Vec<StudyError>>,
 }
 
 /// Largest count that is taken for meant.
@@ -31,55 +43,45 @@ impl<'a> Reader<'a> {
         span: Range<usize>,
         message: impl Into<String>,
         help: impl Into<String>,
-    ) -> StudyError {
+    ) -> Wrong {
         let error = CaseError::new(self.file, self.source, span, message, Some(help.into()));
-        self.text_error(error)
+        Wrong::Here(Box::new(error))
     }
 
-    fn text_error(&self, error: CaseError) -> StudyError {
-        StudyError::Text {
-            error: Box::new(error),
-            source_text: self.source.to_owned(),
-        }
-    }
-
-    /// The value; `None` after recording what is wrong in this file.
-    ///
-    /// # Errors
-    /// What is wrong elsewhere, such as in the case.
-    pub(super) fn keep<T>(&self, result: Result<T>) -> Result<Option<T>> {
+    /// The value; `None` after recording what is wrong.
+    pub(super) fn keep<T>(&self, result: Result<T>) -> Option<T> {
         match result {
-            Ok(value) => Ok(Some(value)),
-            Err(StudyError::Text { error, source_text }) if source_text == self.source => {
+            Ok(value) => Some(value),
+            Err(Wrong::Here(error)) => {
                 self.errors.record(*error);
-                Ok(None)
+                None
             }
-            Err(other) => Err(other),
+            Err(Wrong::Recorded) => None,
         }
     }
 
-    /// All values; where some are wrong, one of these errors after recording all.
+    /// Records what is wrong with something that has no value of its own.
+    pub(super) fn check(&self, result: Result<()>) {
+        self.keep(result);
+    }
+
+    /// All values, after recording what is wrong with any.
     pub(super) fn all<T>(&self, results: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>> {
-        let mut sound = true;
-        let mut values = Vec::new();
-        for result in results {
-            match self.keep(result)? {
-                Some(value) => values.push(value),
-                None => sound = false,
-            }
-        }
-        if sound { Ok(values) } else { Err(self.lost()) }
+        let kept = results.into_iter().map(|r| self.keep(r));
+        // To the end, so that each is recorded.
+        let kept: Vec<_> = kept.collect();
+        kept.into_iter()
+            .collect::<Option<_>>()
+            .ok_or(Wrong::Recorded)
     }
 
-    /// The error for a value that is not there because of one recorded before.
-    pub(super) fn lost(&self) -> StudyError {
-        match self.errors.recorded() {
-            Some(error) => self.text_error(error),
-            None => self.error(0..0, "the study cannot be read", "correct it"),
-        }
+    /// Records what is wrong in another file.
+    pub(super) fn elsewhere(&self, error: StudyError) -> Wrong {
+        self.elsewhere.borrow_mut().push(error);
+        Wrong::Recorded
     }
 
-    fn wrong(&self, value: &Value<'_>, key: &str, wanted: &str) -> StudyError {
+    fn wrong(&self, value: &Value<'_>, key: &str, wanted: &str) -> Wrong {
         self.error(
             value.span(),
             format!("`{key}` must be {wanted}"),
@@ -197,6 +199,7 @@ impl<'a> Reader<'a> {
         ))
     }
 
+    /// The value as a table; unknown keys are recorded.
     pub(super) fn table<'v>(
         &self,
         value: &'v Value<'a>,
@@ -204,41 +207,24 @@ impl<'a> Reader<'a> {
         keys: &[&'static str],
     ) -> Result<Table<'v, 'a>> {
         match value.get_ref() {
-            DeValue::Table(table) => Table::new(*self, table, value.span(), name, keys),
+            DeValue::Table(table) => Ok(Table::new(*self, table, value.span(), name, keys)),
             _ => Err(self.wrong(value, name, "a table")),
         }
     }
 }
 
-/// A table whose keys are all known.
+/// A table whose unknown keys were recorded.
 pub(super) struct Table<'v, 'a> {
     pub reader: Reader<'a>,
     table: &'v DeTable<'a>,
     pub span: Range<usize>,
     name: String,
-    /// Keys that are none of the table's: how many, and which they may stand for.
-    unknown: usize,
+    /// Keys that those which are none of the table's may stand for.
     meant: Vec<&'static str>,
 }
 
 impl<'v, 'a> Table<'v, 'a> {
     pub(super) fn new(
-        reader: Reader<'a>,
-        table: &'v DeTable<'a>,
-        span: Range<usize>,
-        name: &str,
-        keys: &[&'static str],
-    ) -> Result<Self> {
-        let table = Self::open(reader, table, span, name, keys);
-        // Its keys mean something together: nothing else is said of it where one is unknown.
-        match table.unknown {
-            0 => Ok(table),
-            _ => Err(reader.lost()),
-        }
-    }
-
-    /// A table that is read key by key: unknown ones are recorded.
-    pub(super) fn open(
         reader: Reader<'a>,
         table: &'v DeTable<'a>,
         span: Range<usize>,
@@ -250,7 +236,6 @@ impl<'v, 'a> Table<'v, 'a> {
             table,
             span,
             name: name.to_owned(),
-            unknown: 0,
             meant: Vec::new(),
         };
         for key in table.keys() {
@@ -265,7 +250,6 @@ impl<'v, 'a> Table<'v, 'a> {
             let file = reader.file;
             let error = CaseError::new(file, reader.source, key.span(), message, Some(help));
             reader.errors.record(error);
-            checked.unknown += 1;
             checked.meant.extend(nearest.copied());
         }
         checked
@@ -273,7 +257,7 @@ impl<'v, 'a> Table<'v, 'a> {
 
     /// Whether an unknown key may stand for this one, so that something of it is missing.
     pub(super) fn lacks(&self, key: &str) -> bool {
-        self.meant.contains(&key)
+        self.meant.contains(&key) && self.get(key).is_none()
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&'v Value<'a>> {
@@ -284,7 +268,7 @@ impl<'v, 'a> Table<'v, 'a> {
     pub(super) fn required(&self, key: &str) -> Result<&'v Value<'a>> {
         self.get(key).ok_or_else(|| {
             if self.lacks(key) {
-                return self.reader.lost();
+                return Wrong::Recorded;
             }
             self.reader.error(
                 self.span.clone(),
@@ -292,6 +276,32 @@ impl<'v, 'a> Table<'v, 'a> {
                 format!("add `{key} = ...`"),
             )
         })
+    }
+
+    /// What a key says, if it is there; `None` also after recording what is wrong with it.
+    pub(super) fn optional<T>(
+        &self,
+        key: &str,
+        read: impl FnOnce(&'v Value<'a>) -> Result<T>,
+    ) -> Option<T> {
+        self.get(key).and_then(|v| self.reader.keep(read(v)))
+    }
+
+    /// The same, or a default where the key is absent.
+    ///
+    /// # Errors
+    /// What is wrong with the value.
+    pub(super) fn or<T>(
+        &self,
+        key: &str,
+        default: T,
+        read: impl FnOnce(&'v Value<'a>) -> Result<T>,
+    ) -> Result<T> {
+        match self.get(key) {
+            Some(v) => read(v),
+            None if self.lacks(key) => Err(Wrong::Recorded),
+            None => Ok(default),
+        }
     }
 
     /// All keys with their values, in the order of the file.

@@ -6,10 +6,10 @@ use std::path::Path;
 use pounding_case::{Case, Dimension};
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 
-use super::reader::{Reader, Result, Table, Value};
+use super::context::Context;
+use super::reader::{Reader, Result, Table, Value, Wrong};
 use super::{RecordKind, RecordSource};
 use crate::case_text::{Edits, apply, options_of_motion};
-use crate::error::StudyError;
 
 /// Keys of a record beside `name`: those of `[ground_motion]` but `scale`.
 const RECORD: [&str; 18] = [
@@ -34,33 +34,30 @@ const RECORD: [&str; 18] = [
 ];
 
 /// Reads `records` and `synthetic` of a variable.
-pub(super) fn records(
-    table: &Table<'_, '_>,
-    base: &Case,
-    folder: &Path,
-) -> Result<Vec<RecordSource>> {
+pub(super) fn records(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Vec<RecordSource>> {
     let reader = table.reader;
-    let mut records: Vec<RecordSource> = Vec::new();
-    let mut places = Vec::new();
-    if let Some(value) = table.get("records") {
+    let files = table.or("records", Vec::new(), |value| {
         let items = reader.list(value, "records")?;
-        records = reader.all(items.iter().map(|item| record(&reader, item, base, folder)))?;
-        places.extend(items.iter().map(|item| item.span()));
-    }
-    if let Some(value) = table.get("synthetic") {
-        records.extend(synthetic(&reader, value)?);
-        places.resize(records.len(), value.span());
-    }
-    for (i, record) in records.iter().enumerate() {
-        if records[..i].iter().any(|r| r.name == record.name) {
+        let read = |item| Ok((record(&reader, item, context)?, Value::span(item)));
+        reader.all(items.iter().map(read))
+    });
+    let made = table.or("synthetic", Vec::new(), |value| {
+        let made = synthetic(&reader, value)?;
+        Ok(made.into_iter().map(|m| (m, value.span())).collect())
+    });
+    let (files, made) = (reader.keep(files), reader.keep(made));
+    let (mut records, made) = files.zip(made).ok_or(Wrong::Recorded)?;
+    records.extend(made);
+    for (i, (record, place)) in records.iter().enumerate() {
+        if records[..i].iter().any(|(r, _)| r.name == record.name) {
             return Err(reader.error(
-                places[i].clone(),
+                place.clone(),
                 format!("two records have the name \"{}\"", record.name),
                 "write { name = \"...\", file = \"...\" }",
             ));
         }
     }
-    Ok(records)
+    Ok(records.into_iter().map(|(record, _)| record).collect())
 }
 
 /// The record that the case itself names.
@@ -82,12 +79,7 @@ fn stem(file: &Path) -> String {
         .into_owned()
 }
 
-fn record(
-    reader: &Reader<'_>,
-    item: &Value<'_>,
-    base: &Case,
-    folder: &Path,
-) -> Result<RecordSource> {
+fn record(reader: &Reader<'_>, item: &Value<'_>, context: &Context<'_>) -> Result<RecordSource> {
     // What the case file would hold, a line each, as it is written here.
     let mut lines = String::new();
     let (mut name, mut file, mut processed) = (None, None, false);
@@ -95,24 +87,30 @@ fn record(
         file = Some(reader.text(item, "records")?);
     } else {
         let table = reader.table(item, "a record", &RECORD)?;
-        table.required("file")?;
         for (key, value) in table.entries() {
             match key.as_str() {
-                "name" => name = Some(reader.text(value, "name")?),
-                "file" => file = Some(reader.text(value, "file")?),
+                "name" => name = reader.keep(reader.text(value, "name")),
+                "file" => file = reader.keep(reader.text(value, "file")),
+                // Said before.
+                key if !RECORD.contains(&key) => {}
                 _ => {
                     processed |= key == "process";
                     lines.push_str(&format!("\n{key} = {}", &reader.source[value.span()]));
                 }
             }
         }
+        table.required("file")?;
+        if file.is_none() {
+            return Err(Wrong::Recorded);
+        }
     }
     let file = file.unwrap_or_default();
-    let path = folder.join(&file);
+    let path = context.folder.join(&file);
     let path = std::path::absolute(&path).unwrap_or(path);
     let shown = toml::Value::String(path.display().to_string()).to_string();
     let new = format!("\nfile = {shown}{lines}");
     let lost = |(message, help): (String, String)| reader.error(item.span(), message, help);
+    let base = &context.base()?.case;
     // What the case does to its own record it does to all, unless one says otherwise.
     let kept: &[&str] = if processed {
         &["scale"]
@@ -161,52 +159,91 @@ const SYNTHETIC: [&str; 12] = [
 /// Motions of consecutive seeds.
 fn synthetic(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<RecordSource>> {
     let table = reader.table(value, "synthetic", &SYNTHETIC)?;
-    let model = table.required("model")?;
-    if reader.text(model, "model")? != "rezaeian_der_kiureghian_2010" {
-        return Err(reader.error(
+    let model = table.required("model").and_then(|model| {
+        if reader.text(model, "model")? == "rezaeian_der_kiureghian_2010" {
+            return Ok(());
+        }
+        Err(reader.error(
             model.span(),
             "unknown model of motions",
             "known is rezaeian_der_kiureghian_2010; motions of others are read from files",
-        ));
-    }
-    let read = |key: &str, dimension| reader.quantity(table.required(key)?, key, dimension);
-    let or = |key: &str, dimension, default: f64| match table.get(key) {
-        Some(v) => reader.quantity(v, key, dimension),
-        None => Ok(default),
-    };
+        ))
+    });
+    let model = reader.keep(model);
     // An angle per second, such as "15.6 rad/s", is a circular frequency.
-    let frequency = |value: &Value<'_>, key: &str| {
+    let number = |value: &Value<'_>, key: &str, dimension| {
         let text = value.get_ref().as_str().unwrap_or_default();
-        let turns = if text.contains("rad") { TAU } else { 1.0 };
-        Ok::<_, StudyError>(reader.quantity(value, key, Dimension::FREQUENCY)? / turns)
+        let angle = dimension == Dimension::FREQUENCY && text.contains("rad");
+        let turns = if angle { TAU } else { 1.0 };
+        Ok(reader.quantity(value, key, dimension)? / turns)
     };
+    let needed = |key, dimension| {
+        let value = table.required(key);
+        reader.keep(value.and_then(|v| number(v, key, dimension)))
+    };
+    let or = |key, dimension, default| {
+        reader.keep(table.or(key, default, |v| number(v, key, dimension)))
+    };
+    let count = table.required("count");
+    let count = reader.keep(count.and_then(|v| reader.count(v, "count", 1)));
+    let first = reader.keep(table.or("seed", 1, |v| reader.count(v, "seed", 0)));
+    let duration = needed("duration", Dimension::TIME);
+    let time_step = or("time_step", Dimension::TIME, TimeGrid::USUAL_TIME_STEP);
+    let significant_duration = needed("significant_duration", Dimension::TIME);
+    let middle_time = needed("middle_time", Dimension::TIME);
+    let middle_frequency = needed("middle_frequency", Dimension::FREQUENCY);
+    // What stands in for a missing one is not seen: all are read, and nothing is made.
     let usual = RezaeianDerKiureghian2010::usual(
-        read("significant_duration", Dimension::TIME)?,
-        read("middle_time", Dimension::TIME)?,
-        frequency(table.required("middle_frequency")?, "middle_frequency")?,
+        significant_duration.unwrap_or(1.0),
+        middle_time.unwrap_or(1.0),
+        middle_frequency.unwrap_or(1.0),
     );
+    let arias_intensity = or(
+        "arias_intensity",
+        Dimension::VELOCITY,
+        usual.arias_intensity,
+    );
+    let frequency_rate = or("frequency_rate", per_second_squared(), usual.frequency_rate);
+    let damping = or("damping", Dimension::NUMBER, usual.damping);
+    let high_pass = or("high_pass", Dimension::FREQUENCY, usual.high_pass);
+    let read = [significant_duration, middle_time, middle_frequency];
+    let (
+        Some(()),
+        true,
+        Some(arias_intensity),
+        Some(frequency_rate),
+        Some(damping),
+        Some(high_pass),
+        Some(time_step),
+        Some(duration),
+        Some(count),
+        Some(first),
+    ) = (
+        model,
+        read.iter().all(Option::is_some),
+        arias_intensity,
+        frequency_rate,
+        damping,
+        high_pass,
+        time_step,
+        duration,
+        count,
+        first,
+    )
+    else {
+        return Err(Wrong::Recorded);
+    };
     let motion = RezaeianDerKiureghian2010 {
-        arias_intensity: or(
-            "arias_intensity",
-            Dimension::VELOCITY,
-            usual.arias_intensity,
-        )?,
-        frequency_rate: or("frequency_rate", per_second_squared(), usual.frequency_rate)?,
-        damping: or("damping", Dimension::NUMBER, usual.damping)?,
-        high_pass: match table.get("high_pass") {
-            Some(v) => frequency(v, "high_pass")?,
-            None => usual.high_pass,
-        },
+        arias_intensity,
+        frequency_rate,
+        damping,
+        high_pass,
         ..usual
     };
     let grid = TimeGrid {
-        time_step: or("time_step", Dimension::TIME, TimeGrid::USUAL_TIME_STEP)?,
-        duration: read("duration", Dimension::TIME)?,
+        time_step,
+        duration,
     };
-    let count = reader.count(table.required("count")?, "count", 1)?;
-    let first = table
-        .get("seed")
-        .map_or(Ok(1), |v| reader.count(v, "seed", 0))?;
     (first..first + count)
         .map(|seed| {
             let made = motion.generate(grid, seed as u64).map_err(|e| {

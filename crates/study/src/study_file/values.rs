@@ -2,7 +2,7 @@
 
 use pounding_case::Dimension;
 
-use super::reader::{Reader, Result, Table, Value};
+use super::reader::{Reader, Result, Table, Value, Wrong};
 
 /// How a range is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,10 +90,16 @@ pub(super) fn numbers<'v, 'a>(
     for key in ["from", "to", "count", "spacing"] {
         table.not_both("values", key)?;
     }
+    let count = table.or("count", None, |v| reader.count(v, "count", 2).map(Some));
+    let (count, spacing) = (reader.keep(count), reader.keep(spacing(table, &reader)));
     if let Some(list) = table.get("values") {
         let items = reader.list(list, "values")?;
         let numbers = reader.all(items.iter().map(|item| read(item, "values")))?;
         return Ok((Values::Numbers(numbers), items.iter().collect()));
+    }
+    if ["values", "from"].iter().any(|k| table.lacks(k)) {
+        table.optional("to", |v| read(v, "to"));
+        return Err(Wrong::Recorded);
     }
     if table.get("from").is_none() {
         return Err(reader.error(
@@ -102,9 +108,12 @@ pub(super) fn numbers<'v, 'a>(
             "add `values = [...]`, or `from`, `to` and, for a grid, `count`",
         ));
     }
-    let (first, last) = (table.required("from")?, table.required("to")?);
-    let (from, to) = (read(first, "from")?, read(last, "to")?);
-    let spacing = spacing(table, &reader)?;
+    let end = |key: &str| {
+        let place = table.required(key)?;
+        Ok((place, read(place, key)?))
+    };
+    let ends = reader.keep(end("from")).zip(reader.keep(end("to")));
+    let (((first, from), (last, to)), spacing) = ends.zip(spacing).ok_or(Wrong::Recorded)?;
     if spacing == Spacing::Logarithmic && !(from > 0.0 && to > 0.0) {
         return Err(reader.error(
             first.span(),
@@ -119,12 +128,11 @@ pub(super) fn numbers<'v, 'a>(
             "correct `to`, or give one value by `values`",
         ));
     }
-    let count = table.get("count").map(|v| reader.count(v, "count", 2));
     let values = Values::Range {
         from,
         to,
         spacing,
-        count: count.transpose()?,
+        count: count.ok_or(Wrong::Recorded)?,
     };
     Ok((values, vec![first, last]))
 }

@@ -1,13 +1,12 @@
 //! Variables: what varies, and every value tried in the case.
 
-use std::path::Path as FilePath;
-
 use pounding_assembly::{AssemblyError, assemble_with_record, parameter_dimension};
 use pounding_case::{Case, CaseError, Dimension};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 
-use super::intensity::{FirstPeriods, intensity};
-use super::reader::{Reader, Result, Table, Value};
+use super::context::Context;
+use super::intensity::intensity;
+use super::reader::{Reader, Result, Table, Value, Wrong};
 use super::values::{Values, numbers, unit_of};
 use super::{RecordSource, Target, Variable, records};
 use crate::case_text::{Edits, Entry, Lost, Path, apply, entry, options_of_gap};
@@ -33,12 +32,8 @@ const VARIABLE: [&str; 14] = [
 /// Names that results use themselves.
 const RESERVED: [&str; 5] = ["run", "storey", "level", "status", "run_id"];
 
-/// What the variables are read against.
-pub(super) struct Context<'c> {
-    pub base: &'c Case,
-    pub folder: &'c FilePath,
-    pub first_periods: &'c FirstPeriods,
-}
+/// What a variable is one of.
+const KINDS: [&str; 4] = ["path", "records", "synthetic", "intensity"];
 
 /// Reads a `[[variable]]`; with the records, if it is the one that names them.
 pub(super) fn variable(
@@ -47,8 +42,7 @@ pub(super) fn variable(
     context: &Context<'_>,
 ) -> Result<(Variable, Option<Vec<RecordSource>>)> {
     let table = reader.table(value, "[[variable]]", &VARIABLE)?;
-    let given = ["path", "records", "synthetic", "intensity"];
-    let kinds: Vec<&str> = given
+    let kinds: Vec<&str> = KINDS
         .into_iter()
         .filter(|k| table.get(k).is_some())
         .collect();
@@ -58,6 +52,13 @@ pub(super) fn variable(
         ["records" | "synthetic"] | ["records", "synthetic"] => {
             let (variable, records) = of_records(&table, context)?;
             Ok((variable, Some(records)))
+        }
+        [] if KINDS.iter().any(|k| table.lacks(k)) => {
+            // What it is of is not known, but its numbers can be looked at.
+            if first_value(&table).is_none_or(|v| reader.maybe_quantity(v).is_some()) {
+                numbers(&table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
+            }
+            Err(Wrong::Recorded)
         }
         _ => Err(reader.error(
             value.span(),
@@ -70,10 +71,11 @@ pub(super) fn variable(
 /// The name of a variable, by default as given, and how people call it.
 fn names(table: &Table<'_, '_>, default: &str, title: &str) -> Result<(String, String)> {
     let reader = table.reader;
-    let name = match table.get("name") {
-        Some(value) => reader.text(value, "name")?,
-        None => default.to_owned(),
-    };
+    let long = table.or("long_name", title.to_owned(), |v| {
+        reader.text(v, "long_name")
+    });
+    let long = reader.keep(long);
+    let name = table.or("name", default.to_owned(), |v| reader.text(v, "name"))?;
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let begins = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic());
     let taken = RESERVED.contains(&name.as_str()) || crate::runs::is_result(&name);
@@ -87,19 +89,17 @@ fn names(table: &Table<'_, '_>, default: &str, title: &str) -> Result<(String, S
             "a name begins with a letter, has letters, digits and underscores, and is not that of a result; write `name = ...`",
         ));
     }
-    let long = match table.get("long_name") {
-        Some(value) => reader.text(value, "long_name")?,
-        None => title.to_owned(),
-    };
-    Ok((name, long))
+    Ok((name, long.ok_or(Wrong::Recorded)?))
 }
 
 fn of_records(
     table: &Table<'_, '_>,
     context: &Context<'_>,
 ) -> Result<(Variable, Vec<RecordSource>)> {
-    let (name, long_name) = names(table, "record", "ground motion")?;
-    let records = records::records(table, context.base, context.folder)?;
+    let reader = table.reader;
+    let names = reader.keep(names(table, "record", "ground motion"));
+    let records = records::records(table, context)?;
+    let (name, long_name) = names.ok_or(Wrong::Recorded)?;
     let labels = records.iter().map(|r| r.name.clone()).collect();
     let variable = Variable {
         name,
@@ -113,14 +113,19 @@ fn of_records(
 
 fn of_intensity(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
     let reader = table.reader;
-    let measure = intensity(table, context.base, context.first_periods)?;
-    let dimension = measure.dimension();
-    let (values, _) = numbers(table, &|v, key| reader.positive(v, key, dimension))?;
-    let (name, long_name) = names(table, "intensity", &measure.title())?;
+    let measure = reader.keep(intensity(table, context));
+    let read = |v: &Value<'_>, key: &str| match &measure {
+        Some(measure) => reader.positive(v, key, measure.dimension()),
+        None => Ok(reader.any_quantity(v, key)?.value),
+    };
+    let values = reader.keep(numbers(table, &read));
+    let title = measure.as_ref().map_or_else(String::new, |m| m.title());
+    let (name, long_name) = names(table, "intensity", &title)?;
+    let (measure, (values, _)) = measure.zip(values).ok_or(Wrong::Recorded)?;
     Ok(Variable {
         name,
         long_name,
-        unit: unit_of(dimension),
+        unit: unit_of(measure.dimension()),
         values,
         target: Target::Intensity(measure),
     })
@@ -129,33 +134,40 @@ fn of_intensity(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable
 fn of_path(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
     let reader = table.reader;
     let place = table.required("path")?;
-    let text = reader.text(place, "path")?;
-    let path = Path::parse(&text).map_err(|reason| {
-        reader.error(
-            place.span(),
-            format!("\"{text}\" is not a path: {reason}"),
-            "write paths such as gap.0.width or building.light.mass.2",
-        )
-    })?;
-    let default: Vec<String> = path
-        .to_string()
-        .split(['.', '[', ']', '"', '-', ' '])
-        .filter(|p| !p.is_empty())
-        .map(str::to_owned)
-        .collect();
-    let (name, long_name) = names(table, &default.join("_"), &path.to_string())?;
-    let lost = |(message, help): Lost| reader.error(place.span(), message, help);
-    let entry = entry(&context.base.source, &path).map_err(lost)?;
-    let tried = Trial {
+    let path = reader.keep(path(&reader, place));
+    let default = path.as_ref().map_or_else(String::new, default_name);
+    let names = match (&path, table.get("name")) {
+        // What it would be called is not known, which is no fault of its name.
+        (None, None) => None,
+        _ => {
+            let title = path.as_ref().map_or_else(String::new, Path::to_string);
+            reader.keep(names(table, &default, &title))
+        }
+    };
+    let entry = path.as_ref().and_then(|path| {
+        let lost = |(message, help): Lost| reader.error(place.span(), message, help);
+        let entry = context
+            .text()
+            .and_then(|text| entry(text, path).map_err(lost));
+        reader.keep(entry)
+    });
+    let tried = context.base.as_ref().zip(path.as_ref().zip(entry));
+    let tried = tried.map(|(base, (path, entry))| Trial {
         reader,
-        base: context.base,
-        path: &path,
-    };
+        base: &base.case,
+        path,
+        entry,
+        place,
+    });
     let (values, target) = match first_value(table) {
-        Some(first) if first.get_ref().as_table().is_some() => models(table, &tried)?,
-        Some(first) if reader.maybe_quantity(first).is_none() => named(table, &tried, entry)?,
-        _ => counted(table, &tried, entry)?,
+        Some(first) if first.get_ref().as_table().is_some() => {
+            models(table, path.as_ref(), tried.as_ref())?
+        }
+        Some(first) if reader.maybe_quantity(first).is_none() => named(table, tried.as_ref())?,
+        _ => counted(table, tried.as_ref())?,
     };
+    let tried = tried.ok_or(Wrong::Recorded)?;
+    let (name, long_name) = names.ok_or(Wrong::Recorded)?;
     let numeric = !matches!(values, Values::Choices(_));
     Ok(Variable {
         name,
@@ -170,34 +182,52 @@ fn of_path(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
     })
 }
 
+fn path(reader: &Reader<'_>, place: &Value<'_>) -> Result<Path> {
+    let text = reader.text(place, "path")?;
+    Path::parse(&text).map_err(|reason| {
+        reader.error(
+            place.span(),
+            format!("\"{text}\" is not a path: {reason}"),
+            "write paths such as gap.0.width or building.light.mass.2",
+        )
+    })
+}
+
+/// The name of a variable that states none.
+fn default_name(path: &Path) -> String {
+    let text = path.to_string();
+    let parts = text.split(['.', '[', ']', '"', '-', ' ']);
+    let parts: Vec<&str> = parts.filter(|p| !p.is_empty()).collect();
+    parts.join("_")
+}
+
 /// Values that are texts of the case, such as methods.
-fn named(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(Values, Target)> {
+fn named(table: &Table<'_, '_>, tried: Option<&Trial<'_, '_>>) -> Result<(Values, Target)> {
     let reader = table.reader;
     let items = reader.list(table.required("values")?, "values")?;
     let (labels, texts) = choices(&reader, items)?;
-    let each = items.iter().zip(&texts);
-    reader.all(each.map(|(item, text)| tried.edits(vec![entry.with(text)], item)))?;
-    let path = tried.path.clone();
-    let target = Target::Entry { entry, path, texts };
-    Ok((Values::Choices(labels), target))
+    let tried = tried.ok_or(Wrong::Recorded)?;
+    tried.values(
+        items
+            .iter()
+            .zip(texts.iter().map(|text| vec![text.clone()])),
+    )?;
+    Ok((Values::Choices(labels), tried.target(texts)))
 }
 
 /// Values that are numbers.
-fn counted(table: &Table<'_, '_>, tried: &Trial<'_, '_>, entry: Entry) -> Result<(Values, Target)> {
+fn counted(table: &Table<'_, '_>, tried: Option<&Trial<'_, '_>>) -> Result<(Values, Target)> {
     let reader = table.reader;
     let (values, places) = numbers(table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
-    reader.all(places.into_iter().map(|value| {
+    let tried = tried.ok_or(Wrong::Recorded)?;
+    let texts = places.into_iter().map(|value| {
         // As it is written, so that its unit is checked, and as runs will have it.
-        let number = reader.any_quantity(value, "values")?.value;
-        for text in [reader.source[value.span()].to_owned(), written(number)] {
-            tried.edits(vec![entry.with(&text)], value)?;
-        }
-        Ok(())
-    }))?;
-    let path = tried.path.clone();
-    let texts = Vec::new();
-    let target = Target::Entry { entry, path, texts };
-    Ok((values, target))
+        let number = reader.maybe_quantity(value).map(|q| written(q.value));
+        let texts = std::iter::once(reader.source[value.span()].to_owned()).chain(number);
+        (value, texts.collect())
+    });
+    tried.values(texts)?;
+    Ok((values, tried.target(Vec::new())))
 }
 
 fn first_value<'v, 'a>(table: &Table<'v, 'a>) -> Option<&'v Value<'a>> {
@@ -213,61 +243,29 @@ fn choices(reader: &Reader<'_>, items: &[Value<'_>]) -> Result<(Vec<String>, Vec
     let texts = items
         .iter()
         .map(|item| reader.source[item.span()].to_owned());
-    Ok((labels.collect::<Result<_>>()?, texts.collect()))
+    Ok((reader.all(labels)?, texts.collect()))
 }
 
 /// Models with all their options.
-fn models(table: &Table<'_, '_>, tried: &Trial<'_, '_>) -> Result<(Values, Target)> {
-    let (reader, path) = (table.reader, tried.path);
+fn models(
+    table: &Table<'_, '_>,
+    path: Option<&Path>,
+    tried: Option<&Trial<'_, '_>>,
+) -> Result<(Values, Target)> {
+    let reader = table.reader;
     let list = table.required("values")?;
-    let of_gap = path.table() == "gap" && path.to_string().ends_with(".model");
-    if !of_gap {
+    let of_gap = |path: &Path| path.table() == "gap" && path.to_string().ends_with(".model");
+    if path.is_some_and(|path| !of_gap(path)) {
         return Err(reader.error(
             list.span(),
             "tables are values of the model of a gap only",
             "write path = \"gap.0.model\", or give numbers",
         ));
     }
-    let gap = Path(path.0[..path.0.len() - 1].to_vec());
-    let lost = |(message, help): Lost| reader.error(list.span(), message, help);
-    let (old, header) = options_of_gap(&tried.base.source, &gap).map_err(lost)?;
-    let (mut labels, mut all) = (Vec::<String>::new(), Vec::new());
-    for item in reader.list(list, "values")? {
-        let mut edits: Edits = old
-            .iter()
-            .map(|place| (place.clone(), String::new()))
-            .collect();
-        let (mut new, mut label, mut model) = (String::new(), None, None);
-        // Keys are those of a gap: the case knows them.
-        let entries = item.get_ref().as_table().map(|t| {
-            t.iter()
-                .map(|(k, v)| (k.get_ref().to_string(), v))
-                .collect::<Vec<_>>()
-        });
-        let Some(entries) = entries else {
-            return Err(reader.error(
-                item.span(),
-                "give all models as tables, or none",
-                "write { model = \"...\", ... }",
-            ));
-        };
-        for (key, value) in entries {
-            match key.as_str() {
-                "label" => label = Some(reader.text(value, "label")?),
-                _ => new.push_str(&format!("\n{key} = {}", &reader.source[value.span()])),
-            }
-            if key == "model" {
-                model = Some(reader.text(value, "model")?);
-            }
-        }
-        let Some(model) = model else {
-            return Err(reader.error(
-                item.span(),
-                "this says not which model",
-                "add model = \"...\"",
-            ));
-        };
-        let label = label.unwrap_or(model);
+    let items = reader.list(list, "values")?;
+    let mut labels: Vec<String> = Vec::new();
+    let texts = reader.all(items.iter().map(|item| {
+        let (label, text) = model(&reader, item)?;
         if labels.contains(&label) {
             return Err(reader.error(
                 item.span(),
@@ -276,11 +274,50 @@ fn models(table: &Table<'_, '_>, tried: &Trial<'_, '_>) -> Result<(Values, Targe
             ));
         }
         labels.push(label);
-        edits.push((header..header, new));
+        Ok((item, text))
+    }))?;
+    let tried = tried.ok_or(Wrong::Recorded)?;
+    let gap = Path(tried.path.0[..tried.path.0.len() - 1].to_vec());
+    let lost = |(message, help): Lost| reader.error(list.span(), message, help);
+    let (old, header) = options_of_gap(&tried.base.source, &gap).map_err(lost)?;
+    let edits = reader.all(texts.into_iter().map(|(item, text)| {
+        let removed = old.iter().map(|place| (place.clone(), String::new()));
+        let edits: Edits = removed.chain([(header..header, text)]).collect();
         tried.edits(edits.clone(), item)?;
-        all.push(edits);
+        Ok(edits)
+    }))?;
+    Ok((Values::Choices(labels), Target::Model { edits }))
+}
+
+/// The label of a model, and its lines in a case.
+fn model(reader: &Reader<'_>, item: &Value<'_>) -> Result<(String, String)> {
+    // Keys are those of a gap: the case knows them.
+    let Some(table) = item.get_ref().as_table() else {
+        return Err(reader.error(
+            item.span(),
+            "give all models as tables, or none",
+            "write { model = \"...\", ... }",
+        ));
+    };
+    let (mut text, mut label, mut model) = (String::new(), None, None);
+    for (key, value) in table.iter() {
+        let key = key.get_ref();
+        match key.as_ref() {
+            "label" => label = Some(reader.text(value, "label")?),
+            _ => text.push_str(&format!("\n{key} = {}", &reader.source[value.span()])),
+        }
+        if key == "model" {
+            model = Some(reader.text(value, "model")?);
+        }
     }
-    Ok((Values::Choices(labels), Target::Model { edits: all }))
+    let Some(model) = model else {
+        return Err(reader.error(
+            item.span(),
+            "this says not which model",
+            "add model = \"...\"",
+        ));
+    };
+    Ok((label.unwrap_or(model), text))
 }
 
 /// Tries values in the case.
@@ -288,31 +325,90 @@ struct Trial<'r, 'c> {
     reader: Reader<'r>,
     base: &'c Case,
     path: &'c Path,
+    entry: Entry,
+    /// Where the study names the path.
+    place: &'c Value<'r>,
 }
 
 impl Trial<'_, '_> {
+    /// What a variable of these values changes.
+    fn target(&self, texts: Vec<String>) -> Target {
+        Target::Entry {
+            entry: self.entry.clone(),
+            path: self.path.clone(),
+            texts,
+        }
+    }
+
+    /// Tries values, each with its texts. What is wrong with the entry itself is said once,
+    /// where the study names it.
+    fn values<'v, 'a: 'v>(
+        &self,
+        values: impl IntoIterator<Item = (&'v Value<'a>, Vec<String>)>,
+    ) -> Result<()> {
+        let mut sound = true;
+        for (value, texts) in values {
+            for text in texts {
+                match self.refusal(vec![self.entry.with(&text)]) {
+                    Ok(()) => {}
+                    Err(refusal) if refusal.of_key => return Err(self.wrong(refusal, self.place)),
+                    Err(refusal) => {
+                        sound = false;
+                        self.reader.check(Err(self.wrong(refusal, value)));
+                        break;
+                    }
+                }
+            }
+        }
+        if sound { Ok(()) } else { Err(Wrong::Recorded) }
+    }
+
+    /// Tries the case with these edits.
+    fn edits(&self, edits: Edits, place: &Value<'_>) -> Result<()> {
+        let refused = self.refusal(edits);
+        refused.map_err(|refusal| self.wrong(refusal, place))
+    }
+
+    fn wrong(&self, refusal: Refusal, place: &Value<'_>) -> Wrong {
+        let Refusal { message, help, .. } = refusal;
+        let message = format!("the case refuses this for `{}`: {message}", self.path);
+        self.reader
+            .error(place.span(), message, help.unwrap_or_default())
+    }
+
     /// Reads and assembles the case with these edits, without its record.
-    fn edits(&self, edits: Edits, place: &Value<'_>) -> Result<Case> {
-        let text = apply(&self.base.source, edits);
-        let refused = |message: String, help: Option<String>| {
-            let message = format!("the case refuses this for `{}`: {message}", self.path);
-            self.reader
-                .error(place.span(), message, help.unwrap_or_default())
+    fn refusal(&self, edits: Edits) -> std::result::Result<(), Refusal> {
+        // An entry that the case leaves out brings its key with it.
+        let key = self.entry.span.start..self.entry.span.start + self.entry.before.len();
+        let of_text = |e: CaseError| Refusal {
+            of_key: key.contains(&e.span.start),
+            message: e.message,
+            help: e.help,
         };
-        let of_text = |e: CaseError| refused(e.message, e.help);
+        let text = apply(&self.base.source, edits);
         let case = Case::parse(&text, &self.base.file).map_err(of_text)?;
-        match assemble_with_record(&case, &at_rest()?) {
-            Ok(_) => Ok(case),
+        let of_file = |message: String, help| Refusal {
+            of_key: false,
+            message,
+            help,
+        };
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0);
+        let at_rest = at_rest.map_err(|e| of_file(e.to_string(), e.help()))?;
+        match assemble_with_record(&case, &at_rest) {
+            Ok(_) => Ok(()),
             Err(AssemblyError::Case(e)) => Err(of_text(e)),
-            Err(e) => Err(refused(e.to_string(), e.help())),
+            Err(e) => Err(of_file(e.to_string(), e.help())),
         }
     }
 }
 
-/// A motion of no strength, to assemble a case with.
-fn at_rest() -> Result<Accelerogram> {
-    let unit = AccelerationUnit::MetrePerSecondSquared;
-    Ok(Accelerogram::new(vec![0.0; 2], unit, 1.0)?)
+/// Why the case is wrong with a value.
+struct Refusal {
+    message: String,
+    help: Option<String>,
+    /// Whether the key of the entry is what is wrong.
+    of_key: bool,
 }
 
 /// Unit of the numbers of a variable: that of its texts, or that of the entry in the

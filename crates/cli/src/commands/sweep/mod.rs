@@ -283,6 +283,9 @@ impl From<StudyError> for Failure {
         let help = error.help();
         match error {
             StudyError::Text { error, source_text } => Self::case(*error, &source_text),
+            StudyError::Several { errors } => {
+                Self::together(errors.into_iter().map(Self::from).collect())
+            }
             StudyError::Base(error) => Self::assembly(error, ""),
             e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
                 Self::unwritten(e.to_string(), help)

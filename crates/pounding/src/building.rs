@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use pounding_hysteresis::{LawParameters, build as build_law};
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 
 use crate::error::Error;
-use crate::units::{Length, Mass, Stiffness};
+use crate::law::Law;
+use crate::units::{Length, Mass, Stiffness, Velocity};
 
 /// Acceleration of gravity that acts through P-Delta (m/s2).
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -29,21 +29,10 @@ pub struct Building {
     storeys: Vec<Storey>,
     damping: Option<Damping>,
     p_delta: bool,
-    law: Option<(String, Vec<(String, f64)>)>,
-}
-
-/// Refuses parameters that are given twice.
-pub(crate) fn once<'p>(of: &str, names: impl Iterator<Item = &'p str>) -> Result<(), Error> {
-    let mut seen = std::collections::BTreeSet::new();
-    for name in names {
-        if !seen.insert(name) {
-            return Err(Error::Twice {
-                of: of.to_owned(),
-                parameter: name.to_owned(),
-            });
-        }
-    }
-    Ok(())
+    /// Laws, each of some storeys from 1, or of all.
+    laws: Vec<(Option<Vec<usize>>, Law)>,
+    initial_displacement: Vec<Length>,
+    initial_velocity: Vec<Velocity>,
 }
 
 impl Building {
@@ -55,7 +44,9 @@ impl Building {
             storeys: Vec::new(),
             damping: None,
             p_delta: false,
-            law: None,
+            laws: Vec::new(),
+            initial_displacement: Vec::new(),
+            initial_velocity: Vec::new(),
         }
     }
 
@@ -100,8 +91,35 @@ impl Building {
         name: impl Into<String>,
         parameters: impl IntoIterator<Item = (&'p str, f64)>,
     ) -> Self {
-        let parameters = parameters.into_iter().map(|(k, v)| (k.to_owned(), v));
-        self.law = Some((name.into(), parameters.collect()));
+        self.laws.push((None, Law::new(name, parameters)));
+        self
+    }
+
+    /// The same for some storeys, numbered from 1; those without a law stay elastic.
+    #[must_use]
+    pub fn law_of_storeys<'p>(
+        mut self,
+        storeys: impl IntoIterator<Item = usize>,
+        name: impl Into<String>,
+        parameters: impl IntoIterator<Item = (&'p str, f64)>,
+    ) -> Self {
+        let storeys = Some(storeys.into_iter().collect());
+        self.laws.push((storeys, Law::new(name, parameters)));
+        self
+    }
+
+    /// Lets the floors go at time zero from these displacements relative to the ground, the
+    /// lowest first.
+    #[must_use]
+    pub fn initial_displacement(mut self, floors: impl IntoIterator<Item = Length>) -> Self {
+        self.initial_displacement = floors.into_iter().collect();
+        self
+    }
+
+    /// The same with these velocities.
+    #[must_use]
+    pub fn initial_velocity(mut self, floors: impl IntoIterator<Item = Velocity>) -> Self {
+        self.initial_velocity = floors.into_iter().collect();
         self
     }
 
@@ -125,39 +143,55 @@ impl Building {
             damping,
             gravity,
         )?;
-        let Some((name, parameters)) = &self.law else {
+        if self.laws.is_empty() {
             return Ok(Arc::new(building));
-        };
-        let laws = self
-            .storeys
-            .iter()
-            .map(|s| self.storey_law(s, name, parameters));
-        let laws = laws.collect::<Result<Vec<_>, _>>()?;
-        Ok(Arc::new(building.with_laws(laws)?))
+        }
+        Ok(Arc::new(building.with_laws(self.storey_laws()?)?))
     }
 
-    fn storey_law(
-        &self,
-        storey: &Storey,
-        name: &str,
-        parameters: &[(String, f64)],
-    ) -> Result<Option<StoreyLaw>, Error> {
-        let refused = |reason| Error::Law {
-            building: self.name.clone(),
-            reason,
-        };
-        once(&self.name, parameters.iter().map(|p| p.0.as_str()))?;
-        let descriptor = pounding_hysteresis::find(name).map_err(refused)?;
-        let mut values = LawParameters::default();
-        values.values.extend(parameters.iter().cloned());
-        if descriptor.parameters.iter().any(|p| p.name == "stiffness") {
-            let own = values.values.entry("stiffness".to_owned());
-            own.or_insert(storey.stiffness.si());
+    /// The law of each storey, if it has one.
+    fn storey_laws(&self) -> Result<Vec<Option<StoreyLaw>>, Error> {
+        let of = format!("building {}", self.name);
+        let count = self.storeys.len();
+        let mut laws = vec![None; count];
+        for (storeys, law) in &self.laws {
+            let all = || (1..=count).collect();
+            for storey in storeys.clone().unwrap_or_else(all) {
+                let refused = |reason| Error::LawOfStorey {
+                    building: self.name.clone(),
+                    storey,
+                    reason,
+                };
+                let index = storey.checked_sub(1).filter(|i| *i < count);
+                let index = index.ok_or_else(|| refused("there is no such storey"))?;
+                if laws[index].is_some() {
+                    return Err(refused("it has a law already"));
+                }
+                let stiffness = self.storeys[index].stiffness.si();
+                laws[index] = Some(law.build(&of, Some(stiffness))?);
+            }
         }
-        let law = build_law(descriptor.name, &values).map_err(refused)?;
-        Ok(Some(StoreyLaw {
-            yield_drift: values.yield_deformation(law.initial_stiffness()),
-            law: law.into(),
-        }))
+        Ok(laws)
+    }
+
+    /// Displacements (m) and velocities (m/s) of the floors at time zero.
+    pub(crate) fn initial_state(&self) -> Result<(Vec<f64>, Vec<f64>), Error> {
+        let displacement = self.initial_displacement.iter().map(|u| u.si()).collect();
+        let velocity = self.initial_velocity.iter().map(|v| v.si()).collect();
+        Ok((self.each_floor(displacement)?, self.each_floor(velocity)?))
+    }
+
+    /// A value of each floor, at rest where none are given.
+    fn each_floor(&self, values: Vec<f64>) -> Result<Vec<f64>, Error> {
+        let storeys = self.storeys.len();
+        match values.len() {
+            0 => Ok(vec![0.0; storeys]),
+            given if given == storeys => Ok(values),
+            given => Err(Error::InitialState {
+                building: self.name.clone(),
+                given,
+                storeys,
+            }),
+        }
     }
 }

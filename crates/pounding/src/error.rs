@@ -29,11 +29,13 @@ pub enum Error {
         /// Why.
         reason: &'static str,
     },
-    /// A gap none of whose floors may touch.
-    #[error("gap {gap} has no contact level")]
+    /// A gap or link that no floors face each other across.
+    #[error("{of} has no {level}")]
     NoLevel {
-        /// Name of the gap.
-        gap: String,
+        /// Gap or link.
+        of: String,
+        /// What its levels are called.
+        level: &'static str,
     },
     /// Floors at different elevations that were named as a pair.
     #[error("gap {gap}: {floors} differ in elevation by {difference} m")]
@@ -48,16 +50,16 @@ pub enum Error {
     /// A parameter that is given twice.
     #[error("{of}: parameter `{parameter}` is given twice")]
     Twice {
-        /// Gap or building.
+        /// Gap, building or link.
         of: String,
         /// Name of the parameter.
         parameter: String,
     },
-    /// A gap without width or impact model.
-    #[error("gap {gap} has no {what}")]
+    /// A gap without width or impact model, or a link without law.
+    #[error("{of} has no {what}")]
     Incomplete {
-        /// Name of the gap.
-        gap: String,
+        /// Gap or link.
+        of: String,
         /// What is missing.
         what: &'static str,
     },
@@ -69,39 +71,73 @@ pub enum Error {
         /// Why.
         reason: GapElementError,
     },
-    /// A law of storeys that is not known, or its parameters.
-    #[error("building {building}: {reason}")]
+    /// As many widths as the gap has no levels.
+    #[error("gap {gap}: {widths} widths for {levels} contact levels")]
+    Widths {
+        /// Name of the gap.
+        gap: String,
+        /// Widths given.
+        widths: usize,
+        /// Contact levels.
+        levels: usize,
+    },
+    /// A law of storeys or of a link that is not known, or its parameters.
+    #[error("{of}: {reason}")]
     Law {
-        /// Its name.
-        building: String,
+        /// Building or link.
+        of: String,
         /// Why.
         reason: HysteresisError,
     },
-    /// A gap names a building that is not there.
-    #[error("gap {gap}: there is no building \"{building}\"")]
+    /// A law of a storey that cannot have it.
+    #[error("building {building}, law of storey {storey}: {reason}")]
+    LawOfStorey {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Why.
+        reason: &'static str,
+    },
+    /// A state at time zero of other floors than the building has.
+    #[error("building {building}: {given} values at time zero for {storeys} floors")]
+    InitialState {
+        /// Its name.
+        building: String,
+        /// Values given.
+        given: usize,
+        /// Floors that there are.
+        storeys: usize,
+    },
+    /// A gap or link names a building that is not there.
+    #[error("{of}: there is no building \"{building}\"")]
     UnknownBuilding {
-        /// Name of the gap.
-        gap: String,
+        /// Gap or link.
+        of: String,
         /// The name asked for.
         building: String,
         /// The nearest name that there is.
         nearest: Option<String>,
     },
-    /// A gap joins buildings that do not stand side by side in this order.
-    #[error(
-        "gap {gap}: buildings stand in the order given, and a gap joins one to the next on its right"
-    )]
+    /// A storey of the number zero.
+    #[error("{of}: there is no storey 0")]
+    StoreyZero {
+        /// Gap or link.
+        of: String,
+    },
+    /// A gap or link joins buildings that do not stand side by side in this order.
+    #[error("{of}: buildings stand in the order given, and it joins one to the next on its right")]
     NotNeighbours {
-        /// Name of the gap.
-        gap: String,
+        /// Gap or link.
+        of: String,
     },
     /// A floor without one of its neighbour at equal elevation.
     #[error(
-        "gap {gap}: floor {floor} of {building} at {elevation} m has no floor of its neighbour at equal elevation"
+        "{of}: floor {floor} of {building} at {elevation} m has no floor of its neighbour at equal elevation"
     )]
     UnequalFloors {
-        /// Name of the gap.
-        gap: String,
+        /// Gap or link.
+        of: String,
         /// The building.
         building: String,
         /// Its floor, from 1.
@@ -156,10 +192,18 @@ impl Error {
             Self::Incomplete { what, .. } => Some(format!("give it one: `.{what}(...)`")),
             Self::Model { reason, .. } => reason.help(),
             Self::Law { reason, .. } => reason.help(),
+            Self::Widths { .. } => {
+                Some("give one width per level, bottom first, or a single one by `.width(...)`".to_owned())
+            }
+            Self::LawOfStorey { .. } => {
+                Some("storeys are numbered from 1, and each takes one law".to_owned())
+            }
+            Self::InitialState { .. } => Some("give one value per floor, the lowest first".to_owned()),
             Self::UnknownBuilding { nearest, .. } => {
                 let name = nearest.as_ref()?;
                 Some(format!("did you mean \"{name}\"? A rigid wall is \"wall\""))
             }
+            Self::StoreyZero { .. } => Some("storeys are numbered from 1".to_owned()),
             Self::NotNeighbours { .. } => Some(
                 "name the left building first, and put neighbours next to each other".to_owned(),
             ),
@@ -180,6 +224,20 @@ impl Error {
             Self::FileUse(error) => Some(error.help()),
         }
     }
+}
+
+/// Refuses parameters that are given twice.
+pub(crate) fn once<'p>(of: &str, names: impl Iterator<Item = &'p str>) -> Result<(), Error> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            return Err(Error::Twice {
+                of: of.to_owned(),
+                parameter: name.to_owned(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Message and help: what a `main` that returns this error prints.

@@ -4,23 +4,9 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};
 
-use crate::building::once;
-use crate::error::Error;
+use crate::error::{Error, once};
+use crate::facing::{Facing, Levels};
 use crate::units::Length;
-
-/// The name of a rigid wall at either end of the row.
-pub(crate) const WALL: &str = "wall";
-
-/// Which floors of a gap may touch.
-#[derive(Debug, Clone)]
-pub(crate) enum Levels {
-    /// All below the lower roof: each must have a partner at equal elevation.
-    All,
-    /// Those at equal elevation.
-    Matching,
-    /// These pairs of storeys, from 1; a wall has any number.
-    Pairs(Vec<(usize, usize)>),
-}
 
 /// What acts between floors.
 #[derive(Debug, Clone)]
@@ -30,12 +16,19 @@ enum Model {
     Own(Arc<dyn ImpactModel>),
 }
 
+/// Clear widths at rest.
+#[derive(Debug, Clone)]
+enum Widths {
+    None,
+    Equal(Length),
+    Each(Vec<Length>),
+}
+
 /// A gap in the making: between a building and the next one on its right, or a wall.
 #[derive(Debug, Clone)]
 pub struct Gap {
-    pub(crate) between: [String; 2],
-    width: Option<Length>,
-    pub(crate) levels: Levels,
+    pub(crate) facing: Facing,
+    widths: Widths,
     model: Model,
     separation: Option<SeparationRule>,
     pub(crate) floor_to_floor: bool,
@@ -47,9 +40,8 @@ impl Gap {
     #[must_use]
     pub fn between(left: impl Into<String>, right: impl Into<String>) -> Self {
         Self {
-            between: [left.into(), right.into()],
-            width: None,
-            levels: Levels::All,
+            facing: Facing::new("gap", left.into(), right.into()),
+            widths: Widths::None,
             model: Model::None,
             separation: None,
             floor_to_floor: false,
@@ -59,7 +51,22 @@ impl Gap {
     /// Clear width at rest, the same at all levels.
     #[must_use]
     pub fn width(mut self, width: Length) -> Self {
-        self.width = Some(width);
+        self.widths = Widths::Equal(width);
+        self
+    }
+
+    /// Clear width at rest of each level, bottom first, or in the order of
+    /// [`levels`](Self::levels).
+    #[must_use]
+    pub fn widths(mut self, widths: impl IntoIterator<Item = Length>) -> Self {
+        self.widths = Widths::Each(widths.into_iter().collect());
+        self
+    }
+
+    /// Calls the gap otherwise than by both sides.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.facing.rename(name.into());
         self
     }
 
@@ -86,7 +93,7 @@ impl Gap {
     /// Lets only floors at equal elevation touch, whatever others there are.
     #[must_use]
     pub fn matching_floors_only(mut self) -> Self {
-        self.levels = Levels::Matching;
+        self.facing.levels = Levels::Matching;
         self
     }
 
@@ -109,28 +116,44 @@ impl Gap {
     /// number is not looked at.
     #[must_use]
     pub fn levels(mut self, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
-        self.levels = Levels::Pairs(pairs.into_iter().collect());
+        self.facing.levels = Levels::Pairs(pairs.into_iter().collect());
         self
     }
 
-    /// Name: those of both sides.
+    /// Name, by default those of both sides.
     #[must_use]
     pub fn name(&self) -> String {
-        self.between.join("-")
+        self.facing.name()
     }
 
-    pub(crate) fn built_width(&self) -> Result<f64, Error> {
-        self.width.map(Length::si).ok_or_else(|| Error::Incomplete {
-            gap: self.name(),
-            what: "width",
-        })
+    /// Widths (m) of so many levels.
+    pub(crate) fn built_widths(&self, levels: usize) -> Result<Vec<f64>, Error> {
+        match &self.widths {
+            Widths::Equal(width) => Ok(vec![width.si(); levels]),
+            Widths::Each(widths) if widths.len() == levels => {
+                Ok(widths.iter().map(|w| w.si()).collect())
+            }
+            Widths::Each(widths) => Err(Error::Widths {
+                gap: self.name(),
+                widths: widths.len(),
+                levels,
+            }),
+            Widths::None => Err(self.incomplete("width")),
+        }
+    }
+
+    fn incomplete(&self, what: &'static str) -> Error {
+        Error::Incomplete {
+            of: self.facing.of(),
+            what,
+        }
     }
 
     pub(crate) fn built_model(&self) -> Result<Arc<dyn ImpactModel>, Error> {
         match &self.model {
             Model::Own(model) => Ok(Arc::clone(model)),
             Model::Named(name, parameters) => {
-                once(&self.name(), parameters.iter().map(|p| p.0.as_str()))?;
+                once(&self.facing.of(), parameters.iter().map(|p| p.0.as_str()))?;
                 let parameters = ModelParameters {
                     values: parameters.iter().cloned().collect(),
                     separation: self.separation,
@@ -141,10 +164,7 @@ impl Gap {
                 })?;
                 Ok(model.into())
             }
-            Model::None => Err(Error::Incomplete {
-                gap: self.name(),
-                what: "model",
-            }),
+            Model::None => Err(self.incomplete("model")),
         }
     }
 }

@@ -82,6 +82,46 @@
 //! # }
 //! ```
 //!
+//! # Yielding storeys, links, widths
+//!
+//! Laws of storeys and links go by the names that [`hysteresis::find`] knows. What a building,
+//! a gap or a link cannot be is an [`Error`] with its name and a [help](Error::help).
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let storey = Storey {
+//!     mass: Mass::tonnes(25.0),
+//!     stiffness: Stiffness::meganewtons_per_metre(3.46),
+//!     height: Length::metres(3.0),
+//! };
+//! let building = |name| {
+//!     let building = Building::shear(name).storeys(2, storey);
+//!     building.damping(Damping::StiffnessProportional { ratio: 0.05 })
+//! };
+//! let left = building("left").law_of_storeys([1], "bilinear", [
+//!     ("yield_force", 60e3),
+//!     ("hardening_ratio", 0.05),
+//! ]);
+//! let gap = Gap::between("left", "right")
+//!     .widths([Length::millimetres(15.0), Length::millimetres(25.0)])
+//!     .model("anagnostopoulos_2004", [("stiffness", 9.35e7), ("restitution", 0.65)]);
+//! let damper = Link::between("left", "right")
+//!     .levels([(2, 2)])
+//!     .law("viscous_damper", [("damping", 5e4)]);
+//! let motion = GroundMotion::read("ground_motions/el_centro_1940_ns.csv")?;
+//! let simulation = Simulation::of([left, building("right")]).gap(gap).link(damper);
+//! let simulation = simulation.ground_motion(motion).duration(Time::seconds(5.0));
+//! // Storeys that yield and dampers are integrated by the adaptive pair.
+//! let method = MethodChoice::Adaptive { relative_tolerance: 1e-10 };
+//! let outcome = simulation.method(method).run()?;
+//! assert_eq!(outcome.links[0].levels.len(), 1);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # What is where
 //!
 //! | crate | what |
@@ -98,7 +138,10 @@
 
 mod building;
 mod error;
+mod facing;
 mod gap;
+mod law;
+mod link;
 mod record;
 mod simulation;
 pub mod units;
@@ -106,6 +149,7 @@ pub mod units;
 pub use building::{Building, Storey};
 pub use error::Error;
 pub use gap::Gap;
+pub use link::Link;
 pub use record::GroundMotion;
 pub use simulation::{Model, Simulation};
 
@@ -129,6 +173,6 @@ pub mod prelude {
         GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink, Summary,
     };
 
-    pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time};
-    pub use crate::{Building, Error, Gap, GroundMotion, Model, Simulation, Storey};
+    pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};
+    pub use crate::{Building, Error, Gap, GroundMotion, Link, Model, Simulation, Storey};
 }

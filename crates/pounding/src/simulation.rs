@@ -1,29 +1,28 @@
 //! A row of buildings under a ground motion, and its run.
 
-use pounding_catalogue::suggestion;
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{
-    ELEVATION_TOLERANCE, NAMES, floor_without_partner, is_name, level_pairs,
-};
+use pounding_shear_building::{NAMES, is_name};
 use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Outcome, Recorder, RunOptions, System,
-    TimeHistoryError, run,
+    Floor, GroundAcceleration, MethodChoice, Outcome, Recorder, RunOptions, System, run,
 };
 
 use crate::building::Building;
 use crate::error::Error;
-use crate::gap::{Gap, Levels, WALL};
+use crate::facing::WALL;
+use crate::gap::Gap;
+use crate::link::Link;
 use crate::record::GroundMotion;
 use crate::units::Time;
 
-/// Buildings in a row from the left, the gaps between them, a ground motion, and how it is
-/// all integrated.
+/// Buildings in a row from the left, the gaps and links between them, a ground motion, and how
+/// it is all integrated.
 ///
 /// Everything is checked when it is [built](Self::build) or [run](Self::run).
 #[derive(Debug, Clone)]
 pub struct Simulation {
     buildings: Vec<Building>,
     gaps: Vec<Gap>,
+    links: Vec<Link>,
     motion: Option<GroundMotion>,
     options: RunOptions,
 }
@@ -53,6 +52,7 @@ impl Simulation {
         Self {
             buildings: buildings.into_iter().collect(),
             gaps: Vec::new(),
+            links: Vec::new(),
             motion: None,
             options: RunOptions::default(),
         }
@@ -62,6 +62,13 @@ impl Simulation {
     #[must_use]
     pub fn gap(mut self, gap: Gap) -> Self {
         self.gaps.push(gap);
+        self
+    }
+
+    /// Adds a link.
+    #[must_use]
+    pub fn link(mut self, link: Link) -> Self {
+        self.links.push(link);
         self
     }
 
@@ -86,6 +93,14 @@ impl Simulation {
         self
     }
 
+    /// Allows another residual of the energy ledger, over the largest input energy, than is
+    /// usual for the method: a run above it is an error.
+    #[must_use]
+    pub fn energy_tolerance(mut self, ratio: f64) -> Self {
+        self.options.energy_tolerance = Some(ratio);
+        self
+    }
+
     /// Checks all parts and builds what the solver takes.
     ///
     /// # Errors
@@ -100,9 +115,21 @@ impl Simulation {
             samples: accelerogram.samples().into(),
             time_step: accelerogram.time_step(),
         };
-        let mut system = System::new(buildings, ground);
+        let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
+        for building in &self.buildings {
+            let (u, v) = building.initial_state()?;
+            displacement.extend(u);
+            velocity.extend(v);
+        }
+        let system = System::new(buildings, ground);
+        let mut system = system.with_initial_state(&displacement, &velocity)?;
         for gap in &self.gaps {
-            self.add(gap, &mut system)?;
+            self.add_gap(gap, &mut system)?;
+        }
+        for link in &self.links {
+            let pairs = link.facing.pairs(&self.buildings, &system)?;
+            let between = link.facing.between.clone();
+            system.add_link(&link.name(), between, link.build(pairs)?)?;
         }
         self.options.check(&system)?;
         Ok(Model {
@@ -146,39 +173,43 @@ impl Simulation {
                 });
             }
         }
-        let mut seen = std::collections::BTreeSet::new();
-        for gap in &self.gaps {
-            if !seen.insert(gap.name()) {
-                return Err(Error::Name {
-                    name: gap.name(),
-                    what: "gap",
-                    reason: "another gap is between the same buildings",
-                });
+        let gaps: Vec<String> = self.gaps.iter().map(Gap::name).collect();
+        let links: Vec<String> = self.links.iter().map(Link::name).collect();
+        for (what, names, taken) in [
+            ("gap", gaps, "another gap has it: call one by `.named(...)`"),
+            (
+                "link",
+                links,
+                "another link has it: call one by `.named(...)`",
+            ),
+        ] {
+            let mut seen = std::collections::BTreeSet::new();
+            for name in names {
+                let reason = match seen.insert(name.clone()) {
+                    true if is_name(&name) => continue,
+                    true => NAMES,
+                    false => taken,
+                };
+                return Err(Error::Name { name, what, reason });
             }
         }
         Ok(())
     }
 
-    fn add(&self, gap: &Gap, system: &mut System) -> Result<(), Error> {
-        let sides = [self.side(gap, 0)?, self.side(gap, 1)?];
-        let beside = match sides {
-            [Some(left), Some(right)] => right == left + 1,
-            [Some(left), None] => left + 1 == self.buildings.len(),
-            [None, Some(right)] => right == 0,
-            [None, None] => false,
+    fn add_gap(&self, gap: &Gap, system: &mut System) -> Result<(), Error> {
+        let pairs = gap.facing.pairs(&self.buildings, system)?;
+        let (widths, model) = (gap.built_widths(pairs.len())?, gap.built_model()?);
+        let levels = pairs.into_iter().zip(widths);
+        let mut levels: Vec<_> = levels
+            .map(|((left, right), width)| (left, right, width, model.clone()))
+            .collect();
+        // From the bottom, as results show them.
+        let storey = |floor: &Floor| match floor {
+            Floor::Storey(_, storey) => Some(*storey),
+            Floor::Wall => None,
         };
-        if !beside {
-            return Err(Error::NotNeighbours { gap: gap.name() });
-        }
-        let pairs = pairs(gap, sides, system)?;
-        if pairs.is_empty() {
-            return Err(Error::NoLevel { gap: gap.name() });
-        }
-        let (width, model) = (gap.built_width()?, gap.built_model()?);
-        let pairs = pairs
-            .into_iter()
-            .map(|(left, right)| (left, right, width, model.clone()));
-        system.add_gap(&gap.name(), gap.between.clone(), pairs.collect())?;
+        levels.sort_by_key(|(left, right, ..)| (storey(left), storey(right)));
+        system.add_gap(&gap.name(), gap.facing.between.clone(), levels)?;
         let unequal = system.gaps().last().map(|g| system.unequal_floors(g));
         match unequal.unwrap_or_default().first() {
             Some(first) if !gap.floor_to_floor => Err(Error::NotLevel {
@@ -188,70 +219,6 @@ impl Simulation {
             }),
             _ => Ok(()),
         }
-    }
-
-    /// The building on a side of a gap; `None` is a wall.
-    fn side(&self, gap: &Gap, side: usize) -> Result<Option<usize>, Error> {
-        let name = gap.between[side].as_str();
-        let mut names = self.buildings.iter().map(Building::name);
-        match names.position(|n| n == name) {
-            None if name == WALL => Ok(None),
-            None => Err(Error::UnknownBuilding {
-                gap: gap.name(),
-                building: name.to_owned(),
-                nearest: suggestion::nearest(name, self.buildings.iter().map(Building::name))
-                    .map(str::to_owned),
-            }),
-            found => Ok(found),
-        }
-    }
-}
-
-/// Floors of a gap that may touch.
-fn pairs(
-    gap: &Gap,
-    sides: [Option<usize>; 2],
-    system: &System,
-) -> Result<Vec<(Floor, Floor)>, Error> {
-    let floor = |side: Option<usize>, storey: usize| {
-        side.map_or(Floor::Wall, |building| Floor::Storey(building, storey))
-    };
-    let faced = |pairs: Vec<(usize, usize)>| {
-        let both = |(l, r)| (floor(sides[0], l), floor(sides[1], r));
-        pairs.into_iter().map(both).collect()
-    };
-    if let Levels::Pairs(pairs) = &gap.levels {
-        // Storeys count from 1; those above the roof are refused by the system.
-        let below = |side: usize, storey: usize| match (sides[side], storey.checked_sub(1)) {
-            (None, _) => Ok(0),
-            (Some(_), Some(floor)) => Ok(floor),
-            (Some(_), None) => Err(TimeHistoryError::GapDefinition {
-                gap: gap.name(),
-                reason: "there is no storey 0: they are numbered from 1".to_owned(),
-            }),
-        };
-        let pairs = pairs
-            .iter()
-            .map(|(l, r)| Ok((below(0, *l)?, below(1, *r)?)));
-        return Ok(faced(pairs.collect::<Result<_, TimeHistoryError>>()?));
-    }
-    let [Some(left), Some(right)] = sides else {
-        let building = sides[0].or(sides[1]).unwrap_or_default();
-        let storeys = system.buildings()[building].storeys();
-        return Ok(faced((0..storeys).map(|s| (s, s)).collect()));
-    };
-    let buildings = [left, right].map(|b| &system.buildings()[b]);
-    let elevations = buildings.map(|b| b.elevations());
-    let pairs = level_pairs(elevations[0], elevations[1], ELEVATION_TOLERANCE);
-    let lonely = floor_without_partner(elevations, &pairs, ELEVATION_TOLERANCE);
-    match (lonely, &gap.levels) {
-        (Some((side, storey)), Levels::All) => Err(Error::UnequalFloors {
-            gap: gap.name(),
-            building: buildings[side].name().to_owned(),
-            floor: storey + 1,
-            elevation: elevations[side][storey],
-        }),
-        _ => Ok(faced(pairs)),
     }
 }
 

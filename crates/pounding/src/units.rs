@@ -1,8 +1,9 @@
 //! Quantities with units, so that a mass cannot be taken for a stiffness.
 
-/// Declares quantities: their SI unit, and the units that they may be given in.
+/// Declares quantities: their SI unit, and the units that they may be given in. Parts of a unit
+/// are divided by, so that 9 mm is the number nearest to 0.009 m.
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident($si:ident) { $($(#[$unit_doc:meta])* $unit:ident: $factor:expr),+ $(,)? })+) => {$(
+    ($($(#[$doc:meta])* $name:ident($si:ident) { $($(#[$unit_doc:meta])* $unit:ident: $factor:literal $(/ $divisor:literal)?),+ $(,)? })+) => {$(
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
         pub struct $name(f64);
@@ -12,7 +13,7 @@ macro_rules! quantities {
                 $(#[$unit_doc])*
                 #[must_use]
                 pub const fn $unit(value: f64) -> Self {
-                    Self(value * $factor)
+                    Self(value * $factor $(/ $divisor)?)
                 }
             )+
 
@@ -47,16 +48,23 @@ quantities! {
         /// In m.
         metres: 1.0,
         /// In cm.
-        centimetres: 1.0e-2,
+        centimetres: 1.0 / 1.0e2,
         /// In mm.
-        millimetres: 1.0e-3,
+        millimetres: 1.0 / 1.0e3,
+    }
+    /// Velocity of a floor; SI unit m/s.
+    Velocity(metres_per_second) {
+        /// In m/s.
+        metres_per_second: 1.0,
+        /// In cm/s.
+        centimetres_per_second: 1.0 / 1.0e2,
     }
     /// Duration, step; SI unit s.
     Time(seconds) {
         /// In s.
         seconds: 1.0,
         /// In ms.
-        milliseconds: 1.0e-3,
+        milliseconds: 1.0 / 1.0e3,
     }
     /// Ground acceleration; SI unit m/s2.
     Acceleration(metres_per_second_squared) {

@@ -54,6 +54,178 @@ fn pair() -> Simulation {
         .ground_motion(el_centro())
 }
 
+fn yielding(name: &str, mass: f64, stiffness: f64, yield_force: f64) -> Building {
+    building(name, mass, stiffness).law("elastic_perfectly_plastic", [("yield_force", yield_force)])
+}
+
+#[test]
+fn a_link_by_code_is_that_of_the_case_file() {
+    let file = root().join("examples/linked_pair/case.toml");
+    let from_file = Model::read(file).unwrap().run().unwrap();
+    let joint = Link::between("light", "heavy").named("joint").law(
+        "iwan_six_parameter",
+        [
+            ("density", 4e8),
+            ("exponent", -0.3),
+            ("phi_2", 0.005),
+            ("slider_stiffness", 2e6),
+            ("residual_stiffness", 1e5),
+        ],
+    );
+    let outcome = Simulation::of([
+        yielding("light", 25.0, 3.46, 136.9e3),
+        yielding("heavy", 1000.0, 2215.0, 14.42e6),
+    ])
+    .gap(gap())
+    .link(joint)
+    .ground_motion(el_centro())
+    .method(MethodChoice::Adaptive {
+        relative_tolerance: 1e-10,
+    })
+    .duration(Time::seconds(31.0))
+    .run()
+    .unwrap();
+    assert_eq!(outcome.links.len(), 1);
+    assert!(outcome == from_file);
+}
+
+/// Widths of levels, laws of single storeys, floors let go at time zero, a level order and a
+/// name of one's own: each says what the key of the case file says.
+#[test]
+fn every_part_by_code_is_that_of_the_case_file() {
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let case = format!(
+        r#"
+[[building]]
+name = "light"
+storeys = 3
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = {{ stiffness_proportional = 0.05 }}
+initial_displacement = ["5 mm", "9 mm", "11 mm"]
+initial_velocity = ["1 cm/s", "2 cm/s", "3 cm/s"]
+law = [
+  {{ storeys = [1], model = "bilinear", yield_force = "90 kN", hardening_ratio = 0.05 }},
+  {{ storeys = [3], model = "elastic_perfectly_plastic", yield_force = "80 kN" }},
+]
+[[building]]
+name = "heavy"
+storeys = 3
+mass = "1000 t"
+stiffness = "2215 MN/m"
+height = "3 m"
+damping = {{ stiffness_proportional = 0.05 }}
+[[gap]]
+name = "seam"
+between = ["light", "heavy"]
+width = ["30 mm", "25 mm", "20 mm"]
+model = "jankowski_2005"
+stiffness = "2.75e9 N/m^1.5"
+damping_ratio = 0.35
+[ground_motion]
+file = {record:?}
+[analysis]
+method = "adaptive"
+energy_tolerance = 1e-5
+duration = "8 s"
+"#
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    std::fs::write(&file, case).unwrap();
+    let from_file = Model::read(&file).unwrap().run().unwrap();
+    let light = building("light", 25.0, 3.46)
+        .law_of_storeys(
+            [1],
+            "bilinear",
+            [("yield_force", 90e3), ("hardening_ratio", 0.05)],
+        )
+        .law_of_storeys([3], "elastic_perfectly_plastic", [("yield_force", 80e3)])
+        .initial_displacement([5.0, 9.0, 11.0].map(Length::millimetres))
+        .initial_velocity([1.0, 2.0, 3.0].map(Velocity::centimetres_per_second));
+    let seam = gap()
+        .named("seam")
+        .levels([(3, 3), (1, 1), (2, 2)])
+        .widths([20.0, 30.0, 25.0].map(Length::millimetres));
+    let outcome = Simulation::of([light, building("heavy", 1000.0, 2215.0)])
+        .gap(seam)
+        .ground_motion(el_centro())
+        .method(MethodChoice::Adaptive {
+            relative_tolerance: 1e-10,
+        })
+        .energy_tolerance(1e-5)
+        .duration(Time::seconds(8.0))
+        .run()
+        .unwrap();
+    let impacts = |o: &Outcome| o.gaps[0].levels.iter().map(|l| l.impacts).sum::<usize>();
+    assert!(impacts(&outcome) > 0);
+    assert!(outcome == from_file);
+}
+
+#[test]
+fn what_a_part_cannot_be_is_said_with_its_place() {
+    let light = || building("light", 25.0, 3.46);
+    let heavy = || building("heavy", 1000.0, 2215.0);
+    let refused = |simulation: Simulation| {
+        let simulation = simulation.ground_motion(el_centro());
+        format!("{:?}", simulation.build().unwrap_err())
+    };
+    let linear = [("yield_force", 1e5)];
+    let law = |b: Building, storeys: &[usize]| {
+        b.law_of_storeys(storeys.to_vec(), "elastic_perfectly_plastic", linear)
+    };
+    for (simulation, wanted) in [
+        (
+            Simulation::of([law(light(), &[4]), heavy()]),
+            "building light, law of storey 4: there is no such storey",
+        ),
+        (
+            Simulation::of([law(light(), &[0]), heavy()]),
+            "building light, law of storey 0",
+        ),
+        (
+            Simulation::of([law(law(light(), &[1, 2]), &[2]), heavy()]),
+            "building light, law of storey 2: it has a law already",
+        ),
+        (
+            Simulation::of([light().initial_velocity([Velocity::metres_per_second(1.0)])]),
+            "building light: 1 values at time zero for 3 floors",
+        ),
+        (
+            Simulation::of([light(), heavy()]).gap(gap().widths([Length::metres(0.1); 2])),
+            "gap light-heavy: 2 widths for 3 contact levels",
+        ),
+        (
+            Simulation::of([light(), heavy()]).link(Link::between("light", "heavy")),
+            "link light-heavy has no law",
+        ),
+        (
+            Simulation::of([light(), heavy()])
+                .link(Link::between("light", "hevy").law("linear", [("stiffness", 1e6)])),
+            "did you mean \"heavy\"?",
+        ),
+        (
+            Simulation::of([light(), heavy()])
+                .link(Link::between("light", "heavy").law("linear", [("stifness", 1e6)])),
+            "link light-heavy:",
+        ),
+        (
+            Simulation::of([light(), heavy()])
+                .gap(gap())
+                .gap(gap().levels([(1, 1)])),
+            "\"light-heavy\" cannot name a gap: another gap has it",
+        ),
+        (
+            Simulation::of([light(), heavy()]).gap(gap().levels([(0, 1)])),
+            "gap light-heavy: there is no storey 0",
+        ),
+    ] {
+        let text = refused(simulation);
+        assert!(text.contains(wanted), "{text}");
+    }
+}
+
 #[test]
 fn code_and_case_file_say_the_same() {
     let file = root().join("examples/three_storey_pair/case.toml");

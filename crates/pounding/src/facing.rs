@@ -1,0 +1,145 @@
+//! Which floors of two neighbours face each other, across a gap or a link.
+
+use pounding_catalogue::suggestion;
+use pounding_shear_building::{ELEVATION_TOLERANCE, floor_without_partner, level_pairs};
+use pounding_time_history::{Floor, System};
+
+use crate::building::Building;
+use crate::error::Error;
+
+/// The name of a rigid wall at either end of the row.
+pub(crate) const WALL: &str = "wall";
+
+/// Which floors are meant.
+#[derive(Debug, Clone)]
+pub(crate) enum Levels {
+    /// All below the lower roof: each must have a partner at equal elevation.
+    All,
+    /// Those at equal elevation.
+    Matching,
+    /// These pairs of storeys, from 1; a wall has any number.
+    Pairs(Vec<(usize, usize)>),
+}
+
+/// Two neighbours and their levels.
+#[derive(Debug, Clone)]
+pub(crate) struct Facing {
+    /// Gap or link.
+    what: &'static str,
+    name: Option<String>,
+    pub(crate) between: [String; 2],
+    pub(crate) levels: Levels,
+}
+
+impl Facing {
+    pub(crate) fn new(what: &'static str, left: String, right: String) -> Self {
+        Self {
+            what,
+            name: None,
+            between: [left, right],
+            levels: Levels::All,
+        }
+    }
+
+    pub(crate) fn rename(&mut self, name: String) {
+        self.name = Some(name);
+    }
+
+    /// Name, by default those of both sides.
+    pub(crate) fn name(&self) -> String {
+        self.name.clone().unwrap_or_else(|| self.between.join("-"))
+    }
+
+    /// What it is and its name, for messages.
+    pub(crate) fn of(&self) -> String {
+        format!("{} {}", self.what, self.name())
+    }
+
+    /// The floors that face each other, as they were named or bottom first.
+    pub(crate) fn pairs(
+        &self,
+        buildings: &[Building],
+        system: &System,
+    ) -> Result<Vec<(Floor, Floor)>, Error> {
+        let sides = [self.side(buildings, 0)?, self.side(buildings, 1)?];
+        let beside = match sides {
+            [Some(left), Some(right)] => right == left + 1,
+            [Some(left), None] => left + 1 == buildings.len(),
+            [None, Some(right)] => right == 0,
+            [None, None] => false,
+        };
+        if !beside {
+            return Err(Error::NotNeighbours { of: self.of() });
+        }
+        let pairs = self.storeys(sides, system)?;
+        if pairs.is_empty() {
+            let level = match self.what {
+                "gap" => "contact level",
+                _ => "level",
+            };
+            return Err(Error::NoLevel {
+                of: self.of(),
+                level,
+            });
+        }
+        let floor = |side: Option<usize>, storey: usize| {
+            side.map_or(Floor::Wall, |building| Floor::Storey(building, storey))
+        };
+        let both = |(l, r)| (floor(sides[0], l), floor(sides[1], r));
+        Ok(pairs.into_iter().map(both).collect())
+    }
+
+    /// The building on a side; `None` is a wall.
+    fn side(&self, buildings: &[Building], side: usize) -> Result<Option<usize>, Error> {
+        let name = self.between[side].as_str();
+        let mut names = buildings.iter().map(Building::name);
+        match names.position(|n| n == name) {
+            None if name == WALL => Ok(None),
+            None => Err(Error::UnknownBuilding {
+                of: self.of(),
+                building: name.to_owned(),
+                nearest: suggestion::nearest(name, buildings.iter().map(Building::name))
+                    .map(str::to_owned),
+            }),
+            found => Ok(found),
+        }
+    }
+
+    /// Storeys from zero of both sides.
+    fn storeys(
+        &self,
+        sides: [Option<usize>; 2],
+        system: &System,
+    ) -> Result<Vec<(usize, usize)>, Error> {
+        if let Levels::Pairs(pairs) = &self.levels {
+            // Storeys count from 1; those above the roof are refused by the system.
+            let floor = |side: usize, storey: usize| match (sides[side], storey.checked_sub(1)) {
+                (None, _) => Ok(0),
+                (Some(_), Some(floor)) => Ok(floor),
+                (Some(_), None) => Err(Error::StoreyZero { of: self.of() }),
+            };
+            let pairs = pairs
+                .iter()
+                .map(|(l, r)| Ok((floor(0, *l)?, floor(1, *r)?)));
+            return pairs.collect();
+        }
+        let [Some(left), Some(right)] = sides else {
+            let building = sides[0].or(sides[1]).unwrap_or_default();
+            let storeys = system.buildings()[building].storeys();
+            return Ok((0..storeys).map(|s| (s, s)).collect());
+        };
+        let neighbours = [left, right].map(|b| &system.buildings()[b]);
+        let elevations = neighbours.map(|b| b.elevations());
+        let pairs = level_pairs(elevations[0], elevations[1], ELEVATION_TOLERANCE);
+        let lonely = floor_without_partner(elevations, &pairs, ELEVATION_TOLERANCE);
+        match (lonely, &self.levels) {
+            (Some((side, storey)), Levels::All) => Err(Error::UnequalFloors {
+                of: self.of(),
+                building: neighbours[side].name().to_owned(),
+                floor: storey + 1,
+                elevation: elevations[side][storey],
+            }),
+            _ => Ok(pairs),
+        }
+    }
+}

@@ -39,6 +39,7 @@ pub struct Model {
     /// Text of the case file, empty for what was built by code.
     pub(crate) source: String,
     /// Files that it was made of, each with what it is: no result replaces them.
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
     pub(crate) files: Vec<(&'static str, std::path::PathBuf)>,
 }
 
@@ -206,7 +207,7 @@ impl Simulation {
         // From the bottom, as results show them.
         let storey = |floor: &Floor| match floor {
             Floor::Storey(_, storey) => Some(*storey),
-            Floor::Wall => None,
+            _ => None,
         };
         levels.sort_by_key(|(left, right, ..)| (storey(left), storey(right)));
         system.add_gap(&gap.name(), gap.facing.between.clone(), levels)?;

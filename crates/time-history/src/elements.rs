@@ -15,6 +15,7 @@ use crate::system::System;
 
 /// Where an element sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ElementPlace {
     /// The storey of a building, both from zero.
     Storey {

@@ -12,6 +12,7 @@ pub const DEFAULT_RELATIVE_TOLERANCE: f64 = 1.0e-10;
 
 /// The integration method with its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum MethodChoice {
     /// Adaptive explicit Runge-Kutta 8(5,3). Errors of a step are held below
     /// `relative_tolerance` times the value, or times 0.01 m and 0.1 m/s where

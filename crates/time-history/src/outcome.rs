@@ -25,6 +25,7 @@ impl Peak {
 /// Peaks of one storey. Found inside the steps, not on the output grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct StoreyPeaks {
     /// Floor displacement relative to the ground (m).
     pub displacement: Peak,
@@ -39,6 +40,7 @@ pub struct StoreyPeaks {
 /// Peaks of one building, storeys from the bottom.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct BuildingOutcome {
     /// Name in the case file.
     pub name: String,
@@ -85,6 +87,7 @@ impl YieldingStorey {
 /// What a storey with a law went through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct YieldingStorey {
     /// Name of the law.
     pub law: &'static str,
@@ -101,6 +104,7 @@ pub struct YieldingStorey {
 /// What a level of a link went through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct LinkLevelOutcome {
     /// Maximum deformation (m).
     pub deformation: Peak,
@@ -118,6 +122,7 @@ pub struct LinkLevelOutcome {
 /// What a link went through, levels from the bottom.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct LinkOutcome {
     /// Name of the link.
     pub name: String,
@@ -130,6 +135,7 @@ pub struct LinkOutcome {
 /// One impact: from a located closure to the located opening.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Impact {
     /// Index in [`crate::System::gaps`].
     pub gap: usize,
@@ -163,6 +169,7 @@ pub struct Impact {
 /// What happened at one contact level.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct LevelOutcome {
     /// Number of impacts.
     pub impacts: usize,
@@ -195,6 +202,7 @@ pub struct LevelOutcome {
 /// What happened in one gap, levels from the bottom.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct GapOutcome {
     /// Name of the gap.
     pub name: String,
@@ -205,6 +213,7 @@ pub struct GapOutcome {
 /// The energy ledger at one time (J), relative to the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Energy {
     /// Work of the ground motion on the buildings, `-sum m int v a_g dt`, and the
     /// energy that they had at time zero.
@@ -227,6 +236,7 @@ pub struct Energy {
 /// The closed ledger of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Ledger {
     /// At the end of the run.
     #[cfg_attr(feature = "serde", serde(flatten))]
@@ -240,6 +250,7 @@ pub struct Ledger {
 /// Work done by the method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
@@ -280,6 +291,7 @@ impl Outcome {
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Outcome {
     /// The method used.
     pub method: Information,

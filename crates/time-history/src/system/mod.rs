@@ -67,6 +67,7 @@ pub struct GroundAcceleration {
 
 /// A floor's place in a contact level, for the definition of a gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Floor {
     /// Building index in the row and storey index, both from zero.
     Storey(usize, usize),

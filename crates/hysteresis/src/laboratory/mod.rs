@@ -1,10 +1,25 @@
 //! The laboratory: a law driven along given deformations.
+//!
+//! A [`Specimen`] is a law with its parameters, a [`LoadPath`] the deformations that it is led
+//! through, a [`Loop`] what came of it. [`dissipation_curve`] cycles an element at many amplitudes.
+
+mod cycles;
+mod error;
+mod path;
+mod specimen;
+
+pub use cycles::{Cycle, Loop};
+pub use error::LaboratoryError;
+pub use path::{HistoryRow, LoadPath, Pace, Step};
+pub use specimen::{Specimen, exponent_of_example};
 
 use crate::law::{HysteresisLaw, Motion};
 
 /// One state of a test.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LaboratoryPoint {
+    /// Time since the start (s).
+    pub time: f64,
     /// Deformation (m).
     pub deformation: f64,
     /// Force (N).
@@ -59,20 +74,35 @@ pub fn drive(
     motions: impl IntoIterator<Item = Motion>,
     step: f64,
 ) -> Vec<LaboratoryPoint> {
+    let steps = motions.into_iter().map(|motion| Step {
+        motion,
+        duration: step,
+    });
+    drive_steps(law, steps)
+}
+
+/// Drives a new element step by step.
+fn drive_steps(
+    law: &dyn HysteresisLaw,
+    steps: impl IntoIterator<Item = Step>,
+) -> Vec<LaboratoryPoint> {
     let mut committed = law.virgin();
     let mut candidate = committed.clone();
-    motions
-        .into_iter()
-        .map(|motion| {
-            let force = law.trial(&committed, &mut candidate, motion, step).force;
-            committed.commit(&mut candidate);
-            LaboratoryPoint {
-                deformation: motion.deformation,
-                force,
-                dissipated: law.dissipated_energy(&committed, motion, committed.variables()),
-            }
-        })
-        .collect()
+    let mut time = 0.0;
+    let point = |Step { motion, duration }| {
+        let force = law
+            .trial(&committed, &mut candidate, motion, duration)
+            .force;
+        committed.commit(&mut candidate);
+        time += duration;
+        LaboratoryPoint {
+            time,
+            deformation: motion.deformation,
+            force,
+            dissipated: law.dissipated_energy(&committed, motion, committed.variables()),
+        }
+    };
+    steps.into_iter().map(point).collect()
 }
 
 /// Energy (J) dissipated in one harmonic cycle of this amplitude (m), from peak to
@@ -117,4 +147,49 @@ pub fn dissipation_curve(
         .iter()
         .map(|amplitude| (*amplitude, cycle_dissipation(law, *amplitude, cycling)))
         .collect()
+}
+
+/// [`dissipation_curve`] where it may take too long or overflow.
+///
+/// # Errors
+/// [`LaboratoryError::TooLong`] before any cycle, [`LaboratoryError::Overflow`] after them.
+pub fn checked_dissipation_curve(
+    specimen: &Specimen,
+    amplitudes: &[f64],
+    cycling: Cycling,
+) -> Result<Vec<(f64, f64)>, LaboratoryError> {
+    // To the first peak, then full cycles.
+    let lengths = 1.0 + 4.0 * (cycling.cycles_before + 1) as f64;
+    specimen.reaches(lengths * amplitudes.iter().sum::<f64>())?;
+    let pairs = dissipation_curve(specimen.law.as_ref(), amplitudes, cycling);
+    match pairs.iter().find(|(_, energy)| !energy.is_finite()) {
+        Some(&(deformation, _)) => Err(LaboratoryError::Overflow { deformation }),
+        None => Ok(pairs),
+    }
+}
+
+/// Slope of the straight line through the logarithms of the pairs that dissipate, by
+/// least squares; `None` for fewer than two.
+#[must_use]
+pub fn log_slope(pairs: &[(f64, f64)]) -> Option<f64> {
+    let logarithms: Vec<(f64, f64)> = pairs
+        .iter()
+        .filter(|(_, energy)| *energy > 0.0)
+        .map(|(amplitude, energy)| (amplitude.ln(), energy.ln()))
+        .collect();
+    let count = logarithms.len() as f64;
+    let mean = |pick: fn(&(f64, f64)) -> f64| logarithms.iter().map(pick).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let along: f64 = logarithms.iter().map(|p| (p.0 - x).powi(2)).sum();
+    let across: f64 = logarithms.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    (logarithms.len() > 1).then_some(across / along)
+}
+
+/// [`log_slope`] of a dissipation curve at one of its pairs, from the amplitude before to the
+/// one after; `None` where one of them does not dissipate.
+#[must_use]
+pub fn local_slope(pairs: &[(f64, f64)], index: usize) -> Option<f64> {
+    let near = pairs.get(index.saturating_sub(1)..(index + 2).min(pairs.len()))?;
+    let dissipates = near.iter().all(|(_, energy)| *energy > 0.0);
+    dissipates.then(|| log_slope(near)).flatten()
 }

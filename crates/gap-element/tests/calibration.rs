@@ -69,7 +69,7 @@ fn the_search_meets_the_request_in_the_drop_test() {
         assert_eq!(found.rule.alpha, rule_alpha(e));
         // Gravity and the late reading take speed away, so more is asked for.
         assert!(found.found.alpha > found.free.alpha, "{found:?}");
-        assert!(found.found_in_free_collision > e);
+        assert!(found.found.achieved_in_free_collision > e);
     }
 }
 

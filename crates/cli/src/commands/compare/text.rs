@@ -5,9 +5,8 @@ use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
-use crate::tables::{new_table, warning_lines};
+use crate::tables::{G, new_table, warning_lines};
 
-const G: f64 = 9.80665;
 /// More records than this have no tables of their own.
 const LISTED: usize = 6;
 /// Rows of a printed table of differences; all are in the JSON object and the CSV file.

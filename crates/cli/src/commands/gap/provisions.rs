@@ -3,8 +3,8 @@
 use pounding_separation::{CombinationRule, EffectiveProperties, descriptors, unavailable};
 use serde_json::{Value, json};
 
-use super::super::{pretty, print};
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::tables::new_table;
 
 /// Prints all provisions with status and inputs.

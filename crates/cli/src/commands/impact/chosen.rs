@@ -1,11 +1,14 @@
 //! Which models, with which parameters.
 
+use std::ops::Deref;
+
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
 use pounding_catalogue::suggestion;
+use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
-    ParameterUnit, SeparationRule, Verification, registry,
+    SeparationRule, Verification, registry,
 };
 use serde_json::{Map, Value, json};
 
@@ -13,19 +16,20 @@ use super::setting::refused;
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
 
-/// Restitution of the examples in the documentation: concrete floors.
-const EXAMPLE_RESTITUTION: f64 = 0.65;
-
 /// One model with its parameters.
 pub struct Chosen {
-    /// The model's descriptor.
-    pub descriptor: &'static ModelDescriptor,
-    /// Parameters, given and filled in.
-    pub parameters: ModelParameters,
-    /// Names of those that were filled in from the model's example.
-    pub filled: Vec<String>,
+    /// The model.
+    pub specimen: Specimen,
     /// Whether the separation rule asked for is not offered: its own holds.
     pub keeps_own_separation: bool,
+}
+
+impl Deref for Chosen {
+    type Target = Specimen;
+
+    fn deref(&self) -> &Specimen {
+        &self.specimen
+    }
 }
 
 /// One parameter as given.
@@ -48,13 +52,12 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
     let mut chosen = Vec::new();
     for &descriptor in &descriptors {
         let values = values(descriptor, &given, &mut used)?;
+        let parameters = ModelParameters {
+            values,
+            separation: None,
+        };
         chosen.push(Chosen {
-            descriptor,
-            parameters: ModelParameters {
-                values,
-                separation: None,
-            },
-            filled: Vec::new(),
+            specimen: Specimen::new(descriptor, parameters),
             keeps_own_separation: false,
         });
     }
@@ -66,7 +69,9 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
     }
     separation(arguments, &mut chosen)?;
     if arguments.example {
-        chosen.iter_mut().for_each(Chosen::fill);
+        chosen
+            .iter_mut()
+            .for_each(|c| c.specimen.fill_from_example());
     }
     Ok(chosen)
 }
@@ -265,66 +270,23 @@ fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), 
     for one in chosen {
         one.keeps_own_separation = !offers(one);
         if offers(one) {
-            one.parameters.separation = Some(rule);
+            one.specimen.parameters.separation = Some(rule);
         }
     }
     Ok(())
 }
 
 impl Chosen {
-    /// Takes what is missing from the model's example.
-    fn fill(&mut self) {
-        let example = self.descriptor.example_parameters(EXAMPLE_RESTITUTION);
-        // The example's stiffness belongs to the example's exponent.
-        let exponent = self.parameters.values.contains_key("exponent")
-            && !example.values.contains_key("exponent");
-        for (key, value) in example.values {
-            let alien = exponent && key == "stiffness";
-            if !alien && !self.parameters.values.contains_key(&key) {
-                self.filled.push(key.clone());
-                self.parameters.values.insert(key, value);
-            }
-        }
-        // What was given may exclude its alternatives.
-        while let Err(GapElementError::Conflict { first, second, .. }) =
-            registry::build(self.descriptor.name, &self.parameters)
-        {
-            let Some(at) = self.filled.iter().position(|k| k == first || k == second) else {
-                break;
-            };
-            let key = self.filled.remove(at);
-            self.parameters.values.remove(&key);
-        }
-    }
-
     /// The model itself.
     pub fn build(&self) -> Result<Box<dyn ImpactModel>, Failure> {
-        registry::build(self.descriptor.name, &self.parameters).map_err(refused)
-    }
-
-    /// The rule by which its contact ends.
-    pub fn separation(&self) -> SeparationRule {
-        self.parameters.separation(self.descriptor)
+        self.specimen.build().map_err(refused)
     }
 
     /// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
     pub fn parameter(&self, key: &str) -> String {
         let value = self.parameters.values.get(key).copied().unwrap_or(f64::NAN);
-        let unit = self.descriptor.parameters.iter().find(|p| p.name == key);
-        let unit = match unit.map(|p| p.unit) {
-            None | Some(ParameterUnit::One) => String::new(),
-            Some(ParameterUnit::NewtonPerMetreToExponent) => {
-                let free = self
-                    .descriptor
-                    .parameters
-                    .iter()
-                    .find(|p| p.name == "exponent");
-                let given = self.parameters.values.get("exponent").copied();
-                let exponent = given.or(free.and_then(|p| p.default)).unwrap_or(1.5);
-                format!(" N/m^{exponent}")
-            }
-            Some(unit) => format!(" {}", unit.symbol()),
-        };
+        let unit = unit_of(self.descriptor, &self.parameters, key);
+        let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
         if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
             format!("{key} = {value:e}{unit}")
         } else {
@@ -339,12 +301,6 @@ impl Chosen {
             text.push_str(&format!(" {key}={value:e}"));
         }
         format!("{text} separation={}", self.separation().name())
-    }
-
-    /// Leaves the restitution out, for a table that goes through all of them.
-    pub fn forget_restitution(&mut self) {
-        self.parameters.values.remove("restitution");
-        self.filled.retain(|key| key != "restitution");
     }
 
     /// The model and its parameters for machines.

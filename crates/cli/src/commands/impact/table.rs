@@ -3,30 +3,22 @@
 use std::path::Path;
 
 use pounding_gap_element::{AchievedRestitution, RestitutionTable, restitution_table};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::chosen::Chosen;
 use super::collisions::right_aligned;
-use super::curves::comma_separated;
+use super::one_or_several;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
-use super::{one_or_several, pretty, print, setting_object, written};
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
+use crate::output::{comma_separated, pretty, print, written};
 use crate::plot::{self, Curve, Panel, Reference};
 
 /// One model's rows.
 struct Tabulated<'a> {
     chosen: &'a Chosen,
     table: RestitutionTable,
-}
-
-impl Tabulated<'_> {
-    /// Mean error over all rows, and where building materials are (%).
-    fn means(&self) -> (f64, f64) {
-        let mean = |from, to| self.table.mean_error_percent(from, to);
-        (mean(0.1, 1.0), mean(0.5, 0.8))
-    }
 }
 
 /// Tabulates the models that take a restitution; the others are left out by name.
@@ -75,7 +67,10 @@ pub fn table(
     }
     let shown: Vec<_> = tables.iter().map(|one| one.chosen).collect();
     text.push_str(&remarks(&shown));
-    text.push_str(&written(arguments));
+    text.push_str(&written([
+        arguments.csv.as_deref(),
+        arguments.svg.as_deref(),
+    ]));
     print(&text)
 }
 
@@ -115,7 +110,7 @@ fn detailed(one: &Tabulated<'_>) -> String {
         .into(),
     );
     for row in &one.table.rows {
-        let rigid = row.outcome.peak_force.is_nan();
+        let rigid = row.outcome.is_rigid();
         let dash = |text: String| if rigid { "-".to_owned() } else { text };
         table.add_row([
             format!("{:.1}", row.requested),
@@ -125,7 +120,7 @@ fn detailed(one: &Tabulated<'_>) -> String {
             dash(format!("{:.4e}", row.outcome.duration)),
         ]);
     }
-    let (all, middle) = one.means();
+    let [all, middle] = one.table.mean_errors_percent();
     format!("{table}\nmean error {all:.2} % over 0.1-1.0, {middle:.2} % over 0.5-0.8\n")
 }
 
@@ -145,7 +140,7 @@ fn matrix(tables: &[Tabulated<'_>]) -> String {
         let mut row = vec![one.chosen.descriptor.name.to_owned()];
         let achieved = one.table.rows.iter().map(|r| r.outcome.restitution);
         row.extend(achieved.map(|e| format!("{e:.4}")));
-        let (all, middle) = one.means();
+        let [all, middle] = one.table.mean_errors_percent();
         row.extend([format!("{all:.2}"), format!("{middle:.2}")]);
         table.add_row(row);
     }
@@ -156,27 +151,14 @@ fn as_json(tables: &[Tabulated<'_>], left_out: &[(&str, &str)], setting: &Settin
     let objects = tables
         .iter()
         .map(|one| {
-            let rows: Vec<_> = one
-                .table
-                .rows
-                .iter()
-                .map(|r| {
-                    json!({
-                        "requested": r.requested, "achieved": r.outcome.restitution,
-                        "error_percent": r.error_percent(), "peak_force": r.outcome.peak_force,
-                        "duration": r.outcome.duration,
-                    })
-                })
-                .collect();
-            let (all, middle) = one.means();
-            let mut object: Map<_, _> = one.chosen.json();
-            object.insert("rows".into(), json!(rows));
-            object.insert("mean_error_percent".into(), json!(all));
-            object.insert("mean_error_percent_0.5_0.8".into(), json!(middle));
+            let mut object = one.chosen.json();
+            if let Value::Object(table) = json!(one.table) {
+                object.extend(table);
+            }
             object
         })
         .collect();
-    let mut shared = setting_object(setting);
+    let mut shared = setting.json();
     let list: Vec<_> = left_out
         .iter()
         .map(|(name, why)| json!({"model": name, "reason": why}))
@@ -212,10 +194,7 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
         "peak_force_n",
         "contact_time_s",
     ];
-    plot::write(
-        path,
-        &format!("{head}{}", comma_separated(&columns, &rows)?),
-    )
+    plot::write(path, &format!("{head}{}", comma_separated(&columns, rows)?))
 }
 
 fn write_svg(path: &Path, tables: &[Tabulated<'_>]) -> Result<(), Failure> {

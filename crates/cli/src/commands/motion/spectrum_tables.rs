@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 
 use pounding_ground_motion::spectra::{ResponseSpectrum, RotatedSpectrum};
 
-use super::measures::G;
 use super::plots::{over, panel};
 use crate::plot::Panel;
-use crate::tables::new_long_table;
+use crate::tables::{G, new_long_table};
 
 /// `5 % damping`.
 pub fn percent(damping: f64) -> String {

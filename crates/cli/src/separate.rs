@@ -89,24 +89,12 @@ pub fn warnings(files: &[PathBuf]) -> Vec<String> {
     files.iter().map(warning).collect()
 }
 
-/// Prints a remark to standard error.
-pub fn note(text: &str) {
-    // Nobody to tell is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "note: {text}");
-}
-
 /// Whether this process reads for another one, which says what there is to say.
 pub fn is_child() -> bool {
     std::env::args_os().any(|a| {
         a.to_str()
             .is_some_and(|a| a.strip_prefix("--") == Some(OPTION))
     })
-}
-
-/// Prints a warning to standard error.
-pub fn warn(text: &str) {
-    // Nobody to tell is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
 fn size(files: &[PathBuf]) -> u64 {

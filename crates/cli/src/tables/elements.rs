@@ -14,7 +14,7 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
     if outcome.yielding.iter().all(Option::is_none) {
         return String::new();
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "storey",
         "law",
         "ductility",
@@ -51,7 +51,7 @@ fn ratio(peak: Option<Peak>) -> String {
 pub(super) fn link(run: &Run<'_>, index: usize) -> String {
     let outcome = &run.outcome.links[index];
     let system = run.system();
-    let mut table = new_table(&[
+    let mut table = new_table([
         "level",
         "elevations (m)",
         "deformation (mm)",
@@ -153,7 +153,7 @@ pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static 
 pub(super) fn links(system: &System) -> String {
     let mut text = String::new();
     for (index, link) in system.links().iter().enumerate() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "level",
             "elevations (m)",
             "law",

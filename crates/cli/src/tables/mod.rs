@@ -110,7 +110,7 @@ fn building(run: &Run<'_>, index: usize) -> String {
         &run.outcome.buildings[index],
         &run.isolated.buildings[index],
     );
-    let mut table = new_table(&[
+    let mut table = new_table([
         "storey",
         "displacement (mm)",
         "drift ratio (%)",
@@ -143,7 +143,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         return format!("\nGap {} ({model}): the buildings do not touch\n", gap.name);
     }
     let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
-    let mut table = new_table(&[
+    let mut table = new_table([
         "level at (m)",
         "gap (mm)",
         "impacts",
@@ -261,7 +261,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     }
     text.push_str(&warning_lines(&assembly.warnings()));
     for b in assembly.system.buildings() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "storey",
             "elevation (m)",
             "mass (kg)",
@@ -289,7 +289,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         text.push_str(&elements::laws(b));
     }
     for gap in assembly.system.gaps() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "level",
             "elevations (m)",
             "width (m)",

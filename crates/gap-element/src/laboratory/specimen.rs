@@ -16,6 +16,8 @@ pub struct Specimen {
     pub parameters: ModelParameters,
     /// Names of those that were filled in from the model's example.
     pub filled: Vec<String>,
+    /// Whether the separation rule asked for is not offered, so that its own holds.
+    pub keeps_own_separation: bool,
 }
 
 impl Specimen {
@@ -26,6 +28,21 @@ impl Specimen {
             descriptor,
             parameters,
             filled: Vec::new(),
+            keeps_own_separation: false,
+        }
+    }
+
+    /// Whether the model offers a separation rule.
+    #[must_use]
+    pub fn offers(&self, rule: SeparationRule) -> bool {
+        self.descriptor.separation_rules.contains(&rule)
+    }
+
+    /// Asks for a separation rule, which a model takes that offers it.
+    pub fn ask_for_separation(&mut self, rule: SeparationRule) {
+        self.keeps_own_separation = !self.offers(rule);
+        if self.offers(rule) {
+            self.parameters.separation = Some(rule);
         }
     }
 

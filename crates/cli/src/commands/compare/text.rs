@@ -164,7 +164,7 @@ fn percent(x: f64) -> String {
 }
 
 fn spreads(c: &Comparison) -> String {
-    let mut table = new_table(&[
+    let mut table = new_table([
         "quantity",
         "statistic",
         "between models (%)",
@@ -230,7 +230,7 @@ fn without_contact(c: &Comparison) -> String {
 }
 
 fn ranking(c: &Comparison) -> String {
-    let mut table = new_table(&["quantity", "largest", "smallest", "agreement of records"]);
+    let mut table = new_table(["quantity", "largest", "smallest", "agreement of records"]);
     for (q, r) in c.quantities.iter().zip(&c.rankings) {
         let place = |i: usize| {
             let model = r.order.get(i)?;
@@ -319,7 +319,7 @@ fn storey_differences(c: &Comparison) -> String {
     let Some(first) = c.own.first().filter(|_| !c.storey_differences.is_empty()) else {
         return String::new();
     };
-    let mut table = new_table(&[
+    let mut table = new_table([
         "building",
         "quantity",
         "storey",
@@ -356,7 +356,7 @@ fn level_differences(c: &Comparison) -> String {
     if c.level_differences.is_empty() {
         return String::new();
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "gap",
         "level",
         "record",

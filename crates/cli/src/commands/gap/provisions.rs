@@ -12,7 +12,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
     if as_json {
         return print(&pretty(&numbers()));
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "provision",
         "region",
         "edition",

@@ -70,7 +70,7 @@ impl DissipationCurve {
 
     /// The curve in a table, for people.
     pub fn text(&self) -> String {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "amplitude (mm)",
             "dissipated per cycle (J)",
             "log-log slope",

@@ -8,7 +8,7 @@ use crate::tables::new_table;
 
 /// The cycles in a table, below what they are.
 pub fn text(driven: &Loop, description: &str) -> String {
-    let mut table = new_table(&[
+    let mut table = new_table([
         "cycle",
         "from (mm)",
         "to (mm)",

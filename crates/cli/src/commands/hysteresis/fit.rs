@@ -83,7 +83,7 @@ fn read(path: &Path, unknowns: usize) -> Result<Vec<(f64, f64)>, Failure> {
 impl Fitted {
     /// Measured beside fitted, for people.
     pub fn text(&self) -> String {
-        let mut table = new_table(&["amplitude (mm)", "measured (J)", "fitted (J)", "error (%)"]);
+        let mut table = new_table(["amplitude (mm)", "measured (J)", "fitted (J)", "error (%)"]);
         for (amplitude, energy) in &self.measured {
             let fitted = self.fit.density.cycle_dissipation(*amplitude);
             table.add_row([

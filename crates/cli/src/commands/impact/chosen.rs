@@ -1,36 +1,17 @@
 //! Which models, with which parameters.
 
-use std::ops::Deref;
-
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
 use pounding_catalogue::suggestion;
 use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
-    GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
-    SeparationRule, Verification, registry,
+    GapElementError, ModelDescriptor, ModelParameters, ParameterDescriptor, SeparationRule,
+    Verification, registry,
 };
 use serde_json::{Map, Value, json};
 
-use super::setting::refused;
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
-
-/// One model with its parameters.
-pub struct Chosen {
-    /// The model.
-    pub specimen: Specimen,
-    /// Whether the separation rule asked for is not offered: its own holds.
-    pub keeps_own_separation: bool,
-}
-
-impl Deref for Chosen {
-    type Target = Specimen;
-
-    fn deref(&self) -> &Specimen {
-        &self.specimen
-    }
-}
 
 /// One parameter as given.
 struct Given {
@@ -41,7 +22,7 @@ struct Given {
 }
 
 /// The models of the arguments.
-pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
+pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Specimen>, Failure> {
     let descriptors = descriptors(arguments)?;
     let given = arguments
         .parameters
@@ -56,10 +37,7 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
             values,
             separation: None,
         };
-        chosen.push(Chosen {
-            specimen: Specimen::new(descriptor, parameters),
-            keeps_own_separation: false,
-        });
+        chosen.push(Specimen::new(descriptor, parameters));
     }
     if let Some(at) = used.iter().position(|used| !used) {
         return Err(Failure::input(
@@ -69,9 +47,7 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
     }
     separation(arguments, &mut chosen)?;
     if arguments.example {
-        chosen
-            .iter_mut()
-            .for_each(|c| c.specimen.fill_from_example());
+        chosen.iter_mut().for_each(Specimen::fill_from_example);
     }
     Ok(chosen)
 }
@@ -235,7 +211,7 @@ fn pick(
 }
 
 /// One model must offer the rule asked for; of several, those that do take it.
-fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), Failure> {
+fn separation(arguments: &ImpactArguments, chosen: &mut [Specimen]) -> Result<(), Failure> {
     let Some(name) = &arguments.separation else {
         return Ok(());
     };
@@ -246,9 +222,8 @@ fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), 
             Some(format!("it is one of {}", known.join(", "))),
         ));
     };
-    let offers = |c: &Chosen| c.descriptor.separation_rules.contains(&rule);
     if let [only] = chosen
-        && !offers(only)
+        && !only.offers(rule)
     {
         return Err(Failure::from(GapElementError::Separation {
             model: only.descriptor.name,
@@ -261,61 +236,59 @@ fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), 
                 .collect(),
         }));
     }
-    if !chosen.iter().any(offers) {
+    if !chosen.iter().any(|one| one.offers(rule)) {
         return Err(Failure::input(
             format!("no chosen model offers separation \"{name}\""),
             Some("`pounding models NAME` shows what a model offers".to_owned()),
         ));
     }
-    for one in chosen {
-        one.keeps_own_separation = !offers(one);
-        if offers(one) {
-            one.specimen.parameters.separation = Some(rule);
-        }
-    }
+    chosen
+        .iter_mut()
+        .for_each(|one| one.ask_for_separation(rule));
     Ok(())
 }
 
-impl Chosen {
-    /// The model itself.
-    pub fn build(&self) -> Result<Box<dyn ImpactModel>, Failure> {
-        self.specimen.build().map_err(refused)
+/// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
+pub fn parameter(specimen: &Specimen, key: &str) -> String {
+    let values = &specimen.parameters.values;
+    let value = values.get(key).copied().unwrap_or(f64::NAN);
+    let unit = unit_of(specimen.descriptor, &specimen.parameters, key);
+    let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        format!("{key} = {value:e}{unit}")
+    } else {
+        format!("{key} = {value}{unit}")
     }
+}
 
-    /// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
-    pub fn parameter(&self, key: &str) -> String {
-        let value = self.parameters.values.get(key).copied().unwrap_or(f64::NAN);
-        let unit = unit_of(self.descriptor, &self.parameters, key);
-        let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
-        if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
-            format!("{key} = {value:e}{unit}")
-        } else {
-            format!("{key} = {value}{unit}")
-        }
-    }
+/// All parameters as `key=value` pairs for the head of a file.
+pub fn pairs(specimen: &Specimen) -> String {
+    let values = specimen.parameters.values.iter();
+    let pairs: String = values
+        .map(|(key, value)| format!(" {key}={value:e}"))
+        .collect();
+    format!(
+        "model={}{pairs} separation={}",
+        specimen.descriptor.name,
+        specimen.separation().name()
+    )
+}
 
-    /// All parameters as `key=value` pairs for the head of a file.
-    pub fn pairs(&self) -> String {
-        let mut text = format!("model={}", self.descriptor.name);
-        for (key, value) in &self.parameters.values {
-            text.push_str(&format!(" {key}={value:e}"));
-        }
-        format!("{text} separation={}", self.separation().name())
-    }
-
-    /// The model and its parameters for machines.
-    pub fn json(&self) -> Map<String, Value> {
-        let verification = match self.descriptor.verification {
-            Verification::Verified(how) => format!("verified against: {how}"),
-            Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-        };
-        let mut object = Map::new();
-        object.insert("model".into(), json!(self.descriptor.name));
-        object.insert("title".into(), json!(self.descriptor.title));
-        object.insert("parameters".into(), json!(self.parameters.values));
-        object.insert("filled_from_example".into(), json!(self.filled));
-        object.insert("separation".into(), json!(self.separation().name()));
-        object.insert("verification".into(), json!(verification));
-        object
-    }
+/// The model and its parameters for machines.
+pub fn json(specimen: &Specimen) -> Map<String, Value> {
+    let verification = match specimen.descriptor.verification {
+        Verification::Verified(how) => format!("verified against: {how}"),
+        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
+    };
+    Map::from_iter(
+        [
+            ("model", json!(specimen.descriptor.name)),
+            ("title", json!(specimen.descriptor.title)),
+            ("parameters", json!(specimen.parameters.values)),
+            ("filled_from_example", json!(specimen.filled)),
+            ("separation", json!(specimen.separation().name())),
+            ("verification", json!(verification)),
+        ]
+        .map(|(key, value)| (key.to_owned(), value)),
+    )
 }

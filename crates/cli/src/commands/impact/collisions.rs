@@ -2,10 +2,11 @@
 
 use comfy_table::{CellAlignment, presets};
 use pounding_catalogue::numbers::{scientific, significant};
+use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{CollisionOutcome, CollisionSample, collide_with};
 use serde_json::{Map, Value, json};
 
-use super::chosen::Chosen;
+use super::chosen;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
 use crate::failure::Failure;
@@ -14,20 +15,20 @@ use crate::tables::Table;
 /// One model and what it did.
 pub struct Collided<'a> {
     /// The model with its parameters.
-    pub chosen: &'a Chosen,
+    pub chosen: &'a Specimen,
     /// Its collision.
     pub outcome: CollisionOutcome,
 }
 
 /// Puts every model through the collision.
 pub fn collide_all<'a>(
-    chosen: &'a [Chosen],
+    chosen: &'a [Specimen],
     setting: &Setting,
 ) -> Result<Vec<Collided<'a>>, Failure> {
     chosen
         .iter()
         .map(|one| {
-            let model = one.build()?;
+            let model = one.build().map_err(refused)?;
             let outcome =
                 collide_with(model.as_ref(), &setting.bodies, &setting.options).map_err(refused)?;
             Ok(Collided {
@@ -41,7 +42,7 @@ pub fn collide_all<'a>(
 impl Collided<'_> {
     /// The result for machines.
     pub fn json(&self) -> Map<String, Value> {
-        let mut object = self.chosen.json();
+        let mut object = chosen::json(self.chosen);
         if let Value::Object(results) = json!(self.outcome) {
             object.extend(results);
         }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use pounding_gap_element::CollisionSample;
 
+use super::chosen;
 use super::collisions::Collided;
 use super::setting::Setting;
 use crate::failure::Failure;
@@ -16,7 +17,7 @@ pub fn write_csv(path: &Path, collided: &[Collided<'_>], setting: &Setting) -> R
     let mut head = format!("# pounding impact: {}\n", setting.pairs());
     let mut rows = Vec::new();
     for one in with_history(collided)? {
-        head.push_str(&format!("# {}\n", one.chosen.pairs()));
+        head.push_str(&format!("# {}\n", chosen::pairs(one.chosen)));
         let name = one.chosen.descriptor.name;
         let row = |s: &CollisionSample| (name, s.time, s.penetration, s.velocity, s.force);
         rows.extend(one.outcome.history.iter().map(row));

@@ -15,7 +15,6 @@ use serde_json::{Value, json};
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
 use crate::output::{pretty, print, written};
-use chosen::Chosen;
 use setting::Setting;
 
 /// Collisions by one or several models, a table over restitutions, or a comparison
@@ -33,8 +32,7 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
     let setting = setting::setting(arguments)?;
     let mut chosen = chosen::choose(arguments)?;
     if arguments.table {
-        let specimens = chosen.iter_mut().map(|c| &mut c.specimen);
-        specimens.for_each(Specimen::forget_restitution);
+        chosen.iter_mut().for_each(Specimen::forget_restitution);
         return table::table(arguments, &chosen, &setting);
     }
     collisions(arguments, &chosen, &setting)
@@ -42,7 +40,7 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
 
 fn collisions(
     arguments: &ImpactArguments,
-    chosen: &[Chosen],
+    chosen: &[Specimen],
     setting: &Setting,
 ) -> Result<(), Failure> {
     let history = against::measured(arguments)?;

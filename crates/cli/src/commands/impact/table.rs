@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{AchievedRestitution, RestitutionTable, restitution_table};
 use serde_json::{Value, json};
 
-use super::chosen::Chosen;
+use super::chosen;
 use super::collisions::right_aligned;
 use super::one_or_several;
 use super::remarks::remarks;
@@ -17,17 +18,17 @@ use crate::plot::{self, Curve, Panel, Reference};
 
 /// One model's rows.
 struct Tabulated<'a> {
-    chosen: &'a Chosen,
+    chosen: &'a Specimen,
     table: RestitutionTable,
 }
 
 /// Tabulates the models that take a restitution; the others are left out by name.
 pub fn table(
     arguments: &ImpactArguments,
-    chosen: &[Chosen],
+    chosen: &[Specimen],
     setting: &Setting,
 ) -> Result<(), Failure> {
-    let (taking, left_out): (Vec<&Chosen>, Vec<_>) = chosen
+    let (taking, left_out): (Vec<&Specimen>, Vec<_>) = chosen
         .iter()
         .partition(|c| c.descriptor.takes_restitution());
     let left_out: Vec<_> = left_out
@@ -74,7 +75,7 @@ pub fn table(
     print(&text)
 }
 
-fn tabulate<'a>(chosen: &'a Chosen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
+fn tabulate<'a>(chosen: &'a Specimen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
     let table = restitution_table(
         chosen.descriptor,
         &chosen.parameters,
@@ -85,7 +86,7 @@ fn tabulate<'a>(chosen: &'a Chosen, setting: &Setting) -> Result<Tabulated<'a>, 
     Ok(Tabulated { chosen, table })
 }
 
-fn reason(chosen: &Chosen) -> &'static str {
+fn reason(chosen: &Specimen) -> &'static str {
     match chosen.descriptor.achieved_restitution {
         AchievedRestitution::Elastic => "takes no restitution: it always returns 1",
         AchievedRestitution::Constant => {
@@ -151,7 +152,7 @@ fn as_json(tables: &[Tabulated<'_>], left_out: &[(&str, &str)], setting: &Settin
     let objects = tables
         .iter()
         .map(|one| {
-            let mut object = one.chosen.json();
+            let mut object = chosen::json(one.chosen);
             if let Value::Object(table) = json!(one.table) {
                 object.extend(table);
             }
@@ -171,7 +172,7 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
     let mut head = format!("# pounding impact --table: {}\n", setting.pairs());
     let mut rows = Vec::new();
     for one in tables {
-        head.push_str(&format!("# {}\n", one.chosen.pairs()));
+        head.push_str(&format!("# {}\n", chosen::pairs(one.chosen)));
         rows.extend(one.table.rows.iter().map(|r| {
             let force = Some(r.outcome.peak_force).filter(|f| f.is_finite());
             let duration = force.map(|_| r.outcome.duration);

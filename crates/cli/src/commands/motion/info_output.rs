@@ -133,7 +133,7 @@ fn opposite_signs(file: &ShownFile) -> String {
 }
 
 fn series_table(file: &ShownFile) -> String {
-    let mut table = new_long_table(&[
+    let mut table = new_long_table([
         "channel",
         "component",
         "quantity",

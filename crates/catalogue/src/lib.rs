@@ -1,5 +1,5 @@
 //! What models, laws, provisions and record formats have in common, and the sentences that
-//! speak of them ([`wording`]). They are found by name, and a name that is not known leads to the one that was probably meant:
+//! speak of them ([`wording`], [`numbers`]). They are found by name, and a name that is not known leads to the one that was probably meant:
 //!
 //! ```
 //! use pounding_catalogue::suggestion;
@@ -10,5 +10,6 @@
 //! assert_eq!(suggestion::nearest("hertz", models), Some("hertz_1882"));
 //! ```
 
+pub mod numbers;
 pub mod suggestion;
 pub mod wording;

@@ -10,12 +10,18 @@ use pounding_case::{Case, CaseError};
 use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
+use pounding_gap_element::contact_stiffness::ContactStiffnessError;
+use pounding_gap_element::laboratory::MeasuredForceError;
 use pounding_ground_motion::GroundMotionError;
+use pounding_hysteresis::laboratory::LaboratoryError;
 use pounding_hysteresis::{HysteresisError, help_among_gaps};
+use pounding_report::documentation::DocumentationError;
 use pounding_results::{ResponsesTooLarge, WriteError};
 use pounding_time_history::TimeHistoryError;
+use pounding_verification::VerificationError;
 
 use crate::interruption::EXIT_CODE;
+use crate::plot;
 
 /// Errors of one input that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
@@ -150,11 +156,20 @@ impl Failure {
         }
     }
 
-    /// The same, said of a file.
+    /// The same, said of a file; several inputs name theirs.
     pub fn about(self, file: &Path) -> Self {
-        let say = |report: Report| report.wrap_err(file.display().to_string());
+        match self {
+            several @ Self::Inputs(_) => several,
+            one => one.within(&file.display().to_string()),
+        }
+    }
+
+    /// The same, said of a file or of a part of one.
+    pub fn within(self, what: &str) -> Self {
+        let say = |report: Report| report.wrap_err(what.to_owned());
         match self {
             Self::Input(report) => Self::Input(say(report)),
+            Self::Inputs(reports) => Self::Inputs(reports.into_iter().map(say).collect()),
             Self::Computation(report) => Self::Computation(say(report)),
             other => other,
         }
@@ -206,6 +221,46 @@ impl From<WriteError> for Failure {
 impl From<FileUseError> for Failure {
     fn from(error: FileUseError) -> Self {
         Self::input(error.to_string(), Some(error.help()))
+    }
+}
+
+impl From<VerificationError> for Failure {
+    fn from(error: VerificationError) -> Self {
+        match error {
+            VerificationError::Collision(error) => error.into(),
+            VerificationError::Stiffness(error) => error.into(),
+            VerificationError::Calibration(error) => error.into(),
+            VerificationError::Law(error) => error.into(),
+            error => Self::input(error.to_string(), None),
+        }
+    }
+}
+
+impl From<ContactStiffnessError> for Failure {
+    fn from(error: ContactStiffnessError) -> Self {
+        Self::input(error.to_string(), Some(error.help()))
+    }
+}
+
+impl From<MeasuredForceError> for Failure {
+    fn from(error: MeasuredForceError) -> Self {
+        Self::input(error.to_string(), Some(error.help().to_owned()))
+    }
+}
+
+impl From<LaboratoryError> for Failure {
+    fn from(error: LaboratoryError) -> Self {
+        Self::input(error.to_string(), Some(error.help()))
+    }
+}
+
+impl From<DocumentationError> for Failure {
+    fn from(error: DocumentationError) -> Self {
+        match error {
+            DocumentationError::Model(error) => error.into(),
+            DocumentationError::Law(error) => error.into(),
+            error => plot::not_drawn(&error),
+        }
     }
 }
 

@@ -4,11 +4,14 @@ use std::path::Path;
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::Case;
+use pounding_files::FileUse;
+use pounding_results::check_size;
 use pounding_study::faults;
-use pounding_study::gap_check::CheckError;
+use pounding_study::gap_check::{CaseUnderRecord, CheckError, under_records};
 
-use crate::commands::gap_failure;
+use crate::arguments::InputPath;
 use crate::failure::Failure;
+use crate::files::{reads_too, record_files};
 
 /// Reads and validates a case file. With `own_record`, errors of one kind do not hide that
 /// its record is missing.
@@ -16,13 +19,34 @@ pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
     faults::read_case(path, own_record).map_err(|e| Failure::case(*e.error, &e.source_text))
 }
 
+/// Refuses a grid of output times that no disk has room for.
+pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
+    let duration = assembly.options.duration;
+    check_size(&assembly.system, duration, assembly.output_step)
+        .map_err(|e| Failure::from(e).about(&case.file))
+}
+
 /// The system of a case under its own record.
 pub fn assembled(case: &Case) -> Result<Assembly, Failure> {
     assemble(case).map_err(|e| Failure::of_case(faults::with_all(e, case, true), case))
 }
 
+/// A case under the records that arguments name, or under its own; none of what it reads is
+/// an output.
+pub fn recorded(
+    case: &Case,
+    named: &[InputPath],
+    files: &mut FileUse,
+) -> Result<Vec<CaseUnderRecord>, Failure> {
+    let given = record_files(named).map_err(|e| of_check(e, case))?;
+    reads_too(files, case.files())?;
+    let records = under_records(case, &given).map_err(|e| of_records(e, case, given.is_empty()))?;
+    reads_too(files, records.iter().map(|r| ("record", r.file.clone())))?;
+    Ok(records)
+}
+
 /// What kept a case from being put under records, its own or others.
-pub fn of_records(error: CheckError, case: &Case, own_record: bool) -> Failure {
+fn of_records(error: CheckError, case: &Case, own_record: bool) -> Failure {
     let error = match error {
         CheckError::Case(error) => error.into(),
         CheckError::Record { source, .. }
@@ -30,7 +54,20 @@ pub fn of_records(error: CheckError, case: &Case, own_record: bool) -> Failure {
         {
             *source
         }
-        error => return gap_failure(error, case),
+        error => return of_check(error, case),
     };
     Failure::of_case(faults::with_all(error, case, own_record), case)
+}
+
+/// A failure of a check, with its place in the case where it has one.
+pub fn of_check(error: CheckError, case: &Case) -> Failure {
+    let help = error.help();
+    match error {
+        CheckError::Case(error) => Failure::case(error, &case.source),
+        CheckError::Record { source, record } => {
+            Failure::assembly(*source, "").within(&format!("record {record}"))
+        }
+        error @ CheckError::OwnLaw { .. } => Failure::computation(error.to_string(), help),
+        error => Failure::input(error.to_string(), help),
+    }
 }

@@ -4,12 +4,18 @@
 //! failed, 4 output could not be written, 5 interrupted by a signal.
 
 mod arguments;
+mod columns;
 mod commands;
 mod failure;
 mod faults;
+mod files;
 mod interruption;
 mod json;
+mod output;
 mod plot;
+mod progress;
+mod separate;
+mod study;
 mod tables;
 
 use std::process::ExitCode;

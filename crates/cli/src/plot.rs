@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_report::ReportError;
+use pounding_report::documentation::DocumentationFile;
 pub use pounding_report::{Curve, Panel, Reference};
 use pounding_time_history::{Sample, SampleSink, System, TimeHistoryError};
 
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 
 /// Draws panels below one another as SVG.
 pub fn figure(panels: &[Panel]) -> Result<String, Failure> {
-    pounding_report::figure(panels).map_err(not_drawn)
+    pounding_report::figure(panels).map_err(|e| not_drawn(&e))
 }
 
 /// Draws panels below one another, and curves to compare with, as SVG.
@@ -18,11 +18,11 @@ pub fn figure_with_references(
     panels: &[Panel],
     references: &[Reference],
 ) -> Result<String, Failure> {
-    pounding_report::figure_with_references(panels, references).map_err(not_drawn)
+    pounding_report::figure_with_references(panels, references).map_err(|e| not_drawn(&e))
 }
 
 /// A picture that could not be drawn.
-pub fn not_drawn(e: ReportError) -> Failure {
+pub fn not_drawn(e: &impl std::error::Error) -> Failure {
     Failure::output(&std::io::Error::other(e.to_string()), "the picture")
 }
 
@@ -30,6 +30,14 @@ pub fn not_drawn(e: ReportError) -> Failure {
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
     pounding_files::write(path, text.as_bytes())
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
+}
+
+/// Writes pages of the documentation into a folder.
+pub fn write_documentation(folder: &Path, files: &[DocumentationFile]) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder)
+        .map_err(|e| Failure::output(&e, &folder.display().to_string()))?;
+    let mut files = files.iter();
+    files.try_for_each(|file| write(&folder.join(&file.name), &file.text))
 }
 
 /// Points of a curve at most: more than a picture can show.

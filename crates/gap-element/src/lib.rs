@@ -4,6 +4,7 @@ pub mod calibration;
 pub mod contact_stiffness;
 pub mod descriptor;
 pub mod error;
+pub mod laboratory;
 pub mod model;
 pub mod parameters;
 pub mod published;

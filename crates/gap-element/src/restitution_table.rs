@@ -56,6 +56,40 @@ impl RestitutionTable {
         let achieved = self.rows.iter().map(|row| row.outcome.restitution);
         mean_error_percent(&achieved.collect::<Vec<_>>(), minimum, maximum)
     }
+
+    /// The two mean errors that the literature quotes (%): from 0.1 to 1.0, and from 0.5 to 0.8
+    /// requested restitution.
+    #[must_use]
+    pub fn mean_errors_percent(&self) -> [f64; 2] {
+        [(0.1, 1.0), (0.5, 0.8)].map(|(from, to)| self.mean_error_percent(from, to))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for RestitutionRow {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut object = serializer.serialize_struct("RestitutionRow", 5)?;
+        object.serialize_field("requested", &self.requested)?;
+        object.serialize_field("achieved", &self.outcome.restitution)?;
+        object.serialize_field("error_percent", &self.error_percent())?;
+        object.serialize_field("peak_force", &self.outcome.peak_force)?;
+        object.serialize_field("duration", &self.outcome.duration)?;
+        object.end()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for RestitutionTable {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let [all, middle] = self.mean_errors_percent();
+        let mut object = serializer.serialize_struct("RestitutionTable", 3)?;
+        object.serialize_field("rows", &self.rows)?;
+        object.serialize_field("mean_error_percent", &all)?;
+        object.serialize_field("mean_error_percent_0.5_0.8", &middle)?;
+        object.end()
+    }
 }
 
 /// Runs one model over [`REQUESTED`] with otherwise the same parameters.

@@ -18,6 +18,24 @@ pub enum Sampling {
     },
 }
 
+impl Sampling {
+    /// The even time step (s), or of uneven times the median of their steps, not longer than the
+    /// mean: the step at which such a series is resampled where none is asked for.
+    #[must_use]
+    pub fn median_step(&self) -> f64 {
+        let times = match self {
+            Self::Even { time_step } => return *time_step,
+            Self::Uneven { times } => times,
+        };
+        let mut steps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
+        steps.sort_by(f64::total_cmp);
+        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+        // Differences of printed times carry noise beyond their digits.
+        let median = steps.get(steps.len() / 2).copied().unwrap_or(f64::NAN);
+        ((median * 1.0e9).round() / 1.0e9).min(mean)
+    }
+}
+
 /// What the header says about the maximum value of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeaderPeak {
@@ -114,4 +132,21 @@ impl Series {
 pub struct Recording {
     /// Series in the order of the file; at least one.
     pub series: Vec<Series>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uneven_times_have_the_median_step_at_most_the_mean() {
+        let uneven = |times: &[f64]| Sampling::Uneven {
+            times: times.to_vec(),
+        };
+        assert_eq!(Sampling::Even { time_step: 0.02 }.median_step(), 0.02);
+        assert_eq!(uneven(&[0.0, 0.01, 0.02, 0.07]).median_step(), 0.01);
+        // A few short steps: the mean is less than the median.
+        let mean = uneven(&[0.0, 0.001, 0.011, 0.021]).median_step();
+        assert!((mean - 0.007).abs() < 1e-12, "{mean}");
+    }
 }

@@ -9,9 +9,12 @@
 //! sums of positive terms, regular as `alpha` approaches -1 and for `phi_1 = 0`.
 
 use crate::error::HysteresisError;
+use crate::parameters::LawParameters;
 use crate::power_integral::{power, power_moment};
 
-pub use crate::iwan_fit::{DissipationFit, FitOptions, fit_dissipation};
+pub use crate::iwan_fit::{
+    DissipationFit, FitOptions, fit_dissipation, fit_from_many, unknowns_of_fit,
+};
 
 /// The density of sliders.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,9 +34,22 @@ pub struct IwanDensity {
 }
 
 /// Name under which the errors of the closed forms speak.
-const LAW: &str = "iwan_six_parameter";
+pub(crate) const LAW: &str = "iwan_six_parameter";
 
 impl IwanDensity {
+    /// The parameters of the law `iwan_six_parameter` with this density.
+    #[must_use]
+    pub fn parameters(&self) -> LawParameters {
+        LawParameters::from_pairs(&[
+            ("density", self.density),
+            ("exponent", self.exponent),
+            ("phi_1", self.phi_1),
+            ("phi_2", self.phi_2),
+            ("slider_stiffness", self.slider_stiffness),
+            ("residual_stiffness", self.residual_stiffness),
+        ])
+    }
+
     /// The same, if its parameters make a density.
     ///
     /// # Errors

@@ -4,6 +4,12 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::HysteresisError;
 use crate::iwan::IwanDensity;
+use crate::parameters::LawParameters;
+
+/// Exponents from which a fit sets out where none is given.
+const EXPONENTS: [f64; 3] = [-0.7, -0.3, 0.2];
+/// Shares of the maximum amplitude from which `phi_2` sets out where none is given.
+const SHARES: [f64; 3] = [0.1, 0.5, 2.0];
 
 /// When the fit ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,6 +93,65 @@ pub fn fit_dissipation(
         reason: format!("no convergence in {} iterations", options.iterations),
         remedy: "start from a nearer guess, or cover micro-slip and full slip with the measured amplitudes",
     })
+}
+
+/// Number of unknowns of a fit that sets out from these parameters of `iwan_six_parameter`:
+/// density, exponent and `phi_2` always are, and the others unless they are given as nothing.
+#[must_use]
+pub fn unknowns_of_fit(start: &LawParameters) -> usize {
+    let free = |name: &str| start.values.get(name).copied();
+    let lump = usize::from(free("slider_stiffness") != Some(0.0));
+    3 + lump + usize::from(free("phi_1").is_some_and(|x| x > 0.0))
+}
+
+/// The best of the fits ([`fit_dissipation`]) that set out from these parameters of
+/// `iwan_six_parameter`, and from several values of exponent and `phi_2` where they are not
+/// given. `phi_1 = 0` and `slider_stiffness = 0` are kept.
+///
+/// # Errors
+/// As [`fit_dissipation`], if no fit comes to a result.
+pub fn fit_from_many(
+    measured: &[(f64, f64)],
+    start: &LawParameters,
+    options: FitOptions,
+) -> Result<DissipationFit, HysteresisError> {
+    let fits = guesses(start, measured)
+        .into_iter()
+        .map(|guess| fit_dissipation(measured, guess, options));
+    let better =
+        |best: Result<DissipationFit, _>, fit: Result<DissipationFit, _>| match (&best, &fit) {
+            (Ok(b), Ok(f)) if f.relative_error < b.relative_error => fit,
+            (Ok(_), _) => best,
+            (Err(_), _) => fit,
+        };
+    let none = HysteresisError::Fit {
+        reason: "no start".to_owned(),
+        remedy: "give a start with --set",
+    };
+    fits.fold(Err(none), better)
+}
+
+/// Where the fit sets out: every combination of what is not given.
+fn guesses(start: &LawParameters, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
+    let get = |name: &str| start.values.get(name).copied();
+    let maximum = measured.iter().map(|(a, _)| *a).fold(0.0, f64::max);
+    let exponents = get("exponent").map_or_else(|| EXPONENTS.to_vec(), |e| vec![e]);
+    let ends = get("phi_2").map_or_else(
+        || SHARES.iter().map(|s| s * maximum).collect(),
+        |end| vec![end],
+    );
+    let guess = |exponent, phi_2| IwanDensity {
+        density: get("density").unwrap_or(1.0),
+        exponent,
+        phi_1: get("phi_1").unwrap_or(0.0),
+        phi_2,
+        slider_stiffness: get("slider_stiffness").unwrap_or(1.0),
+        residual_stiffness: get("residual_stiffness").unwrap_or(0.0),
+    };
+    let all = exponents.iter();
+    all.flat_map(|&exponent| ends.iter().map(move |&phi_2| (exponent, phi_2)))
+        .map(|(exponent, phi_2)| guess(exponent, phi_2))
+        .collect()
 }
 
 /// Solves `min |J s + e|^2 + damping |D s|^2` with D the lengths of the columns of J.

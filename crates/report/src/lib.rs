@@ -1,19 +1,24 @@
-//! Figures, and the page of a result file: layer 3.
+//! Figures and pages: layer 4.
 //!
 //! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`), [`page()`] makes one
 //! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves as SVG for the command line as well. Values are SI as in the result
-//! file; the page shows them in the units that engineers write.
+//! file; the page shows them in the units that engineers write. [`documentation`] has the
+//! reference pages of impact models and laws.
+
+pub mod documentation;
 
 mod decimation;
 mod error;
 mod figure;
+mod loops;
 mod page;
 mod reading;
 mod result;
 
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
+pub use loops::{cycle_cells, deformation_panel};
 pub use page::page;
 pub use result::{
     BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,

@@ -4,6 +4,7 @@ use clap::builder::{OsStringValueParser, TypedValueParser};
 use pounding_case::{Dimension, parse_quantity};
 
 use super::OutputPath;
+use crate::failure::Failure;
 
 /// A number without dimension, such as `0.1` or `10 %`.
 pub fn number(text: &str) -> Result<f64, String> {
@@ -26,6 +27,40 @@ pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
             Err("figures are written as SVG: give a name that ends in .svg, and convert the file for other formats")
         }
     })
+}
+
+/// The value (SI) of an option that must have this dimension; a plain number is SI.
+pub fn value(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
+    let quantity = parse_quantity(text)
+        .map_err(|e| Failure::input(format!("--{option}: {e}"), Some(e.help_for(Some(wanted)))))?;
+    match quantity.dimension {
+        Some(found) if found != wanted => Err(Failure::input(
+            format!("--{option} must be {wanted}, but \"{text}\" is {found}"),
+            Some("plain numbers are SI".to_owned()),
+        )),
+        _ => Ok(quantity.value),
+    }
+}
+
+/// The same of an option that may be left out.
+pub fn optional(
+    text: Option<&str>,
+    option: &str,
+    wanted: Dimension,
+) -> Result<Option<f64>, Failure> {
+    text.map(|text| value(text, option, wanted)).transpose()
+}
+
+/// The same, greater than zero.
+pub fn positive(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
+    let value = value(text, option, wanted)?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    Err(Failure::input(
+        format!("--{option} is \"{text}\", but it must be greater than zero"),
+        None,
+    ))
 }
 
 fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {

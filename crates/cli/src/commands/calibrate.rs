@@ -3,15 +3,15 @@
 use crate::tables::Table;
 use pounding_case::Dimension;
 use pounding_gap_element::calibration::{
-    Calibration, CalibrationError, CalibrationStep, DropTest, calibrate as search,
+    AlphaChoice, Calibration, CalibrationError, DropTest, calibrate as search,
 };
 use pounding_gap_element::published::papi_toopchi_2022::DROP_TEST;
 use serde_json::{Value, json};
 
-use super::stiffness::value;
-use super::{pretty, print};
 use crate::arguments::CalibrateArguments;
+use crate::arguments::value;
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 
 /// What the numbers are good for.
 const ADVICE: &str = "\
@@ -33,7 +33,7 @@ pub fn calibrate(arguments: &CalibrateArguments) -> Result<(), Failure> {
         let requested = value(text, "restitution", Dimension::NUMBER)?;
         let found = search(&test, requested, tolerance)?;
         return print(&match arguments.json {
-            true => pretty(&document(&test, is_papers, found_json(&found))),
+            true => pretty(&document(&test, is_papers, json!(found))),
             false => one_text(&test, is_papers, &found),
         });
     }
@@ -145,10 +145,10 @@ fn table_text(
                 format!("{requested:.1}"),
                 format!("{:.7}", found.found.alpha),
                 found.steps.len().to_string(),
-                format!("{:.7}", found.found_in_free_collision),
+                format!("{:.7}", found.found.achieved_in_free_collision),
                 format!("{:.1}", found.rule.alpha),
                 format!("{:.7}", found.rule.achieved),
-                format!("{:.7}", found.rule_in_free_collision),
+                format!("{:.7}", found.rule.achieved_in_free_collision),
                 format!("{:.7}", found.free.alpha),
                 format!("{:.7}", found.free.achieved),
             ]),
@@ -175,51 +175,32 @@ fn one_text(test: &DropTest, is_papers: bool, found: &Calibration) -> String {
             format!("{:.3e}", step.achieved - found.requested),
         ]);
     }
-    let choice = |name: &str, step: &CalibrationStep, freely: f64| {
+    let choice = |name: &str, choice: &AlphaChoice| {
         format!(
-            "{name:22}{:.9}   drop test shows {:.9}, a free collision returns {freely:.9}\n",
-            step.alpha, step.achieved
+            "{name:22}{:.9}   drop test shows {:.9}, a free collision returns {:.9}\n",
+            choice.alpha, choice.achieved, choice.achieved_in_free_collision
         )
     };
     format!(
         "{}\nRequested restitution {}; bracketed search by ITP\n{table}\n\n{}{}{}\n{ADVICE}",
         conditions(test, is_papers),
         found.requested,
-        choice("alpha found", &found.found, found.found_in_free_collision),
-        choice(
-            "alpha by the rule",
-            &found.rule,
-            found.rule_in_free_collision
-        ),
-        choice("alpha free, exact", &found.free, found.requested),
+        choice("alpha found", &found.found),
+        choice("alpha by the rule", &found.rule),
+        choice("alpha free, exact", &found.free),
     )
 }
 
 fn document(test: &DropTest, is_papers: bool, mut found: Value) -> Value {
-    found["drop_test"] = json!({
-        "mass": test.mass, "gravity": test.gravity, "approach_velocity": test.approach_velocity,
-        "stiffness": test.stiffness, "read_at": test.read_at,
-        "conditions_are_a_hypothesis": is_papers,
-    });
+    found["drop_test"] = json!(test);
+    found["drop_test"]["conditions_are_a_hypothesis"] = json!(is_papers);
     found["advice"] = json!(ADVICE);
     found
 }
 
 fn row_json(requested: f64, result: &Result<Calibration, CalibrationError>) -> Value {
     match result {
-        Ok(found) => found_json(found),
+        Ok(found) => json!(found),
         Err(error) => json!({"requested": requested, "error": error.to_string()}),
     }
-}
-
-fn found_json(found: &Calibration) -> Value {
-    let step = |s: &CalibrationStep| json!({"alpha": s.alpha, "achieved": s.achieved});
-    let with = |s: &CalibrationStep, freely: f64| json!({"alpha": s.alpha, "achieved": s.achieved, "achieved_in_free_collision": freely});
-    json!({
-        "requested": found.requested,
-        "found": with(&found.found, found.found_in_free_collision),
-        "rule": with(&found.rule, found.rule_in_free_collision),
-        "free": with(&found.free, found.requested),
-        "steps": found.steps.iter().map(step).collect::<Vec<_>>(),
-    })
 }

@@ -5,12 +5,11 @@ use std::path::Path;
 use pounding_catalogue::wording::counted;
 use serde_json::json;
 
-use super::progress::Progress;
-use super::run::responses_fit;
-use super::{pretty, print};
 use crate::failure::Failure;
-use crate::faults::{assembled, read_case};
+use crate::faults::{assembled, read_case, responses_fit};
 use crate::json::add_place;
+use crate::output::{pretty, print};
+use crate::progress::Progress;
 use crate::tables;
 
 /// Validates a case, reads its record, and prints both in SI units.

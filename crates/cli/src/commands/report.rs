@@ -7,10 +7,12 @@ use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
 use pounding_report::{ReportError, RunResult, page};
 
-use super::separate::{Reading, reading, warn, warnings};
-use super::{name_left_over, print};
 use crate::failure::Failure;
+use crate::files::name_left_over;
+use crate::output::print;
+use crate::output::warn;
 use crate::plot;
+use crate::separate::{Reading, reading, warnings};
 
 /// Reads a result, writes its page, says where.
 pub fn report(
@@ -54,7 +56,7 @@ pub fn report(
 
 fn failed(e: ReportError) -> Failure {
     match e {
-        ReportError::Figure { .. } => plot::not_drawn(e),
+        ReportError::Figure { .. } => plot::not_drawn(&e),
         _ => Failure::input(e.to_string(), e.help()),
     }
 }

@@ -5,19 +5,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use pounding_assembly::Assembly;
-use pounding_case::Case;
 use pounding_files::FileUse;
-use pounding_results::{RunEnding, RunHead, RunWriter, check_size};
+use pounding_results::{RunEnding, RunHead, RunWriter};
 use pounding_time_history::{
     GridRecorder, Outcome, Recorder, SampleSink, Summary, TimeHistoryError, run as integrate,
 };
 use serde_json::json;
 
-use super::progress::{Progress, Unit};
-use super::{have_a_place, name_left_over, pretty, print, reads_too};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
-use crate::faults::{assembled, read_case};
+use crate::faults::{assembled, read_case, responses_fit};
+use crate::files::{have_a_place, name_left_over, reads_too};
+use crate::output::{pretty, print};
+use crate::progress::{Progress, Unit};
 use crate::{plot, tables};
 
 /// Runs a case with and without its gaps, writes the result, prints the answer.
@@ -99,13 +99,6 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         ));
     }
     print(&text)
-}
-
-/// Refuses a grid of output times that no disk has room for.
-pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
-    let duration = assembly.options.duration;
-    check_size(&assembly.system, duration, assembly.output_step)
-        .map_err(|e| Failure::from(e).about(&case.file))
 }
 
 /// A recorder on the grid of the case for a sink, if there is one.

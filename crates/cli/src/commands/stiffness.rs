@@ -1,19 +1,18 @@
 //! `pounding stiffness`: where a contact stiffness comes from.
 
-use pounding_case::{Dimension, parse_quantity};
+use pounding_case::Dimension;
 use pounding_gap_element::Verification;
 use pounding_gap_element::contact_stiffness::{
-    Approach, ContactStiffness, ContactStiffnessError, Slab, Sphere, duration, hertz, multiple,
-    penetration, slab,
+    Approach, ContactStiffness, Slab, Sphere, duration, hertz, multiple, penetration, slab,
 };
 use serde_json::json;
 
-use super::{pretty, print};
 use crate::arguments::{
     ApproachArguments, DurationArguments, HertzArguments, MultipleArguments, PenetrationArguments,
-    SlabArguments, StiffnessArguments, StiffnessMethod,
+    SlabArguments, StiffnessArguments, StiffnessMethod, optional, value,
 };
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 
 const AREA: Dimension = Dimension {
     mass: 0.0,
@@ -77,7 +76,7 @@ fn by_hertz(a: &HertzArguments) -> Result<ContactStiffness, Failure> {
         (Some(v), Some(l), Some(r)) => Some(meeting(v, l, r)?),
         _ => None,
     };
-    hertz(&left, &right, meeting).map_err(refused)
+    Ok(hertz(&left, &right, meeting)?)
 }
 
 fn by_slab(a: &SlabArguments) -> Result<ContactStiffness, Failure> {
@@ -121,7 +120,7 @@ fn by_slab(a: &SlabArguments) -> Result<ContactStiffness, Failure> {
         "storey-stiffness",
         Dimension::STIFFNESS,
     )?;
-    slab(&left, &right, storey).map_err(refused)
+    Ok(slab(&left, &right, storey)?)
 }
 
 /// Area from itself, or from width and thickness, which must each be positive:
@@ -155,14 +154,14 @@ fn cross_section(
 fn by_duration(a: &DurationArguments) -> Result<ContactStiffness, Failure> {
     let wanted = value(&a.duration, "duration", Dimension::TIME)?;
     let (exponent, approach, restitution) = power_law(&a.approach)?;
-    duration(wanted, exponent, approach, restitution).map_err(refused)
+    Ok(duration(wanted, exponent, approach, restitution)?)
 }
 
 fn by_penetration(a: &PenetrationArguments) -> Result<ContactStiffness, Failure> {
     let wanted = value(&a.penetration, "penetration", Dimension::LENGTH)?;
     let gap = optional(a.gap_width.as_deref(), "gap-width", Dimension::LENGTH)?;
     let (exponent, approach, restitution) = power_law(&a.approach)?;
-    penetration(wanted, exponent, approach, restitution, gap).map_err(refused)
+    Ok(penetration(wanted, exponent, approach, restitution, gap)?)
 }
 
 fn by_multiple(a: &MultipleArguments) -> Result<ContactStiffness, Failure> {
@@ -172,7 +171,7 @@ fn by_multiple(a: &MultipleArguments) -> Result<ContactStiffness, Failure> {
         Dimension::STIFFNESS,
     )?;
     let factor = value(&a.factor, "factor", Dimension::NUMBER)?;
-    multiple(factor, storey).map_err(refused)
+    Ok(multiple(factor, storey)?)
 }
 
 /// Exponent, approach and restitution of the law that is meant.
@@ -189,12 +188,11 @@ fn meeting(velocity: &str, mass_left: &str, mass_right: &str) -> Result<Approach
         "wall" => None,
         text => Some(value(text, "mass-right", Dimension::MASS)?),
     };
-    Approach::new(
+    Ok(Approach::new(
         value(velocity, "velocity", Dimension::VELOCITY)?,
         value(mass_left, "mass-left", Dimension::MASS)?,
         right,
-    )
-    .map_err(refused)
+    )?)
 }
 
 fn radius(text: &str, name: &str) -> Result<f64, Failure> {
@@ -202,27 +200,6 @@ fn radius(text: &str, name: &str) -> Result<f64, Failure> {
         "flat" => Ok(f64::INFINITY),
         text => value(text, name, Dimension::LENGTH),
     }
-}
-
-fn optional(text: Option<&str>, name: &str, wanted: Dimension) -> Result<Option<f64>, Failure> {
-    text.map(|text| value(text, name, wanted)).transpose()
-}
-
-/// The SI value of an argument; a plain number is SI.
-pub(super) fn value(text: &str, name: &str, wanted: Dimension) -> Result<f64, Failure> {
-    let quantity = parse_quantity(text)
-        .map_err(|e| Failure::input(format!("--{name}: {e}"), Some(e.help_for(Some(wanted)))))?;
-    match quantity.dimension {
-        Some(found) if found != wanted => Err(Failure::input(
-            format!("--{name} must be {wanted}, but \"{text}\" is {found}"),
-            Some("plain numbers are SI".to_owned()),
-        )),
-        _ => Ok(quantity.value),
-    }
-}
-
-fn refused(error: ContactStiffnessError) -> Failure {
-    Failure::input(error.to_string(), Some(error.help()))
 }
 
 fn status(result: &ContactStiffness) -> String {

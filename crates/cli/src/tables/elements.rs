@@ -1,6 +1,7 @@
 //! Storeys with laws, and links.
 
 use pounding_case::Case;
+use pounding_catalogue::numbers::fixed;
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, Peak, System};
@@ -13,7 +14,7 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
     if outcome.yielding.iter().all(Option::is_none) {
         return String::new();
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "storey",
         "law",
         "ductility",
@@ -36,15 +37,7 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
 
 /// Energy in kJ; what is round-off has no sign.
 pub(super) fn kilojoules(energy: f64) -> String {
-    signless(format!("{:.3}", energy * 1e-3))
-}
-
-/// A number that was rounded to zero has no sign.
-pub(super) fn signless(text: String) -> String {
-    match text.strip_prefix('-') {
-        Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),
-        _ => text,
-    }
+    fixed(energy * 1e-3, 3)
 }
 
 fn ratio(peak: Option<Peak>) -> String {
@@ -58,7 +51,7 @@ fn ratio(peak: Option<Peak>) -> String {
 pub(super) fn link(run: &Run<'_>, index: usize) -> String {
     let outcome = &run.outcome.links[index];
     let system = run.system();
-    let mut table = new_table(&[
+    let mut table = new_table([
         "level",
         "elevations (m)",
         "deformation (mm)",
@@ -78,7 +71,7 @@ pub(super) fn link(run: &Run<'_>, index: usize) -> String {
             ),
             format!("{:.1} @{:.2}", l.force.value * 1e-3, l.force.time),
             ratio(l.ductility),
-            signless(format!("{:.2}", l.final_deformation * 1e3)),
+            fixed(l.final_deformation * 1e3, 2),
             kilojoules(l.energy_dissipated),
         ]);
     }
@@ -160,7 +153,7 @@ pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static 
 pub(super) fn links(system: &System) -> String {
     let mut text = String::new();
     for (index, link) in system.links().iter().enumerate() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "level",
             "elevations (m)",
             "law",
@@ -195,7 +188,5 @@ mod tests {
         for (energy, text) in [(-1e-9, "0.000"), (0.4, "0.000"), (-2.0, "-0.002")] {
             assert_eq!(kilojoules(energy), text);
         }
-        assert_eq!(signless(format!("{:.2}", -0.001)), "0.00");
-        assert_eq!(signless(format!("{:.2}", -0.01)), "-0.01");
     }
 }

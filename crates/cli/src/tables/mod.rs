@@ -3,9 +3,10 @@
 mod elements;
 mod width;
 
-use comfy_table::CellAlignment;
+use comfy_table::{CellAlignment, Row};
 use pounding_assembly::Assembly;
 use pounding_case::Case;
+use pounding_catalogue::numbers::fixed;
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
@@ -13,7 +14,8 @@ use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
 
-const G: f64 = 9.80665;
+/// Standard gravity (m/s2), the unit of accelerations on the screen.
+pub const G: f64 = 9.806_65;
 
 /// A run that has ended, to be shown.
 pub struct Run<'a> {
@@ -67,7 +69,7 @@ pub fn warning_lines(warnings: &[impl std::fmt::Display]) -> String {
 }
 
 /// A table whose columns stand at the right.
-pub fn new_table(header: &[&str]) -> Table {
+pub fn new_table(header: impl Into<Row>) -> Table {
     let mut table = Table::new();
     table.set_header(header);
     for column in table.column_iter_mut() {
@@ -77,7 +79,7 @@ pub fn new_table(header: &[&str]) -> Table {
 }
 
 /// The same without lines between rows, for long tables.
-pub fn new_long_table(header: &[&str]) -> Table {
+pub fn new_long_table(header: impl Into<Row>) -> Table {
     let mut table = new_table(header);
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     table
@@ -108,7 +110,7 @@ fn building(run: &Run<'_>, index: usize) -> String {
         &run.outcome.buildings[index],
         &run.isolated.buildings[index],
     );
-    let mut table = new_table(&[
+    let mut table = new_table([
         "storey",
         "displacement (mm)",
         "drift ratio (%)",
@@ -141,7 +143,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         return format!("\nGap {} ({model}): the buildings do not touch\n", gap.name);
     }
     let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
-    let mut table = new_table(&[
+    let mut table = new_table([
         "level at (m)",
         "gap (mm)",
         "impacts",
@@ -168,7 +170,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
                 _ if rigid => format!("{:.2}", l.impulse_max * 1e-3),
                 _ => format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time),
             },
-            elements::signless(format!("{:.2}", l.energy_dissipated * 1e-3)),
+            fixed(l.energy_dissipated * 1e-3, 2),
             or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
         ]);
     }
@@ -259,7 +261,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     }
     text.push_str(&warning_lines(&assembly.warnings()));
     for b in assembly.system.buildings() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "storey",
             "elevation (m)",
             "mass (kg)",
@@ -287,7 +289,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         text.push_str(&elements::laws(b));
     }
     for gap in assembly.system.gaps() {
-        let mut table = new_table(&[
+        let mut table = new_table([
             "level",
             "elevations (m)",
             "width (m)",

@@ -17,6 +17,7 @@ pub const GREATEST_ALPHA: f64 = 1.0e6;
 
 /// A body dropped on a slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DropTest {
     /// Mass of the body (kg).
     pub mass: f64,
@@ -110,6 +111,7 @@ impl DropTest {
 
 /// One collision of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CalibrationStep {
     /// Factor tried (-).
     pub alpha: f64,
@@ -117,24 +119,32 @@ pub struct CalibrationStep {
     pub achieved: f64,
 }
 
+/// A choice of `alpha`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct AlphaChoice {
+    /// The factor (-).
+    pub alpha: f64,
+    /// Restitution that the drop test shows with it (-).
+    pub achieved: f64,
+    /// What it returns in a free collision (-).
+    pub achieved_in_free_collision: f64,
+}
+
 /// What the search found, beside the other two choices of `alpha`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Calibration {
     /// Restitution asked for (-).
     pub requested: f64,
     /// Every collision of the search, in its order; the last one is the result.
     pub steps: Vec<CalibrationStep>,
     /// The `alpha` with which the drop test shows the restitution asked for.
-    pub found: CalibrationStep,
-    /// The `alpha` that is exact in a free collision ([`free_alpha`]), and what the
-    /// drop test shows with it.
-    pub free: CalibrationStep,
-    /// The paper's rule ([`rule_alpha`]), and what the drop test shows with it.
-    pub rule: CalibrationStep,
-    /// What the paper's rule returns in a free collision (-).
-    pub rule_in_free_collision: f64,
-    /// What the `alpha` of the drop test returns in a free collision (-).
-    pub found_in_free_collision: f64,
+    pub found: AlphaChoice,
+    /// The `alpha` that is exact in a free collision ([`free_alpha`]).
+    pub free: AlphaChoice,
+    /// The paper's rule ([`rule_alpha`]).
+    pub rule: AlphaChoice,
 }
 
 /// What cannot be calibrated.
@@ -271,21 +281,27 @@ pub fn calibrate(
         Ok::<_, CalibrationError>(step)
     };
     let found = root::search(restitution, tolerance, &mut attempt)?;
-    let show = |alpha: f64| {
-        Ok::<_, CalibrationError>(CalibrationStep {
-            alpha,
-            achieved: drop_test.restitution_with(restitution, alpha)?,
-        })
-    };
     let free_test = drop_test.free();
-    let rule = show(rule_alpha(restitution))?;
+    let show = |alpha: f64| drop_test.restitution_with(restitution, alpha);
+    let freely = |alpha: f64| free_test.restitution_with(restitution, alpha);
+    let (rule, free) = (rule_alpha(restitution), free_alpha(restitution)?);
     Ok(Calibration {
         requested: restitution,
-        found,
-        free: show(free_alpha(restitution)?)?,
-        rule,
-        rule_in_free_collision: free_test.restitution_with(restitution, rule.alpha)?,
-        found_in_free_collision: free_test.restitution_with(restitution, found.alpha)?,
+        found: AlphaChoice {
+            alpha: found.alpha,
+            achieved: found.achieved,
+            achieved_in_free_collision: freely(found.alpha)?,
+        },
+        free: AlphaChoice {
+            alpha: free,
+            achieved: show(free)?,
+            achieved_in_free_collision: restitution,
+        },
+        rule: AlphaChoice {
+            alpha: rule,
+            achieved: show(rule)?,
+            achieved_in_free_collision: freely(rule)?,
+        },
         steps,
     })
 }

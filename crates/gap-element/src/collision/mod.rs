@@ -81,6 +81,127 @@ pub struct CollisionOutcome {
     pub history: Vec<CollisionSample>,
 }
 
+impl CollisionOutcome {
+    /// Whether the velocities jumped: there is no force, no penetration and no history.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.peak_force.is_nan()
+    }
+
+    /// Restitution (-) that a sensor reads off the velocity of a sample.
+    #[must_use]
+    pub fn restitution_at(&self, sample: &CollisionSample) -> f64 {
+        -sample.velocity / self.collision.approach_velocity
+    }
+
+    /// A value that means nothing for bodies that stay in contact: not a number for them.
+    fn of_parted(&self, value: f64) -> f64 {
+        if self.stays_in_contact {
+            f64::NAN
+        } else {
+            value
+        }
+    }
+
+    /// Contact time (s); not a number for a rigid impact and for bodies that stay in contact.
+    #[must_use]
+    pub fn contact_time(&self) -> f64 {
+        if self.is_rigid() {
+            f64::NAN
+        } else {
+            self.of_parted(self.duration)
+        }
+    }
+
+    /// Impulse (N s); not a number for bodies that stay in contact.
+    #[must_use]
+    pub fn impulse_of_parted(&self) -> f64 {
+        self.of_parted(self.impulse)
+    }
+
+    /// Energy lost (J), without the round-off of an elastic contact.
+    #[must_use]
+    pub fn energy_lost(&self) -> f64 {
+        let collision = &self.collision;
+        let before = 0.5 * collision.effective_mass * collision.approach_velocity.powi(2);
+        if self.energy_dissipated.abs() < 1e-9 * before {
+            0.0
+        } else {
+            self.energy_dissipated
+        }
+    }
+}
+
+/// A maximum and its time, as results show them.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize)]
+pub(crate) struct PeakOf {
+    /// Maximum.
+    pub(crate) peak: f64,
+    /// Its time after closure (s).
+    pub(crate) time: f64,
+}
+
+/// The history in rows, whose columns are named; what does not exist is not a number.
+#[cfg(feature = "serde")]
+impl serde::Serialize for CollisionOutcome {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        #[derive(serde::Serialize)]
+        struct Reading {
+            time: f64,
+            restitution: f64,
+            penetration: f64,
+            velocity: f64,
+            force: f64,
+        }
+        let rigid = self.is_rigid();
+        let shown = if rigid { &[][..] } else { &self.history };
+        let history: Vec<_> = shown
+            .iter()
+            .map(|s| (s.time, s.penetration, s.velocity, s.force))
+            .collect();
+        let reading = self.reading.as_ref().map(|s| Reading {
+            time: s.time,
+            restitution: self.restitution_at(s),
+            penetration: s.penetration,
+            velocity: s.velocity,
+            force: s.force,
+        });
+        let peak_force = PeakOf {
+            peak: self.peak_force,
+            time: if rigid {
+                f64::NAN
+            } else {
+                self.peak_force_time
+            },
+        };
+        let peak_penetration = PeakOf {
+            peak: self.peak_penetration,
+            time: self.peak_penetration_time,
+        };
+        let duration = if rigid { 0.0 } else { self.contact_time() };
+        let mut object = serializer.serialize_struct("CollisionOutcome", 13)?;
+        object.serialize_field("restitution", &self.restitution)?;
+        object.serialize_field("stays_in_contact", &self.stays_in_contact)?;
+        object.serialize_field("has_force_history", &!rigid)?;
+        object.serialize_field("reading", &reading)?;
+        object.serialize_field("peak_force", &peak_force)?;
+        object.serialize_field("peak_penetration", &peak_penetration)?;
+        object.serialize_field("duration", &duration)?;
+        object.serialize_field("impulse", &self.impulse_of_parted())?;
+        object.serialize_field("energy_dissipated", &self.energy_dissipated)?;
+        object.serialize_field("velocity_left", &self.of_parted(self.velocity_left))?;
+        object.serialize_field("velocity_right", &self.of_parted(self.velocity_right))?;
+        object.serialize_field(
+            "history_columns",
+            &["time", "penetration", "velocity", "force"],
+        )?;
+        object.serialize_field("history", &history)?;
+        object.end()
+    }
+}
+
 /// Lets two bodies collide freely.
 ///
 /// # Errors

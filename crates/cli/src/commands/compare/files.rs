@@ -2,8 +2,8 @@
 
 use pounding_study::comparison::{Comparison, ModelRun, QuantityKind, StoreyDifference};
 
-use super::super::gap::csv;
 use crate::failure::Failure;
+use crate::output::comma_separated;
 use crate::plot::{Curve, Panel, figure as draw};
 
 /// Every model, record and quantity, then the peaks of every storey and the impacts of
@@ -50,7 +50,7 @@ pub fn table(c: &Comparison) -> Result<String, Failure> {
         "place",
         "differs_from_gap",
     ];
-    csv(&header, rows.into_iter())
+    comma_separated(&header, rows)
 }
 
 /// Rows of every storey and level of one run, but for model and record.

@@ -6,29 +6,21 @@ mod text;
 
 use pounding_files::FileUse;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
-use pounding_study::gap_check::under_records;
 
-use super::gap::failure;
-use super::progress::{Progress, Unit, threads};
-use super::{have_a_place, pretty, print, reads_too, record_files};
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
 use crate::failure::Failure;
-use crate::faults::{of_records, read_case};
+use crate::faults::{of_check, read_case, recorded};
+use crate::files::have_a_place;
+use crate::output::{pretty, print};
 use crate::plot;
+use crate::progress::{Progress, Unit, threads};
 
 /// Runs every model on every record. Models that fail are listed with their diagnosis;
 /// if none is left, the computation failed.
 pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
-    let failed = |e| failure(e, &case);
-    let given = record_files(&arguments.records).map_err(failed)?;
-    reads_too(&mut files, case.files())?;
-    let records =
-        under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;
-    reads_too(
-        &mut files,
-        records.iter().map(|r| ("record", r.file.clone())),
-    )?;
+    let failed = |e| of_check(e, &case);
+    let records = recorded(&case, &arguments.records, &mut files)?;
     have_a_place([arguments.csv.as_deref(), arguments.plot.as_deref()])?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),

@@ -5,9 +5,8 @@ use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
-use crate::tables::{new_table, warning_lines};
+use crate::tables::{G, new_table, warning_lines};
 
-const G: f64 = 9.80665;
 /// More records than this have no tables of their own.
 const LISTED: usize = 6;
 /// Rows of a printed table of differences; all are in the JSON object and the CSV file.
@@ -165,7 +164,7 @@ fn percent(x: f64) -> String {
 }
 
 fn spreads(c: &Comparison) -> String {
-    let mut table = new_table(&[
+    let mut table = new_table([
         "quantity",
         "statistic",
         "between models (%)",
@@ -231,7 +230,7 @@ fn without_contact(c: &Comparison) -> String {
 }
 
 fn ranking(c: &Comparison) -> String {
-    let mut table = new_table(&["quantity", "largest", "smallest", "agreement of records"]);
+    let mut table = new_table(["quantity", "largest", "smallest", "agreement of records"]);
     for (q, r) in c.quantities.iter().zip(&c.rankings) {
         let place = |i: usize| {
             let model = r.order.get(i)?;
@@ -320,7 +319,7 @@ fn storey_differences(c: &Comparison) -> String {
     let Some(first) = c.own.first().filter(|_| !c.storey_differences.is_empty()) else {
         return String::new();
     };
-    let mut table = new_table(&[
+    let mut table = new_table([
         "building",
         "quantity",
         "storey",
@@ -357,7 +356,7 @@ fn level_differences(c: &Comparison) -> String {
     if c.level_differences.is_empty() {
         return String::new();
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "gap",
         "level",
         "record",

@@ -4,23 +4,8 @@ use pounding_study::gap_check::GapCheck;
 
 use super::text::{QUANTITIES, over_records};
 use crate::failure::Failure;
+use crate::output::comma_separated;
 use crate::plot::{Curve, Panel, figure as draw};
-
-/// A CSV text from rows.
-pub fn csv(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<String, Failure> {
-    let failed = |e: String| Failure::output(&std::io::Error::other(e), "a table");
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer
-        .write_record(header)
-        .map_err(|e| failed(e.to_string()))?;
-    for row in rows {
-        writer
-            .write_record(&row)
-            .map_err(|e| failed(e.to_string()))?;
-    }
-    let bytes = writer.into_inner().map_err(|e| failed(e.to_string()))?;
-    String::from_utf8(bytes).map_err(|e| failed(e.to_string()))
-}
 
 /// Every width, record, building and storey of the sweep.
 pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
@@ -69,7 +54,7 @@ pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
         "impact_energy_j",
         "failure",
     ];
-    csv(&header, rows.into_iter())
+    comma_separated(&header, rows)
 }
 
 /// Storey or elevation of a floor; nothing for a wall.
@@ -148,7 +133,7 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         "elastic_displacement_factor",
         "caution",
     ];
-    csv(&header, rows.into_iter())
+    comma_separated(&header, rows)
 }
 
 /// Maximum amplification over storeys and records, over the width.

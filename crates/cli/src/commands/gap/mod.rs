@@ -5,22 +5,19 @@ mod numbers;
 mod provisions;
 mod text;
 
-pub use files::csv;
-
 use std::path::Path;
 
-use pounding_case::{Case, Dimension, Separation, parse_quantity};
+use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
-use pounding_study::gap_check::{
-    CheckError, GapCheck, GapCheckOptions, SweepOptions, gap_check, under_records,
-};
+use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check};
 
-use super::progress::{Progress, Unit, threads};
-use super::{have_a_place, pretty, print, reads_too, record_files};
-use crate::arguments::{GapArguments, OutputPath};
+use crate::arguments::{GapArguments, OutputPath, optional};
 use crate::failure::Failure;
-use crate::faults::{of_records, read_case};
+use crate::faults::{of_check, read_case, recorded};
+use crate::files::have_a_place;
+use crate::output::{pretty, print};
 use crate::plot;
+use crate::progress::{Progress, Unit, threads};
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
 pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -30,15 +27,8 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let case = read_case(path, arguments.records.is_empty())?;
     let separation = separation(&case, arguments)?;
     let options = options(arguments)?;
-    let failed = |e| failure(e, &case);
-    let given = record_files(&arguments.records).map_err(failed)?;
-    reads_too(&mut files, case.files())?;
-    let records =
-        under_records(&case, &given).map_err(|e| of_records(e, &case, given.is_empty()))?;
-    reads_too(
-        &mut files,
-        records.iter().map(|r| ("record", r.file.clone())),
-    )?;
+    let failed = |e| of_check(e, &case);
+    let records = recorded(&case, &arguments.records, &mut files)?;
     have_a_place([
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
@@ -58,29 +48,6 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         Ok(())
     } else {
         Err(Failure::No)
-    }
-}
-
-/// A failure of a check, with its place in the case where it has one.
-pub fn failure(error: CheckError, case: &Case) -> Failure {
-    let help = error.help();
-    match error {
-        CheckError::Case(error) => Failure::case(error, &case.source),
-        CheckError::Record { source, record } => match Failure::assembly(*source, "") {
-            Failure::Input(report) => Failure::Input(report.wrap_err(format!("record {record}"))),
-            Failure::Inputs(reports) => Failure::Inputs(
-                reports
-                    .into_iter()
-                    .map(|r| r.wrap_err(format!("record {record}")))
-                    .collect(),
-            ),
-            Failure::Computation(report) => {
-                Failure::Computation(report.wrap_err(format!("record {record}")))
-            }
-            other => other,
-        },
-        error @ CheckError::OwnLaw { .. } => Failure::computation(error.to_string(), help),
-        error => Failure::input(error.to_string(), help),
     }
 }
 
@@ -104,8 +71,7 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
 }
 
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
-    let width =
-        |text: &Option<String>, name: &str| text.as_deref().map(|t| length(t, name)).transpose();
+    let width = |text: &Option<String>, name| optional(text.as_deref(), name, Dimension::LENGTH);
     let (from, to) = (width(&arguments.from, "from")?, width(&arguments.to, "to")?);
     let sweep = (arguments.points > 0).then(|| SweepOptions {
         gap: arguments.gap.clone(),
@@ -119,23 +85,6 @@ fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
         sweep,
         threads: threads(arguments.threads),
     })
-}
-
-/// A length of an argument (m).
-fn length(text: &str, name: &str) -> Result<f64, Failure> {
-    let refused = |message: String| {
-        Failure::input(message, Some("write a length such as \"20 mm\"".to_owned()))
-    };
-    let quantity = parse_quantity(text).map_err(|e| {
-        let help = e.help_for(Some(Dimension::LENGTH));
-        Failure::input(format!("--{name}: {e}"), Some(help))
-    })?;
-    match quantity.dimension {
-        Some(found) if found != Dimension::LENGTH => {
-            Err(refused(format!("--{name} must be a length, not {found}")))
-        }
-        _ => Ok(quantity.value),
-    }
 }
 
 fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure> {

@@ -3,8 +3,8 @@
 use pounding_separation::{CombinationRule, EffectiveProperties, descriptors, unavailable};
 use serde_json::{Value, json};
 
-use super::super::{pretty, print};
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::tables::new_table;
 
 /// Prints all provisions with status and inputs.
@@ -12,7 +12,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
     if as_json {
         return print(&pretty(&numbers()));
     }
-    let mut table = new_table(&[
+    let mut table = new_table([
         "provision",
         "region",
         "edition",

@@ -138,7 +138,7 @@ fn row(
 
 /// Gaps by code and by combination rules.
 fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
-    let mut table = new_table(&[
+    let mut table = new_table([
         "rule",
         "kind",
         "elastic displacement times",
@@ -300,7 +300,7 @@ fn rigid(check: &GapCheck) -> bool {
 
 /// What pounding does at the provided gap.
 fn provided(check: &GapCheck) -> String {
-    let mut table = new_table(&[
+    let mut table = new_table([
         "record",
         "building",
         "displacement",

@@ -1,10 +1,11 @@
 //! The descriptors of the laws, for people and for machines.
 
-use crate::tables::Table;
+use pounding_catalogue::numbers::all_digits;
 use pounding_hysteresis::{LawDescriptor, Verification};
+use pounding_report::documentation::{checked, laws::dependence};
 use serde_json::{Value, json};
 
-use crate::commands::models::numbers::plain;
+use crate::tables::Table;
 
 /// One line per law.
 pub fn list(laws: &[&LawDescriptor]) -> String {
@@ -12,7 +13,8 @@ pub fn list(laws: &[&LawDescriptor]) -> String {
     table.set_header(["name", "law and its parameters", "checked"]);
     for d in laws {
         let law = format!("{}\n{}", d.title, parameters(d));
-        table.add_row([d.name, &law, checked(d)]);
+        let verified = matches!(d.verification, Verification::Verified(_));
+        table.add_row([d.name, &law, checked(verified)]);
     }
     format!(
         "{table}\nParameters in brackets have a default.\n\n`pounding hysteresis NAME` shows formula, parameters, source and traps; with --cycles \"10 mm,20 mm\",\n--history FILE or --dissipation \"0.1 mm,10 mm\" it drives the law."
@@ -33,28 +35,11 @@ fn parameters(d: &LawDescriptor) -> String {
     lines.join("\n")
 }
 
-/// How far the law has been checked, in a word or two.
-pub fn checked(d: &LawDescriptor) -> &'static str {
-    match d.verification {
-        Verification::Verified(_) => "verified",
-        Verification::SecondarySources(_) => "secondary sources",
-    }
-}
-
 /// How far the law has been checked, and against what.
 pub fn verification(d: &LawDescriptor) -> String {
     match d.verification {
         Verification::Verified(how) => format!("verified against: {how}"),
         Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    }
-}
-
-/// What the force depends on.
-pub fn dependence(d: &LawDescriptor) -> &'static str {
-    if d.rate_dependent {
-        "deformation, its history and its rate"
-    } else {
-        "deformation and its history, not on the rate"
     }
 }
 
@@ -90,11 +75,11 @@ pub fn text(d: &LawDescriptor) -> String {
     }
     text.push_str("\nexample, SI\n");
     for (name, value) in d.example {
-        text.push_str(&format!("  {name} = {}\n", plain(*value)));
+        text.push_str(&format!("  {name} = {}\n", all_digits(*value)));
     }
     text.push_str(&format!(
         "  cycled to {} m to see all branches\n\nwhat to know\n",
-        plain(d.example_amplitude)
+        all_digits(d.example_amplitude)
     ));
     for trap in d.traps {
         text.push_str(&format!("  - {trap}\n"));

@@ -1,33 +1,31 @@
 //! `pounding hysteresis`: the laws of storeys and links, and their laboratory.
 
-mod bounds;
 mod chosen;
-mod columns;
-pub(super) mod curve;
+mod curve;
 mod cycles;
 mod descriptor;
 mod fit;
 mod motion;
 mod output;
-mod pages;
 
+use pounding_hysteresis::laboratory::{Loop, Specimen};
 use pounding_hysteresis::{LawDescriptor, descriptors, find};
-use serde_json::{Map, Value, json};
+use pounding_report::documentation::laws as documentation;
+use serde_json::{Value, json};
 
-use super::{pretty, print};
 use crate::arguments::HysteresisArguments;
 use crate::failure::Failure;
-use chosen::Chosen;
+use crate::output::{pretty, print, written};
+use crate::plot::write_documentation;
 use curve::DissipationCurve;
-use cycles::Loop;
 use fit::Fitted;
-use motion::Path;
 
 /// Everything that one call computes.
 struct Results {
-    chosen: Chosen,
+    specimen: Specimen,
     fitted: Option<Fitted>,
-    driven: Option<Loop>,
+    /// A loop, and its cycles in words.
+    driven: Option<(Loop, String)>,
     curve: Option<DissipationCurve>,
 }
 
@@ -35,7 +33,12 @@ struct Results {
 /// documentation.
 pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.pages {
-        return pages::write(folder);
+        write_documentation(folder, &documentation::files()?)?;
+        return print(&format!(
+            "{} laws in {}",
+            descriptors().len(),
+            folder.display()
+        ));
     }
     let Some(name) = &arguments.law else {
         return list(arguments.json);
@@ -75,18 +78,21 @@ fn list(as_json: bool) -> Result<(), Failure> {
 }
 
 fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> Result<(), Failure> {
-    let (chosen, fitted) = match &arguments.fit {
+    let (specimen, fitted) = match &arguments.fit {
         Some(path) => {
             let fitted = fit::fit(law, path, &arguments.set)?;
-            (Chosen::fitted(law, &fitted.density)?, Some(fitted))
+            let specimen = Specimen::of_density(law, &fitted.fit.density)?;
+            (specimen, Some(fitted))
         }
         None => (chosen::choose(law, &arguments.set)?, None),
     };
-    let path = motion::path(law, arguments)?;
-    let driven = path.map(|path| driven(&chosen, path)).transpose()?;
+    let driven = match motion::path(law, arguments)? {
+        Some((path, description)) => Some((Loop::drive(&specimen, &path)?, description)),
+        None => None,
+    };
     let results = Results {
-        curve: curve::curve(&chosen, arguments)?,
-        chosen,
+        curve: curve::curve(&specimen, arguments)?,
+        specimen,
         fitted,
         driven,
     };
@@ -99,24 +105,21 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
     if arguments.json {
         return print(&pretty(&results.json()));
     }
-    print(&format!("{}{}", results.text(), written(arguments)))
-}
-
-fn driven(chosen: &Chosen, path: Path) -> Result<Loop, Failure> {
-    bounds::reachable(chosen, bounds::length(&path))?;
-    let driven = Loop::drive(chosen.law.as_ref(), path);
-    bounds::finite(&driven.states)?;
-    Ok(driven)
+    print(&format!(
+        "{}{}",
+        results.text(),
+        written([arguments.csv.as_deref(), arguments.svg.as_deref()])
+    ))
 }
 
 impl Results {
     fn text(&self) -> String {
-        let mut text = self.chosen.text();
+        let mut text = chosen::text(&self.specimen);
         if let Some(fitted) = &self.fitted {
             text.push_str(&fitted.text());
         }
-        if let Some(driven) = &self.driven {
-            text.push_str(&driven.text());
+        if let Some((driven, description)) = &self.driven {
+            text.push_str(&cycles::text(driven, description));
         }
         if let Some(curve) = &self.curve {
             text.push_str(&curve.text());
@@ -125,10 +128,13 @@ impl Results {
     }
 
     fn json(&self) -> Value {
-        let mut object: Map<String, Value> = self.chosen.json();
+        let mut object = chosen::json(&self.specimen);
         let parts = [
             ("fit", self.fitted.as_ref().map(Fitted::json)),
-            ("loop", self.driven.as_ref().map(Loop::json)),
+            (
+                "loop",
+                self.driven.as_ref().map(|(driven, _)| json!(driven)),
+            ),
             (
                 "dissipation",
                 self.curve.as_ref().map(DissipationCurve::json),
@@ -141,14 +147,4 @@ impl Results {
         }
         Value::Object(object)
     }
-}
-
-/// Says which files were written.
-fn written(arguments: &HysteresisArguments) -> String {
-    let files = [&arguments.csv, &arguments.svg];
-    let lines = files
-        .into_iter()
-        .flatten()
-        .map(|path| format!("written to {}\n", path.display()));
-    lines.collect()
 }

@@ -2,17 +2,21 @@
 
 use std::path::Path;
 
-use super::Results;
-use crate::commands::impact::curves::comma_separated;
-use crate::commands::models::loops::thinned;
+use pounding_report::deformation_panel;
+
+use super::{Results, chosen};
 use crate::failure::Failure;
+use crate::output::comma_separated;
 use crate::plot::{self, Curve, Panel, Reference};
 
 /// Writes the loop, or without one the dissipation curve, or the fit, in SI units and full
 /// precision.
 pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
-    let head = format!("# pounding hysteresis: {}\n", results.chosen.pairs());
-    let body = if let Some(driven) = &results.driven {
+    let head = format!(
+        "# pounding hysteresis: {}\n",
+        chosen::pairs(&results.specimen)
+    );
+    let body = if let Some((driven, _)) = &results.driven {
         let rows: Vec<_> = driven
             .states
             .iter()
@@ -28,7 +32,7 @@ pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
         let rows: Vec<_> = fitted
             .measured
             .iter()
-            .map(|(a, d)| (*a, *d, fitted.density.cycle_dissipation(*a)))
+            .map(|(a, d)| (*a, *d, fitted.fit.density.cycle_dissipation(*a)))
             .collect();
         comma_separated(&["amplitude_m", "measured_j", "fitted_j"], &rows)?
     } else {
@@ -39,22 +43,17 @@ pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
 
 /// Draws the loop and the dissipation curve below it; a measured curve dashed.
 pub fn write_svg(path: &Path, results: &Results) -> Result<(), Failure> {
-    let name = results.chosen.descriptor.name;
+    let name = results.specimen.descriptor.name;
     let mut panels = Vec::new();
     let mut references = Vec::new();
-    if let Some(driven) = &results.driven {
-        let points: Vec<(f64, f64)> = driven
-            .states
-            .iter()
-            .map(|s| (s.deformation, s.force))
-            .collect();
-        panels.push(loop_panel(name, vec![("loop".to_owned(), points)]));
+    if let Some((driven, _)) = &results.driven {
+        panels.push(deformation_panel(name, vec![("loop".to_owned(), driven)]));
     }
     let fitted = results.fitted.as_ref();
     let of_fit = fitted.map(|f| {
         let pairs = f.measured.iter();
         pairs
-            .map(|(a, _)| (*a, f.density.cycle_dissipation(*a)))
+            .map(|(a, _)| (*a, f.fit.density.cycle_dissipation(*a)))
             .collect::<Vec<_>>()
     });
     let pairs = results.curve.as_ref().map(|c| &c.pairs).or(of_fit.as_ref());
@@ -85,32 +84,6 @@ fn logarithms(name: &str, pairs: &[(f64, f64)], unit: (f64, f64)) -> Curve {
         name: name.to_owned(),
         points: positive
             .map(|(a, d)| ((a / unit.0).log10(), (d / unit.1).log10()))
-            .collect(),
-    }
-}
-
-/// Force (kN) over deformation (mm) of named curves (N over m), without the points that
-/// would not show.
-pub fn loop_panel(law: &str, curves: Vec<(String, Vec<(f64, f64)>)>) -> Panel {
-    let points = || curves.iter().flat_map(|(_, points)| points.iter());
-    let width = points()
-        .map(|p| p.0.abs())
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let height = points()
-        .map(|p| p.1.abs())
-        .fold(f64::MIN_POSITIVE, f64::max);
-    Panel {
-        caption: format!("{law}: force (kN)"),
-        horizontal: "deformation (mm)".to_owned(),
-        curves: curves
-            .iter()
-            .map(|(name, points)| Curve {
-                name: name.clone(),
-                points: thinned(points, (width, height))
-                    .into_iter()
-                    .map(|(x, y)| (1.0e3 * x, 1.0e-3 * y))
-                    .collect(),
-            })
             .collect(),
     }
 }

@@ -10,11 +10,12 @@ use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, evaluate};
 use serde_json::{Value, json};
 
-use super::sweep::{all_failed, as_json, options, run, summary};
-use super::{have_a_place, pretty, print};
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
+use crate::files::have_a_place;
+use crate::output::{comma_separated, pretty, print};
 use crate::plot;
+use crate::study::{all_failed, as_json, options, run, summary};
 
 /// Runs all records at all intensities and evaluates them.
 pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -51,32 +52,25 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
 
 /// Counts of every state at every intensity, for other programs to fit.
 fn write_table(path: &Path, report: &IdaReport) -> Result<(), Failure> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let intensity = format!("intensity [{}]", report.unit);
-    let mut rows = vec![["state", &intensity, "runs", "reached"].map(str::to_owned)];
+    let header = ["state", &intensity, "runs", "reached"];
     let widths = report
         .gaps
         .iter()
         .flat_map(|g| g.widths.iter().map(|w| &w.result));
-    for state in report.limits.iter().chain(widths) {
-        rows.extend(state.counts.iter().map(|c| {
+    let states = report.limits.iter().chain(widths);
+    let rows = states.flat_map(|state| {
+        let counts = state.counts.iter();
+        counts.map(|c| {
             [
                 state.name.clone(),
                 format!("{:?}", c.intensity),
                 c.runs.to_string(),
                 c.reached.to_string(),
             ]
-        }));
-    }
-    let shown = path.display().to_string();
-    for row in rows {
-        let written = writer.write_record(row);
-        written.map_err(|e| Failure::output(&e.into(), &shown))?;
-    }
-    let bytes = writer
-        .into_inner()
-        .map_err(|e| Failure::output(&e.into_error(), &shown))?;
-    plot::write(path, &String::from_utf8_lossy(&bytes))
+        })
+    });
+    plot::write(path, &comma_separated(&header, rows)?)
 }
 
 fn ida_json(report: &IdaReport, confidence: f64) -> Value {

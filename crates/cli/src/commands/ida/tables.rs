@@ -1,9 +1,9 @@
 //! Tables of an incremental dynamic analysis.
 
-use crate::tables::Table;
-use comfy_table::CellAlignment;
 use pounding_catalogue::wording::counted;
 use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, PoundingDemand};
+
+use crate::tables::{Table, new_table};
 
 /// The report for people.
 pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
@@ -29,15 +29,6 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
     text
 }
 
-fn table(header: Vec<String>) -> Table {
-    let mut table = Table::new();
-    table.set_header(header);
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
-}
-
 fn levels(report: &IdaReport) -> Table {
     let mut header = vec!["intensity".to_owned(), "runs".to_owned()];
     let with_failures = report.levels.iter().any(|l| l.failed > 0);
@@ -57,7 +48,7 @@ fn levels(report: &IdaReport) -> Table {
                 _ => format!("{name} ({unit})"),
             }),
     );
-    let mut table = table(header);
+    let mut table = new_table(header);
     for level in &report.levels {
         let mut cells = vec![digits(level.intensity), level.runs.to_string()];
         if with_failures {
@@ -73,23 +64,29 @@ fn levels(report: &IdaReport) -> Table {
 }
 
 fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
-    let mut header = [
-        "state",
-        "reached of runs, by intensity",
-        "median",
-        "dispersion",
-    ]
-    .map(str::to_owned)
-    .to_vec();
+    let limits = report
+        .limits
+        .iter()
+        .map(|limit| (limit.name.clone(), limit));
+    states(["state", "reached of runs, by intensity"], limits, settings)
+}
+
+/// How often states are reached, and their fragilities, below two headings.
+fn states<'s>(
+    [name, reached]: [&str; 2],
+    states: impl Iterator<Item = (String, &'s LimitResult)>,
+    settings: &IdaSettings,
+) -> Table {
+    let mut header = vec![name, reached, "median", "dispersion"];
     if settings.hazard.is_some() {
-        header.push("mean annual frequency".to_owned());
+        header.push("mean annual frequency");
     }
-    let mut table = table(header);
-    for limit in &report.limits {
-        let mut cells = vec![limit.name.clone(), counts(limit)];
-        cells.extend(fitted(limit, settings.confidence));
+    let mut table = new_table(header);
+    for (name, state) in states {
+        let mut cells = vec![name, counts(state)];
+        cells.extend(fitted(state, settings.confidence));
         if settings.hazard.is_some() {
-            cells.push(frequency(limit));
+            cells.push(frequency(state));
         }
         table.add_row(cells);
     }
@@ -99,26 +96,10 @@ fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
 fn widths(gap: &PoundingDemand, settings: &IdaSettings, collapsed: bool) -> String {
     let mut text = String::new();
     if !gap.widths.is_empty() {
-        let mut header = [
-            "gap (mm)",
-            "pounding of runs, by intensity",
-            "median",
-            "dispersion",
-        ]
-        .map(str::to_owned)
-        .to_vec();
-        if settings.hazard.is_some() {
-            header.push("mean annual frequency".to_owned());
-        }
-        let mut table = table(header);
-        for width in &gap.widths {
-            let mut cells = vec![format!("{:.1}", width.width * 1e3), counts(&width.result)];
-            cells.extend(fitted(&width.result, settings.confidence));
-            if settings.hazard.is_some() {
-                cells.push(frequency(&width.result));
-            }
-            table.add_row(cells);
-        }
+        let widths = gap.widths.iter();
+        let widths = widths.map(|w| (format!("{:.1}", w.width * 1e3), &w.result));
+        let header = ["gap (mm)", "pounding of runs, by intensity"];
+        let table = states(header, widths, settings);
         text.push_str(&format!(
             "\nPounding of {} by width of the gap\n{table}\n",
             gap.gap

@@ -3,30 +3,15 @@
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
 use pounding_catalogue::suggestion;
+use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
-    GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
-    ParameterUnit, SeparationRule, Verification, registry,
+    GapElementError, ModelDescriptor, ModelParameters, ParameterDescriptor, SeparationRule,
+    Verification, registry,
 };
 use serde_json::{Map, Value, json};
 
-use super::setting::refused;
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
-
-/// Restitution of the examples in the documentation: concrete floors.
-const EXAMPLE_RESTITUTION: f64 = 0.65;
-
-/// One model with its parameters.
-pub struct Chosen {
-    /// The model's descriptor.
-    pub descriptor: &'static ModelDescriptor,
-    /// Parameters, given and filled in.
-    pub parameters: ModelParameters,
-    /// Names of those that were filled in from the model's example.
-    pub filled: Vec<String>,
-    /// Whether the separation rule asked for is not offered: its own holds.
-    pub keeps_own_separation: bool,
-}
 
 /// One parameter as given.
 struct Given {
@@ -37,7 +22,7 @@ struct Given {
 }
 
 /// The models of the arguments.
-pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
+pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Specimen>, Failure> {
     let descriptors = descriptors(arguments)?;
     let given = arguments
         .parameters
@@ -48,15 +33,11 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
     let mut chosen = Vec::new();
     for &descriptor in &descriptors {
         let values = values(descriptor, &given, &mut used)?;
-        chosen.push(Chosen {
-            descriptor,
-            parameters: ModelParameters {
-                values,
-                separation: None,
-            },
-            filled: Vec::new(),
-            keeps_own_separation: false,
-        });
+        let parameters = ModelParameters {
+            values,
+            separation: None,
+        };
+        chosen.push(Specimen::new(descriptor, parameters));
     }
     if let Some(at) = used.iter().position(|used| !used) {
         return Err(Failure::input(
@@ -66,7 +47,7 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
     }
     separation(arguments, &mut chosen)?;
     if arguments.example {
-        chosen.iter_mut().for_each(Chosen::fill);
+        chosen.iter_mut().for_each(Specimen::fill_from_example);
     }
     Ok(chosen)
 }
@@ -230,7 +211,7 @@ fn pick(
 }
 
 /// One model must offer the rule asked for; of several, those that do take it.
-fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), Failure> {
+fn separation(arguments: &ImpactArguments, chosen: &mut [Specimen]) -> Result<(), Failure> {
     let Some(name) = &arguments.separation else {
         return Ok(());
     };
@@ -241,9 +222,8 @@ fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), 
             Some(format!("it is one of {}", known.join(", "))),
         ));
     };
-    let offers = |c: &Chosen| c.descriptor.separation_rules.contains(&rule);
     if let [only] = chosen
-        && !offers(only)
+        && !only.offers(rule)
     {
         return Err(Failure::from(GapElementError::Separation {
             model: only.descriptor.name,
@@ -256,110 +236,59 @@ fn separation(arguments: &ImpactArguments, chosen: &mut [Chosen]) -> Result<(), 
                 .collect(),
         }));
     }
-    if !chosen.iter().any(offers) {
+    if !chosen.iter().any(|one| one.offers(rule)) {
         return Err(Failure::input(
             format!("no chosen model offers separation \"{name}\""),
             Some("`pounding models NAME` shows what a model offers".to_owned()),
         ));
     }
-    for one in chosen {
-        one.keeps_own_separation = !offers(one);
-        if offers(one) {
-            one.parameters.separation = Some(rule);
-        }
-    }
+    chosen
+        .iter_mut()
+        .for_each(|one| one.ask_for_separation(rule));
     Ok(())
 }
 
-impl Chosen {
-    /// Takes what is missing from the model's example.
-    fn fill(&mut self) {
-        let example = self.descriptor.example_parameters(EXAMPLE_RESTITUTION);
-        // The example's stiffness belongs to the example's exponent.
-        let exponent = self.parameters.values.contains_key("exponent")
-            && !example.values.contains_key("exponent");
-        for (key, value) in example.values {
-            let alien = exponent && key == "stiffness";
-            if !alien && !self.parameters.values.contains_key(&key) {
-                self.filled.push(key.clone());
-                self.parameters.values.insert(key, value);
-            }
-        }
-        // What was given may exclude its alternatives.
-        while let Err(GapElementError::Conflict { first, second, .. }) =
-            registry::build(self.descriptor.name, &self.parameters)
-        {
-            let Some(at) = self.filled.iter().position(|k| k == first || k == second) else {
-                break;
-            };
-            let key = self.filled.remove(at);
-            self.parameters.values.remove(&key);
-        }
+/// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
+pub fn parameter(specimen: &Specimen, key: &str) -> String {
+    let values = &specimen.parameters.values;
+    let value = values.get(key).copied().unwrap_or(f64::NAN);
+    let unit = unit_of(specimen.descriptor, &specimen.parameters, key);
+    let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        format!("{key} = {value:e}{unit}")
+    } else {
+        format!("{key} = {value}{unit}")
     }
+}
 
-    /// The model itself.
-    pub fn build(&self) -> Result<Box<dyn ImpactModel>, Failure> {
-        registry::build(self.descriptor.name, &self.parameters).map_err(refused)
-    }
+/// All parameters as `key=value` pairs for the head of a file.
+pub fn pairs(specimen: &Specimen) -> String {
+    let values = specimen.parameters.values.iter();
+    let pairs: String = values
+        .map(|(key, value)| format!(" {key}={value:e}"))
+        .collect();
+    format!(
+        "model={}{pairs} separation={}",
+        specimen.descriptor.name,
+        specimen.separation().name()
+    )
+}
 
-    /// The rule by which its contact ends.
-    pub fn separation(&self) -> SeparationRule {
-        self.parameters.separation(self.descriptor)
-    }
-
-    /// A parameter with its unit, such as `stiffness = 2.75e9 N/m^1.5`.
-    pub fn parameter(&self, key: &str) -> String {
-        let value = self.parameters.values.get(key).copied().unwrap_or(f64::NAN);
-        let unit = self.descriptor.parameters.iter().find(|p| p.name == key);
-        let unit = match unit.map(|p| p.unit) {
-            None | Some(ParameterUnit::One) => String::new(),
-            Some(ParameterUnit::NewtonPerMetreToExponent) => {
-                let free = self
-                    .descriptor
-                    .parameters
-                    .iter()
-                    .find(|p| p.name == "exponent");
-                let given = self.parameters.values.get("exponent").copied();
-                let exponent = given.or(free.and_then(|p| p.default)).unwrap_or(1.5);
-                format!(" N/m^{exponent}")
-            }
-            Some(unit) => format!(" {}", unit.symbol()),
-        };
-        if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
-            format!("{key} = {value:e}{unit}")
-        } else {
-            format!("{key} = {value}{unit}")
-        }
-    }
-
-    /// All parameters as `key=value` pairs for the head of a file.
-    pub fn pairs(&self) -> String {
-        let mut text = format!("model={}", self.descriptor.name);
-        for (key, value) in &self.parameters.values {
-            text.push_str(&format!(" {key}={value:e}"));
-        }
-        format!("{text} separation={}", self.separation().name())
-    }
-
-    /// Leaves the restitution out, for a table that goes through all of them.
-    pub fn forget_restitution(&mut self) {
-        self.parameters.values.remove("restitution");
-        self.filled.retain(|key| key != "restitution");
-    }
-
-    /// The model and its parameters for machines.
-    pub fn json(&self) -> Map<String, Value> {
-        let verification = match self.descriptor.verification {
-            Verification::Verified(how) => format!("verified against: {how}"),
-            Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-        };
-        let mut object = Map::new();
-        object.insert("model".into(), json!(self.descriptor.name));
-        object.insert("title".into(), json!(self.descriptor.title));
-        object.insert("parameters".into(), json!(self.parameters.values));
-        object.insert("filled_from_example".into(), json!(self.filled));
-        object.insert("separation".into(), json!(self.separation().name()));
-        object.insert("verification".into(), json!(verification));
-        object
-    }
+/// The model and its parameters for machines.
+pub fn json(specimen: &Specimen) -> Map<String, Value> {
+    let verification = match specimen.descriptor.verification {
+        Verification::Verified(how) => format!("verified against: {how}"),
+        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
+    };
+    Map::from_iter(
+        [
+            ("model", json!(specimen.descriptor.name)),
+            ("title", json!(specimen.descriptor.title)),
+            ("parameters", json!(specimen.parameters.values)),
+            ("filled_from_example", json!(specimen.filled)),
+            ("separation", json!(specimen.separation().name())),
+            ("verification", json!(verification)),
+        ]
+        .map(|(key, value)| (key.to_owned(), value)),
+    )
 }

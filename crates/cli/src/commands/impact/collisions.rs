@@ -1,123 +1,49 @@
 //! The same collision by each model.
 
-use crate::tables::Table;
 use comfy_table::{CellAlignment, presets};
+use pounding_catalogue::numbers::{scientific, significant};
+use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{CollisionOutcome, CollisionSample, collide_with};
 use serde_json::{Map, Value, json};
 
-use super::chosen::Chosen;
-use super::numbers::{scientific, significant};
+use super::chosen;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
 use crate::failure::Failure;
+use crate::tables::Table;
 
 /// One model and what it did.
 pub struct Collided<'a> {
     /// The model with its parameters.
-    pub chosen: &'a Chosen,
+    pub chosen: &'a Specimen,
     /// Its collision.
     pub outcome: CollisionOutcome,
-    /// Whether it has no force history.
-    pub rigid: bool,
 }
 
 /// Puts every model through the collision.
 pub fn collide_all<'a>(
-    chosen: &'a [Chosen],
+    chosen: &'a [Specimen],
     setting: &Setting,
 ) -> Result<Vec<Collided<'a>>, Failure> {
     chosen
         .iter()
         .map(|one| {
-            let model = one.build()?;
+            let model = one.build().map_err(refused)?;
             let outcome =
                 collide_with(model.as_ref(), &setting.bodies, &setting.options).map_err(refused)?;
             Ok(Collided {
                 chosen: one,
                 outcome,
-                rigid: model.rigid_restitution().is_some(),
             })
         })
         .collect()
 }
 
 impl Collided<'_> {
-    /// Restitution that a sensor reads off the velocity at the reading.
-    fn restitution_at(&self, reading: &CollisionSample) -> f64 {
-        -reading.velocity / self.outcome.collision.approach_velocity
-    }
-
-    /// Whether contact time, impulse and velocities after it mean anything: they do
-    /// not for bodies that stay in contact.
-    fn parted(&self, value: f64) -> f64 {
-        if self.outcome.stays_in_contact {
-            f64::NAN
-        } else {
-            value
-        }
-    }
-
-    /// Contact time (s); not a number for a rigid impact and for bodies that stay.
-    pub fn contact_time(&self) -> f64 {
-        if self.rigid {
-            f64::NAN
-        } else {
-            self.parted(self.outcome.duration)
-        }
-    }
-
-    /// Impulse (N s); not a number for bodies that stay in contact.
-    pub fn impulse(&self) -> f64 {
-        self.parted(self.outcome.impulse)
-    }
-
-    /// Energy lost (J), without the round-off of an elastic contact.
-    fn energy_lost(&self) -> f64 {
-        let collision = &self.outcome.collision;
-        let before = 0.5 * collision.effective_mass * collision.approach_velocity.powi(2);
-        let lost = self.outcome.energy_dissipated;
-        if lost.abs() < 1e-9 * before {
-            0.0
-        } else {
-            lost
-        }
-    }
-
     /// The result for machines.
     pub fn json(&self) -> Map<String, Value> {
-        let outcome = &self.outcome;
-        let history: Vec<_> = outcome
-            .history
-            .iter()
-            .map(|s| json!([s.time, s.penetration, s.velocity, s.force]))
-            .collect();
-        let peak_force_time = if self.rigid {
-            f64::NAN
-        } else {
-            outcome.peak_force_time
-        };
-        let reading = outcome.reading.map(|s| {
-            json!({
-                "time": s.time, "restitution": self.restitution_at(&s),
-                "penetration": s.penetration, "velocity": s.velocity, "force": s.force,
-            })
-        });
-        let mut object = self.chosen.json();
-        let results = json!({
-            "restitution": outcome.restitution,
-            "stays_in_contact": outcome.stays_in_contact,
-            "has_force_history": !self.rigid,
-            "reading": reading,
-            "peak_force": {"peak": outcome.peak_force, "time": peak_force_time},
-            "peak_penetration": {"peak": outcome.peak_penetration, "time": outcome.peak_penetration_time},
-            "duration": if self.rigid { 0.0 } else { self.contact_time() }, "impulse": self.impulse(),
-            "energy_dissipated": outcome.energy_dissipated,
-            "velocity_left": self.parted(outcome.velocity_left),
-            "velocity_right": self.parted(outcome.velocity_right),
-            "history_columns": ["time", "penetration", "velocity", "force"],
-            "history": if self.rigid { Vec::new() } else { history },
-        });
-        if let Value::Object(results) = results {
+        let mut object = chosen::json(self.chosen);
+        if let Value::Object(results) = json!(self.outcome) {
             object.extend(results);
         }
         object
@@ -136,7 +62,7 @@ pub fn text(collided: &[Collided<'_>], setting: &Setting) -> String {
             one.chosen.descriptor.name
         ));
     }
-    for one in collided.iter().filter(|c| c.rigid) {
+    for one in collided.iter().filter(|c| c.outcome.is_rigid()) {
         text.push_str(&format!(
             "no force history: {} lets velocities jump; it has an impulse but no force, and no curve\n",
             one.chosen.descriptor.name
@@ -157,7 +83,7 @@ fn one_model(one: &Collided<'_>, setting: &Setting) -> String {
     let outcome = &one.outcome;
     let requested = one.chosen.parameters.values.get("restitution");
     let at = |value: f64, unit: &str, time: f64| {
-        if one.rigid {
+        if outcome.is_rigid() {
             "-".to_owned()
         } else {
             format!("{} at {}", scientific(value, unit), scientific(time, "s"))
@@ -175,7 +101,7 @@ fn one_model(one: &Collided<'_>, setting: &Setting) -> String {
         let reading = match &outcome.reading {
             Some(s) => format!(
                 "{:.9}  ({})",
-                one.restitution_at(s),
+                outcome.restitution_at(s),
                 match outcome.stays_in_contact || time < outcome.duration {
                     true if at_rest(s, outcome) => "the bodies rest on one another",
                     true if s.velocity > 0.0 => "still approaching",
@@ -194,9 +120,9 @@ fn one_model(one: &Collided<'_>, setting: &Setting) -> String {
         "peak force            {}\npeak penetration      {}\ncontact time          {}\nimpulse               {}\nenergy lost           {}\nvelocities after      {}\n",
         at(outcome.peak_force, "N", outcome.peak_force_time),
         at(outcome.peak_penetration, "m", outcome.peak_penetration_time),
-        scientific(one.contact_time(), "s"),
-        scientific(one.impulse(), "N s"),
-        scientific(one.energy_lost(), "J"),
+        scientific(outcome.contact_time(), "s"),
+        scientific(outcome.impulse_of_parted(), "N s"),
+        scientific(outcome.energy_lost(), "J"),
         if outcome.stays_in_contact {
             "-".to_owned()
         } else {
@@ -227,7 +153,7 @@ fn several(collided: &[Collided<'_>], setting: &Setting) -> Table {
         let outcome = &one.outcome;
         let requested = one.chosen.parameters.values.get("restitution");
         let force = |value: f64| {
-            if one.rigid {
+            if outcome.is_rigid() {
                 "-".to_owned()
             } else {
                 significant(value)
@@ -239,16 +165,16 @@ fn several(collided: &[Collided<'_>], setting: &Setting) -> Table {
             format!("{:.6}", outcome.restitution),
         ];
         if setting.options.read_at.is_some() {
-            let read = outcome.reading.map(|s| one.restitution_at(&s));
+            let read = outcome.reading.map(|s| outcome.restitution_at(&s));
             row.push(read.map_or("-".to_owned(), |e| format!("{e:.6}")));
         }
         row.extend([
             force(outcome.peak_force * 1e-3),
             force(outcome.peak_force_time * 1e3),
             force(outcome.peak_penetration * 1e3),
-            significant(one.contact_time() * 1e3),
-            significant(one.impulse() * 1e-3),
-            significant(one.energy_lost() * 1e-3),
+            significant(outcome.contact_time() * 1e3),
+            significant(outcome.impulse_of_parted() * 1e-3),
+            significant(outcome.energy_lost() * 1e-3),
         ]);
         table.add_row(row);
     }

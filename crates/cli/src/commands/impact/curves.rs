@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use pounding_gap_element::CollisionSample;
-use serde::Serialize;
 
+use super::chosen;
 use super::collisions::Collided;
 use super::setting::Setting;
 use crate::failure::Failure;
+use crate::output::comma_separated;
 use crate::plot::{self, Curve, Panel, Reference};
 
 /// Writes the histories of all models that have one, in SI units and full
@@ -16,7 +17,7 @@ pub fn write_csv(path: &Path, collided: &[Collided<'_>], setting: &Setting) -> R
     let mut head = format!("# pounding impact: {}\n", setting.pairs());
     let mut rows = Vec::new();
     for one in with_history(collided)? {
-        head.push_str(&format!("# {}\n", one.chosen.pairs()));
+        head.push_str(&format!("# {}\n", chosen::pairs(one.chosen)));
         let name = one.chosen.descriptor.name;
         let row = |s: &CollisionSample| (name, s.time, s.penetration, s.velocity, s.force);
         rows.extend(one.outcome.history.iter().map(row));
@@ -28,25 +29,7 @@ pub fn write_csv(path: &Path, collided: &[Collided<'_>], setting: &Setting) -> R
         "velocity_m_per_s",
         "force_n",
     ];
-    plot::write(
-        path,
-        &format!("{head}{}", comma_separated(&columns, &rows)?),
-    )
-}
-
-/// A header and rows, numbers at full precision.
-pub fn comma_separated<R: Serialize>(columns: &[&str], rows: &[R]) -> Result<String, Failure> {
-    let write = || -> Result<String, Box<dyn std::error::Error>> {
-        let mut writer = csv::WriterBuilder::new()
-            .has_headers(false)
-            .from_writer(Vec::new());
-        writer.write_record(columns)?;
-        for row in rows {
-            writer.serialize(row)?;
-        }
-        Ok(String::from_utf8(writer.into_inner()?)?)
-    };
-    write().map_err(|e| Failure::output(&std::io::Error::other(e.to_string()), "the columns"))
+    plot::write(path, &format!("{head}{}", comma_separated(&columns, rows)?))
 }
 
 /// Draws force against time, force against penetration, penetration against time;
@@ -97,7 +80,10 @@ pub fn write_svg(
 }
 
 fn with_history<'a, 'b>(collided: &'a [Collided<'b>]) -> Result<Vec<&'a Collided<'b>>, Failure> {
-    let with: Vec<_> = collided.iter().filter(|one| !one.rigid).collect();
+    let with: Vec<_> = collided
+        .iter()
+        .filter(|one| !one.outcome.is_rigid())
+        .collect();
     if with.is_empty() {
         return Err(Failure::input(
             "none of the chosen models has a force history to write",

@@ -3,19 +3,18 @@
 mod against;
 mod chosen;
 mod collisions;
-pub(super) mod curves;
-pub(super) mod measured;
-pub(super) mod numbers;
+mod curves;
+mod measured;
 mod remarks;
-pub(super) mod setting;
+mod setting;
 mod table;
 
+use pounding_gap_element::laboratory::{Difference, Specimen};
 use serde_json::{Value, json};
 
-use super::{pretty, print};
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
-use chosen::Chosen;
+use crate::output::{pretty, print, written};
 use setting::Setting;
 
 /// Collisions by one or several models, a table over restitutions, or a comparison
@@ -33,7 +32,7 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
     let setting = setting::setting(arguments)?;
     let mut chosen = chosen::choose(arguments)?;
     if arguments.table {
-        chosen.iter_mut().for_each(Chosen::forget_restitution);
+        chosen.iter_mut().for_each(Specimen::forget_restitution);
         return table::table(arguments, &chosen, &setting);
     }
     collisions(arguments, &chosen, &setting)
@@ -41,37 +40,43 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
 
 fn collisions(
     arguments: &ImpactArguments,
-    chosen: &[Chosen],
+    chosen: &[Specimen],
     setting: &Setting,
 ) -> Result<(), Failure> {
     let history = against::measured(arguments)?;
     let collided = collisions::collide_all(chosen, setting)?;
-    let compared = history.as_ref().map(|m| against::compare(m, &collided));
+    let compared: Option<Vec<Difference>> = history.as_ref().map(|measured| {
+        let outcomes = collided.iter().map(|c| &c.outcome);
+        outcomes.map(|o| measured.difference(o)).collect()
+    });
     if let Some(path) = &arguments.csv {
         curves::write_csv(path, &collided, setting)?;
     }
     if let Some(path) = &arguments.svg {
         let longest = collided.iter().map(|c| c.outcome.duration);
         let longest = longest.fold(0.0, f64::max);
-        let curve = history.as_ref().map(|m| m.curve(longest));
+        let curve = history.as_ref().map(|m| against::curve(m, longest));
         curves::write_svg(path, &collided, curve)?;
     }
     if arguments.json {
         let mut objects: Vec<_> = collided.iter().map(|c| c.json()).collect();
         for (object, one) in objects.iter_mut().zip(compared.iter().flatten()) {
-            object.insert("against".into(), one.json());
+            object.insert("against".into(), json!(one));
         }
-        let mut shared = setting_object(setting);
+        let mut shared = setting.json();
         if let Some(measured) = &history {
-            shared.insert("measured".into(), measured.json());
+            shared.insert("measured".into(), json!(measured));
         }
         return print(&pretty(&one_or_several(objects, shared)));
     }
     let mut text = collisions::text(&collided, setting);
     if let (Some(measured), Some(compared)) = (&history, &compared) {
-        text.push_str(&against::text(measured, compared));
+        text.push_str(&against::text(measured, arguments, &collided, compared)?);
     }
-    text.push_str(&written(arguments));
+    text.push_str(&written([
+        arguments.csv.as_deref(),
+        arguments.svg.as_deref(),
+    ]));
     print(&text)
 }
 
@@ -89,20 +94,4 @@ fn one_or_several(
     }
     shared.insert("models".into(), json!(objects));
     Value::Object(shared)
-}
-
-fn setting_object(setting: &Setting) -> serde_json::Map<String, Value> {
-    let mut object = serde_json::Map::new();
-    object.insert("bodies".into(), setting.json());
-    object
-}
-
-/// Says which files were written.
-fn written(arguments: &ImpactArguments) -> String {
-    let files = [&arguments.csv, &arguments.svg];
-    let lines = files
-        .into_iter()
-        .flatten()
-        .map(|path| format!("written to {}\n", path.display()));
-    lines.collect()
 }

@@ -1,17 +1,18 @@
 //! What is to be said below a result.
 
 use pounding_gap_element::Verification;
+use pounding_gap_element::laboratory::Specimen;
 
-use super::chosen::Chosen;
+use super::chosen::parameter;
 
 /// What a reader must know of the results: where their numbers come from.
-pub fn remarks(chosen: &[&Chosen]) -> String {
+pub fn remarks(chosen: &[&Specimen]) -> String {
     let mut filled = Vec::new();
     let mut own = Vec::new();
     let mut secondary = Vec::new();
     for one in chosen {
         if !one.filled.is_empty() {
-            let list: Vec<_> = one.filled.iter().map(|key| one.parameter(key)).collect();
+            let list: Vec<_> = one.filled.iter().map(|key| parameter(one, key)).collect();
             filled.push((one.descriptor.name, list.join(", ")));
         }
         if one.keeps_own_separation {

@@ -1,11 +1,11 @@
 //! What collides: two bodies, or one that falls on a slab.
 
-use pounding_case::{Dimension, parse_quantity};
+use pounding_case::Dimension;
+use pounding_catalogue::numbers::significant;
 use pounding_gap_element::{Bodies, CollisionOptions, GapElementError};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::numbers::significant;
-use crate::arguments::ImpactArguments;
+use crate::arguments::{ImpactArguments, positive, value};
 use crate::failure::Failure;
 
 /// The collision that all models are put through.
@@ -26,7 +26,7 @@ pub fn setting(arguments: &ImpactArguments) -> Result<Setting, Failure> {
         "wall" => None,
         text => Some(mass(text, "mass-right")?),
     };
-    let velocity_right = quantity(
+    let velocity_right = value(
         &arguments.velocity_right,
         "velocity-right",
         Dimension::VELOCITY,
@@ -77,12 +77,12 @@ fn arrival(arguments: &ImpactArguments) -> Result<(f64, f64), Failure> {
     let given = arguments
         .velocity
         .as_deref()
-        .map(|text| quantity(text, "velocity", Dimension::VELOCITY))
+        .map(|text| value(text, "velocity", Dimension::VELOCITY))
         .transpose()?;
     if !arguments.drop {
         return Ok((given.unwrap_or(0.8), 0.0));
     }
-    let gravity = quantity(&arguments.gravity, "gravity", Dimension::ACCELERATION)?;
+    let gravity = value(&arguments.gravity, "gravity", Dimension::ACCELERATION)?;
     if !(gravity >= 0.0) {
         return Err(Failure::input(
             format!("--gravity is {gravity} m/s2, but it must be zero or more"),
@@ -131,13 +131,14 @@ fn describe(bodies: &Bodies, arguments: &ImpactArguments, gravity: f64) -> Strin
 }
 
 impl Setting {
-    /// The setting for machines.
-    pub fn json(&self) -> Value {
-        json!({
+    /// An object with the setting, for machines.
+    pub fn json(&self) -> Map<String, Value> {
+        let bodies = json!({
             "mass_left": self.bodies.mass_left, "mass_right": self.bodies.mass_right,
             "velocity_left": self.bodies.velocity_left, "velocity_right": self.bodies.velocity_right,
             "pressing_acceleration": self.options.pressing_acceleration,
-        })
+        });
+        Map::from_iter([("bodies".to_owned(), bodies)])
     }
 
     /// The setting as `key=value` pairs for the head of a file.
@@ -154,31 +155,6 @@ impl Setting {
             self.options.pressing_acceleration
         )
     }
-}
-
-/// The value of an option (SI) that must have this dimension.
-pub fn quantity(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
-    let quantity = parse_quantity(text)
-        .map_err(|e| Failure::input(format!("--{option}: {e}"), Some(e.help_for(Some(wanted)))))?;
-    match quantity.dimension {
-        Some(found) if found != wanted => Err(Failure::input(
-            format!("--{option} must be {wanted}, but \"{text}\" is {found}"),
-            Some("plain numbers are SI".to_owned()),
-        )),
-        _ => Ok(quantity.value),
-    }
-}
-
-/// The same, greater than zero.
-pub fn positive(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
-    let value = quantity(text, option, wanted)?;
-    if value > 0.0 {
-        return Ok(value);
-    }
-    Err(Failure::input(
-        format!("--{option} is \"{text}\", but it must be greater than zero"),
-        None,
-    ))
 }
 
 fn mass(text: &str, option: &str) -> Result<f64, Failure> {

@@ -2,40 +2,33 @@
 
 use std::path::Path;
 
+use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{AchievedRestitution, RestitutionTable, restitution_table};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::chosen::Chosen;
+use super::chosen;
 use super::collisions::right_aligned;
-use super::curves::comma_separated;
+use super::one_or_several;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
-use super::{one_or_several, pretty, print, setting_object, written};
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
+use crate::output::{comma_separated, pretty, print, written};
 use crate::plot::{self, Curve, Panel, Reference};
 
 /// One model's rows.
 struct Tabulated<'a> {
-    chosen: &'a Chosen,
+    chosen: &'a Specimen,
     table: RestitutionTable,
-}
-
-impl Tabulated<'_> {
-    /// Mean error over all rows, and where building materials are (%).
-    fn means(&self) -> (f64, f64) {
-        let mean = |from, to| self.table.mean_error_percent(from, to);
-        (mean(0.1, 1.0), mean(0.5, 0.8))
-    }
 }
 
 /// Tabulates the models that take a restitution; the others are left out by name.
 pub fn table(
     arguments: &ImpactArguments,
-    chosen: &[Chosen],
+    chosen: &[Specimen],
     setting: &Setting,
 ) -> Result<(), Failure> {
-    let (taking, left_out): (Vec<&Chosen>, Vec<_>) = chosen
+    let (taking, left_out): (Vec<&Specimen>, Vec<_>) = chosen
         .iter()
         .partition(|c| c.descriptor.takes_restitution());
     let left_out: Vec<_> = left_out
@@ -75,11 +68,14 @@ pub fn table(
     }
     let shown: Vec<_> = tables.iter().map(|one| one.chosen).collect();
     text.push_str(&remarks(&shown));
-    text.push_str(&written(arguments));
+    text.push_str(&written([
+        arguments.csv.as_deref(),
+        arguments.svg.as_deref(),
+    ]));
     print(&text)
 }
 
-fn tabulate<'a>(chosen: &'a Chosen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
+fn tabulate<'a>(chosen: &'a Specimen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
     let table = restitution_table(
         chosen.descriptor,
         &chosen.parameters,
@@ -90,7 +86,7 @@ fn tabulate<'a>(chosen: &'a Chosen, setting: &Setting) -> Result<Tabulated<'a>, 
     Ok(Tabulated { chosen, table })
 }
 
-fn reason(chosen: &Chosen) -> &'static str {
+fn reason(chosen: &Specimen) -> &'static str {
     match chosen.descriptor.achieved_restitution {
         AchievedRestitution::Elastic => "takes no restitution: it always returns 1",
         AchievedRestitution::Constant => {
@@ -115,7 +111,7 @@ fn detailed(one: &Tabulated<'_>) -> String {
         .into(),
     );
     for row in &one.table.rows {
-        let rigid = row.outcome.peak_force.is_nan();
+        let rigid = row.outcome.is_rigid();
         let dash = |text: String| if rigid { "-".to_owned() } else { text };
         table.add_row([
             format!("{:.1}", row.requested),
@@ -125,7 +121,7 @@ fn detailed(one: &Tabulated<'_>) -> String {
             dash(format!("{:.4e}", row.outcome.duration)),
         ]);
     }
-    let (all, middle) = one.means();
+    let [all, middle] = one.table.mean_errors_percent();
     format!("{table}\nmean error {all:.2} % over 0.1-1.0, {middle:.2} % over 0.5-0.8\n")
 }
 
@@ -145,7 +141,7 @@ fn matrix(tables: &[Tabulated<'_>]) -> String {
         let mut row = vec![one.chosen.descriptor.name.to_owned()];
         let achieved = one.table.rows.iter().map(|r| r.outcome.restitution);
         row.extend(achieved.map(|e| format!("{e:.4}")));
-        let (all, middle) = one.means();
+        let [all, middle] = one.table.mean_errors_percent();
         row.extend([format!("{all:.2}"), format!("{middle:.2}")]);
         table.add_row(row);
     }
@@ -156,27 +152,14 @@ fn as_json(tables: &[Tabulated<'_>], left_out: &[(&str, &str)], setting: &Settin
     let objects = tables
         .iter()
         .map(|one| {
-            let rows: Vec<_> = one
-                .table
-                .rows
-                .iter()
-                .map(|r| {
-                    json!({
-                        "requested": r.requested, "achieved": r.outcome.restitution,
-                        "error_percent": r.error_percent(), "peak_force": r.outcome.peak_force,
-                        "duration": r.outcome.duration,
-                    })
-                })
-                .collect();
-            let (all, middle) = one.means();
-            let mut object: Map<_, _> = one.chosen.json();
-            object.insert("rows".into(), json!(rows));
-            object.insert("mean_error_percent".into(), json!(all));
-            object.insert("mean_error_percent_0.5_0.8".into(), json!(middle));
+            let mut object = chosen::json(one.chosen);
+            if let Value::Object(table) = json!(one.table) {
+                object.extend(table);
+            }
             object
         })
         .collect();
-    let mut shared = setting_object(setting);
+    let mut shared = setting.json();
     let list: Vec<_> = left_out
         .iter()
         .map(|(name, why)| json!({"model": name, "reason": why}))
@@ -189,7 +172,7 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
     let mut head = format!("# pounding impact --table: {}\n", setting.pairs());
     let mut rows = Vec::new();
     for one in tables {
-        head.push_str(&format!("# {}\n", one.chosen.pairs()));
+        head.push_str(&format!("# {}\n", chosen::pairs(one.chosen)));
         rows.extend(one.table.rows.iter().map(|r| {
             let force = Some(r.outcome.peak_force).filter(|f| f.is_finite());
             let duration = force.map(|_| r.outcome.duration);
@@ -212,10 +195,7 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
         "peak_force_n",
         "contact_time_s",
     ];
-    plot::write(
-        path,
-        &format!("{head}{}", comma_separated(&columns, &rows)?),
-    )
+    plot::write(path, &format!("{head}{}", comma_separated(&columns, rows)?))
 }
 
 fn write_svg(path: &Path, tables: &[Tabulated<'_>]) -> Result<(), Failure> {

@@ -1,27 +1,27 @@
 //! `pounding models`: the descriptors of the impact models, and the pages written from them.
 
 mod descriptor;
-mod example;
-mod index;
-mod list;
-pub(super) mod loops;
-pub(super) mod numbers;
-mod page;
-mod pages;
-mod results;
 
 use std::path::Path;
 
-use pounding_gap_element::{ModelDescriptor, registry};
+use pounding_gap_element::{ModelDescriptor, Verification, registry};
+use pounding_report::documentation::{checked, models as documentation};
 use serde_json::json;
 
-use super::{pretty, print};
 use crate::failure::Failure;
+use crate::output::{pretty, print};
+use crate::plot::write_documentation;
+use crate::tables::Table;
 
 /// Lists all models, shows one, or writes the pages of the documentation.
 pub fn models(name: Option<&str>, as_json: bool, folder: Option<&Path>) -> Result<(), Failure> {
     if let Some(folder) = folder {
-        return pages::write(folder);
+        write_documentation(folder, &documentation::files()?)?;
+        return print(&format!(
+            "{} models in {}",
+            registry::descriptors().len(),
+            folder.display()
+        ));
     }
     let chosen: Vec<&ModelDescriptor> = match name {
         Some(name) => vec![registry::find(name)?],
@@ -39,5 +39,27 @@ pub fn models(name: Option<&str>, as_json: bool, folder: Option<&Path>) -> Resul
                 .collect::<String>(),
         );
     }
-    print(&list::table(&chosen))
+    print(&list(&chosen))
+}
+
+/// One line per model.
+fn list(chosen: &[&ModelDescriptor]) -> String {
+    let mut table = Table::new();
+    table.set_header(["name", "law", "class", "checked"]);
+    for d in chosen {
+        let name = if d.recommended {
+            format!("{} *", d.name)
+        } else {
+            d.name.to_owned()
+        };
+        table.add_row([
+            name.as_str(),
+            d.title,
+            d.class,
+            checked(matches!(d.verification, Verification::Verified(_))),
+        ]);
+    }
+    format!(
+        "{table}\n* recommended: returns the restitution asked for\n\n`pounding models NAME` shows formula, parameters, source and traps."
+    )
 }

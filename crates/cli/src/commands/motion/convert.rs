@@ -9,8 +9,8 @@ use serde_json::json;
 
 use super::reading;
 use crate::arguments::{ConvertArguments, Layout};
-use crate::commands::{pretty, print};
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::plot;
 
 /// Writes one series, values as they are.

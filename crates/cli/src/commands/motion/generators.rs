@@ -10,12 +10,12 @@ use pounding_ground_motion::generators::{
 };
 
 use super::synth::{envelope, grid};
+use crate::arguments::value;
 use crate::arguments::{
     BooreArguments, CloughPenzienArguments, GroundArguments, KanaiTajimiArguments,
     MakrisRoussosArguments, MavroeidisPapageorgiouArguments, MechanismWord, PulseWord,
     RezaeianDerKiureghianArguments, RickerArguments, SineArguments,
 };
-use crate::commands::stiffness::value;
 use crate::failure::Failure;
 
 /// Frequency of Kanai's firm ground (rad/s).

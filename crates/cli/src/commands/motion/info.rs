@@ -12,9 +12,9 @@ use pounding_ground_motion::{
 use super::info_output::{as_json, as_text, comma_separated};
 use super::{plots, reading};
 use crate::arguments::InfoArguments;
-use crate::commands::stiffness::value;
-use crate::commands::{pretty, print};
+use crate::arguments::value;
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::plot;
 
 /// One series with its measures.
@@ -127,8 +127,10 @@ fn one(
         });
     }
     let mut options = options.clone();
-    if let (None, Sampling::Uneven { times }) = (options.time_step, &series.sampling) {
-        options.time_step = Some(own_step(times));
+    if let Sampling::Uneven { .. } = series.sampling {
+        options
+            .time_step
+            .get_or_insert(series.sampling.median_step());
     }
     let record = series.accelerogram(&options)?;
     let start = series.initial.unwrap_or_default();
@@ -149,16 +151,6 @@ fn one(
         record: Some(record),
         measures,
     })
-}
-
-/// The median step of uneven times, not longer than their mean.
-fn own_step(times: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    let mean = steps.iter().sum::<f64>() / steps.len() as f64;
-    // Differences of printed times carry noise beyond their digits.
-    let median = (steps[steps.len() / 2] * 1.0e9).round() / 1.0e9;
-    median.min(mean)
 }
 
 fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {

@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
+use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::{HeaderPeak, Origin, Processing, Sampling, Series};
 use serde_json::{Value, json};
 
 use super::info::{Shown, ShownFile};
 use super::measures::rows;
-use super::writing::shown;
 use crate::tables::new_long_table;
 
 /// Tables of each file.
@@ -85,7 +85,7 @@ fn processing(origin: &Origin) -> &'static str {
 
 /// A value (SI) in a unit of the file, for people.
 fn in_unit(value: f64, unit: &str, unit_in_si: f64) -> String {
-    format!("{} {unit}", shown(value / unit_in_si))
+    format!("{} {unit}", six_digits(value / unit_in_si))
 }
 
 /// The value of largest magnitude as the file has it, with sign and unit.
@@ -133,7 +133,7 @@ fn opposite_signs(file: &ShownFile) -> String {
 }
 
 fn series_table(file: &ShownFile) -> String {
-    let mut table = new_long_table(&[
+    let mut table = new_long_table([
         "channel",
         "component",
         "quantity",

@@ -13,14 +13,14 @@ use pounding_ground_motion::spectra::{
 };
 use serde_json::json;
 
-use super::measures::G;
 use super::plots::{over, panel};
 use super::words::Words;
 use super::{plots, reading, words, writing};
+use crate::arguments::value;
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
-use crate::commands::stiffness::value;
 use crate::failure::Failure;
 use crate::plot::{self, Curve, Reference};
+use crate::tables::G;
 
 /// Matches, writes, and says how near the result is.
 pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
@@ -103,14 +103,7 @@ fn code(text: &str, damping: f64) -> Result<TargetSpectrum, Failure> {
 }
 
 fn ground_type(word: &str) -> Result<GroundType, Failure> {
-    match word {
-        "A" => Ok(GroundType::A),
-        "B" => Ok(GroundType::B),
-        "C" => Ok(GroundType::C),
-        "D" => Ok(GroundType::D),
-        "E" => Ok(GroundType::E),
-        other => Err(unknown("ground", other, "A, B, C, D or E")),
-    }
+    GroundType::from_name(word).ok_or_else(|| unknown("ground", word, "A, B, C, D or E"))
 }
 
 fn unknown(what: &str, word: &str, known: &str) -> Failure {

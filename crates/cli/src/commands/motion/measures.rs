@@ -2,8 +2,7 @@
 
 use pounding_ground_motion::measures::{IntensityMeasures, Span};
 
-/// Standard gravity (m/s2), the unit of accelerations on the screen.
-pub const G: f64 = 9.806_65;
+use crate::tables::G;
 
 /// One measure: words and unit for people, name for files, value in SI, factor to the
 /// unit for people, digits.

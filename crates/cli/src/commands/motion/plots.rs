@@ -6,9 +6,9 @@ use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::{GroundMotion, Husid};
 use pounding_ground_motion::spectra::{Evaluation, ResponseSpectrum};
 
-use super::measures::G;
 use crate::failure::Failure;
 use crate::plot::{self, Curve, Panel};
+use crate::tables::G;
 
 /// Points of a curve: as many as a picture can show; peaks of each stretch are kept.
 const POINTS: usize = 4000;

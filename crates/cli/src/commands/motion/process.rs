@@ -10,8 +10,8 @@ use serde_json::json;
 use super::words::Words;
 use super::{reading, writing};
 use crate::arguments::ProcessArguments;
-use crate::commands::reads_too;
 use crate::failure::Failure;
+use crate::files::reads_too;
 
 /// Does the steps and writes the motion with their numbers in its header.
 pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), Failure> {

@@ -7,8 +7,8 @@ use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, Offset, Quantity, ReadOptions, read,
 };
 
+use crate::arguments::value;
 use crate::arguments::{OffsetWord, ReadArguments};
-use crate::commands::stiffness::value;
 use crate::failure::Failure;
 
 /// Counts per m/s2.

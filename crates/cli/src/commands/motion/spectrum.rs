@@ -11,9 +11,9 @@ use serde_json::json;
 use super::spectrum_tables as tables;
 use super::{plots, reading, words};
 use crate::arguments::SpectrumArguments;
-use crate::commands::stiffness::value;
-use crate::commands::{pretty, print};
+use crate::arguments::value;
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::plot;
 
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.

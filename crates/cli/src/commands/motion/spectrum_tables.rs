@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 
 use pounding_ground_motion::spectra::{ResponseSpectrum, RotatedSpectrum};
 
-use super::measures::G;
 use super::plots::{over, panel};
 use crate::plot::Panel;
-use crate::tables::new_long_table;
+use crate::tables::{G, new_long_table};
 
 /// `5 % damping`.
 pub fn percent(damping: f64) -> String {
@@ -18,7 +17,7 @@ pub fn percent(damping: f64) -> String {
 pub fn response_text(spectra: &[ResponseSpectrum]) -> String {
     let mut text = String::new();
     for s in spectra {
-        let mut table = new_long_table(&[
+        let mut table = new_long_table([
             "period (s)",
             "displacement SD (mm)",
             "pseudo-velocity PSV (m/s)",
@@ -65,7 +64,7 @@ pub fn response_csv(spectra: &[ResponseSpectrum]) -> String {
 pub fn rotated_text(spectra: &[RotatedSpectrum]) -> String {
     let mut text = String::new();
     for s in spectra {
-        let mut table = new_long_table(&[
+        let mut table = new_long_table([
             "period (s)",
             "RotD50 of PSA (g)",
             "RotD100 of PSA (g)",
@@ -129,7 +128,7 @@ pub fn fourier_csv(frequencies: &[f64], amplitudes: &[f64]) -> String {
 
 /// A table.
 pub fn fourier_text(frequencies: &[f64], amplitudes: &[f64], how: &str) -> String {
-    let mut table = new_long_table(&["frequency (Hz)", "amplitude (m/s)"]);
+    let mut table = new_long_table(["frequency (Hz)", "amplitude (m/s)"]);
     for (f, a) in frequencies.iter().zip(amplitudes) {
         table.add_row([format!("{f:.4}"), format!("{a:.6}")]);
     }

@@ -6,8 +6,8 @@ use serde_json::json;
 
 use super::words::Words;
 use super::{generators, writing};
+use crate::arguments::value;
 use crate::arguments::{Generator, GridArguments, SynthArguments};
-use crate::commands::stiffness::value;
 use crate::failure::Failure;
 
 /// Makes a motion and writes it.

@@ -1,9 +1,9 @@
 //! Values such as `high_pass=0.1 Hz, order=4` and `ramped, rise=2 s`.
 
 use pounding_case::Dimension;
+use pounding_catalogue::numbers::six_digits;
 
-use super::writing::shown;
-use crate::commands::stiffness::value;
+use crate::arguments::value;
 use crate::failure::Failure;
 
 /// A word and pairs behind it, of one option.
@@ -120,8 +120,8 @@ pub fn ascending(
     Err(Failure::input(
         format!(
             "--{first_option} = {} {unit} is not below --{last_option} = {} {unit}",
-            shown(first),
-            shown(last)
+            six_digits(first),
+            six_digits(last)
         ),
         Some("give the smaller one first".to_owned()),
     ))

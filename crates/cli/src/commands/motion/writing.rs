@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_catalogue::numbers::six_digits;
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{Accelerogram, StepRecord};
@@ -9,9 +10,10 @@ use serde_json::{Value, json};
 
 use super::plots;
 use crate::arguments::OutputArguments;
-use crate::commands::{pretty, print};
 use crate::failure::Failure;
+use crate::output::{pretty, print};
 use crate::plot;
+use crate::tables::G;
 
 /// Writes a motion in our layout; its title stands in for that of a record.
 pub fn write(path: &Path, motion: &Accelerogram, title: &str) -> Result<(), Failure> {
@@ -63,7 +65,7 @@ pub fn finish(
         "\n{} at {} s, peak acceleration {:.5} g at {:.4} s, written to {}\n",
         counted(motion.samples().len(), "sample"),
         motion.time_step(),
-        peak.value / super::measures::G,
+        peak.value / G,
         peak.time,
         output.output.display()
     ));
@@ -75,26 +77,11 @@ pub fn step_text(step: &StepRecord) -> String {
     let mut text = format!("\n{}\n", step.step);
     for number in &step.numbers {
         let unit = if number.unit == "-" { "" } else { number.unit };
-        let value = shown(number.value);
+        let value = six_digits(number.value);
         text.push_str(&format!("  {:34} {value:>14} {unit}\n", number.name).replace(" \n", "\n"));
     }
     for remark in &step.remarks {
         text.push_str(&format!("  {remark}\n"));
     }
     text
-}
-
-/// Six digits, without an exponent where there is no need.
-pub fn shown(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1.0e-3..1.0e7).contains(&size) {
-        let digits = (5 - size.max(1.0e-3).log10().floor() as i32).clamp(0, 8) as usize;
-        let text = format!("{value:.digits$}");
-        return if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        };
-    }
-    format!("{value:.5e}")
 }

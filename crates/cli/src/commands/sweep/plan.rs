@@ -4,10 +4,10 @@ use pounding_catalogue::wording::counted;
 use pounding_study::{Study, Value};
 use serde_json::json;
 
-use super::super::{pretty, print};
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
 use crate::interruption::quoted;
+use crate::output::{pretty, print};
 
 /// Prints the number of runs, and lines for HyperQueue and Slurm.
 pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {

@@ -27,6 +27,21 @@ pub enum GroundType {
     E,
 }
 
+impl GroundType {
+    /// The ground type of this letter in table 3.1.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "A" => Some(Self::A),
+            "B" => Some(Self::B),
+            "C" => Some(Self::C),
+            "D" => Some(Self::D),
+            "E" => Some(Self::E),
+            _ => None,
+        }
+    }
+}
+
 /// Shape of the spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpectrumType {

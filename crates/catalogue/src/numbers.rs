@@ -1,0 +1,127 @@
+//! Numbers as texts for people: tables, pages, messages.
+
+/// Five significant digits; a dash for what is not defined.
+#[must_use]
+pub fn significant(value: f64) -> String {
+    if !value.is_finite() {
+        return "-".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor();
+    if (-3.0..6.0).contains(&magnitude) {
+        return trimmed(value, (4.0 - magnitude).max(0.0) as usize);
+    }
+    format!("{value:.4e}")
+}
+
+/// Six digits, without an exponent where there is no need.
+#[must_use]
+pub fn six_digits(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1.0e-3..1.0e7).contains(&size) {
+        let digits = (5 - size.max(1.0e-3).log10().floor() as i32).clamp(0, 8) as usize;
+        return trimmed(value, digits);
+    }
+    format!("{value:.5e}")
+}
+
+/// With this many decimals at most: zeros at the end are left out.
+fn trimmed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Seven significant digits in scientific form; a dash for what is not defined.
+#[must_use]
+pub fn scientific(value: f64, unit: &str) -> String {
+    if value.is_finite() {
+        format!("{value:.6e} {unit}")
+    } else {
+        "-".to_owned()
+    }
+}
+
+/// A percentage with its sign; a dash for what is not defined.
+#[must_use]
+pub fn signed_percent(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:+.2}")
+    } else {
+        "-".to_owned()
+    }
+}
+
+/// With this many decimals, and never as minus zero.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+    if zero {
+        text.trim_start_matches('-').to_owned()
+    } else {
+        text
+    }
+}
+
+/// All digits, with an exponent where that is shorter.
+#[must_use]
+pub fn all_digits(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1.0e-3..1.0e5).contains(&size) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_as_many_as_are_asked_for() {
+        for (value, five, six) in [
+            (0.0, "0", "0"),
+            (12.0, "12", "12"),
+            (-1234.5678, "-1234.6", "-1234.57"),
+            (0.001_234_567, "0.0012346", "0.00123457"),
+            (123_456.7, "123457", "123457"),
+            (2.5e9, "2.5000e9", "2.50000e9"),
+            (1.0e-4, "1.0000e-4", "1.00000e-4"),
+        ] {
+            assert_eq!(
+                (significant(value), six_digits(value)),
+                (five.into(), six.into())
+            );
+        }
+        assert_eq!(significant(f64::NAN), "-");
+        assert_eq!(scientific(0.5, "N"), "5.000000e-1 N");
+        assert_eq!(scientific(f64::INFINITY, "N"), "-");
+        assert_eq!(
+            (signed_percent(1.0), signed_percent(f64::NAN)),
+            ("+1.00".into(), "-".into())
+        );
+        assert_eq!(
+            (all_digits(93.5e6), all_digits(0.65)),
+            ("9.35e7".into(), "0.65".into())
+        );
+    }
+
+    #[test]
+    fn zero_has_no_sign() {
+        for (value, decimals, text) in [(-1e-12, 3, "0.000"), (-2e-3, 3, "-0.002")] {
+            assert_eq!(fixed(value, decimals), text);
+        }
+        assert_eq!(
+            (fixed(-0.001, 2), fixed(-0.01, 2)),
+            ("0.00".into(), "-0.01".into())
+        );
+        assert_eq!(fixed(f64::NEG_INFINITY, 2), "-inf");
+    }
+}

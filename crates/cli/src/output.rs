@@ -1,0 +1,73 @@
+//! What commands say: answers to standard output, remarks to standard error.
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::tables::paragraphs;
+
+/// Prints to standard output: a text for people, whose lines are broken where the terminal
+/// ends, or JSON, as it is.
+pub fn print(text: &str) -> Result<(), Failure> {
+    if text.starts_with(['{', '[']) {
+        print_as_it_is(text)
+    } else {
+        print_as_it_is(&paragraphs(text))
+    }
+}
+
+/// Prints to standard output what programs read. A reader that closed the pipe has seen
+/// enough.
+pub fn print_as_it_is(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        Err(e) => Err(Failure::output(&e, "to standard output")),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// JSON for machines and people; numbers at full precision.
+pub fn pretty(value: &serde_json::Value) -> String {
+    format!("{value:#}")
+}
+
+/// Says which of these files were written.
+pub fn written<'p>(files: impl IntoIterator<Item = Option<&'p Path>>) -> String {
+    let lines = files.into_iter().flatten();
+    lines
+        .map(|path| format!("written to {}\n", path.display()))
+        .collect()
+}
+
+/// Prints a remark to standard error.
+pub fn note(text: &str) {
+    // Nobody to tell is no reason to stop.
+    let _ = writeln!(std::io::stderr(), "note: {text}");
+}
+
+/// Prints a warning to standard error.
+pub fn warn(text: &str) {
+    // Nobody to tell is no reason to stop.
+    let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// A header and rows as comma-separated values, numbers at full precision.
+pub fn comma_separated<R: Serialize>(
+    columns: &[&str],
+    rows: impl IntoIterator<Item = R>,
+) -> Result<String, Failure> {
+    let write = || -> Result<String, Box<dyn std::error::Error>> {
+        let mut writer = csv::WriterBuilder::new()
+            .has_headers(false)
+            .from_writer(Vec::new());
+        writer.write_record(columns)?;
+        for row in rows {
+            writer.serialize(row)?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    };
+    write().map_err(|e| Failure::output(&std::io::Error::other(e.to_string()), "the columns"))
+}

@@ -1,0 +1,232 @@
+//! Running a study: options, progress, and what is said at the end.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use pounding_case::Dimension;
+use pounding_catalogue::wording::{agreeing, counted};
+use pounding_files::FileUse;
+use pounding_study::{
+    Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport, parts_folder,
+    sweep as make, writable,
+};
+use serde_json::{Value, json};
+
+use crate::arguments::{RunningArguments, value};
+use crate::failure::Failure;
+use crate::files::{name_left_over, reads_too};
+use crate::interruption;
+use crate::progress::{Progress, Unit};
+use crate::tables::warning_lines;
+
+/// How a study is run, as the arguments say; finds out before the runs that the result
+/// has no place, or would have that of a file that is read.
+pub fn options(
+    study: &Study,
+    running: &RunningArguments,
+    shard: Shard,
+    files: &mut FileUse,
+) -> Result<SweepOptions, Failure> {
+    let output = match &running.output {
+        Some(output) => output.to_path_buf(),
+        None => {
+            let output = default_output(&study.file, shard);
+            files.writes("result", &output);
+            name_left_over(&output);
+            output
+        }
+    };
+    let folder = "the folder of its finished runs, which is removed at the end";
+    files.fills(folder, parts_folder(&output));
+    reads_too(files, study.files())?;
+    writable(&output)?;
+    if let Some(csv) = &running.csv {
+        writable(csv)?;
+    }
+    let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;
+    let store_every = Duration::try_from_secs_f64(seconds).map_err(|_| {
+        Failure::input(
+            format!("--store-every: {seconds} s is no time to wait"),
+            Some("give a time such as \"5 s\"".to_owned()),
+        )
+    })?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    Ok(SweepOptions {
+        output,
+        csv: running.csv.as_deref().map(Path::to_owned),
+        threads: running.threads.map_or(cores, |n| n as usize),
+        shard,
+        resume: running.resume,
+        store_every,
+        keep_going: running.keep_going,
+    })
+}
+
+/// The study's name, or that of its folder where it is called `study.toml`.
+fn default_output(study: &Path, shard: Shard) -> PathBuf {
+    let stem = study.file_stem().unwrap_or_default();
+    let folder = study
+        .canonicalize()
+        .ok()
+        .and_then(|p| Some(p.parent()?.file_name()?.to_owned()));
+    let name = match folder {
+        Some(folder) if stem == "study" => folder,
+        _ => stem.to_owned(),
+    };
+    let name = name.to_string_lossy();
+    PathBuf::from(if shard == Shard::WHOLE {
+        format!("{name}.h5")
+    } else {
+        format!("{name}.shard-{}-of-{}.h5", shard.index, shard.count)
+    })
+}
+
+/// Runs a study and shows how far it is. Asked to end, it stores what has finished, says
+/// how to go on, and ends the process.
+pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure> {
+    interruption::resume_with(interruption::this_command_resumed());
+    let progress = Progress::begin(Unit::Runs)?;
+    let report = make(study, options, &mut |now| {
+        show(&progress, now);
+        // Once all runs are stored nobody looks any more: a signal ends the process at once.
+        if !interruption::wait(now.stored < now.total) {
+            return ControlFlow::Continue(());
+        }
+        if now.all_stored() {
+            let stored = format!(
+                "{} of {} {} stored",
+                now.stored,
+                counted(now.total, "run"),
+                agreeing(&now.total, "is", "are")
+            );
+            interruption::leave(&stored);
+        }
+        ControlFlow::Break(())
+    });
+    drop(progress);
+    Ok(report?)
+}
+
+fn show(progress: &Progress, now: &Stand) {
+    let mut more = String::new();
+    for (count, what) in [(now.failed, "failed"), (now.collapsed, "collapsed")] {
+        if count > 0 {
+            more.push_str(&format!(", {count} {what}"));
+        }
+    }
+    // Rate and remaining time are those of this call.
+    progress.show(now.made, now.total - now.stored_before, &more);
+}
+
+/// A study of which no run succeeded has computed nothing.
+pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
+    match report.failures.first() {
+        Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
+            match report.runs {
+                1 => format!("the only run failed: {reason}"),
+                runs => format!("all {runs} runs failed; run {run}: {reason}"),
+            },
+            Some(format!(
+                "pounding sweep STUDY --show {run} prints the case of that run"
+            )),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The object that `--json` prints.
+pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
+    let listed_json = |first: &[(usize, String)]| -> Vec<Value> {
+        let entries = first.iter();
+        entries
+            .map(|(run, reason)| json!({"run": run, "diagnosis": reason}))
+            .collect()
+    };
+    let records = report
+        .records
+        .iter()
+        .map(|r| json!({"name": r.name, "sha256": r.sha256, "intensity_as_recorded": r.intensity}));
+    json!({
+        "status": "complete",
+        "runs": report.runs, "made": report.made, "failed": report.failed,
+        "first_failures": listed_json(&report.failures),
+        "collapsed": report.collapsed,
+        "first_collapses": listed_json(&report.collapses),
+        "study_sha256": report.study_sha256,
+        "warnings": report.warnings,
+        "records": records.collect::<Vec<_>>(),
+        "output": options.output.display().to_string(),
+        "csv": options.csv.as_ref().map(|p| p.display().to_string()),
+    })
+}
+
+/// What a sweep prints at its end.
+pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> String {
+    let mut text = String::new();
+    if !study.title.is_empty() {
+        text.push_str(&format!("{}\n", study.title));
+    }
+    text.push_str(&warning_lines(&report.warnings));
+    let before = report.runs - report.made;
+    text.push_str(&format!(
+        "{} in {}",
+        counted(report.runs, "run"),
+        options.output.display()
+    ));
+    if before > 0 {
+        text.push_str(&format!(", {before} of them stored by an earlier call"));
+    }
+    text.push_str(&match report.failed {
+        0 => "; none failed\n".to_owned(),
+        n => format!("; {n} failed:\n"),
+    });
+    text.push_str(&listed(&report.failures, report.failed));
+    if report.collapsed > 0 {
+        text.push_str(&format!(
+            "Collapse in {}:\n",
+            counted(report.collapsed, "run")
+        ));
+        text.push_str(&listed(&report.collapses, report.collapsed));
+    }
+    if let Some(csv) = &options.csv {
+        text.push_str(&format!("Table written to {}\n", csv.display()));
+    }
+    text
+}
+
+/// The first few runs of a kind, a line each.
+fn listed(first: &[(usize, String)], all: usize) -> String {
+    let mut text = String::new();
+    for (run, reason) in first {
+        text.push_str(&format!("  run {run}: {reason}\n"));
+    }
+    if all > first.len() {
+        text.push_str("  ... all of them in the group failures of the result\n");
+    }
+    text
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        let help = error.help();
+        match error {
+            StudyError::Text { error, source_text } => Self::case(*error, &source_text),
+            StudyError::Several { errors } => {
+                Self::together(errors.into_iter().map(Self::from).collect())
+            }
+            StudyError::Base(error) => Self::assembly(error, ""),
+            e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
+                Self::unwritten(e.to_string(), help)
+            }
+            e @ StudyError::File { what, .. }
+                if what.starts_with("write") || what.starts_with("make") =>
+            {
+                Self::unwritten(e.to_string(), help)
+            }
+            e @ StudyError::Evaluation { .. } => Self::computation(e.to_string(), help),
+            e @ StudyError::Interrupted { .. } => Self::interrupted(e.to_string(), help),
+            e => Self::input(e.to_string(), help),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! A model with its parameters.
+
+use super::EXAMPLE_RESTITUTION;
+use crate::descriptor::{ModelDescriptor, ParameterUnit};
+use crate::error::GapElementError;
+use crate::model::{ImpactModel, SeparationRule};
+use crate::parameters::ModelParameters;
+use crate::registry;
+
+/// A model with its parameters.
+#[derive(Debug, Clone)]
+pub struct Specimen {
+    /// The model's descriptor.
+    pub descriptor: &'static ModelDescriptor,
+    /// Parameters (SI), given and filled in.
+    pub parameters: ModelParameters,
+    /// Names of those that were filled in from the model's example.
+    pub filled: Vec<String>,
+    /// Whether the separation rule asked for is not offered, so that its own holds.
+    pub keeps_own_separation: bool,
+}
+
+impl Specimen {
+    /// A model with given parameters.
+    #[must_use]
+    pub fn new(descriptor: &'static ModelDescriptor, parameters: ModelParameters) -> Self {
+        Self {
+            descriptor,
+            parameters,
+            filled: Vec::new(),
+            keeps_own_separation: false,
+        }
+    }
+
+    /// Whether the model offers a separation rule.
+    #[must_use]
+    pub fn offers(&self, rule: SeparationRule) -> bool {
+        self.descriptor.separation_rules.contains(&rule)
+    }
+
+    /// Asks for a separation rule, which a model takes that offers it.
+    pub fn ask_for_separation(&mut self, rule: SeparationRule) {
+        self.keeps_own_separation = !self.offers(rule);
+        if self.offers(rule) {
+            self.parameters.separation = Some(rule);
+        }
+    }
+
+    /// Takes what is missing from the model's example; its restitution is
+    /// [`EXAMPLE_RESTITUTION`].
+    pub fn fill_from_example(&mut self) {
+        let example = self.descriptor.example_parameters(EXAMPLE_RESTITUTION);
+        // The example's stiffness belongs to the example's exponent.
+        let exponent = self.parameters.values.contains_key("exponent")
+            && !example.values.contains_key("exponent");
+        for (key, value) in example.values {
+            let foreign = exponent && key == "stiffness";
+            if !foreign && !self.parameters.values.contains_key(&key) {
+                self.filled.push(key.clone());
+                self.parameters.values.insert(key, value);
+            }
+        }
+        // What was given may exclude its alternatives.
+        while let Err(GapElementError::Conflict { first, second, .. }) = self.build() {
+            let Some(at) = self.filled.iter().position(|k| k == first || k == second) else {
+                break;
+            };
+            let key = self.filled.remove(at);
+            self.parameters.values.remove(&key);
+        }
+    }
+
+    /// Leaves the restitution out, for a table that goes through all of them.
+    pub fn forget_restitution(&mut self) {
+        self.parameters.values.remove("restitution");
+        self.filled.retain(|key| key != "restitution");
+    }
+
+    /// The model itself.
+    ///
+    /// # Errors
+    /// Parameters that are missing, not known or out of range.
+    pub fn build(&self) -> Result<Box<dyn ImpactModel>, GapElementError> {
+        registry::build(self.descriptor.name, &self.parameters)
+    }
+
+    /// The rule by which its contact ends.
+    #[must_use]
+    pub fn separation(&self) -> SeparationRule {
+        self.parameters.separation(self.descriptor)
+    }
+}
+
+/// Unit of a parameter as case files and arguments take it, the exponent of the law in figures;
+/// none without one.
+#[must_use]
+pub fn unit_of(
+    descriptor: &ModelDescriptor,
+    parameters: &ModelParameters,
+    name: &str,
+) -> Option<String> {
+    let known = |name: &str| descriptor.parameters.iter().find(|p| p.name == name);
+    match known(name)?.unit {
+        ParameterUnit::One => None,
+        ParameterUnit::NewtonPerMetreToExponent => {
+            let given = parameters.get("exponent");
+            let exponent = given.or(known("exponent").and_then(|p| p.default));
+            Some(format!("N/m^{}", exponent.unwrap_or(1.5)))
+        }
+        unit => Some(unit.symbol().to_owned()),
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_hysteresis::{LawParameters, build as build_law};
+use pounding_hysteresis::{LawParameters, build as build_law, yield_deformation};
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 
 use crate::error::Error;
@@ -156,7 +156,7 @@ impl Building {
         }
         let law = build_law(descriptor.name, &values).map_err(refused)?;
         Ok(Some(StoreyLaw {
-            yield_drift: values.yield_deformation(law.initial_stiffness()),
+            yield_drift: yield_deformation(&values, law.initial_stiffness()),
             law: law.into(),
         }))
     }

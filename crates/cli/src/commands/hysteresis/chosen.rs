@@ -1,7 +1,8 @@
 //! A law with its parameters.
 
-use pounding_assembly::law_parameter_dimension;
+use pounding_assembly::parameter_dimension;
 use pounding_case::parse_quantity;
+use pounding_catalogue::{DefinitionError, Descriptor};
 use pounding_hysteresis::iwan::IwanDensity;
 use pounding_hysteresis::{
     HysteresisError, HysteresisLaw, LawDescriptor, LawParameters, ParameterDescriptor,
@@ -9,7 +10,6 @@ use pounding_hysteresis::{
 };
 use serde_json::{Map, Value, json};
 
-use super::descriptor::verification;
 use crate::commands::models::numbers::plain;
 use crate::failure::Failure;
 
@@ -38,7 +38,7 @@ pub fn choose(descriptor: &'static LawDescriptor, set: &[String]) -> Result<Chos
         let by_exponent = unit.is_some_and(|p| {
             matches!(
                 p.unit,
-                ParameterUnit::NewtonPerMetreToExponent
+                ParameterUnit::NewtonPerMetreToTwoPlusExponent
                     | ParameterUnit::NewtonSecondPerMetreToExponent
             )
         });
@@ -80,12 +80,7 @@ pub fn given(descriptor: &'static LawDescriptor, set: &[String]) -> Result<LawPa
             )
         })?;
         let key = key.trim();
-        let known = descriptor.parameters.iter().find(|p| p.name == key);
-        let parameter = known.ok_or_else(|| HysteresisError::UnknownParameter {
-            law: descriptor.name,
-            parameter: key.to_owned(),
-            known: descriptor.parameters.iter().map(|p| p.name).collect(),
-        })?;
+        let parameter = descriptor.parameter(key).map_err(HysteresisError::from)?;
         if texts.iter().any(|(p, _, _)| p.name == key) {
             return Err(Failure::input(
                 format!("--set {text}: {key} is given twice"),
@@ -121,7 +116,7 @@ fn quantity(
         .find(|(name, _)| *name == "exponent");
     let required = free.is_some_and(|p| p.default.is_none());
     let exponent = exponent.or(example.filter(|_| required).map(|e| e.1));
-    let wanted = law_parameter_dimension(descriptor, parameter, exponent);
+    let wanted = parameter_dimension(descriptor, parameter, exponent);
     match quantity.dimension {
         Some(found) if found != wanted => Err(Failure::input(
             format!(
@@ -137,7 +132,7 @@ fn quantity(
 /// A refusal, with a hint where a value of the example may be the cause.
 fn refused(error: HysteresisError, filled: &[String]) -> Failure {
     let mut help = match &error {
-        HysteresisError::MissingParameter { parameter, .. } => {
+        HysteresisError::Definition(DefinitionError::MissingParameter { parameter, .. }) => {
             format!("add --set {parameter}=VALUE: the example's belongs to another exponent")
         }
         _ => error.help().unwrap_or_default(),
@@ -164,7 +159,9 @@ pub fn unit(descriptor: &LawDescriptor, parameters: &LawParameters, parameter: &
     let known = descriptor.parameters.iter().find(|p| p.name == parameter);
     match known.map(|p| p.unit) {
         None | Some(ParameterUnit::One) => String::new(),
-        Some(ParameterUnit::NewtonPerMetreToExponent) => format!("N/m{}", power(2.0 + exponent)),
+        Some(ParameterUnit::NewtonPerMetreToTwoPlusExponent) => {
+            format!("N/m{}", power(2.0 + exponent))
+        }
         Some(ParameterUnit::NewtonSecondPerMetreToExponent) => {
             format!("N s{0}/m{0}", power(exponent))
         }
@@ -232,7 +229,7 @@ impl Chosen {
                 example.join(", ")
             ));
         }
-        text.push_str(&format!("  {}\n", verification(self.descriptor)));
+        text.push_str(&format!("  {}\n", self.descriptor.verification));
         text
     }
 
@@ -260,7 +257,10 @@ impl Chosen {
             "initial_stiffness".into(),
             json!(self.law.initial_stiffness()),
         );
-        object.insert("verification".into(), json!(verification(self.descriptor)));
+        object.insert(
+            "verification".into(),
+            json!(self.descriptor.verification.to_string()),
+        );
         object
     }
 }

@@ -1,7 +1,7 @@
 //! The descriptors of the laws, for people and for machines.
 
 use crate::tables::Table;
-use pounding_hysteresis::{LawDescriptor, Verification};
+use pounding_hysteresis::LawDescriptor;
 use serde_json::{Value, json};
 
 use crate::commands::models::numbers::plain;
@@ -12,7 +12,7 @@ pub fn list(laws: &[&LawDescriptor]) -> String {
     table.set_header(["name", "law and its parameters", "checked"]);
     for d in laws {
         let law = format!("{}\n{}", d.title, parameters(d));
-        table.add_row([d.name, &law, checked(d)]);
+        table.add_row([d.name, &law, d.verification.name()]);
     }
     format!(
         "{table}\nParameters in brackets have a default.\n\n`pounding hysteresis NAME` shows formula, parameters, source and traps; with --cycles \"10 mm,20 mm\",\n--history FILE or --dissipation \"0.1 mm,10 mm\" it drives the law."
@@ -33,22 +33,6 @@ fn parameters(d: &LawDescriptor) -> String {
     lines.join("\n")
 }
 
-/// How far the law has been checked, in a word or two.
-pub fn checked(d: &LawDescriptor) -> &'static str {
-    match d.verification {
-        Verification::Verified(_) => "verified",
-        Verification::SecondarySources(_) => "secondary sources",
-    }
-}
-
-/// How far the law has been checked, and against what.
-pub fn verification(d: &LawDescriptor) -> String {
-    match d.verification {
-        Verification::Verified(how) => format!("verified against: {how}"),
-        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    }
-}
-
 /// What the force depends on.
 pub fn dependence(d: &LawDescriptor) -> &'static str {
     if d.rate_dependent {
@@ -67,7 +51,7 @@ pub fn text(d: &LawDescriptor) -> String {
         d.formula.split(";  ").collect::<Vec<_>>().join("\n  "),
         dependence(d),
         d.citation,
-        verification(d)
+        d.verification
     );
     for alias in d.aliases {
         text.push_str(&format!(
@@ -123,6 +107,6 @@ pub fn json(d: &LawDescriptor) -> Value {
         "name": d.name, "aliases": aliases, "title": d.title, "formula": d.formula,
         "citation": d.citation, "rate_dependent": d.rate_dependent, "parameters": parameters,
         "example": example, "example_amplitude": d.example_amplitude,
-        "verification": verification(d), "traps": d.traps,
+        "verification": d.verification.to_string(), "traps": d.traps,
     })
 }

@@ -2,10 +2,10 @@
 
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
-use pounding_catalogue::suggestion;
+use pounding_catalogue::{Parameters, suggestion};
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterDescriptor,
-    ParameterUnit, SeparationRule, Verification, registry,
+    ParameterUnit, SeparationRule, registry,
 };
 use serde_json::{Map, Value, json};
 
@@ -50,10 +50,7 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Chosen>, Failure> {
         let values = values(descriptor, &given, &mut used)?;
         chosen.push(Chosen {
             descriptor,
-            parameters: ModelParameters {
-                values,
-                separation: None,
-            },
+            parameters: Parameters { values }.into(),
             filled: Vec::new(),
             keeps_own_separation: false,
         });
@@ -278,7 +275,7 @@ impl Chosen {
         // The example's stiffness belongs to the example's exponent.
         let exponent = self.parameters.values.contains_key("exponent")
             && !example.values.contains_key("exponent");
-        for (key, value) in example.values {
+        for (key, value) in example.parameters.values {
             let alien = exponent && key == "stiffness";
             if !alien && !self.parameters.values.contains_key(&key) {
                 self.filled.push(key.clone());
@@ -349,17 +346,16 @@ impl Chosen {
 
     /// The model and its parameters for machines.
     pub fn json(&self) -> Map<String, Value> {
-        let verification = match self.descriptor.verification {
-            Verification::Verified(how) => format!("verified against: {how}"),
-            Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-        };
         let mut object = Map::new();
         object.insert("model".into(), json!(self.descriptor.name));
         object.insert("title".into(), json!(self.descriptor.title));
         object.insert("parameters".into(), json!(self.parameters.values));
         object.insert("filled_from_example".into(), json!(self.filled));
         object.insert("separation".into(), json!(self.separation().name()));
-        object.insert("verification".into(), json!(verification));
+        object.insert(
+            "verification".into(),
+            json!(self.descriptor.verification.to_string()),
+        );
         object
     }
 }

@@ -1,7 +1,7 @@
 //! The list of all models.
 
 use crate::tables::Table;
-use pounding_gap_element::{ModelDescriptor, Verification};
+use pounding_gap_element::ModelDescriptor;
 
 /// One line per model.
 pub fn table(chosen: &[&ModelDescriptor]) -> String {
@@ -13,17 +13,9 @@ pub fn table(chosen: &[&ModelDescriptor]) -> String {
         } else {
             d.name.to_owned()
         };
-        table.add_row([name.as_str(), d.title, d.class, checked(d)]);
+        table.add_row([name.as_str(), d.title, d.class, d.verification.name()]);
     }
     format!(
         "{table}\n* recommended: returns the restitution asked for\n\n`pounding models NAME` shows formula, parameters, source and traps."
     )
-}
-
-/// How far the model has been checked, in a word or two.
-pub fn checked(d: &ModelDescriptor) -> &'static str {
-    match d.verification {
-        Verification::Verified(_) => "verified",
-        Verification::SecondarySources(_) => "secondary sources",
-    }
 }

@@ -1,8 +1,7 @@
 //! The page of one model.
 
-use pounding_gap_element::{
-    GapElementError, ModelDescriptor, ParameterDescriptor, Verification, registry,
-};
+use pounding_catalogue::DefinitionError;
+use pounding_gap_element::{GapElementError, ModelDescriptor, ParameterDescriptor, registry};
 
 use super::example::{BODIES_AS_ARGUMENTS, Example, RESTITUTION};
 use super::numbers::{plain, with_unit};
@@ -30,18 +29,14 @@ fn cell(text: &str) -> String {
 }
 
 fn head(d: &ModelDescriptor) -> String {
-    let (status, how) = match d.verification {
-        Verification::Verified(how) => ("verified against", how),
-        Verification::SecondarySources(how) => ("**from secondary sources**", how),
-    };
     let mut text = format!(
-        "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| class | {} |\n| checked | {status}: {} |\n",
+        "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| class | {} |\n| checked | {} |\n",
         d.name,
         d.title,
         d.formula.split(";  ").collect::<Vec<_>>().join("\n"),
         cell(d.citation),
         cell(d.class),
-        cell(how),
+        cell(&d.verification.markdown()),
     );
     for alias in d.aliases {
         text.push_str(&format!(
@@ -107,7 +102,9 @@ fn default(d: &ModelDescriptor, p: &ParameterDescriptor) -> String {
     let mut parameters = d.example_parameters(RESTITUTION);
     parameters.values.remove(p.name);
     match registry::build(d.name, &parameters) {
-        Err(GapElementError::MissingParameter { parameter, .. }) if parameter != p.name => {
+        Err(GapElementError::Definition(DefinitionError::MissingParameter {
+            parameter, ..
+        })) if parameter != p.name => {
             format!("required: {parameter}")
         }
         _ => "optional".to_owned(),

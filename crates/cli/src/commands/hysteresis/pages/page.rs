@@ -1,6 +1,6 @@
 //! The page of one law.
 
-use pounding_hysteresis::{LawDescriptor, Verification, build};
+use pounding_hysteresis::{LawDescriptor, build};
 
 use super::super::chosen::Chosen;
 use super::super::descriptor::dependence;
@@ -39,18 +39,14 @@ fn cell(text: &str) -> String {
 }
 
 fn head(d: &LawDescriptor) -> String {
-    let (status, how) = match d.verification {
-        Verification::Verified(how) => ("verified against", how),
-        Verification::SecondarySources(how) => ("**from secondary sources**", how),
-    };
     let mut text = format!(
-        "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| force of | {} |\n| checked | {status}: {} |\n",
+        "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| force of | {} |\n| checked | {} |\n",
         d.name,
         d.title,
         d.formula.split(";  ").collect::<Vec<_>>().join("\n"),
         cell(d.citation),
         dependence(d),
-        cell(how),
+        cell(&d.verification.markdown()),
     );
     for alias in d.aliases {
         text.push_str(&format!(

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
-use pounding_hysteresis::LawParameters;
+use pounding_hysteresis::{LawParameters, yield_deformation};
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 use pounding_time_history::{
     Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
@@ -25,7 +25,7 @@ fn laws(name: &str, stiffness: &[f64], yield_force: &[f64], hardening: f64) -> V
         }
         let parameters = LawParameters::from_pairs(&values);
         StoreyLaw {
-            yield_drift: parameters.yield_deformation(*k),
+            yield_drift: yield_deformation(&parameters, *k),
             law: pounding_hysteresis::build(name, &parameters)
                 .unwrap()
                 .into(),
@@ -229,7 +229,7 @@ fn random_pair(seed: u64) -> System {
                 let own = [("stiffness", *k), ("yield_force", yield_force)];
                 all.values.extend(LawParameters::from_pairs(&own).values);
                 Some(StoreyLaw {
-                    yield_drift: all.yield_deformation(*k),
+                    yield_drift: yield_deformation(&all, *k),
                     law: pounding_hysteresis::build(name, &all).unwrap().into(),
                 })
             };

@@ -1,54 +1,73 @@
-//! Where the units of a text meet the units of an impact model.
+//! Where the units of a text meet the units of a model or law.
 
-use pounding_case::Dimension;
-use pounding_gap_element::{ModelDescriptor, ParameterDescriptor, ParameterUnit};
-use pounding_hysteresis as hysteresis;
+use pounding_case::{Case, CaseError, Dimension, Located, Quantity};
+use pounding_catalogue::{DefinitionError, Descriptor, ParameterDescriptor, ParameterUnit};
 
-/// Dimension that a parameter of a law with memory must have; the unit of a density or
-/// of a damper follows from the exponent of the law: the one given, or its default.
-#[must_use]
-pub fn law_parameter_dimension(
-    law: &hysteresis::LawDescriptor,
-    parameter: &hysteresis::ParameterDescriptor,
-    exponent: Option<f64>,
-) -> Dimension {
-    use hysteresis::ParameterUnit as Unit;
-    let exponent = || {
-        let free = law.parameters.iter().find(|p| p.name == "exponent");
-        exponent.or(free.and_then(|p| p.default)).unwrap_or(1.0)
-    };
-    match parameter.unit {
-        Unit::One => Dimension::NUMBER,
-        Unit::Newton => Dimension::FORCE,
-        Unit::NewtonPerMetre => Dimension::STIFFNESS,
-        Unit::NewtonPerMetreToExponent => Dimension::stiffness_with_exponent(2.0 + exponent()),
-        Unit::NewtonSecondPerMetreToExponent => Dimension::dashpot_with_exponent(exponent()),
-        Unit::NewtonSecondPerMetre => Dimension::DASHPOT,
-        Unit::Metre => Dimension::LENGTH,
-        Unit::MetrePerSecond => Dimension::VELOCITY,
-    }
-}
-
-/// Dimension that a parameter of an impact model must have. The unit of a contact
-/// stiffness follows from the exponent of the law: the one given, or the default of
-/// the model, which is 1.5 where the law's exponent is fixed.
+/// Dimension that a parameter of an impact model or of a law with memory must have. Where its
+/// unit follows from the exponent of the law, that is the one given, or the default, or the fixed
+/// one: 1.5 of a spring, 1 of others.
 #[must_use]
 pub fn parameter_dimension(
-    model: &ModelDescriptor,
+    of: &impl Descriptor,
     parameter: &ParameterDescriptor,
     exponent: Option<f64>,
 ) -> Dimension {
+    let exponent = |fixed| exponent.or(of.default_of("exponent")).unwrap_or(fixed);
     match parameter.unit {
         ParameterUnit::One => Dimension::NUMBER,
+        ParameterUnit::Newton => Dimension::FORCE,
         ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
         ParameterUnit::NewtonPerMetreToExponent => {
-            let free = model.parameters.iter().find(|p| p.name == "exponent");
-            let default = free.and_then(|p| p.default).unwrap_or(1.5);
-            Dimension::stiffness_with_exponent(exponent.unwrap_or(default))
+            Dimension::stiffness_with_exponent(exponent(1.5))
+        }
+        ParameterUnit::NewtonPerMetreToTwoPlusExponent => {
+            Dimension::stiffness_with_exponent(2.0 + exponent(1.0))
         }
         ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
+        ParameterUnit::NewtonSecondPerMetreToExponent => {
+            Dimension::dashpot_with_exponent(exponent(1.0))
+        }
         ParameterUnit::SecondPerMetre => Dimension::SLOWNESS,
         ParameterUnit::Metre => Dimension::LENGTH,
+        ParameterUnit::MetrePerSecond => Dimension::VELOCITY,
         ParameterUnit::Second => Dimension::TIME,
     }
+}
+
+/// The value (SI) of a parameter: known, of its dimension and within its range. `help` is what to
+/// do about a name or value that is refused.
+pub(crate) fn parameter_value<D: Descriptor>(
+    case: &Case,
+    of: &D,
+    (key, value): (&Located<String>, &Located<Quantity>),
+    exponent: Option<f64>,
+    help: impl Fn(DefinitionError) -> Option<String>,
+) -> Result<f64, CaseError> {
+    let refused = |span: &std::ops::Range<usize>, error: DefinitionError| {
+        case.error(span.clone(), error.to_string(), help(error))
+    };
+    let (name, quantity) = (&key.value, &value.value);
+    let parameter = of.parameter(name).map_err(|e| refused(&key.span, e))?;
+    let wanted = parameter_dimension(of, parameter, exponent);
+    if let Some(found) = quantity.dimension.filter(|found| *found != wanted) {
+        return Err(case.error(
+            value.span.clone(),
+            format!(
+                "`{name}` of {} {} must be {wanted}, but \"{}\" is {found}",
+                D::NOUN,
+                of.name(),
+                quantity.text
+            ),
+            Some(match parameter.unit {
+                ParameterUnit::NewtonPerMetreToExponent => {
+                    "correct the unit; the exponent of the law is in the unit of its stiffness"
+                        .to_owned()
+                }
+                _ => "correct the unit; plain numbers are SI".to_owned(),
+            }),
+        ));
+    }
+    of.check_value(name, quantity.value)
+        .map_err(|e| refused(&value.span, e))?;
+    Ok(quantity.value)
 }

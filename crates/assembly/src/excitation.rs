@@ -225,14 +225,8 @@ fn known<T>(
     .transpose()
 }
 
-fn format(name: &str) -> Result<Format, Refused> {
-    Format::from_name(name).ok_or_else(|| {
-        let known: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
-        (
-            format!("unknown record format \"{name}\""),
-            Some(format!("known formats are {}", known.join(", "))),
-        )
-    })
+fn format(name: &str) -> Result<&'static Format, Refused> {
+    Format::find(name).map_err(|e| (e.to_string(), e.help()))
 }
 
 /// Buildings are excited by an acceleration and by nothing else.

@@ -27,6 +27,6 @@ mod error;
 mod excitation;
 
 pub use assemble::{Assembly, assemble, assemble_with_record, regap};
-pub use dimension::{law_parameter_dimension, parameter_dimension};
+pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{processing_step, read_record, scale_record};

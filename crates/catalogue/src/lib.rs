@@ -1,15 +1,55 @@
-//! What models, laws, provisions and record formats have in common, and the sentences that
-//! speak of them ([`wording`], [`numbers`]). They are found by name, and a name that is not known leads to the one that was probably meant:
+//! What models, laws, provisions, record formats and generators have in common.
+//!
+//! Each of them is a [`Descriptor`]: a name, aliases and parameters that a user may give, each a
+//! [`ParameterDescriptor`] with unit and range. A [`Registry`] finds them by name, and a name that
+//! is not known leads to the one that was probably meant ([`suggestion`]). [`Parameters`] are
+//! values by name, checked against a descriptor; what is wrong with names or values is a
+//! [`DefinitionError`]. [`wording`] has what sentences of them need.
 //!
 //! ```
-//! use pounding_catalogue::suggestion;
+//! use pounding_catalogue::{Descriptor, ParameterDescriptor, ParameterUnit};
+//! use pounding_catalogue::{Parameters, Registry, positive};
 //!
-//! let models = ["hertz_1882", "jankowski_2005", "stereomechanical"];
-//! assert_eq!(suggestion::misspelt("jankowsky_2005", models), Some("jankowski_2005"));
-//! assert_eq!(suggestion::misspelt("coulomb", models), None);
-//! assert_eq!(suggestion::nearest("hertz", models), Some("hertz_1882"));
+//! struct Spring;
+//!
+//! impl Descriptor for Spring {
+//!     const KIND: &'static str = "spring law";
+//!     const NOUN: &'static str = "law";
+//!     fn name(&self) -> &'static str {
+//!         "linear"
+//!     }
+//!     fn parameters(&self) -> &'static [ParameterDescriptor] {
+//!         const ALL: &[ParameterDescriptor] =
+//!             &[positive("stiffness", ParameterUnit::NewtonPerMetre, "Stiffness")];
+//!         ALL
+//!     }
+//! }
+//!
+//! static SPRINGS: Registry<Spring> = Registry::new(&[&Spring], &[(&["hooke"], "linear")]);
+//! assert_eq!(
+//!     SPRINGS.find("hooke").map(|s| s.name()).map_err(|e| (e.to_string(), e.help())),
+//!     Err(("unknown spring law \"hooke\"".into(), "did you mean \"linear\"?".into()))
+//! );
+//! let spring = SPRINGS.find("linear")?;
+//! let parameters = Parameters::from_pairs(&[("stiffness", -1.0)]);
+//! let error = parameters.check(spring).unwrap_err();
+//! assert_eq!(error.to_string(), "law linear: stiffness = -1 is outside (0, inf)");
+//! # Ok::<(), pounding_catalogue::DefinitionError>(())
 //! ```
 
 pub mod numbers;
 pub mod suggestion;
 pub mod wording;
+
+mod descriptor;
+mod error;
+mod parameters;
+mod registry;
+
+pub use descriptor::{
+    Alias, Descriptor, ParameterDescriptor, ParameterUnit, Verification, non_negative,
+    optional_non_negative, optional_positive, positive,
+};
+pub use error::DefinitionError;
+pub use parameters::Parameters;
+pub use registry::Registry;

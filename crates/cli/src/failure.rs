@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_assembly::AssemblyError;
 use pounding_case::{Case, CaseError};
+use pounding_catalogue::DefinitionError;
 use pounding_files::FileUseError;
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
@@ -295,7 +296,7 @@ impl From<GapElementError> for Failure {
             GapElementError::Unfinished { .. } => {
                 Self::Computation(plain(error.to_string(), error.help()))
             }
-            GapElementError::UnknownModel { ref name, .. } => {
+            GapElementError::Definition(DefinitionError::UnknownName { ref name, .. }) => {
                 let help = help_among_gaps(name).or(error.help());
                 Self::input(error.to_string(), help)
             }

@@ -6,6 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use pounding_ground_motion::Format;
+use pounding_ground_motion::generators::GENERATORS;
+
 fn root() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     root.canonicalize().unwrap()
@@ -294,5 +297,36 @@ fn the_case_file_of_the_reference_is_accepted() {
     for kind in kinds {
         std::fs::write(&file, case.replacen(first, &kind, 1)).unwrap();
         printed(pounding().arg("check").arg(&file), &kind);
+    }
+}
+
+/// The tables of record formats and of generators say what their descriptors say.
+#[test]
+fn formats_and_generators_are_in_their_tables() {
+    let page = page("docs/reference/ground-motions.md");
+    for f in Format::all() {
+        let Format {
+            name,
+            title,
+            source,
+            recognised_by,
+            ..
+        } = f;
+        let row = format!("\n| `{name}` | {title} | {source} | {recognised_by} |\n");
+        assert!(page.contains(&row), "{row}");
+    }
+    // Lines are wrapped.
+    let help = |arguments: &[&str]| {
+        let printed = printed(pounding().args(["motion", "synth"]).args(arguments), "help");
+        printed.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let all = help(&["--help"]);
+    for g in GENERATORS.all() {
+        let row = format!("\n| `{}` | {} | {} |\n", g.name, g.title, g.source);
+        assert!(page.contains(&row), "{row}");
+        assert!(all.contains(&format!(" {} {} ", g.name, g.title)), "{all}");
+        let own = help(&[g.name, "--help"]);
+        assert!(own.starts_with(g.title), "{own}");
+        assert!(own.contains(&format!("Source: {}", g.source)), "{own}");
     }
 }

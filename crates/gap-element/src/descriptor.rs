@@ -1,52 +1,11 @@
 //! The descriptor of an impact model: what it is, needs, and is worth.
 
+use pounding_catalogue::Descriptor;
+pub use pounding_catalogue::{Alias, ParameterDescriptor, ParameterUnit, Verification};
+
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
 use crate::parameters::ModelParameters;
-
-/// Unit of a parameter or constant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ParameterUnit {
-    /// Dimensionless.
-    One,
-    /// N/m.
-    NewtonPerMetre,
-    /// N/m^n with the model's exponent n.
-    NewtonPerMetreToExponent,
-    /// N s/m.
-    NewtonSecondPerMetre,
-    /// s/m.
-    SecondPerMetre,
-    /// m.
-    Metre,
-    /// s.
-    Second,
-}
-
-impl ParameterUnit {
-    /// The unit in characters, `n` standing for the exponent of the law.
-    #[must_use]
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::One => "-",
-            Self::NewtonPerMetre => "N/m",
-            Self::NewtonPerMetreToExponent => "N/m^n",
-            Self::NewtonSecondPerMetre => "N s/m",
-            Self::SecondPerMetre => "s/m",
-            Self::Metre => "m",
-            Self::Second => "s",
-        }
-    }
-}
-
-/// Another name of the identical law, with the paper that gave it.
-#[derive(Debug, Clone, Copy)]
-pub struct Alias {
-    /// Name, accepted wherever the model's own is.
-    pub name: &'static str,
-    /// Author, year, journal; or why the name is common.
-    pub citation: &'static str,
-}
 
 /// What the restitution of a free collision depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,26 +19,6 @@ pub enum AchievedRestitution {
     Varies,
 }
 
-/// One parameter that a user may give.
-#[derive(Debug, Clone, Copy)]
-pub struct ParameterDescriptor {
-    /// Key in the case file, spelled out.
-    pub name: &'static str,
-    /// SI unit.
-    pub unit: ParameterUnit,
-    /// Least allowed value and whether it is allowed itself.
-    pub minimum: (f64, bool),
-    /// Maximum allowed value and whether it is allowed itself.
-    pub maximum: (f64, bool),
-    /// Value when the user gives none; `None`: the parameter is required
-    /// (or one of a pair of alternatives, see `explanation`).
-    pub default: Option<f64>,
-    /// Whether a case without it is refused.
-    pub required: bool,
-    /// What it is, in a sentence.
-    pub explanation: &'static str,
-}
-
 /// One constant that is fixed at closure and written with each impact.
 #[derive(Debug, Clone, Copy)]
 pub struct ConstantDescriptor {
@@ -89,13 +28,9 @@ pub struct ConstantDescriptor {
     pub unit: ParameterUnit,
 }
 
-/// How far the implementation has been checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verification {
-    /// Checked against what the text names.
-    Verified(&'static str),
-    /// The formula or its constants come from secondary sources.
-    SecondarySources(&'static str),
+/// A constant of this name and unit.
+pub(crate) const fn constant(name: &'static str, unit: ParameterUnit) -> ConstantDescriptor {
+    ConstantDescriptor { name, unit }
 }
 
 /// Everything that is known of a model without running it.
@@ -138,6 +73,23 @@ pub struct ModelDescriptor {
     pub traps: &'static [&'static str],
     /// Builds the model from checked parameters.
     pub build: fn(&ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError>,
+}
+
+impl Descriptor for ModelDescriptor {
+    const KIND: &'static str = "impact model";
+    const NOUN: &'static str = "model";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn aliases(&self) -> &'static [Alias] {
+        self.aliases
+    }
+
+    fn parameters(&self) -> &'static [ParameterDescriptor] {
+        self.parameters
+    }
 }
 
 impl ModelDescriptor {

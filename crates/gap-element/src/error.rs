@@ -1,47 +1,14 @@
 //! What can be wrong with an impact model's definition.
 
+use pounding_catalogue::DefinitionError;
+
 /// A model that cannot be built, or a collision that cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GapElementError {
-    /// No model of this name.
-    #[error("unknown impact model \"{name}\"")]
-    UnknownModel {
-        /// The name asked for.
-        name: String,
-        /// The nearest known name.
-        nearest: &'static str,
-    },
-    /// The model has no such parameter.
-    #[error("model {model} has no parameter \"{parameter}\"")]
-    UnknownParameter {
-        /// Model.
-        model: &'static str,
-        /// Parameter given.
-        parameter: String,
-        /// Parameters that the model has.
-        known: Vec<&'static str>,
-    },
-    /// A parameter that the model needs is not given.
-    #[error("model {model} needs {parameter}")]
-    MissingParameter {
-        /// Model.
-        model: &'static str,
-        /// Parameter, or the alternatives.
-        parameter: String,
-    },
-    /// A parameter outside its range.
-    #[error("model {model}: {parameter} = {value} is outside {range}")]
-    OutOfRange {
-        /// Model.
-        model: &'static str,
-        /// Parameter.
-        parameter: &'static str,
-        /// Value (SI).
-        value: f64,
-        /// Allowed range.
-        range: String,
-    },
+    /// No model of this name, or parameters that it does not take.
+    #[error(transparent)]
+    Definition(#[from] DefinitionError),
     /// Two parameters that exclude one another.
     #[error("model {model}: {first} and {second} exclude one another")]
     Conflict {
@@ -84,17 +51,16 @@ impl GapElementError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         Some(match self {
-            Self::UnknownModel { nearest, .. } => {
-                format!("did you mean \"{nearest}\"? `pounding models` lists all")
+            Self::Definition(error @ DefinitionError::UnknownName { .. }) => {
+                format!("{} `pounding models` lists all", error.help())
             }
-            Self::UnknownParameter { known, .. } => {
-                format!("its parameters are {}", known.join(", "))
+            Self::Definition(DefinitionError::MissingParameter { parameter, .. }) => {
+                format!("add {parameter} to the gap")
             }
-            Self::MissingParameter { parameter, .. } => format!("add {parameter} to the gap"),
-            Self::OutOfRange { parameter, .. } if *parameter == "restitution" => {
+            Self::Definition(DefinitionError::OutOfRange { parameter: "restitution", .. }) => {
                 "restitution is the ratio of separation to approach velocity: 1 for elastic impact, 0.65 is customary for concrete".to_owned()
             }
-            Self::OutOfRange { .. } => "check the unit".to_owned(),
+            Self::Definition(error) => error.help(),
             Self::Conflict { first, second, .. } => format!("give {first} or {second}, not both"),
             Self::Separation { offered, .. } => format!("it offers {}", offered.join(", ")),
             Self::Bodies(_) => "the left body must move towards the right one".to_owned(),

@@ -1,10 +1,10 @@
 //! Every registered model: tangents, regularity, invariance, its descriptor.
 #![allow(clippy::unwrap_used)]
 
+use pounding_catalogue::DefinitionError;
 use pounding_gap_element::{
     AchievedRestitution, Bodies, GapElementError, ImpactModel, MAXIMUM_CONSTANTS, Memory,
-    ModelDescriptor, ModelParameters, Phase, REQUESTED, SeparationRule, Verification, collide,
-    registry,
+    ModelDescriptor, ModelParameters, Phase, REQUESTED, SeparationRule, collide, registry,
 };
 use proptest::prelude::*;
 
@@ -135,9 +135,7 @@ fn zero_approach_velocity_is_regular() {
 fn descriptors_are_complete_and_names_unique() {
     let mut names = Vec::new();
     for d in registry::descriptors() {
-        let status = match d.verification {
-            Verification::Verified(how) | Verification::SecondarySources(how) => how,
-        };
+        let status = d.verification.remark();
         let texts = [d.title, d.formula, d.citation, d.class, d.family(), status];
         for text in texts.iter().chain(d.traps) {
             assert_eq!(text.trim(), *text, "{}", d.name);
@@ -163,7 +161,8 @@ fn descriptors_are_complete_and_names_unique() {
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), count);
-    let Err(GapElementError::UnknownModel { nearest, .. }) = registry::find("jankowsky_2005")
+    let Err(GapElementError::Definition(DefinitionError::UnknownName { nearest, .. })) =
+        registry::find("jankowsky_2005")
     else {
         panic!("an unknown name was accepted");
     };
@@ -216,7 +215,10 @@ fn every_model_has_its_file() {
     let mut names: Vec<&str> = registry::descriptors().iter().map(|d| d.name).collect();
     files.sort_unstable();
     names.sort_unstable();
-    assert_eq!(files, names, "files of src/models and lines of `models!`");
+    assert_eq!(
+        files, names,
+        "files of src/models and the list in models/mod.rs"
+    );
 }
 
 /// What the example returns in a free collision.
@@ -289,19 +291,27 @@ fn wrong_parameters_are_refused() {
     };
     assert!(matches!(
         build(&[("restitution", 0.6)]),
-        Err(GapElementError::MissingParameter { .. })
+        Err(GapElementError::Definition(
+            DefinitionError::MissingParameter { .. }
+        ))
     ));
     assert!(matches!(
         build(&[("stiffness", 1e9)]),
-        Err(GapElementError::MissingParameter { .. })
+        Err(GapElementError::Definition(
+            DefinitionError::MissingParameter { .. }
+        ))
     ));
     assert!(matches!(
         build(&[("stiffness", 1e9), ("restitution", 0.0)]),
-        Err(GapElementError::OutOfRange { .. })
+        Err(GapElementError::Definition(
+            DefinitionError::OutOfRange { .. }
+        ))
     ));
     assert!(matches!(
         build(&[("stiffness", f64::NAN), ("restitution", 0.5)]),
-        Err(GapElementError::OutOfRange { .. })
+        Err(GapElementError::Definition(
+            DefinitionError::OutOfRange { .. }
+        ))
     ));
     assert!(matches!(
         build(&[
@@ -313,7 +323,9 @@ fn wrong_parameters_are_refused() {
     ));
     assert!(matches!(
         build(&[("stiffness", 1e9), ("restitution", 0.5), ("colour", 1.0)]),
-        Err(GapElementError::UnknownParameter { .. })
+        Err(GapElementError::Definition(
+            DefinitionError::UnknownParameter { .. }
+        ))
     ));
 }
 

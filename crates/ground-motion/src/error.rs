@@ -1,5 +1,7 @@
 //! What can be wrong with a record.
 
+use pounding_catalogue::DefinitionError;
+
 use crate::formats::Format;
 
 /// A record that cannot be read or used.
@@ -44,6 +46,9 @@ pub enum GroundMotionError {
         /// File.
         file: String,
     },
+    /// No format of this name.
+    #[error(transparent)]
+    UnknownFormatName(#[from] DefinitionError),
     /// The unit is not stated in the file and not given.
     #[error("{file}:{line}: the record does not state the unit of its values{hint}")]
     MissingUnit {
@@ -228,11 +233,13 @@ impl GroundMotionError {
             Self::Parse { remedy, .. } => remedy.clone(),
             Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),
             Self::UnknownFormat { .. } => {
-                let known: Vec<&str> = Format::ALL.iter().map(|f| f.name()).collect();
                 format!(
                     "known formats: {}; for columns of numbers give `format = \"plain_columns\"`, `unit` and `time_step`",
-                    known.join(", ")
+                    Format::names()
                 )
+            }
+            Self::UnknownFormatName(error) => {
+                format!("{} known formats are {}", error.help(), Format::names())
             }
             Self::MissingUnit { .. } => {
                 "give the unit: `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion` (or m/s2, cm/s2, ...); for --records, which takes files that state theirs, write them anew with `pounding motion convert FILE --unit g -o FILE.csv`; units are never guessed".to_owned()

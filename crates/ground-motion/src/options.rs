@@ -21,7 +21,7 @@ pub enum Offset {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReadOptions {
     /// Format; `None`: found from the content.
-    pub format: Option<Format>,
+    pub format: Option<&'static Format>,
     /// Time step (s), for files that do not state it. Uneven series are resampled
     /// to it.
     pub time_step: Option<f64>,

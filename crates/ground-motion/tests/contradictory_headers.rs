@@ -6,13 +6,13 @@ mod common;
 
 use common::{Fixture, fixtures};
 use pounding_ground_motion::{
-    AccelerationUnit, Format, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
+    AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
 };
 
 /// 23 samples at 0.005 s in g; header in lines 1 to 13, its length of 0.11 s in lines 11 and
 /// 21, line 28 before the data.
 fn spaced() -> Fixture {
-    let mut all = fixtures(Format::CsmipV1, 0).into_iter();
+    let mut all = fixtures("csmip_v1", 0).into_iter();
     all.find(|f| f.name == "csmip_v1_spaced").unwrap()
 }
 
@@ -151,7 +151,7 @@ fn units() {
 /// Every value of pairs has its own time: a nominal rate beside them is only named.
 #[test]
 fn a_rate_beside_pairs() {
-    let pairs = &fixtures(Format::CsmipV1, 0)[0];
+    let pairs = &fixtures("csmip_v1", 0)[0];
     let text = String::from_utf8(pairs.bytes.clone()).unwrap();
     let text = text.replace(LENGTH, &format!("{LENGTH}   AT 100 SAMPLES/SEC"));
     let read = read_all_bytes("t.RAW", text.as_bytes(), &pairs.options).unwrap();

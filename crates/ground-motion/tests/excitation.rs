@@ -11,7 +11,7 @@ use pounding_ground_motion::{
 
 #[test]
 fn excitation_is_an_acceleration_that_is_chosen() {
-    let csmip = &common::fixtures(Format::CsmipV2, 0)[0];
+    let csmip = &common::fixtures("csmip_v2", 0)[0];
     let pick = |component: Option<&str>, quantity| {
         let options = ReadOptions {
             component: component.map(str::to_owned),
@@ -44,7 +44,7 @@ fn excitation_is_an_acceleration_that_is_chosen() {
             ..
         })
     ));
-    for format in [Format::PeerAt2, Format::UsgsSmc] {
+    for format in ["peer_at2", "usgs_smc"] {
         for fixture in common::fixtures(format, 0) {
             let record = read_bytes("file", &fixture.bytes, &ReadOptions::default());
             match fixture.truth[0].quantity {
@@ -66,7 +66,7 @@ fn excitation_is_an_acceleration_that_is_chosen() {
 /// The offset of raw records is taken off an excitation, and said.
 #[test]
 fn offsets() {
-    let fixture = &common::fixtures(Format::KNet, 0)[0];
+    let fixture = &common::fixtures("k_net", 0)[0];
     let raw = read_all_bytes("file", &fixture.bytes, &fixture.options).unwrap();
     assert_eq!(raw.series[0].origin.processing, Processing::Raw);
     let mean = raw.series[0].mean();
@@ -92,7 +92,7 @@ fn offsets() {
 /// Uneven pairs are resampled by linear interpolation, when a step is given.
 #[test]
 fn resampling() {
-    let fixture = &common::fixtures(Format::CaltechVolume1, 0)[0];
+    let fixture = &common::fixtures("caltech_volume_1", 0)[0];
     let options = |step| ReadOptions {
         time_step: Some(step),
         offset: Offset::Keep,
@@ -186,7 +186,7 @@ fn plain_columns_that_are_refused() {
         ("# nothing\n", "no data"),
     ] {
         let options = ReadOptions {
-            format: Some(Format::PlainColumns),
+            format: Some(Format::find("plain_columns").unwrap()),
             time_step: Some(0.01),
             ..common::in_g()
         };

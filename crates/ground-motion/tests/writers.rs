@@ -56,7 +56,7 @@ proptest! {
             [Quantity::Acceleration, Quantity::Velocity, Quantity::Displacement][kind];
         let written = Written { quantity, title: "A title".to_owned(), ..written };
         let text = write_peer_at2(&written);
-        let options = ReadOptions { format: Some(Format::PeerAt2), ..keep() };
+        let options = ReadOptions { format: Some(Format::find("peer_at2").unwrap()), ..keep() };
         let read = read_all_bytes("a.at2", text.as_bytes(), &options).unwrap();
         let series = &read.series[0];
         prop_assert_eq!(series.quantity, quantity);
@@ -74,7 +74,7 @@ proptest! {
         let (text, symbol) = write_plain_columns(&written, &columns, Some(g));
         prop_assert_eq!(symbol, "g");
         let options = ReadOptions {
-            format: Some(Format::PlainColumns),
+            format: Some(Format::find("plain_columns").unwrap()),
             layout: Some("t,a".to_owned()),
             unit: Some(g),
             ..keep()

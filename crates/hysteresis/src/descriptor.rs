@@ -1,81 +1,11 @@
 //! The descriptor of a law: what it is, needs, and is worth.
 
+use pounding_catalogue::Descriptor;
+pub use pounding_catalogue::{Alias, ParameterDescriptor, ParameterUnit, Verification};
+
 use crate::error::HysteresisError;
 use crate::law::HysteresisLaw;
 use crate::parameters::LawParameters;
-
-/// Unit of a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ParameterUnit {
-    /// Dimensionless.
-    One,
-    /// N.
-    Newton,
-    /// N/m.
-    NewtonPerMetre,
-    /// N/m^(2+alpha) with the law's exponent alpha.
-    NewtonPerMetreToExponent,
-    /// N (s/m)^a with the law's exponent a.
-    NewtonSecondPerMetreToExponent,
-    /// N s/m.
-    NewtonSecondPerMetre,
-    /// m.
-    Metre,
-    /// m/s.
-    MetrePerSecond,
-}
-
-impl ParameterUnit {
-    /// The unit in characters.
-    #[must_use]
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::One => "-",
-            Self::Newton => "N",
-            Self::NewtonPerMetre => "N/m",
-            Self::NewtonPerMetreToExponent => "N/m^(2+alpha)",
-            Self::NewtonSecondPerMetreToExponent => "N (s/m)^a",
-            Self::NewtonSecondPerMetre => "N s/m",
-            Self::Metre => "m",
-            Self::MetrePerSecond => "m/s",
-        }
-    }
-}
-
-/// Another name of the identical law.
-#[derive(Debug, Clone, Copy)]
-pub struct Alias {
-    /// Name, accepted wherever the law's own is.
-    pub name: &'static str,
-    /// Author, year, journal; or why the name is common.
-    pub citation: &'static str,
-}
-
-/// One parameter that a user may give.
-#[derive(Debug, Clone, Copy)]
-pub struct ParameterDescriptor {
-    /// Key in the case file, spelled out.
-    pub name: &'static str,
-    /// SI unit.
-    pub unit: ParameterUnit,
-    /// Least allowed value and whether it is allowed itself.
-    pub minimum: (f64, bool),
-    /// Maximum allowed value and whether it is allowed itself.
-    pub maximum: (f64, bool),
-    /// Value when the user gives none; `None`: the parameter is required.
-    pub default: Option<f64>,
-    /// What it is, in a sentence.
-    pub explanation: &'static str,
-}
-
-/// How far the implementation has been checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verification {
-    /// Checked against what the text names.
-    Verified(&'static str),
-    /// The rules come from secondary sources; the text says what was checked.
-    SecondarySources(&'static str),
-}
 
 /// Everything that is known of a law without running it.
 #[derive(Debug)]
@@ -106,6 +36,23 @@ pub struct LawDescriptor {
     pub traps: &'static [&'static str],
     /// Builds the law from checked parameters.
     pub build: fn(&LawParameters) -> Result<Box<dyn HysteresisLaw>, HysteresisError>,
+}
+
+impl Descriptor for LawDescriptor {
+    const KIND: &'static str = "hysteresis law";
+    const NOUN: &'static str = "law";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn aliases(&self) -> &'static [Alias] {
+        self.aliases
+    }
+
+    fn parameters(&self) -> &'static [ParameterDescriptor] {
+        self.parameters
+    }
 }
 
 impl LawDescriptor {

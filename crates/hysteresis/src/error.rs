@@ -1,49 +1,14 @@
 //! What can be wrong with the definition of a law or with data for it.
 
+use pounding_catalogue::DefinitionError;
+
 /// A law that cannot be built, or data that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HysteresisError {
-    /// No law of this name.
-    #[error("unknown hysteresis law \"{name}\"")]
-    UnknownLaw {
-        /// The name asked for.
-        name: String,
-        /// The nearest known name.
-        nearest: &'static str,
-    },
-    /// The law has no such parameter.
-    #[error("law {law} has no parameter \"{parameter}\"")]
-    UnknownParameter {
-        /// Law.
-        law: &'static str,
-        /// Parameter given.
-        parameter: String,
-        /// Parameters that the law has.
-        known: Vec<&'static str>,
-    },
-    /// A parameter that the law needs is not given.
-    #[error("law {law} needs {parameter}")]
-    MissingParameter {
-        /// Law.
-        law: &'static str,
-        /// Parameter.
-        parameter: &'static str,
-    },
-    /// A parameter outside its range.
-    #[error("law {law}: {parameter} = {value} is outside {range}")]
-    OutOfRange {
-        /// Law.
-        law: &'static str,
-        /// Parameter.
-        parameter: &'static str,
-        /// Value (SI).
-        value: f64,
-        /// Allowed range.
-        range: String,
-        /// What the parameter is.
-        explanation: &'static str,
-    },
+    /// No law of this name, or parameters that it does not take.
+    #[error(transparent)]
+    Definition(#[from] DefinitionError),
     /// Parameters that are allowed one by one but not together.
     #[error("law {law}: {reason}")]
     Inconsistent {
@@ -69,19 +34,7 @@ impl HysteresisError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         Some(match self {
-            Self::UnknownLaw { nearest, .. } => format!("did you mean \"{nearest}\"?"),
-            Self::UnknownParameter { known, .. } if known.is_empty() => {
-                "it has no parameters".to_owned()
-            }
-            Self::UnknownParameter { known, .. } => {
-                format!("its parameters are {}", known.join(", "))
-            }
-            Self::MissingParameter { parameter, .. } => format!("add {parameter} to the law"),
-            Self::OutOfRange {
-                parameter,
-                explanation,
-                ..
-            } => format!("{parameter}: {explanation}; check the unit"),
+            Self::Definition(error) => error.help(),
             Self::Inconsistent { remedy, .. } | Self::Fit { remedy, .. } => (*remedy).to_owned(),
         })
     }

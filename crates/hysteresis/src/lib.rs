@@ -48,5 +48,5 @@ pub use descriptor::*;
 pub use error::HysteresisError;
 pub use history::{History, MAXIMUM_INTERNAL_VARIABLES, Point};
 pub use law::*;
-pub use parameters::LawParameters;
+pub use parameters::{LawParameters, yield_deformation};
 pub use registry::{build, descriptors, find, help_among_gaps};

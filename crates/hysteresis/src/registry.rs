@@ -1,6 +1,6 @@
 //! All laws by name.
 
-use pounding_catalogue::suggestion;
+use pounding_catalogue::Registry;
 
 use crate::descriptor::LawDescriptor;
 use crate::error::HysteresisError;
@@ -8,25 +8,21 @@ use crate::law::HysteresisLaw;
 use crate::laws;
 use crate::parameters::LawParameters;
 
+static LAWS: Registry<LawDescriptor> = Registry::new(laws::ALL, SYNONYMS);
+
 /// Descriptors of all laws.
 #[must_use]
 pub fn descriptors() -> &'static [&'static LawDescriptor] {
-    laws::ALL
+    LAWS.all()
 }
 
 /// The descriptor of the law of this name or alias.
 ///
 /// # Errors
-/// [`HysteresisError::UnknownLaw`] with the nearest known name.
+/// [`DefinitionError::UnknownName`](pounding_catalogue::DefinitionError::UnknownName) with the
+/// nearest known name.
 pub fn find(name: &str) -> Result<&'static LawDescriptor, HysteresisError> {
-    laws::ALL
-        .iter()
-        .find(|d| names(d).any(|known| known == name))
-        .copied()
-        .ok_or_else(|| HysteresisError::UnknownLaw {
-            name: name.to_owned(),
-            nearest: nearest(name),
-        })
+    Ok(LAWS.find(name)?)
 }
 
 /// Builds a law from its name and parameters (SI).
@@ -43,13 +39,9 @@ pub fn build(
     (descriptor.build)(parameters)
 }
 
-fn names(descriptor: &'static LawDescriptor) -> impl Iterator<Item = &'static str> {
-    std::iter::once(descriptor.name).chain(descriptor.aliases.iter().map(|a| a.name))
-}
-
 /// Words of other programs and of the literature, and the law that does what they say; they
 /// are suggested, never taken.
-const SYNONYMS: [(&[&str], &str); 13] = [
+const SYNONYMS: &[(&[&str], &str)] = &[
     (
         &["tension_only", "hook", "cable", "tie", "slack", "stopper"],
         "gap_hook",
@@ -80,16 +72,6 @@ const SYNONYMS: [(&[&str], &str); 13] = [
     (&["iwan"], "iwan_six_parameter"),
 ];
 
-/// The law of a known word within the name.
-fn by_word(name: &str) -> Option<&'static str> {
-    let plain = name.to_lowercase().replace(['-', ' '], "_");
-    let within = |word: &str| format!("_{plain}_").contains(&format!("_{word}_"));
-    let found = SYNONYMS
-        .iter()
-        .find(|(words, _)| words.iter().any(|w| within(w)));
-    found.map(|(_, law)| *law)
-}
-
 /// Words of what only pulls, or pulls as well: no impact model does.
 const PULLING: [&str; 6] = ["tension", "hook", "cable", "tie", "slack", "stopper"];
 
@@ -108,20 +90,6 @@ pub fn help_among_gaps(name: &str) -> Option<String> {
     Some(format!(
         "a gap pushes and never pulls; for a law of a link write [[link]] with model = \"{law}\"; `pounding models` lists the models of gaps"
     ))
-}
-
-/// The nearest known name: one that is misspelt, else one by a word that means it.
-fn nearest(name: &str) -> &'static str {
-    let spelt = by_spelling(name);
-    if suggestion::is_within(name, spelt, 1 + name.chars().count() / 4) {
-        return spelt;
-    }
-    by_word(name).unwrap_or(spelt)
-}
-
-fn by_spelling(name: &str) -> &'static str {
-    let known = laws::ALL.iter().flat_map(|descriptor| names(descriptor));
-    suggestion::nearest(name, known).unwrap_or("bilinear")
 }
 
 #[cfg(test)]
@@ -145,7 +113,7 @@ mod tests {
             ("gap_hok", "gap_hook"),
             ("bouc_wenn", "bouc_wen"),
         ] {
-            assert_eq!(nearest(name), law, "{name}");
+            assert_eq!(LAWS.nearest(name), law, "{name}");
         }
         for (_, law) in SYNONYMS {
             assert!(find(law).is_ok(), "{law}");

@@ -1,6 +1,7 @@
 //! Bad parameters are refused with the reason and a remedy.
 #![allow(clippy::unwrap_used)]
 
+use pounding_catalogue::DefinitionError;
 use pounding_hysteresis::{HysteresisError, build, descriptors, find};
 
 fn refused(name: &str, changes: &[(&str, f64)]) -> HysteresisError {
@@ -37,9 +38,9 @@ fn values_outside_their_range_are_refused_by_name() {
         ("linear", "stiffness", f64::INFINITY),
     ] {
         match refused(law, &[(parameter, value)]) {
-            HysteresisError::OutOfRange {
+            HysteresisError::Definition(DefinitionError::OutOfRange {
                 parameter: named, ..
-            } => assert_eq!(named, parameter),
+            }) => assert_eq!(named, parameter),
             other => panic!("{law}: {other}"),
         }
     }
@@ -83,16 +84,17 @@ fn unknown_and_missing_names_are_told() {
     assert_eq!(error.help().unwrap(), "did you mean \"bilinear\"?");
     assert!(matches!(
         refused("bilinear", &[("hardening", 0.1)]),
-        HysteresisError::UnknownParameter { .. }
+        HysteresisError::Definition(DefinitionError::UnknownParameter { .. })
     ));
     for descriptor in descriptors() {
         for parameter in descriptor.parameters.iter().filter(|p| p.default.is_none()) {
             let mut parameters = descriptor.example_parameters();
             parameters.values.remove(parameter.name);
             match build(descriptor.name, &parameters).unwrap_err() {
-                HysteresisError::MissingParameter {
-                    parameter: named, ..
-                } => {
+                HysteresisError::Definition(DefinitionError::MissingParameter {
+                    parameter: named,
+                    ..
+                }) => {
                     assert_eq!(named, parameter.name);
                 }
                 other => panic!("{}: {other}", descriptor.name),

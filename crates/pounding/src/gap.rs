@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use pounding_catalogue::Parameters;
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};
 
 use crate::error::{Error, once};
@@ -155,7 +156,9 @@ impl Gap {
             Model::Named(name, parameters) => {
                 once(&self.facing.of(), parameters.iter().map(|p| p.0.as_str()))?;
                 let parameters = ModelParameters {
-                    values: parameters.iter().cloned().collect(),
+                    parameters: Parameters {
+                        values: parameters.iter().cloned().collect(),
+                    },
                     separation: self.separation,
                 };
                 let model = registry::build(name, &parameters).map_err(|reason| Error::Model {

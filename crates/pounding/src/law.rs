@@ -1,6 +1,6 @@
 //! Hysteresis laws by name, for storeys and links.
 
-use pounding_hysteresis::{LawParameters, build};
+use pounding_hysteresis::{LawParameters, build, yield_deformation};
 use pounding_shear_building::StoreyLaw;
 
 use crate::error::{Error, once};
@@ -42,7 +42,7 @@ impl Law {
         }
         let law = build(descriptor.name, &values).map_err(refused)?;
         Ok(StoreyLaw {
-            yield_drift: values.yield_deformation(law.initial_stiffness()),
+            yield_drift: yield_deformation(&values, law.initial_stiffness()),
             law: law.into(),
         })
     }

@@ -1,6 +1,6 @@
 //! Rules that combine the peak displacements of two buildings.
 
-use crate::descriptor::Status;
+use crate::descriptor::Verification;
 use crate::error::SeparationError;
 
 /// How two peak displacements make a gap.
@@ -77,13 +77,13 @@ impl CombinationRule {
 
     /// How far the rule has been checked.
     #[must_use]
-    pub fn status(self) -> Status {
+    pub fn status(self) -> Verification {
         match self {
-            Self::AbsoluteSum => Status::Verified("triangle inequality: never unsafe"),
+            Self::AbsoluteSum => Verification::Verified("triangle inequality: never unsafe"),
             Self::SquareRootOfSumOfSquares => {
-                Status::Verified("variance of a difference of uncorrelated motions")
+                Verification::Verified("variance of a difference of uncorrelated motions")
             }
-            Self::DoubleDifference => Status::Verified(
+            Self::DoubleDifference => Verification::Verified(
                 "rho against the exact covariance of two responses to the same white noise",
             ),
         }

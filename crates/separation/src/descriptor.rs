@@ -1,5 +1,8 @@
 //! The descriptor of a provision.
 
+use pounding_catalogue::Descriptor;
+pub use pounding_catalogue::Verification;
+
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Requirement, Working};
@@ -44,40 +47,6 @@ impl Basis {
     }
 }
 
-/// How far a formula has been checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Status {
-    /// Seen in an accessible text, which is named.
-    Verified(&'static str),
-    /// Not compared with a text: check the standard before it enters a design report.
-    Unverified(&'static str),
-}
-
-impl Status {
-    /// `verified` or `unverified`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Verified(_) => "verified",
-            Self::Unverified(_) => "unverified",
-        }
-    }
-
-    /// What was seen, or what is uncertain.
-    #[must_use]
-    pub fn remark(self) -> &'static str {
-        match self {
-            Self::Verified(text) | Self::Unverified(text) => text,
-        }
-    }
-
-    /// Whether the formula was seen in a text.
-    #[must_use]
-    pub fn is_verified(self) -> bool {
-        matches!(self, Self::Verified(_))
-    }
-}
-
 /// How a provision computes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Rule {
@@ -112,10 +81,19 @@ pub struct ProvisionDescriptor {
     /// Inputs that it needs beside heights and storeys.
     pub inputs: &'static [Input],
     /// How far the formula has been checked.
-    pub status: Status,
+    pub status: Verification,
     /// What else a user should know.
     pub remarks: &'static [&'static str],
     pub(crate) rule: Rule,
+}
+
+impl Descriptor for ProvisionDescriptor {
+    const KIND: &'static str = "provision";
+    const NOUN: &'static str = "provision";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
 }
 
 impl ProvisionDescriptor {

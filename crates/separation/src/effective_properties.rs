@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::combination::Oscillator;
-use crate::descriptor::Status;
+use crate::descriptor::Verification;
 use crate::error::SeparationError;
 
 /// A bilinear building as an oscillator.
@@ -67,14 +67,14 @@ impl EffectiveProperties {
 
     /// How far the formula has been checked.
     #[must_use]
-    pub fn status(self) -> Status {
+    pub fn status(self) -> Verification {
         match self {
-            Self::RosenbluethHerrera1964 => Status::Verified(
+            Self::RosenbluethHerrera1964 => Verification::Verified(
                 "derived: secant stiffness and area of a bilinear loop, held against a polygon",
             ),
-            Self::Iwan1980 => Status::Unverified("coefficients; fitted for ductility 2 to 8"),
+            Self::Iwan1980 => Verification::Unverified("coefficients; fitted for ductility 2 to 8"),
             Self::Kasai1996 => {
-                Status::Unverified("coefficients, and which loops they were fitted to")
+                Verification::Unverified("coefficients, and which loops they were fitted to")
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Why a provision gives no gap.
 
+use pounding_catalogue::DefinitionError;
+
 use crate::inputs::Input;
 
 /// A provision that is unknown, does not apply, or lacks an input.
@@ -7,13 +9,8 @@ use crate::inputs::Input;
 #[non_exhaustive]
 pub enum SeparationError {
     /// No provision of this name.
-    #[error("unknown provision \"{name}\"")]
-    UnknownProvision {
-        /// The name asked for.
-        name: String,
-        /// The nearest known name.
-        nearest: &'static str,
-    },
+    #[error(transparent)]
+    UnknownProvision(#[from] DefinitionError),
     /// An input that the provision needs is not given.
     #[error("{provision} needs {} ({}){}", input.key(), input.explanation(), of(structure))]
     MissingInput {
@@ -57,7 +54,7 @@ impl SeparationError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         Some(match self {
-            Self::UnknownProvision { nearest, .. } => format!("did you mean \"{nearest}\"?"),
+            Self::UnknownProvision(error) => error.help(),
             Self::MissingInput { input, .. } => {
                 format!("add `{}` to the table [separation]", input.key())
             }

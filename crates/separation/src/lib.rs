@@ -17,7 +17,7 @@ mod registry;
 mod working;
 
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
-pub use descriptor::{Basis, Place, ProvisionDescriptor, Status, Unavailable};
+pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable, Verification};
 pub use effective_properties::{EffectiveProperties, YieldingOscillator};
 pub use error::SeparationError;
 pub use inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};

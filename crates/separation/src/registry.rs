@@ -1,15 +1,17 @@
 //! All provisions by name.
 
-use pounding_catalogue::suggestion;
+use pounding_catalogue::Registry;
 
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 use crate::error::SeparationError;
 use crate::provisions;
 
+static PROVISIONS: Registry<ProvisionDescriptor> = Registry::new(provisions::ALL, &[]);
+
 /// Descriptors of all provisions.
 #[must_use]
 pub fn descriptors() -> &'static [&'static ProvisionDescriptor] {
-    provisions::ALL
+    PROVISIONS.all()
 }
 
 /// Codes that are known to speak of gaps, with no formula here.
@@ -23,16 +25,5 @@ pub fn unavailable() -> &'static [Unavailable] {
 /// # Errors
 /// [`SeparationError::UnknownProvision`] with the nearest known name.
 pub fn find(name: &str) -> Result<&'static ProvisionDescriptor, SeparationError> {
-    let all = provisions::ALL;
-    all.iter().find(|p| p.name == name).copied().ok_or_else(|| {
-        let part = all
-            .iter()
-            .find(|p| !name.is_empty() && p.name.contains(name));
-        let names = all.iter().map(|p| p.name);
-        let nearest = part.map(|p| p.name).or(suggestion::nearest(name, names));
-        SeparationError::UnknownProvision {
-            name: name.to_owned(),
-            nearest: nearest.unwrap_or(""),
-        }
-    })
+    Ok(PROVISIONS.find(name)?)
 }

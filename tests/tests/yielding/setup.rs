@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};
 use pounding_ground_motion::ReadOptions;
-use pounding_hysteresis::{LawParameters, build};
+use pounding_hysteresis::{LawParameters, build, yield_deformation};
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 use pounding_time_history::{
     Floor, GroundAcceleration, LinkedPair, MethodChoice, Outcome, RunOptions, System, run,
@@ -26,7 +26,7 @@ pub fn el_centro() -> GroundAcceleration {
 pub fn law(name: &str, parameters: &LawParameters) -> StoreyLaw {
     let law = build(name, parameters).unwrap();
     StoreyLaw {
-        yield_drift: parameters.yield_deformation(law.initial_stiffness()),
+        yield_drift: yield_deformation(parameters, law.initial_stiffness()),
         law: law.into(),
     }
 }

@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use pounding_case::{Building, Case, CaseError, Errors, LawParameter, Link, Located, Side};
-use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, build, find};
+use pounding_hysteresis::{
+    HysteresisError, LawDescriptor, LawParameters, build, find, yield_deformation,
+};
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 use pounding_time_history::{Floor, LinkedPair, System};
 
-use crate::dimension::law_parameter_dimension;
+use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 
 /// Puts the laws of the case into the storeys of a building.
@@ -123,7 +125,7 @@ fn built(
 ) -> Result<StoreyLaw, CaseError> {
     let law = build(descriptor.name, values).map_err(|e| at(case, model.span.clone(), &e))?;
     Ok(StoreyLaw {
-        yield_drift: values.yield_deformation(law.initial_stiffness()),
+        yield_drift: yield_deformation(values, law.initial_stiffness()),
         law: Arc::from(law),
     })
 }
@@ -141,39 +143,9 @@ fn parameters(
         .map(|p| p.values[place].value.value);
     let errors = Errors::default();
     let read = errors.all(given.iter().map(|LawParameter { key, values }| {
-        let Some(known) = descriptor.parameters.iter().find(|p| p.name == key.value) else {
-            let names: Vec<_> = descriptor.parameters.iter().map(|p| p.name).collect();
-            return Err(case.error(
-                key.span.clone(),
-                format!("law {} has no parameter `{}`", descriptor.name, key.value),
-                Some(format!("its parameters are {}", names.join(", "))),
-            ));
-        };
-        let Located { value, span } = &values[place];
-        let wanted = law_parameter_dimension(descriptor, known, exponent);
-        if let Some(found) = value.dimension
-            && found != wanted
-        {
-            return Err(case.error(
-                span.clone(),
-                format!(
-                    "`{}` of law {} must be {wanted}, but \"{}\" is {found}",
-                    key.value, descriptor.name, value.text
-                ),
-                Some("correct the unit; plain numbers are SI".to_owned()),
-            ));
-        }
-        if !known.allows(value.value) {
-            let error = HysteresisError::OutOfRange {
-                law: descriptor.name,
-                parameter: known.name,
-                value: value.value,
-                range: known.range(),
-                explanation: known.explanation,
-            };
-            return Err(at(case, span.clone(), &error));
-        }
-        Ok((key.value.clone(), value.value))
+        let given = (key, &values[place]);
+        let value = parameter_value(case, descriptor, given, exponent, |e| Some(e.help()))?;
+        Ok((key.value.clone(), value))
     }));
     let mut all = LawParameters::default();
     all.values.extend(errors.finish(read)?);

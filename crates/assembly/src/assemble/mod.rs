@@ -7,10 +7,10 @@ pub use again::{assemble_with_record, regap};
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Damping, Errors, Gap, Located, Parameter, Side};
+use pounding_case::{Building, Case, CaseError, Damping, Errors, Gap, Located, Side};
 use pounding_catalogue::suggestion;
 use pounding_gap_element::{
-    ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
+    GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ShearBuilding, ShearBuildingError};
@@ -19,7 +19,7 @@ use pounding_time_history::{
     Warning, more_pairs,
 };
 
-use crate::dimension::parameter_dimension;
+use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::accelerogram;
 
@@ -246,9 +246,7 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
 }
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
-    let at_model = |e: pounding_gap_element::GapElementError| {
-        case.error(gap.model.span.clone(), e.to_string(), e.help())
-    };
+    let at_model = |e: GapElementError| case.error(gap.model.span.clone(), e.to_string(), e.help());
     let descriptor = registry::find(&gap.model.value).map_err(at_model)?;
     let exponent = gap
         .parameters
@@ -258,15 +256,10 @@ fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
     let mut parameters = ModelParameters::default();
     let errors = Errors::default();
     let read = errors.all(gap.parameters.iter().map(|parameter| {
-        let value = model_parameter(case, descriptor, exponent, parameter)?;
-        // Each alone first, so that the error points at the one that is wrong.
-        let alone = ModelParameters {
-            values: [(parameter.key.value.clone(), value)].into(),
-            separation: None,
-        };
-        alone
-            .check_values(descriptor)
-            .map_err(|e| case.error(parameter.value.span.clone(), e.to_string(), e.help()))?;
+        let given = (&parameter.key, &parameter.value);
+        let value = parameter_value(case, descriptor, given, exponent, |e| {
+            GapElementError::from(e).help()
+        })?;
         Ok((parameter.key.value.clone(), value))
     }));
     if let Some(separation) = &gap.separation {
@@ -277,40 +270,6 @@ fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
     Ok(registry::build(descriptor.name, &parameters)
         .map_err(at_model)?
         .into())
-}
-
-/// Checks the unit of a parameter against what the model wants.
-fn model_parameter(
-    case: &Case,
-    descriptor: &'static ModelDescriptor,
-    exponent: Option<f64>,
-    parameter: &Parameter,
-) -> Result<f64, CaseError> {
-    let key = &parameter.key.value;
-    let quantity = &parameter.value.value;
-    let Some(known) = descriptor.parameters.iter().find(|p| p.name == key) else {
-        let all: Vec<_> = descriptor.parameters.iter().map(|p| p.name).collect();
-        return Err(case.error(
-            parameter.key.span.clone(),
-            format!("model {} has no parameter `{key}`", descriptor.name),
-            Some(format!("its parameters are {}", all.join(", "))),
-        ));
-    };
-    let wanted = parameter_dimension(descriptor, known, exponent);
-    match quantity.dimension {
-        Some(found) if found != wanted => Err(case.error(
-            parameter.value.span.clone(),
-            format!(
-                "`{key}` of model {} must be {wanted}, but \"{}\" is {found}",
-                descriptor.name, quantity.text
-            ),
-            Some(
-                "correct the unit; the exponent of the law is in the unit of its stiffness"
-                    .to_owned(),
-            ),
-        )),
-        _ => Ok(quantity.value),
-    }
 }
 
 fn separation_rule(

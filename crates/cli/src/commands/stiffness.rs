@@ -1,7 +1,6 @@
 //! `pounding stiffness`: where a contact stiffness comes from.
 
 use pounding_case::Dimension;
-use pounding_gap_element::Verification;
 use pounding_gap_element::contact_stiffness::{
     Approach, ContactStiffness, Slab, Sphere, duration, hertz, multiple, penetration, slab,
 };
@@ -202,13 +201,6 @@ fn radius(text: &str, name: &str) -> Result<f64, Failure> {
     }
 }
 
-fn status(result: &ContactStiffness) -> String {
-    match result.status {
-        Verification::Verified(how) => format!("verified against: {how}"),
-        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    }
-}
-
 fn as_text(result: &ContactStiffness) -> String {
     let mut text = format!(
         "stiffness               {:.6e} {}\n",
@@ -222,7 +214,7 @@ fn as_text(result: &ContactStiffness) -> String {
         "\nin the gap of a case    {}\nsource                  {}\nstatus                  {}\n",
         result.case_line(),
         result.source,
-        status(result)
+        result.status.to_string()
     ));
     if !result.warnings.is_empty() {
         text.push_str("\nwarnings\n");
@@ -242,6 +234,6 @@ fn as_json(method: &str, result: &ContactStiffness) -> serde_json::Value {
     json!({
         "method": method, "stiffness": result.value, "exponent": result.exponent,
         "unit": result.unit(), "case_line": result.case_line(), "source": result.source,
-        "status": status(result), "intermediate": intermediate, "warnings": result.warnings,
+        "status": result.status.to_string(), "intermediate": intermediate, "warnings": result.warnings,
     })
 }

@@ -4,6 +4,9 @@ pub(crate) mod dry_friction;
 pub(crate) mod hunt_crossley;
 pub(crate) mod linear;
 
+use pounding_catalogue::{DefinitionError, Descriptor};
+
+use crate::descriptor::ModelDescriptor;
 use crate::error::GapElementError;
 use crate::model::{Direction, Guard, ImpactModel, Phase, Target, Transition};
 use crate::parameters::ModelParameters;
@@ -19,10 +22,11 @@ pub(crate) enum DampingPhases {
 
 /// Stands in the shared descriptors of the classes, where no model is built.
 pub(crate) fn unbuilt(_: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
-    Err(GapElementError::UnknownModel {
+    Err(GapElementError::Definition(DefinitionError::UnknownName {
+        kind: ModelDescriptor::KIND,
         name: "a class without a model".to_owned(),
         nearest: "exact_hunt_crossley",
-    })
+    }))
 }
 
 /// Approach-only damping: it goes off at the turning point and on again if the

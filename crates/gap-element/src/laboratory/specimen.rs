@@ -53,7 +53,7 @@ impl Specimen {
         // The example's stiffness belongs to the example's exponent.
         let exponent = self.parameters.values.contains_key("exponent")
             && !example.values.contains_key("exponent");
-        for (key, value) in example.values {
+        for (key, value) in example.parameters.values {
             let foreign = exponent && key == "stiffness";
             if !foreign && !self.parameters.values.contains_key(&key) {
                 self.filled.push(key.clone());
@@ -103,7 +103,7 @@ pub fn unit_of(
     match known(name)?.unit {
         ParameterUnit::One => None,
         ParameterUnit::NewtonPerMetreToExponent => {
-            let given = parameters.get("exponent");
+            let given = parameters.given("exponent");
             let exponent = given.or(known("exponent").and_then(|p| p.default));
             Some(format!("N/m^{}", exponent.unwrap_or(1.5)))
         }

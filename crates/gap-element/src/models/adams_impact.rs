@@ -1,17 +1,19 @@
 //! The IMPACT function of ADAMS: a power spring and a dashpot that is switched on
 //! smoothly with the penetration.
 
+use pounding_catalogue::Descriptor;
+
 use crate::classes::hunt_crossley::{self, elastic};
 use crate::classes::no_tension;
 use crate::descriptor::{
-    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterDescriptor, ParameterUnit,
-    Verification,
+    AchievedRestitution, ModelDescriptor, ParameterDescriptor, ParameterUnit, Verification,
+    constant,
 };
 use crate::error::GapElementError;
 use crate::model::{
     ClosedForm, Collision, Force, ImpactModel, Memory, Phase, SeparationRule, Transition,
 };
-use crate::parameters::{EXPONENT, ModelParameters, POWER_STIFFNESS, optional};
+use crate::parameters::{EXPONENT, ModelParameters, POWER_STIFFNESS, optional_non_negative};
 
 pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "adams_impact",
@@ -27,18 +29,9 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         EXPONENT,
     ],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "damping",
-            unit: ParameterUnit::NewtonSecondPerMetre,
-        },
-        ConstantDescriptor {
-            name: "full_damping_penetration",
-            unit: ParameterUnit::Metre,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("damping", ParameterUnit::NewtonSecondPerMetre),
+        constant("full_damping_penetration", ParameterUnit::Metre),
     ],
     separation_rules: &[SeparationRule::NoTension],
     needs_approach_velocity: false,
@@ -57,12 +50,12 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     ..hunt_crossley::DESCRIPTOR
 };
 
-const DAMPING: ParameterDescriptor = optional(
+const DAMPING: ParameterDescriptor = optional_non_negative(
     "damping",
     ParameterUnit::NewtonSecondPerMetre,
     "Maximum dashpot coefficient c_max",
 );
-const DAMPING_RATIO: ParameterDescriptor = optional(
+const DAMPING_RATIO: ParameterDescriptor = optional_non_negative(
     "damping_ratio_n_mm_s",
     ParameterUnit::One,
     "c_max over k as numbers in N, mm and s, instead of damping",
@@ -70,7 +63,7 @@ const DAMPING_RATIO: ParameterDescriptor = optional(
 const FULL_DAMPING_PENETRATION: ParameterDescriptor = ParameterDescriptor {
     default: Some(1.0e-4),
     minimum: (0.0, false),
-    ..optional(
+    ..optional_non_negative(
         "full_damping_penetration",
         ParameterUnit::Metre,
         "Penetration d at which the dashpot is fully on",
@@ -86,13 +79,13 @@ struct AdamsImpact {
 }
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
-    let (model, ratio) = (DESCRIPTOR.name, "damping_ratio_n_mm_s");
-    let stiffness = parameters.required(model, "stiffness")?;
+    let ratio = "damping_ratio_n_mm_s";
+    let stiffness = parameters.get(&DESCRIPTOR, "stiffness")?;
     let exponent = parameters.exponent(&DESCRIPTOR);
-    let damping = match (parameters.get("damping"), parameters.get(ratio)) {
+    let damping = match (parameters.given("damping"), parameters.given(ratio)) {
         (Some(_), Some(_)) => {
             return Err(GapElementError::Conflict {
-                model,
+                model: DESCRIPTOR.name,
                 first: "damping",
                 second: ratio,
             });
@@ -101,17 +94,14 @@ fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElemen
         // k in N/mm^n is k_SI 10^(-3 n); N s/mm is 10^3 N s/m.
         (None, Some(value)) => value * stiffness * 10.0_f64.powf(3.0 - 3.0 * exponent),
         (None, None) => {
-            return Err(GapElementError::MissingParameter {
-                model,
-                parameter: "damping or damping_ratio_n_mm_s".to_owned(),
-            });
+            return Err(DESCRIPTOR.missing("damping or damping_ratio_n_mm_s").into());
         }
     };
     Ok(Box::new(AdamsImpact {
         stiffness,
         exponent,
         damping,
-        depth: parameters.get("full_damping_penetration").unwrap_or(1.0e-4),
+        depth: parameters.get(&DESCRIPTOR, "full_damping_penetration")?,
     }))
 }
 

@@ -3,7 +3,7 @@
 
 use crate::classes::dry_friction::{DryFriction, friction};
 use crate::descriptor::{
-    AchievedRestitution, Alias, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+    AchievedRestitution, Alias, ModelDescriptor, ParameterUnit, Verification, constant,
 };
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
@@ -21,18 +21,9 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "dry friction",
     parameters: &[POWER_STIFFNESS, RESTITUTION, FRICTION, EXPONENT],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "friction",
-            unit: ParameterUnit::One,
-        },
-        ConstantDescriptor {
-            name: "exponent",
-            unit: ParameterUnit::One,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("friction", ParameterUnit::One),
+        constant("exponent", ParameterUnit::One),
     ],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_approach_velocity: false,
@@ -55,9 +46,9 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Ok(Box::new(DryFriction {
         descriptor: &DESCRIPTOR,
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         exponent: parameters.exponent(&DESCRIPTOR),
-        friction: parameters.damping(DESCRIPTOR.name, "friction", friction)?,
+        friction: parameters.damping(&DESCRIPTOR, "friction", friction)?,
         rate: 0.0,
     }))
 }

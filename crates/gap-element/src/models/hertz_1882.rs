@@ -2,7 +2,7 @@
 
 use crate::classes::hunt_crossley::{self, HuntCrossley};
 use crate::descriptor::{
-    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+    AchievedRestitution, ModelDescriptor, ParameterUnit, Verification, constant,
 };
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
@@ -15,10 +15,10 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     citation: "Hertz, J. reine angew. Math. 92 (1882) 156; in pounding: Jing and Young, Earthquake Engineering and Structural Dynamics 20 (1991) 667; Chau and Wei, Earthquake Engineering and Structural Dynamics 30 (2001) 633",
     class: "elastic",
     parameters: &[HERTZ_STIFFNESS],
-    constants: &[ConstantDescriptor {
-        name: "stiffness",
-        unit: ParameterUnit::NewtonPerMetreToExponent,
-    }],
+    constants: &[constant(
+        "stiffness",
+        ParameterUnit::NewtonPerMetreToExponent,
+    )],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_approach_velocity: false,
     achieved_restitution: AchievedRestitution::Elastic,

@@ -3,14 +3,14 @@
 use crate::classes::hunt_crossley::{self, elastic};
 use crate::classes::{no_tension, no_tension_latched};
 use crate::descriptor::{
-    AchievedRestitution, Alias, ConstantDescriptor, ModelDescriptor, ParameterDescriptor,
-    ParameterUnit, Verification,
+    AchievedRestitution, Alias, ModelDescriptor, ParameterDescriptor, ParameterUnit, Verification,
+    constant,
 };
 use crate::error::GapElementError;
 use crate::model::{
     ClosedForm, Collision, Force, ImpactModel, Memory, Phase, SeparationRule, Transition,
 };
-use crate::parameters::{HERTZ_STIFFNESS, ModelParameters, optional};
+use crate::parameters::{HERTZ_STIFFNESS, ModelParameters, optional_non_negative};
 
 pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "kuwabara_kono_1987",
@@ -24,14 +24,8 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "viscoelastic, restitution depends on speed",
     parameters: &[HERTZ_STIFFNESS, DISSIPATION_TIME],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "dissipation_time",
-            unit: ParameterUnit::Second,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("dissipation_time", ParameterUnit::Second),
     ],
     separation_rules: &[
         SeparationRule::NoTension,
@@ -55,7 +49,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 
 const DISSIPATION_TIME: ParameterDescriptor = ParameterDescriptor {
     required: true,
-    ..optional(
+    ..optional_non_negative(
         "dissipation_time",
         ParameterUnit::Second,
         "The material's dissipation A",
@@ -72,8 +66,8 @@ struct KuwabaraKono {
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Ok(Box::new(KuwabaraKono {
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
-        time: 1.5 * parameters.required(DESCRIPTOR.name, "dissipation_time")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
+        time: 1.5 * parameters.get(&DESCRIPTOR, "dissipation_time")?,
         separation: parameters.separation(&DESCRIPTOR),
     }))
 }

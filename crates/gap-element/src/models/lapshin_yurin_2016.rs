@@ -3,13 +3,13 @@
 
 use crate::classes::dry_friction::{DryFriction, friction};
 use crate::descriptor::{
-    AchievedRestitution, Alias, ConstantDescriptor, ModelDescriptor, ParameterDescriptor,
-    ParameterUnit, Verification,
+    AchievedRestitution, Alias, ModelDescriptor, ParameterDescriptor, ParameterUnit, Verification,
+    constant,
 };
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
 use crate::parameters::{
-    EXPONENT, FRICTION, ModelParameters, POWER_STIFFNESS, RESTITUTION, optional,
+    EXPONENT, FRICTION, ModelParameters, POWER_STIFFNESS, RESTITUTION, optional_non_negative,
 };
 
 pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
@@ -30,22 +30,10 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         EXPONENT,
     ],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "friction",
-            unit: ParameterUnit::One,
-        },
-        ConstantDescriptor {
-            name: "exponent",
-            unit: ParameterUnit::One,
-        },
-        ConstantDescriptor {
-            name: "damping_rate",
-            unit: ParameterUnit::SecondPerMetre,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("friction", ParameterUnit::One),
+        constant("exponent", ParameterUnit::One),
+        constant("damping_rate", ParameterUnit::SecondPerMetre),
     ],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_approach_velocity: false,
@@ -68,7 +56,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 /// b.
 const DAMPING_RATE: ParameterDescriptor = ParameterDescriptor {
     default: Some(0.0),
-    ..optional(
+    ..optional_non_negative(
         "damping_rate",
         ParameterUnit::SecondPerMetre,
         "Viscous part b of the force, relative to the spring force",
@@ -78,9 +66,9 @@ const DAMPING_RATE: ParameterDescriptor = ParameterDescriptor {
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Ok(Box::new(DryFriction {
         descriptor: &DESCRIPTOR,
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         exponent: parameters.exponent(&DESCRIPTOR),
-        friction: parameters.damping(DESCRIPTOR.name, "friction", friction)?,
-        rate: parameters.get("damping_rate").unwrap_or(0.0),
+        friction: parameters.damping(&DESCRIPTOR, "friction", friction)?,
+        rate: parameters.get(&DESCRIPTOR, "damping_rate")?,
     }))
 }

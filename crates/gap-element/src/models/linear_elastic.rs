@@ -2,7 +2,7 @@
 
 use crate::classes::hunt_crossley::{self, HuntCrossley};
 use crate::descriptor::{
-    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+    AchievedRestitution, ModelDescriptor, ParameterUnit, Verification, constant,
 };
 use crate::error::GapElementError;
 use crate::model::{ImpactModel, SeparationRule};
@@ -15,10 +15,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     citation: "Textbook law; in pounding since Maison and Kasai, Earthquake Spectra 6 (1990) 711",
     class: "elastic",
     parameters: &[LINEAR_STIFFNESS],
-    constants: &[ConstantDescriptor {
-        name: "stiffness",
-        unit: ParameterUnit::NewtonPerMetre,
-    }],
+    constants: &[constant("stiffness", ParameterUnit::NewtonPerMetre)],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_approach_velocity: false,
     achieved_restitution: AchievedRestitution::Elastic,

@@ -69,12 +69,8 @@ struct ElastoGap {
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Ok(Box::new(ElastoGap {
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
-        zeta: parameters.damping(
-            DESCRIPTOR.name,
-            "damping_ratio",
-            damping_ratio_zero_penetration,
-        )?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
+        zeta: parameters.damping(&DESCRIPTOR, "damping_ratio", damping_ratio_zero_penetration)?,
     }))
 }
 

@@ -1,9 +1,11 @@
 //! Bilinear impact element: the loss is the area of a parallelogram.
 
+use pounding_catalogue::Descriptor;
+
 use crate::classes::hunt_crossley;
 use crate::descriptor::{
-    AchievedRestitution, Alias, ConstantDescriptor, ModelDescriptor, ParameterDescriptor,
-    ParameterUnit, Verification,
+    AchievedRestitution, Alias, ModelDescriptor, ParameterDescriptor, ParameterUnit, Verification,
+    constant,
 };
 use crate::error::GapElementError;
 use crate::model::{
@@ -32,22 +34,10 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         EXPONENT,
     ],
     constants: &[
-        ConstantDescriptor {
-            name: "initial_stiffness",
-            unit: ParameterUnit::NewtonPerMetre,
-        },
-        ConstantDescriptor {
-            name: "hardening_stiffness",
-            unit: ParameterUnit::NewtonPerMetre,
-        },
-        ConstantDescriptor {
-            name: "yield_penetration",
-            unit: ParameterUnit::Metre,
-        },
-        ConstantDescriptor {
-            name: "design_penetration",
-            unit: ParameterUnit::Metre,
-        },
+        constant("initial_stiffness", ParameterUnit::NewtonPerMetre),
+        constant("hardening_stiffness", ParameterUnit::NewtonPerMetre),
+        constant("yield_penetration", ParameterUnit::Metre),
+        constant("design_penetration", ParameterUnit::Metre),
     ],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_effective_mass: true,
@@ -126,26 +116,24 @@ struct BilinearImpact {
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     let exponent = parameters.exponent(&DESCRIPTOR);
-    let e = parameters.required(DESCRIPTOR.name, "restitution")?;
+    let e = parameters.get(&DESCRIPTOR, "restitution")?;
     let loss = (1.0 - e * e) / (exponent + 1.0);
-    let yield_ratio = parameters.get("yield_ratio").unwrap_or(0.1);
+    let yield_ratio = parameters.get(&DESCRIPTOR, "yield_ratio")?;
     if loss >= 1.0 - yield_ratio {
-        return Err(GapElementError::OutOfRange {
-            model: DESCRIPTOR.name,
-            parameter: "yield_ratio",
-            value: yield_ratio,
-            range: format!(
-                "(0, {}), beyond which the second stiffness is negative",
-                1.0 - loss
-            ),
-        });
+        let range = format!(
+            "(0, {}), beyond which the second stiffness is negative",
+            1.0 - loss
+        );
+        return Err(DESCRIPTOR
+            .out_of_range(&YIELD_RATIO, yield_ratio, range)
+            .into());
     }
     Ok(Box::new(BilinearImpact {
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         exponent,
         loss,
         yield_ratio,
-        design_penetration: parameters.get("design_penetration"),
+        design_penetration: parameters.given("design_penetration"),
     }))
 }
 

@@ -6,7 +6,9 @@ use crate::classes::hunt_crossley::{self, HuntCrossley};
 use crate::descriptor::{ModelDescriptor, ParameterDescriptor, ParameterUnit};
 use crate::error::GapElementError;
 use crate::model::ImpactModel;
-use crate::parameters::{DAMPING_FACTOR, LINEAR_STIFFNESS, ModelParameters, RESTITUTION, optional};
+use crate::parameters::{
+    DAMPING_FACTOR, LINEAR_STIFFNESS, ModelParameters, RESTITUTION, optional_non_negative,
+};
 
 pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     name: "papi_toopchi_2022",
@@ -26,7 +28,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 };
 
 /// The paper's ratio of the losses, instead of its own rule.
-const ALPHA: ParameterDescriptor = optional(
+const ALPHA: ParameterDescriptor = optional_non_negative(
     "alpha",
     ParameterUnit::One,
     "Energy lost in restitution over energy lost in approach, instead of the paper's rule",
@@ -43,8 +45,8 @@ pub(crate) fn damping_factor(e: f64, alpha: f64) -> f64 {
 }
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
-    let alpha = parameters.get("alpha");
-    if alpha.is_some() && parameters.get("damping_factor").is_some() {
+    let alpha = parameters.given("alpha");
+    if alpha.is_some() && parameters.given("damping_factor").is_some() {
         return Err(GapElementError::Conflict {
             model: DESCRIPTOR.name,
             first: "alpha",

@@ -101,25 +101,25 @@ struct RubberBumper {
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     let (crush_penetration, crush_stiffness) = match (
-        parameters.get("crush_penetration"),
-        parameters.get("crush_stiffness"),
+        parameters.given("crush_penetration"),
+        parameters.given("crush_stiffness"),
     ) {
         (Some(penetration), Some(stiffness)) => (penetration, stiffness),
         (None, None) => (f64::INFINITY, 0.0),
         (Some(_), None) => {
-            parameters.required(DESCRIPTOR.name, "crush_stiffness")?;
+            parameters.get(&DESCRIPTOR, "crush_stiffness")?;
             (f64::INFINITY, 0.0)
         }
         (None, Some(_)) => {
-            parameters.required(DESCRIPTOR.name, "crush_penetration")?;
+            parameters.get(&DESCRIPTOR, "crush_penetration")?;
             (f64::INFINITY, 0.0)
         }
     };
     Ok(Box::new(RubberBumper {
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         exponent: parameters.exponent(&DESCRIPTOR),
         damping_factor: parameters.damping(
-            DESCRIPTOR.name,
+            &DESCRIPTOR,
             "damping_factor",
             super::pant_2010::damping_factor,
         )?,

@@ -67,7 +67,7 @@ struct Stereomechanical {
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
     Ok(Box::new(Stereomechanical {
-        restitution: parameters.required(DESCRIPTOR.name, "restitution")?,
+        restitution: parameters.get(&DESCRIPTOR, "restitution")?,
     }))
 }
 

@@ -42,10 +42,10 @@ fn xi(e: f64) -> f64 {
 }
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
-    let xi = parameters.damping(DESCRIPTOR.name, "damping_ratio", xi)?;
+    let xi = parameters.damping(&DESCRIPTOR, "damping_ratio", xi)?;
     Ok(Box::new(LinearClass {
         descriptor: &DESCRIPTOR,
-        stiffness: parameters.required(DESCRIPTOR.name, "stiffness")?,
+        stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,
         exponent: 1.5,
         // The papers' c = 2 xi sqrt(k m sqrt(delta)) in terms of the class.
         zeta: 2.0 * xi / 5.0_f64.sqrt(),

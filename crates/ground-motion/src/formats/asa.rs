@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -29,14 +30,23 @@ struct Header {
     incomplete: bool,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "asa",
+    title: "Archivo Estandar de Aceleracion 2.0",
+    source: "UNAM, CICESE and CENAPRED, Mexico",
+    recognised_by: "archivo estandar de aceleracion within fifteen lines",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source
         .head()
         .take(15)
         .any(|l| l.lower().contains("archivo estandar de aceleracion"))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(source, &mut lines)?;
     let end = lines.number();

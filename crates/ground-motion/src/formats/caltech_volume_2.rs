@@ -3,11 +3,21 @@
 //! samples, and records start with the velocity of the first sample, not at rest.
 
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_2;
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "caltech_volume_2",
+    title: "Volume II: corrected acceleration, velocity and displacement",
+    source: "California Institute of Technology",
+    recognised_by: "corrected accelerogram and comp in the first line, of uncorrected accelerogram data of vol in the second",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     let first = source.first_line();
     let second = source.lines().nth(1).map(|l| l.lower()).unwrap_or_default();
     first.contains("corrected accelerogram")
@@ -15,6 +25,6 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
         && second.contains("of uncorrected accelerogram data of vol")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     volume_2::read(source)
 }

@@ -3,6 +3,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -15,7 +16,16 @@ const TEXT_LINES: usize = 13;
 const MOST_NUMBERS: usize = 1000;
 const REMEDY: &str = "the header is not that of COSMOS 1.20: get the record again";
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "cosmos",
+    title: "COSMOS 1.20: V1c and V2c",
+    source: "Consortium of Organizations for Strong-Motion Observation Systems",
+    recognised_by: "(Format v in the first line",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     is_first(&source.first_line())
 }
 
@@ -23,7 +33,7 @@ fn is_first(lower: &str) -> bool {
     lower.contains("(format v")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut series = Vec::new();
     while let Some(first) = lines.next() {

@@ -2,16 +2,26 @@
 //! of time and value or at even steps.
 
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_1;
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "csmip_v1",
+    title: "CSMIP (CDMG, CGS) Volume 1: pairs of time and acceleration, or even steps",
+    source: "California Strong Motion Instrumentation Program",
+    recognised_by: "uncorrected accelerogram data in the first line",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source
         .first_line()
         .contains("uncorrected accelerogram data")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     volume_1::read(source)
 }

@@ -1,6 +1,7 @@
 //! CSMIP (CDMG, CGS) Volume 2: corrected acceleration, velocity and displacement.
 
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_2;
@@ -10,7 +11,16 @@ fn is_volume_3(first: &str) -> bool {
     first.contains("response") && first.contains("spectra")
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "csmip_v2",
+    title: "CSMIP (CDMG, CGS) Volume 2: acceleration, velocity and displacement",
+    source: "California Strong Motion Instrumentation Program",
+    recognised_by: "corrected accelerogram in the first line, uncorrected accelerogram data in the second",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     let first = source.first_line();
     let second = source.lines().nth(1).map(|l| l.lower()).unwrap_or_default();
     let accelerogram = second.contains("uncorrected accelerogram data");
@@ -18,7 +28,7 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
         || first.contains("corrected accelerogram") && accelerogram
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if is_volume_3(&source.first_line()) {
         return Err(GroundMotionError::Unsupported {
             file: source.file.to_owned(),

@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -25,11 +26,20 @@ struct Header {
     processing: Processing,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "cwa",
+    title: "Free-field text of the Central Weather Administration",
+    source: "Central Weather Administration, Taiwan",
+    recognised_by: "a first line that starts with #Earthquake Information",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.first_line().starts_with("#earthquake information")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(&mut lines);
     let end = lines.number();

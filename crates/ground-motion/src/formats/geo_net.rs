@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -21,7 +22,16 @@ struct Header<'a> {
     reals: HeaderNumbers,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "geo_net",
+    title: "GeoNet V1A and V2A",
+    source: "GNS Science, New Zealand",
+    recognised_by: "GNS Science and accelerogram in the first line",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     is_first(&source.first_line())
 }
 
@@ -29,7 +39,7 @@ fn is_first(lower: &str) -> bool {
     lower.contains("gns science") && lower.contains("accelerogram")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut series: Vec<Series> = Vec::new();
     let mut channel = 0;

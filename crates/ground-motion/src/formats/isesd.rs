@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -27,7 +28,16 @@ struct Header {
     start: String,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "isesd",
+    title: "Internet Site for European Strong-motion Data",
+    source: "Imperial College London and partners",
+    recognised_by: "file: in the first line, and waveform code within ten",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.first_line().contains("file:")
         && source
             .head()
@@ -35,7 +45,7 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
             .any(|l| l.lower().contains("waveform code"))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {

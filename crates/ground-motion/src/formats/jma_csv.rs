@@ -2,16 +2,26 @@
 
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "jma_csv",
+    title: "CSV of the Japan Meteorological Agency",
+    source: "Japan Meteorological Agency",
+    recognised_by: "SITE CODE in the first line",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.first_line().contains("site code")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let (mut rate, mut unit) = (None, DraftUnit::Unstated);
     let (mut site, mut start) = (String::new(), String::new());

@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -36,11 +37,20 @@ struct Header {
     record_time: String,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "k_net",
+    title: "K-NET and KiK-net ASCII",
+    source: "National Research Institute for Earth Science and Disaster Resilience, Japan",
+    recognised_by: "a first line that starts with Origin Time",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.first_line().starts_with("origin time")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     loop {

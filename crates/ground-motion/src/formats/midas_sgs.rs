@@ -3,16 +3,26 @@
 
 use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::time_column::TimeColumn;
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "midas_sgs",
+    title: "midas ground-motion file, sgs",
+    source: "MIDAS IT",
+    recognised_by: "a first line that starts with *SGS",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.first_line().trim_start().starts_with("*sgs")
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut title = String::new();
     let mut unit = DraftUnit::Unstated;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_catalogue::{Descriptor, Registry};
 use sha2::{Digest, Sha256};
 
 use crate::accelerogram::Accelerogram;
@@ -11,91 +12,102 @@ use crate::recording::{Recording, Series};
 use crate::select;
 use crate::source::Source;
 
-/// Declares the files of the formats, in the order of detection: one line a format.
-macro_rules! formats {
-    ($($(#[$doc:meta])* $variant:ident $module:ident)*) => {
-        $(mod $module;)*
+mod asa;
+mod caltech_volume_1;
+mod caltech_volume_2;
+mod cosmos;
+mod csmip_v1;
+mod csmip_v2;
+mod cwa;
+mod dyna;
+mod geo_net;
+mod isesd;
+mod jma_csv;
+mod k_net;
+mod midas_sgs;
+mod mini_seed_2;
+mod peer_at2;
+mod plain_columns;
+mod pounding_csv;
+mod sac;
+mod usgs_smc;
 
-        /// A record format.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        #[non_exhaustive]
-        pub enum Format {
-            $($(#[$doc])* $variant,)*
-        }
+/// All formats, in the order of detection.
+static FORMATS: Registry<Format> = Registry::new(
+    &[
+        &mini_seed_2::FORMAT,
+        &sac::FORMAT,
+        &pounding_csv::FORMAT,
+        &k_net::FORMAT,
+        &jma_csv::FORMAT,
+        &dyna::FORMAT,
+        &cwa::FORMAT,
+        &geo_net::FORMAT,
+        &cosmos::FORMAT,
+        &caltech_volume_1::FORMAT,
+        &caltech_volume_2::FORMAT,
+        &csmip_v1::FORMAT,
+        &csmip_v2::FORMAT,
+        &usgs_smc::FORMAT,
+        &asa::FORMAT,
+        &isesd::FORMAT,
+        &peer_at2::FORMAT,
+        &midas_sgs::FORMAT,
+        &plain_columns::FORMAT,
+    ],
+    &[],
+);
 
-        impl Format {
-            /// All formats in the order of detection.
-            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
-
-            /// Name in the case file.
-            #[must_use]
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => stringify!($module),)*
-                }
-            }
-
-            fn matches(self, source: &Source<'_>) -> bool {
-                match self {
-                    $(Self::$variant => $module::matches(source),)*
-                }
-            }
-
-            fn read(self, source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
-                match self {
-                    $(Self::$variant => $module::read(source),)*
-                }
-            }
-        }
-    };
+/// A record format.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Format {
+    /// Name in the case file.
+    pub name: &'static str,
+    /// A title for people.
+    pub title: &'static str,
+    /// Who defines it, or publishes records in it.
+    pub source: &'static str,
+    /// What in a file tells it from others; formats are tried in their order.
+    pub recognised_by: &'static str,
+    matches: fn(&Source<'_>) -> bool,
+    read: fn(&Source<'_>) -> Result<Vec<Series>, GroundMotionError>,
 }
 
-formats! {
-    /// miniSEED 2 with integers, floats, Steim-1 or Steim-2; counts.
-    MiniSeed2 mini_seed_2
-    /// SAC, binary, either byte order.
-    Sac sac
-    /// Our CSV layout: comment header, column header, time and acceleration.
-    PoundingCsv pounding_csv
-    /// K-NET and KiK-net ASCII (NIED, Japan).
-    KNet k_net
-    /// CSV of the Japan Meteorological Agency.
-    JmaCsv jma_csv
-    /// DYNA 1.x (ESM, ITACA, AFAD).
-    Dyna dyna
-    /// Free-field text of the Central Weather Administration, Taiwan.
-    Cwa cwa
-    /// GeoNet Volume 1 and Volume 2 (New Zealand).
-    GeoNet geo_net
-    /// COSMOS 1.20.
-    Cosmos cosmos
-    /// California Institute of Technology Volume I; University of Southern California.
-    CaltechVolume1 caltech_volume_1
-    /// California Institute of Technology Volume II.
-    CaltechVolume2 caltech_volume_2
-    /// CSMIP (CDMG, CGS) Volume 1: pairs of time and acceleration, or even steps.
-    CsmipV1 csmip_v1
-    /// CSMIP (CDMG, CGS) Volume 2: acceleration, velocity and displacement.
-    CsmipV2 csmip_v2
-    /// SMC of the United States Geological Survey.
-    UsgsSmc usgs_smc
-    /// Archivo Estandar de Aceleracion (Mexico).
-    Asa asa
-    /// Internet Site for European Strong-motion Data.
-    Isesd isesd
-    /// PEER strong-motion database: AT2, VT2 and DT2.
-    PeerAt2 peer_at2
-    /// midas ground-motion file, sgs.
-    MidasSgs midas_sgs
-    /// Plain columns of numbers.
-    PlainColumns plain_columns
+impl Descriptor for Format {
+    const KIND: &'static str = "record format";
+    const NOUN: &'static str = "format";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+}
+
+/// Names are unique.
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
 }
 
 impl Format {
-    /// The format of this name.
+    /// All formats, in the order of detection.
     #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|f| f.name() == name)
+    pub fn all() -> &'static [&'static Self] {
+        FORMATS.all()
+    }
+
+    /// The format of this name.
+    ///
+    /// # Errors
+    /// [`GroundMotionError::UnknownFormatName`] with the nearest known name.
+    pub fn find(name: &str) -> Result<&'static Self, GroundMotionError> {
+        Ok(FORMATS.find(name)?)
+    }
+
+    /// Names of all formats, for messages.
+    pub(crate) fn names() -> String {
+        FORMATS.names().collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -119,7 +131,7 @@ pub fn read_all_bytes(
     options: &ReadOptions,
 ) -> Result<Recording, GroundMotionError> {
     let source = Source::new(file, bytes, options);
-    let detected = || Format::ALL.iter().copied().find(|f| f.matches(&source));
+    let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
     let format =
         options
             .format
@@ -127,12 +139,12 @@ pub fn read_all_bytes(
             .ok_or_else(|| GroundMotionError::UnknownFormat {
                 file: file.to_owned(),
             })?;
-    let mut series = format.read(&source)?;
+    let mut series = (format.read)(&source)?;
     if series.is_empty() {
         return Err(source.error(
             1,
             0,
-            format!("no series of format {} in the file", format.name()),
+            format!("no series of format {} in the file", format.name),
             "check `format`, or get the record again",
         ));
     }
@@ -141,7 +153,7 @@ pub fn read_all_bytes(
         .map(|b| format!("{b:02x}"))
         .collect();
     for s in &mut series {
-        s.origin.format = format.name();
+        s.origin.format = format.name;
         s.origin.sha256.clone_from(&sha256);
         s.origin.warnings.extend(source.warnings());
     }

@@ -5,6 +5,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
@@ -36,12 +37,21 @@ fn is_spaced(line: &Line<'_>) -> bool {
     line.lower().contains("points at equal spacing of")
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "peer_at2",
+    title: "PEER AT2, VT2 and DT2 with all header forms",
+    source: "Pacific Earthquake Engineering Research Center",
+    recognised_by: "a line with NPTS and DT, or points at equal spacing of",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source.lines().take(HEADER_LINES).any(|l| is_counts(&l))
         || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(source, &mut lines)?;
     let unit = unit(source, &header)?;

@@ -3,6 +3,7 @@
 use crate::accelerogram::Origin;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
+use crate::formats::Format;
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
@@ -25,14 +26,23 @@ pub(super) struct Keys {
     step: Option<(usize, f64)>,
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "pounding_csv",
+    title: "CSV of this program: comment header, column header, time and acceleration",
+    source: "ground_motions/README.md",
+    recognised_by: "a column header that starts with time_s,acceleration_",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     source
         .lines()
         .find(|l| !l.bytes.starts_with(b"#") && !l.is_blank())
         .is_some_and(|l| l.bytes.starts_with(START.as_bytes()))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut keys = Keys::default();
     let header = loop {

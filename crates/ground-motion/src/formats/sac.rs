@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
@@ -71,11 +72,20 @@ fn words<'a>(bytes: &'a [u8]) -> Option<Words<'a>> {
         .find(|w| bytes.len() >= HEADER && [6, 7].contains(&w.integer(VERSION)))
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "sac",
+    title: "SAC, binary, either byte order",
+    source: "Seismic Analysis Code",
+    recognised_by: "version 6 or 7 in word 77 of the header, in either byte order",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     words(source.bytes).is_some()
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let Some(words) = words(source.bytes) else {
         let offset = source.bytes.len().min(4 * VERSION);
         return Err(source.binary_error(offset, "no SAC header of version 6 or 7"));

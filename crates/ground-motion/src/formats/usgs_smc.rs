@@ -4,6 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
@@ -15,7 +16,16 @@ const INTEGERS: Layout = Layout::new(8, 10);
 const REALS: Layout = Layout::new(5, 15);
 const DATA: Layout = Layout::new(8, 10);
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "usgs_smc",
+    title: "SMC of the United States Geological Survey",
+    source: "United States Geological Survey",
+    recognised_by: "a digit and a title in capitals in the first line, and -32768 as the first integer of line 12",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     let mut lines = source.lines();
     let (Some(first), Some(second)) = (lines.next(), lines.next()) else {
         return false;
@@ -34,7 +44,7 @@ pub(crate) fn matches(source: &Source<'_>) -> bool {
     second.bytes.starts_with(b"*") && (known || kind == "*" && null())
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut text = Vec::with_capacity(TEXT_LINES);
     for _ in 0..TEXT_LINES {

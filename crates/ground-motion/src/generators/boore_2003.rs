@@ -7,11 +7,11 @@ use std::f64::consts::{E, PI};
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
-use crate::generators::{Generated, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid};
 use crate::spectra::{inverse_transform, transform};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "boore_2003";
+const STEP: &str = Boore2003::GENERATOR.name;
 /// Radiation pattern, part of one horizontal component, free surface.
 const RADIATION: f64 = 0.55;
 const PARTITION: f64 = 0.707;
@@ -75,6 +75,13 @@ pub struct Boore2003 {
 }
 
 impl Boore2003 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "boore_2003",
+        title: "Stochastic motion of a point source",
+        source: "Boore, Pure and Applied Geophysics 160 (2003) 635",
+    };
+
     /// Western North America, generic rock: 2800 kg/m3, 3500 m/s, 8 MPa, kappa 0.035 s,
     /// Q = 180 f^0.45.
     #[must_use]

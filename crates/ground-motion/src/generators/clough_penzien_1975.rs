@@ -2,10 +2,10 @@
 //! Tajimi without the displacements that grow for ever.
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::{KanaiTajimi1960, PowerSpectrum};
+use crate::generators::{Generator, KanaiTajimi1960, PowerSpectrum};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "clough_penzien_1975";
+const STEP: &str = CloughPenzien1975::GENERATOR.name;
 
 /// `S = S_KT w^4/((wf^2 - w^2)^2 + 4 zf^2 wf^2 w^2)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +19,13 @@ pub struct CloughPenzien1975 {
 }
 
 impl CloughPenzien1975 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "clough_penzien_1975",
+        title: "Kanai-Tajimi noise without displacements that grow for ever",
+        source: "Clough and Penzien, Dynamics of Structures (1975), 26-2",
+    };
+
     /// Firm, medium or soft ground of an intensity S0 (m2/s3): Der Kiureghian and
     /// Neuenhofer (1992), Earthq. Eng. Struct. Dyn. 21, 713 (values unverified).
     #[must_use]

@@ -4,11 +4,11 @@
 use std::f64::consts::PI;
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::PowerSpectrum;
 use crate::generators::random_phases::intensity_for_peak;
+use crate::generators::{Generator, PowerSpectrum};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "kanai_tajimi_1960";
+const STEP: &str = KanaiTajimi1960::GENERATOR.name;
 
 /// `S = S0 (wg^4 + 4 zg^2 wg^2 w^2)/((wg^2 - w^2)^2 + 4 zg^2 wg^2 w^2)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,13 @@ pub struct KanaiTajimi1960 {
 }
 
 impl KanaiTajimi1960 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "kanai_tajimi_1960",
+        title: "White noise through one layer of ground, under an envelope",
+        source: "Tajimi, 2nd World Conference on Earthquake Engineering 2 (1960) 781, after Kanai 1957",
+    };
+
     /// The spectrum whose standard deviation is a peak acceleration (m/s2) over a peak
     /// factor, 2.8 to 3.2.
     ///

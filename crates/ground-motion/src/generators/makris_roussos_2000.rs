@@ -4,11 +4,11 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::{Generated, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid};
 use crate::spectra::zero;
 use crate::step_record::StepRecord;
 
-const STEP: &str = "makris_roussos_2000";
+const STEP: &str = MakrisRoussos2000::GENERATOR.name;
 
 /// The shape of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +48,13 @@ fn phase(cycles: u32) -> f64 {
 }
 
 impl MakrisRoussos2000 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "makris_roussos_2000",
+        title: "Trigonometric pulses of type A, B and C",
+        source: "Makris and Roussos, Géotechnique 50 (2000) 243",
+    };
+
     /// Length of the pulse (s).
     #[must_use]
     pub fn length(&self) -> f64 {

@@ -4,10 +4,10 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::{Generated, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "mavroeidis_papageorgiou_2003";
+const STEP: &str = MavroeidisPapageorgiou2003::GENERATOR.name;
 
 /// `v = A/2 (1 + cos(2 pi fp s/gamma)) cos(2 pi fp s + nu)` for
 /// `|s| <= gamma/(2 fp)`, `s = t - t0`.
@@ -26,6 +26,13 @@ pub struct MavroeidisPapageorgiou2003 {
 }
 
 impl MavroeidisPapageorgiou2003 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "mavroeidis_papageorgiou_2003",
+        title: "Velocity pulse of near-fault motions",
+        source: "Mavroeidis and Papageorgiou, Bulletin of the Seismological Society of America 93 (2003) 1099, equation 3",
+    };
+
     /// Ground velocity (m/s) at a time (s).
     #[must_use]
     pub fn velocity(&self, time: f64) -> f64 {

@@ -16,6 +16,8 @@ mod rezaeian_der_kiureghian_2010;
 mod ricker_1953;
 mod sine;
 
+use pounding_catalogue::{Descriptor, Registry};
+
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, positive, within};
 use crate::measures::{GroundMotion, Husid};
@@ -35,6 +37,42 @@ pub use rezaeian_der_kiureghian_2010::{
 };
 pub use ricker_1953::Ricker1953;
 pub use sine::Sine;
+
+/// All generators by name.
+pub static GENERATORS: Registry<Generator> = Registry::new(
+    &[
+        &Sine::GENERATOR,
+        &Ricker1953::GENERATOR,
+        &MavroeidisPapageorgiou2003::GENERATOR,
+        &MakrisRoussos2000::GENERATOR,
+        &KanaiTajimi1960::GENERATOR,
+        &CloughPenzien1975::GENERATOR,
+        &RezaeianDerKiureghian2010::GENERATOR,
+        &Boore2003::GENERATOR,
+    ],
+    &[],
+);
+
+/// What is known of a generator without running it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Generator {
+    /// Name on the command line and in reports.
+    pub name: &'static str,
+    /// What it makes.
+    pub title: &'static str,
+    /// Author, journal, year.
+    pub source: &'static str,
+}
+
+impl Descriptor for Generator {
+    const KIND: &'static str = "generator of motions";
+    const NOUN: &'static str = "generator";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+}
 
 /// Most samples of a generated motion.
 const MOST_SAMPLES: f64 = 1.0e7;

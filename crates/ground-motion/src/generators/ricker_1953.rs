@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::{Generated, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "ricker_1953";
+const STEP: &str = Ricker1953::GENERATOR.name;
 
 /// `a = A (1 - 2 x) exp(-x)`, `x = pi^2 (t - t0)^2/Tp^2`: no velocity and no
 /// displacement remains.
@@ -21,6 +21,13 @@ pub struct Ricker1953 {
 }
 
 impl Ricker1953 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "ricker_1953",
+        title: "Second derivative of a Gaussian",
+        source: "Ricker, Geophysics 18 (1953) 10",
+    };
+
     /// Acceleration (m/s2) at a time (s).
     #[must_use]
     pub fn acceleration(&self, time: f64) -> f64 {

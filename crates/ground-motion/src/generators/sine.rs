@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use crate::error::{GroundMotionError, positive, within};
-use crate::generators::{Envelope, Generated, TimeGrid};
+use crate::generators::{Envelope, Generated, Generator, TimeGrid};
 use crate::step_record::StepRecord;
 
-const STEP: &str = "sine";
+const STEP: &str = Sine::GENERATOR.name;
 
 /// `A e(t) sin(2 pi f t + phase)` up to a length, zero after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +24,13 @@ pub struct Sine {
 }
 
 impl Sine {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "sine",
+        title: "A sine with an envelope",
+        source: "closed form",
+    };
+
     /// The motion.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! SAC and miniSEED, written byte by byte.
 
-use pounding_ground_motion::{Format, Quantity, ReadOptions};
+use pounding_ground_motion::{Quantity, ReadOptions};
 
 use super::*;
 
@@ -61,7 +61,7 @@ pub fn sac(written: i64) -> Vec<Fixture> {
             }
             all.push(Fixture {
                 name: "sac",
-                format: Format::Sac,
+                format: "sac",
                 bytes,
                 options: in_g(),
                 truth: vec![series],
@@ -281,7 +281,7 @@ pub fn mini_seed() -> Vec<Fixture> {
                 .collect();
             all.push(Fixture {
                 name: "mini_seed",
-                format: Format::MiniSeed2,
+                format: "mini_seed_2",
                 bytes,
                 options: ReadOptions {
                     sensitivity: Some(SENSITIVITY),

@@ -1,6 +1,6 @@
 //! K-NET, KiK-net, JMA and, from Taiwan, CWA.
 
-use pounding_ground_motion::{Format, Quantity, ReadOptions};
+use pounding_ground_motion::{Quantity, ReadOptions};
 
 use super::*;
 
@@ -49,7 +49,7 @@ pub fn k_net(written: i64) -> Vec<Fixture> {
             }
             Fixture {
                 name: "k_net",
-                format: Format::KNet,
+                format: "k_net",
                 bytes: text.into_bytes(),
                 options: ReadOptions::default(),
                 truth: vec![truth(ACC, component, &gal, 0.01, 0.01)],
@@ -76,7 +76,7 @@ pub fn jma() -> Vec<Fixture> {
         .collect();
     vec![Fixture {
         name: "jma",
-        format: Format::JmaCsv,
+        format: "jma_csv",
         bytes,
         options: ReadOptions::default(),
         truth,
@@ -105,7 +105,7 @@ pub fn cwa() -> Vec<Fixture> {
         .collect();
     vec![Fixture {
         name: "cwa",
-        format: Format::Cwa,
+        format: "cwa",
         bytes: text.into_bytes(),
         options: ReadOptions::default(),
         truth,

@@ -1,6 +1,6 @@
 //! COSMOS and GeoNet.
 
-use pounding_ground_motion::{Format, Quantity};
+use pounding_ground_motion::Quantity;
 
 use super::volumes::fixture;
 use super::*;
@@ -75,7 +75,7 @@ pub fn cosmos(written: i64) -> Vec<Fixture> {
         let component = if azimuth == 400 { "Up" } else { "90 deg" };
         found.push(truth(quantity, component, &printed, factor, 0.005));
     }
-    vec![fixture("cosmos", Format::Cosmos, text, found)]
+    vec![fixture("cosmos", "cosmos", text, found)]
 }
 
 pub fn geo_net(written: i64) -> Vec<Fixture> {
@@ -129,7 +129,7 @@ pub fn geo_net(written: i64) -> Vec<Fixture> {
         }
     }
     vec![
-        fixture("geo_net_v1a", Format::GeoNet, raw, in_raw),
-        fixture("geo_net_v2a", Format::GeoNet, corrected, in_corrected),
+        fixture("geo_net_v1a", "geo_net", raw, in_raw),
+        fixture("geo_net_v2a", "geo_net", corrected, in_corrected),
     ]
 }

@@ -1,6 +1,6 @@
 //! Free-form text formats.
 
-use pounding_ground_motion::{AccelerationUnit, Format, Quantity, ReadOptions};
+use pounding_ground_motion::{AccelerationUnit, Quantity, ReadOptions};
 
 use super::*;
 
@@ -8,7 +8,7 @@ const ACC: Quantity = Quantity::Acceleration;
 
 fn fixture(
     name: &'static str,
-    format: Format,
+    format: &'static str,
     text: String,
     truth: Vec<Truth>,
     counted: bool,
@@ -31,13 +31,7 @@ pub fn pounding_csv() -> Vec<Fixture> {
         text.push_str(&format!("{:.2},{a:?}\n", i as f64 * 0.01));
     }
     let truth = vec![truth(ACC, "", &values, 1.0, 0.01)];
-    vec![fixture(
-        "pounding_csv",
-        Format::PoundingCsv,
-        text,
-        truth,
-        false,
-    )]
+    vec![fixture("pounding_csv", "pounding_csv", text, truth, false)]
 }
 
 /// Values as `E15.7`, some with Fortran's D or without the letter.
@@ -84,7 +78,7 @@ pub fn peer(written: i64) -> Vec<Fixture> {
             "MADE UP DATABASE RECORD\nNOWHERE 01/01/00 00:00, STATION, 000\n{words}\nNPTS= {written:>6}, DT=   .0050 SEC,\n{data}"
         );
         let truth = vec![truth(quantity, "", &printed, unit, 0.005)];
-        all.push(fixture(name, Format::PeerAt2, text, truth, true));
+        all.push(fixture(name, "peer_at2", text, truth, true));
     }
     all
 }
@@ -99,14 +93,14 @@ pub fn midas() -> Vec<Fixture> {
     }
     text.push_str("*ENDDATA\n");
     let truth = vec![truth(ACC, "", &printed, G, 0.02)];
-    vec![fixture("sgs", Format::MidasSgs, text, truth, false)]
+    vec![fixture("sgs", "midas_sgs", text, truth, false)]
 }
 
 /// Every layout of plain columns.
 pub fn plain(written: i64) -> Vec<Fixture> {
     let mut all = Vec::new();
     let mut add = |name, text: String, step: Option<f64>, layout: Option<&str>, truth, counted| {
-        let mut f = fixture(name, Format::PlainColumns, text, truth, counted);
+        let mut f = fixture(name, "plain_columns", text, truth, counted);
         f.options = ReadOptions {
             unit: Some(AccelerationUnit::Gal),
             time_step: step,
@@ -250,7 +244,7 @@ pub fn dyna(written: i64) -> Vec<Fixture> {
         most.1 as f64 * 0.01
     );
     let truth = vec![truth(ACC, "HNE", &printed, 0.01, 0.01)];
-    vec![fixture("dyna", Format::Dyna, text, truth, true)]
+    vec![fixture("dyna", "dyna", text, truth, true)]
 }
 
 pub fn asa(written: i64) -> Vec<Fixture> {
@@ -281,7 +275,7 @@ pub fn asa(written: i64) -> Vec<Fixture> {
         .zip(["V", "N00E", "N90E"])
         .map(|((_, p), name)| truth(ACC, name, p, 0.01, 0.005))
         .collect();
-    vec![fixture("asa", Format::Asa, text, truth, true)]
+    vec![fixture("asa", "asa", text, truth, true)]
 }
 
 pub fn isesd(written: i64) -> Vec<Fixture> {
@@ -308,5 +302,5 @@ pub fn isesd(written: i64) -> Vec<Fixture> {
         all.push(truth(quantity, "NS", &printed, 1.0, 0.01));
     }
     text.push_str("-> response spectra\nperiod, damping 5%\n 0.1 0.2 0.3\n");
-    vec![fixture("isesd", Format::Isesd, text, all, true)]
+    vec![fixture("isesd", "isesd", text, all, true)]
 }

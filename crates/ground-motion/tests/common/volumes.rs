@@ -1,6 +1,6 @@
 //! Card images: Caltech, CSMIP, SMC.
 
-use pounding_ground_motion::{Format, Quantity, ReadOptions};
+use pounding_ground_motion::{Quantity, ReadOptions};
 
 use super::*;
 
@@ -8,7 +8,12 @@ const ACC: Quantity = Quantity::Acceleration;
 const VEL: Quantity = Quantity::Velocity;
 const DIS: Quantity = Quantity::Displacement;
 
-pub fn fixture(name: &'static str, format: Format, text: String, truth: Vec<Truth>) -> Fixture {
+pub fn fixture(
+    name: &'static str,
+    format: &'static str,
+    text: String,
+    truth: Vec<Truth>,
+) -> Fixture {
     Fixture {
         name,
         format,
@@ -76,7 +81,7 @@ pub fn csmip_1(written: i64) -> Vec<Fixture> {
         found.push(series);
     }
     vec![
-        fixture("csmip_v1_pairs", Format::CsmipV1, old, found),
+        fixture("csmip_v1_pairs", "csmip_v1", old, found),
         csmip_1_even(written),
         csmip_1_spaced(written),
     ]
@@ -109,7 +114,7 @@ fn csmip_1_even(written: i64) -> Fixture {
         "{written:>6} Accelerogram points at 100 pts/sec in units of g.       Format: (8f9.6)\n{data}/&  ----------  End of Data for Station Channel   1  ----------\n"
     ));
     let found = vec![truth(ACC, "360 deg", &printed, G, 0.01)];
-    fixture("csmip_v1_even", Format::CsmipV1, text, found)
+    fixture("csmip_v1_even", "csmip_v1", text, found)
 }
 
 /// The line before the data states the step, not the rate.
@@ -133,7 +138,7 @@ fn csmip_1_spaced(written: i64) -> Fixture {
         "{written:>5} POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)\n{data}/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n"
     ));
     let found = vec![truth(ACC, "90 deg", &printed, G, 0.005)];
-    fixture("csmip_v1_spaced", Format::CsmipV1, text, found)
+    fixture("csmip_v1_spaced", "csmip_v1", text, found)
 }
 
 pub fn caltech_1(written: i64) -> Vec<Fixture> {
@@ -152,7 +157,7 @@ pub fn caltech_1(written: i64) -> Vec<Fixture> {
     series.times = Some(times);
     vec![fixture(
         "caltech_volume_1",
-        Format::CaltechVolume1,
+        "caltech_volume_1",
         text,
         vec![series],
     )]
@@ -229,12 +234,7 @@ pub fn caltech_2(written: i64) -> Vec<Fixture> {
         found.push(truth(*quantity, "S90W", printed, 0.01, 0.02));
     }
     text.push_str(" /&\n");
-    vec![fixture(
-        "caltech_volume_2",
-        Format::CaltechVolume2,
-        text,
-        found,
-    )]
+    vec![fixture("caltech_volume_2", "caltech_volume_2", text, found)]
 }
 
 pub fn csmip_2(written: i64) -> Vec<Fixture> {
@@ -274,7 +274,7 @@ pub fn csmip_2(written: i64) -> Vec<Fixture> {
             "/&  ----------  End of data for channel  {channel}  ----------\n"
         ));
     }
-    vec![fixture("csmip_v2", Format::CsmipV2, text, found)]
+    vec![fixture("csmip_v2", "csmip_v2", text, found)]
 }
 
 /// `1PE10.4E1`: an exponent of one digit, no room before a minus.
@@ -344,7 +344,7 @@ pub fn smc(written: i64) -> Vec<Fixture> {
             if uneven {
                 series.times = Some(printed.iter().step_by(2).copied().collect());
             }
-            fixture("smc", Format::UsgsSmc, text, vec![series])
+            fixture("smc", "usgs_smc", text, vec![series])
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a test of a law.
 
+use pounding_catalogue::DefinitionError;
 use pounding_catalogue::numbers::significant;
 
 use crate::error::HysteresisError;
@@ -71,7 +72,7 @@ impl LaboratoryError {
         match self {
             Self::Parameters { source, filled } => {
                 let mut help = match source {
-                    HysteresisError::MissingParameter { parameter, .. } => format!(
+                    HysteresisError::Definition(DefinitionError::MissingParameter { parameter, .. }) => format!(
                         "add --set {parameter}=VALUE: the example's belongs to another exponent"
                     ),
                     _ => source.help().unwrap_or_default(),

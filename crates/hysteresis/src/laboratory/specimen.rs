@@ -51,7 +51,7 @@ impl Specimen {
             let by_exponent = known(name).is_some_and(|p| {
                 matches!(
                     p.unit,
-                    ParameterUnit::NewtonPerMetreToExponent
+                    ParameterUnit::NewtonPerMetreToTwoPlusExponent
                         | ParameterUnit::NewtonSecondPerMetreToExponent
                 )
             });
@@ -125,7 +125,7 @@ impl Specimen {
         };
         match known(parameter).map(|p| p.unit) {
             None | Some(ParameterUnit::One) => String::new(),
-            Some(ParameterUnit::NewtonPerMetreToExponent) => {
+            Some(ParameterUnit::NewtonPerMetreToTwoPlusExponent) => {
                 format!("N/m{}", power(2.0 + exponent))
             }
             Some(ParameterUnit::NewtonSecondPerMetreToExponent) => {

@@ -16,7 +16,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     parameters: &[
         non_negative(
             "density",
-            ParameterUnit::NewtonPerMetreToExponent,
+            ParameterUnit::NewtonPerMetreToTwoPlusExponent,
             "Factor R of the power density of sliders",
         ),
         positive(

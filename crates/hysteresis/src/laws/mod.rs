@@ -2,36 +2,51 @@
 
 use crate::descriptor::LawDescriptor;
 
-/// Declares the files of the laws and lists their descriptors: one line per law.
-macro_rules! laws {
-    ($($name:ident)*) => {
-        $(pub(crate) mod $name;)*
-        /// Descriptors of all laws, in the order in which users see them.
-        pub(crate) static ALL: &[&LawDescriptor] = &[$(&$name::DESCRIPTOR),*];
-    };
-}
+pub(crate) mod baber_noori_1985;
+pub(crate) mod bilinear;
+pub(crate) mod bouc_wen;
+pub(crate) mod coulomb_friction;
+pub(crate) mod elastic_perfectly_plastic;
+pub(crate) mod elastoplastic_gap;
+pub(crate) mod gap_hook;
+pub(crate) mod ibarra_medina_krawinkler_2005_bilinear;
+pub(crate) mod ibarra_medina_krawinkler_2005_peak_oriented;
+pub(crate) mod ibarra_medina_krawinkler_2005_pinching;
+pub(crate) mod iwan_six_parameter;
+pub(crate) mod linear;
+pub(crate) mod maxwell;
+pub(crate) mod menegotto_pinto_1973;
+pub(crate) mod modified_clough;
+pub(crate) mod origin_oriented;
+pub(crate) mod peak_oriented;
+pub(crate) mod ramberg_osgood;
+pub(crate) mod segalman_2005;
+pub(crate) mod song_2004;
+pub(crate) mod takeda;
+pub(crate) mod viscous_damper;
 
-laws! {
-    linear
-    bilinear
-    elastic_perfectly_plastic
-    ramberg_osgood
-    bouc_wen
-    baber_noori_1985
-    menegotto_pinto_1973
-    modified_clough
-    peak_oriented
-    origin_oriented
-    takeda
-    ibarra_medina_krawinkler_2005_bilinear
-    ibarra_medina_krawinkler_2005_peak_oriented
-    ibarra_medina_krawinkler_2005_pinching
-    coulomb_friction
-    viscous_damper
-    maxwell
-    gap_hook
-    elastoplastic_gap
-    iwan_six_parameter
-    segalman_2005
-    song_2004
-}
+/// Descriptors of all laws, in the order in which users see them.
+pub(crate) static ALL: &[&LawDescriptor] = &[
+    &linear::DESCRIPTOR,
+    &bilinear::DESCRIPTOR,
+    &elastic_perfectly_plastic::DESCRIPTOR,
+    &ramberg_osgood::DESCRIPTOR,
+    &bouc_wen::DESCRIPTOR,
+    &baber_noori_1985::DESCRIPTOR,
+    &menegotto_pinto_1973::DESCRIPTOR,
+    &modified_clough::DESCRIPTOR,
+    &peak_oriented::DESCRIPTOR,
+    &origin_oriented::DESCRIPTOR,
+    &takeda::DESCRIPTOR,
+    &ibarra_medina_krawinkler_2005_bilinear::DESCRIPTOR,
+    &ibarra_medina_krawinkler_2005_peak_oriented::DESCRIPTOR,
+    &ibarra_medina_krawinkler_2005_pinching::DESCRIPTOR,
+    &coulomb_friction::DESCRIPTOR,
+    &viscous_damper::DESCRIPTOR,
+    &maxwell::DESCRIPTOR,
+    &gap_hook::DESCRIPTOR,
+    &elastoplastic_gap::DESCRIPTOR,
+    &iwan_six_parameter::DESCRIPTOR,
+    &segalman_2005::DESCRIPTOR,
+    &song_2004::DESCRIPTOR,
+];

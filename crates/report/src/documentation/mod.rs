@@ -4,6 +4,7 @@
 pub mod laws;
 pub mod models;
 
+use pounding_catalogue::Verification;
 use pounding_gap_element::GapElementError;
 use pounding_hysteresis::laboratory::LaboratoryError;
 
@@ -72,38 +73,22 @@ struct Head<'a> {
     /// A line of its own kind: what it is, and its value.
     kind: (&'a str, &'a str),
     /// Whether it has been verified, and how.
-    checked: (bool, &'a str),
+    checked: Verification,
     /// Other names with their citations.
     aliases: Vec<(&'a str, &'a str)>,
 }
 
-/// How far a model or a law has been checked, in a word or two: itself, or the texts that speak
-/// of its paper.
-#[must_use]
-pub fn checked(verified: bool) -> &'static str {
-    if verified {
-        "verified"
-    } else {
-        "secondary sources"
-    }
-}
-
 impl Head<'_> {
     fn text(&self) -> String {
-        let status = if self.checked.0 {
-            "verified against"
-        } else {
-            "**from secondary sources**"
-        };
         let mut text = format!(
-            "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| {} | {} |\n| checked | {status}: {} |\n",
+            "# {}: {}\n\n```text\n{}\n```\n\n| | |\n|---|---|\n| source | {} |\n| {} | {} |\n| checked | {} |\n",
             self.name,
             self.title,
             self.formula.split(";  ").collect::<Vec<_>>().join("\n"),
             cell(self.citation),
             self.kind.0,
             cell(self.kind.1),
-            cell(self.checked.1),
+            cell(&self.checked.markdown()),
         );
         for (name, citation) in &self.aliases {
             text.push_str(&format!("| also called | `{name}`: {} |\n", cell(citation)));

@@ -1,6 +1,6 @@
 //! AS 1170.4 of Australia.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Site, Structure};
 use crate::working::Working;
@@ -29,7 +29,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "h / 100, or by analysis",
     inputs: &[],
-    status: Status::Unverified("the rule and its limit of 15 m"),
+    status: Verification::Unverified("the rule and its limit of 15 m"),
     remarks: &["For levels above 15 m."],
     rule: Rule::Boundary(boundary),
 };

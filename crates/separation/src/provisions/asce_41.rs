@@ -1,6 +1,6 @@
 //! ASCE/SEI 41: seismic evaluation and retrofit of existing buildings.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Working, root};
@@ -37,7 +37,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "min(u, 0.04 h)",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("formula and clause"),
+    status: Verification::Unverified("formula and clause"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };

@@ -1,6 +1,6 @@
 //! ASCE/SEI 7 and the codes that follow it.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Working, root};
@@ -52,7 +52,7 @@ pub(crate) static ASCE_7_10_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor 
     elastic_displacement_factor: Some("Cd / Ie"),
     formula: "deltaM = Cd d / Ie (d = Ie u / R)",
     inputs: INPUTS,
-    status: Status::Verified("text of 7-10"),
+    status: Verification::Verified("text of 7-10"),
     remarks: &["Measured from the property line."],
     rule: Rule::Boundary(boundary),
 };
@@ -65,7 +65,8 @@ pub(crate) static ASCE_7_10_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BOUNDARY
 };
 
-const UNCHANGED: Status = Status::Unverified("that 7-16 left the clause of 7-10 unchanged");
+const UNCHANGED: Verification =
+    Verification::Unverified("that 7-16 left the clause of 7-10 unchanged");
 
 pub(crate) static ASCE_7_16_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_16_boundary",
@@ -81,7 +82,7 @@ pub(crate) static ASCE_7_16_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const REVISED: Status = Status::Unverified(
+const REVISED: Verification = Verification::Unverified(
     "7-22 writes the displacement in its revised notation of drifts; diaphragm deformation is to be added to u",
 );
 
@@ -99,7 +100,7 @@ pub(crate) static ASCE_7_22_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const IBC: Status = Status::Verified("text of IBC 2009, equation 16-64");
+const IBC: Verification = Verification::Verified("text of IBC 2009, equation 16-64");
 
 pub(crate) static IBC_2009_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "ibc_2009_boundary",
@@ -122,7 +123,7 @@ pub(crate) static IBC_2009_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const FOLLOWS: Status = Status::Unverified("that the code follows ASCE 7");
+const FOLLOWS: Verification = Verification::Unverified("that the code follows ASCE 7");
 
 pub(crate) static KDS_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "kds_boundary",

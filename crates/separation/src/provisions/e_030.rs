@@ -1,6 +1,6 @@
 //! E.030 of Peru.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::Working;
@@ -40,7 +40,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("0.75 R or 0.85 R"),
     formula: "max(2/3 u, s / 2), s = max(0.006 h, 30 mm)",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("formula and clause"),
+    status: Verification::Unverified("formula and clause"),
     remarks: &[
         "u is the unreduced displacement; the code takes 0.75 R or 0.85 R of the reduced one.",
     ],

@@ -1,6 +1,6 @@
 //! Greek seismic code EAK 2000.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::working::{Working, root};
@@ -30,7 +30,7 @@ pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("that SRSS is allowed; a sum is the safe reading"),
+    status: Verification::Unverified("that SRSS is allowed; a sum is the safe reading"),
     remarks: &[],
     rule: Rule::Between(displacement),
 };
@@ -40,7 +40,7 @@ pub(crate) static JOINT: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Prescriptive,
     formula: "40 mm up to 3 storeys in contact, 80 mm up to 8, 100 mm above",
     inputs: &[],
-    status: Status::Unverified("the widths, and the numbers of storeys at which they change"),
+    status: Verification::Unverified("the widths, and the numbers of storeys at which they change"),
     remarks: &["The storeys in contact are taken as those of the lower building."],
     rule: Rule::Between(joint),
     ..DISPLACEMENT

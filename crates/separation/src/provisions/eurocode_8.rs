@@ -1,6 +1,6 @@
 //! Eurocode 8, both generations.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Working, root};
@@ -41,7 +41,7 @@ pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("qd"),
     formula: "ds, times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Status::Unverified("the clause, with its reduction"),
+    status: Verification::Unverified("the clause, with its reduction"),
     remarks: &["ds = qd de is taken as u: qd = q, as above the corner period TC."],
     rule: Rule::Boundary(boundary),
 };
@@ -54,7 +54,7 @@ pub(crate) static FIRST_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..FIRST_BOUNDARY
 };
 
-const SIMILAR: Status = Status::Unverified("that the draft keeps the rule of 2004");
+const SIMILAR: Verification = Verification::Unverified("that the draft keeps the rule of 2004");
 const STATE: &[&str] = &["For displacements of the limit state of significant damage."];
 
 pub(crate) static SECOND_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {

@@ -1,6 +1,6 @@
 //! GB 50011 of China.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, StructuralSystem, Structure};
 use crate::working::Working;
@@ -58,7 +58,9 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "w = 100 mm + 20 mm for each begun step above 15 m; frame w, frame-wall max(100 mm, 0.7 w), wall max(100 mm, 0.5 w), steel 1.5 w",
     inputs: &[Input::FortificationIntensity, Input::StructuralSystem],
-    status: Status::Verified("extract of the clause; whether begun steps count whole was not seen"),
+    status: Verification::Verified(
+        "extract of the clause; whether begun steps count whole was not seen",
+    ),
     remarks: &[
         "The lower height and the wider of both requirements count.",
         "Single-storey factories have fixed widths, which are not here.",

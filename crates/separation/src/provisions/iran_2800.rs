@@ -1,6 +1,6 @@
 //! Standard 2800 of Iran, fourth edition, and a rule of Tehran.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Working, root};
@@ -51,7 +51,7 @@ pub(crate) static BOUNDARY_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor 
     elastic_displacement_factor: None,
     formula: "0.005 h",
     inputs: &[],
-    status: Status::Verified("the sentence for up to 8 storeys"),
+    status: Verification::Verified("the sentence for up to 8 storeys"),
     remarks: &["Buildings of high or very high importance need the analysis."],
     rule: Rule::Boundary(by_height),
 };
@@ -61,7 +61,7 @@ pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescripto
     basis: Basis::Displacement,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("the rule for more than 8 storeys or high importance"),
+    status: Verification::Unverified("the rule for more than 8 storeys or high importance"),
     remarks: &["Nonlinear displacement with P-delta, which u has to include."],
     rule: Rule::Boundary(by_analysis),
     ..BOUNDARY_BY_HEIGHT
@@ -72,7 +72,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("SRSS"),
+    status: Verification::Unverified("SRSS"),
     remarks: &["Beside an unknown neighbour a rule of 70 % holds, which is not here."],
     rule: Rule::Between(between),
     ..BOUNDARY_BY_HEIGHT
@@ -84,7 +84,7 @@ pub(crate) static TEHRAN: ProvisionDescriptor = ProvisionDescriptor {
     edition: "municipal rule",
     clause: "",
     formula: "h / 100",
-    status: Status::Verified("as quoted; what it is measured from was not said"),
+    status: Verification::Verified("as quoted; what it is measured from was not said"),
     remarks: &["Above 12 m or 4 storeys."],
     rule: Rule::Between(tehran),
     ..BOUNDARY_BY_HEIGHT

@@ -1,6 +1,6 @@
 //! IS 1893 (Part 1) of India, editions 2016 and 2002.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::working::Working;
@@ -21,7 +21,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R"),
     formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Status::Unverified("the formula; that the clause exists was seen"),
+    status: Verification::Unverified("the formula; that the clause exists was seen"),
     remarks: &[],
     rule: Rule::Between(sum),
 };
@@ -29,7 +29,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static EDITION_2002: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_1893_2002_between",
     edition: "IS 1893 (Part 1):2002",
-    status: Status::Unverified("the formula"),
+    status: Verification::Unverified("the formula"),
     remarks: &["R is halved where floors are aligned."],
     ..EDITION_2016
 };

@@ -1,6 +1,6 @@
 //! IS 4326 of India.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, StructuralSystem, Structure};
 use crate::working::Working;
@@ -41,7 +41,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "storeys * (15 mm walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
     inputs: &[Input::StructuralSystem, Input::SeismicCoefficient],
-    status: Status::Unverified("the table"),
+    status: Verification::Unverified("the table"),
     remarks: &[
         "Of two kinds of structure the wider width is taken.",
         "The table's kinds are box of walls, frame of reinforced concrete and steel; walls and frames with walls are counted to the nearest of them.",

@@ -1,6 +1,6 @@
 //! Practice in Japan.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::Situation;
 use crate::working::Working;
@@ -18,7 +18,7 @@ pub(crate) static PRACTICE: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "h / 100",
     inputs: &[],
-    status: Status::Unverified("the practice"),
+    status: Verification::Unverified("the practice"),
     remarks: &["A drift of 1/100 in all; no provision speaks of the gap."],
     rule: Rule::Between(practice),
 };

@@ -1,6 +1,6 @@
 //! Complementary technical rules for seismic design of Mexico City, 2004.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::Working;
@@ -92,7 +92,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "max(50 mm, u + (0.001, 0.003, 0.006 in zones I, II, III) h)",
     inputs: &[Input::Displacement, Input::SoilZone],
-    status: Status::Verified("text of the clause"),
+    status: Verification::Verified("text of the clause"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };

@@ -2,38 +2,84 @@
 
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 
-/// Declares the files of the codes and lists their descriptors.
-macro_rules! provisions {
-    ($($file:ident: $($descriptor:ident)*;)*) => {
-        $(mod $file;)*
-        /// Descriptors of all provisions, in the order in which users see them.
-        pub(crate) static ALL: &[&ProvisionDescriptor] = &[$($(&$file::$descriptor),*),*];
-    };
-}
+mod as_1170_4;
+mod asce_41;
+mod asce_7;
+mod e_030;
+mod eak_2000;
+mod eurocode_8;
+mod gb_50011;
+mod iran_2800;
+mod is_1893;
+mod is_4326;
+mod japan;
+mod mexico_city_2004;
+mod nbcc;
+mod nch_433;
+mod ntc_2018;
+mod nzs_1170_5;
+mod taiwan_2011;
+mod turkey;
+mod ubc_1997;
 
-provisions! {
-    asce_7: ASCE_7_10_BOUNDARY ASCE_7_10_BETWEEN ASCE_7_16_BOUNDARY ASCE_7_16_BETWEEN
-        ASCE_7_22_BOUNDARY ASCE_7_22_BETWEEN IBC_2009_BOUNDARY IBC_2009_BETWEEN
-        KDS_BOUNDARY KDS_BETWEEN SNI_1726_BOUNDARY SNI_1726_BETWEEN;
-    ubc_1997: UBC_BOUNDARY UBC_BETWEEN NSCP_BOUNDARY NSCP_BETWEEN;
-    asce_41: BOUNDARY BETWEEN;
-    nbcc: BETWEEN;
-    eurocode_8: FIRST_BOUNDARY FIRST_BETWEEN SECOND_BOUNDARY SECOND_BETWEEN;
-    ntc_2018: SUM MINIMUM;
-    eak_2000: DISPLACEMENT JOINT;
-    nzs_1170_5: BOUNDARY BETWEEN;
-    as_1170_4: BOUNDARY;
-    is_1893: EDITION_2016 EDITION_2002;
-    is_4326: BETWEEN;
-    iran_2800: BOUNDARY_BY_HEIGHT BOUNDARY_BY_ANALYSIS BETWEEN TEHRAN;
-    taiwan_2011: BOUNDARY BETWEEN;
-    gb_50011: BETWEEN;
-    japan: PRACTICE;
-    turkey: TBDY_2018 TBDY_2018_MINIMUM TDY_2007 TDY_2007_MINIMUM;
-    mexico_city_2004: BOUNDARY BOUNDARY_SIMPLIFIED BETWEEN BETWEEN_SIMPLIFIED;
-    nch_433: BOUNDARY BOUNDARY_MINIMUM BETWEEN;
-    e_030: BOUNDARY BETWEEN MINIMUM;
-}
+/// Descriptors of all provisions, in the order in which users see them.
+pub(crate) static ALL: &[&ProvisionDescriptor] = &[
+    &asce_7::ASCE_7_10_BOUNDARY,
+    &asce_7::ASCE_7_10_BETWEEN,
+    &asce_7::ASCE_7_16_BOUNDARY,
+    &asce_7::ASCE_7_16_BETWEEN,
+    &asce_7::ASCE_7_22_BOUNDARY,
+    &asce_7::ASCE_7_22_BETWEEN,
+    &asce_7::IBC_2009_BOUNDARY,
+    &asce_7::IBC_2009_BETWEEN,
+    &asce_7::KDS_BOUNDARY,
+    &asce_7::KDS_BETWEEN,
+    &asce_7::SNI_1726_BOUNDARY,
+    &asce_7::SNI_1726_BETWEEN,
+    &ubc_1997::UBC_BOUNDARY,
+    &ubc_1997::UBC_BETWEEN,
+    &ubc_1997::NSCP_BOUNDARY,
+    &ubc_1997::NSCP_BETWEEN,
+    &asce_41::BOUNDARY,
+    &asce_41::BETWEEN,
+    &nbcc::BETWEEN,
+    &eurocode_8::FIRST_BOUNDARY,
+    &eurocode_8::FIRST_BETWEEN,
+    &eurocode_8::SECOND_BOUNDARY,
+    &eurocode_8::SECOND_BETWEEN,
+    &ntc_2018::SUM,
+    &ntc_2018::MINIMUM,
+    &eak_2000::DISPLACEMENT,
+    &eak_2000::JOINT,
+    &nzs_1170_5::BOUNDARY,
+    &nzs_1170_5::BETWEEN,
+    &as_1170_4::BOUNDARY,
+    &is_1893::EDITION_2016,
+    &is_1893::EDITION_2002,
+    &is_4326::BETWEEN,
+    &iran_2800::BOUNDARY_BY_HEIGHT,
+    &iran_2800::BOUNDARY_BY_ANALYSIS,
+    &iran_2800::BETWEEN,
+    &iran_2800::TEHRAN,
+    &taiwan_2011::BOUNDARY,
+    &taiwan_2011::BETWEEN,
+    &gb_50011::BETWEEN,
+    &japan::PRACTICE,
+    &turkey::TBDY_2018,
+    &turkey::TBDY_2018_MINIMUM,
+    &turkey::TDY_2007,
+    &turkey::TDY_2007_MINIMUM,
+    &mexico_city_2004::BOUNDARY,
+    &mexico_city_2004::BOUNDARY_SIMPLIFIED,
+    &mexico_city_2004::BETWEEN,
+    &mexico_city_2004::BETWEEN_SIMPLIFIED,
+    &nch_433::BOUNDARY,
+    &nch_433::BOUNDARY_MINIMUM,
+    &nch_433::BETWEEN,
+    &e_030::BOUNDARY,
+    &e_030::BETWEEN,
+    &e_030::MINIMUM,
+];
 
 const NOT_RESEARCHED: &str = "displacement sum or SRSS; national clause not researched";
 
@@ -73,7 +119,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::ALL;
-    use crate::descriptor::{Basis, Place, Status};
+    use crate::descriptor::{Basis, Place, Verification};
     use crate::error::SeparationError;
     use crate::inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};
 
@@ -348,7 +394,7 @@ mod tests {
     fn verified_provisions() {
         let verified: Vec<_> = ALL
             .iter()
-            .filter(|c| matches!(c.status, Status::Verified(_)))
+            .filter(|c| matches!(c.status, Verification::Verified(_)))
             .map(|c| c.name)
             .collect();
         assert_eq!(

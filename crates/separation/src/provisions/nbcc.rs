@@ -1,6 +1,6 @@
 //! National Building Code of Canada.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::working::{Working, root};
@@ -21,7 +21,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("Rd Ro / IE"),
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Status::Verified("text of Ontario"),
+    status: Verification::Verified("text of Ontario"),
     remarks: &[
         "Or tie the buildings: by a rigid tie, with the lower Rd Ro of the two; by any other, with a special study.",
     ],

@@ -1,6 +1,6 @@
 //! NCh433 of Chile.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::Working;
@@ -40,7 +40,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R* / 3"),
     formula: "(R* / 3) d (R* d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
-    status: Status::Unverified("formula and clause; R* stands under response_modification"),
+    status: Verification::Unverified("formula and clause; R* stands under response_modification"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };
@@ -51,7 +51,7 @@ pub(crate) static BOUNDARY_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "max(0.002 h, 15 mm)",
     inputs: &[],
-    status: Status::Unverified("formula and clause"),
+    status: Verification::Unverified("formula and clause"),
     remarks: &["Holds beside the rule of displacements."],
     rule: Rule::Boundary(minimum),
     ..BOUNDARY

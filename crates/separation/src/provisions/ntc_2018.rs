@@ -1,6 +1,6 @@
 //! Norme Tecniche per le Costruzioni 2018.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::working::Working;
@@ -30,7 +30,7 @@ pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "u1 + u2",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("the clause"),
+    status: Verification::Unverified("the clause"),
     remarks: &["For displacements of the limit state of life safety (SLV)."],
     rule: Rule::Between(sum),
 };
@@ -40,7 +40,7 @@ pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Prescriptive,
     formula: "h / 100 * min(1, 2 a_g S / g)",
     inputs: &[Input::DesignGroundAcceleration],
-    status: Status::Unverified("the clause, and that the factor is capped at 1"),
+    status: Verification::Unverified("the clause, and that the factor is capped at 1"),
     remarks: &["Holds beside the sum of displacements."],
     rule: Rule::Between(minimum),
     ..SUM

@@ -1,6 +1,6 @@
 //! NZS 1170.5 of New Zealand.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::Working;
@@ -27,7 +27,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Status::Unverified("the clause"),
+    status: Verification::Unverified("the clause"),
     remarks: &["For deflections of the ultimate limit state."],
     rule: Rule::Boundary(boundary),
 };

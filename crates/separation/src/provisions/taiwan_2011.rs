@@ -1,6 +1,6 @@
 //! Seismic design code of Taiwan, 2011.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::Working;
@@ -38,7 +38,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
         Input::Importance,
         Input::YieldAmplification,
     ],
-    status: Status::Unverified("the factors; Ra stands under response_modification"),
+    status: Verification::Unverified("the factors; Ra stands under response_modification"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };
@@ -46,7 +46,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "taiwan_2011_between",
     formula: "sum over both buildings of 0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
-    status: Status::Unverified("the factors; the sum across the property line was seen"),
+    status: Verification::Unverified("the factors; the sum across the property line was seen"),
     rule: Rule::Between(between),
     ..BOUNDARY
 };

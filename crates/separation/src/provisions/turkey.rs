@@ -1,6 +1,6 @@
 //! Building codes of Turkey, 2018 and 2007.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, Structure};
 use crate::working::{Working, root};
@@ -46,7 +46,7 @@ pub(crate) static TBDY_2018: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("0.25 R / I or 0.5 R / I"),
     formula: "alpha sqrt(d1^2 + d2^2), alpha = 0.25 R / I where floors are aligned, else 0.5 R / I (R d / I = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Status::Unverified("the clause"),
+    status: Verification::Unverified("the clause"),
     remarks: &["Each building's own R / I goes with its displacement."],
     rule: Rule::Between(tbdy_2018),
 };
@@ -57,7 +57,7 @@ pub(crate) static TBDY_2018_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "30 mm up to 6 m, 10 mm more for each begun 3 m above",
     inputs: &[],
-    status: Status::Unverified("the clause, and that begun steps count whole"),
+    status: Verification::Unverified("the clause, and that begun steps count whole"),
     remarks: &["Holds beside the rule of displacements."],
     rule: Rule::Between(minimum),
     ..TBDY_2018
@@ -70,7 +70,7 @@ pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("R / 4 or R / 2"),
     formula: "alpha (d1 + d2), alpha = R / 4 where floors are aligned, else R / 2 (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Status::Unverified("the clause; the sum is the safe reading of it"),
+    status: Verification::Unverified("the clause; the sum is the safe reading of it"),
     remarks: &["Each building's own R goes with its displacement."],
     rule: Rule::Between(tdy_2007),
     ..TBDY_2018

@@ -1,6 +1,6 @@
 //! UBC 1997 and the code of the Philippines after it.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Status};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::working::{Working, root};
@@ -33,7 +33,7 @@ pub(crate) static UBC_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: Some("0.7 R"),
     formula: "deltaM = 0.7 R d (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
-    status: Status::Unverified("the formula; that it applied in all zones was seen"),
+    status: Verification::Unverified("the formula; that it applied in all zones was seen"),
     remarks: &[],
     rule: Rule::Boundary(boundary),
 };
@@ -46,7 +46,7 @@ pub(crate) static UBC_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..UBC_BOUNDARY
 };
 
-const FOLLOWS: Status = Status::Unverified("that the code follows UBC 1997");
+const FOLLOWS: Verification = Verification::Unverified("that the code follows UBC 1997");
 
 pub(crate) static NSCP_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "nscp_2015_boundary",

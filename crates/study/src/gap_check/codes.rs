@@ -3,7 +3,7 @@
 use pounding_case::{Case, CaseError, Located, Separation};
 use pounding_separation::{
     CombinationRule, EffectiveProperties, Oscillator, ProvisionDescriptor, Requirement,
-    SeparationError, Site, Situation, SoilZone, Status, StructuralSystem, Structure,
+    SeparationError, Site, Situation, SoilZone, StructuralSystem, Structure, Verification,
     YieldingOscillator, correlation_coefficient, descriptors, find,
 };
 use pounding_shear_building::{ShearBuilding, are_level};
@@ -72,7 +72,7 @@ pub struct CombinationGap {
     /// How period and damping of yielding buildings came about; `None` for elastic ones.
     pub effective: Option<EffectiveProperties>,
     /// How far rule and effective properties have been checked, together.
-    pub status: Status,
+    pub status: Verification,
     /// Correlation coefficient (-); `None` where the rule needs none.
     pub correlation: Option<f64>,
     /// Width for each record and level (m).

@@ -1,6 +1,10 @@
 //! Arguments of `motion synth`.
 
 use clap::{Subcommand, ValueEnum};
+use pounding_ground_motion::generators::{
+    self, Boore2003, CloughPenzien1975, KanaiTajimi1960, MakrisRoussos2000,
+    MavroeidisPapageorgiou2003, RezaeianDerKiureghian2010, Ricker1953, Sine,
+};
 
 use super::OutputArguments;
 
@@ -40,29 +44,34 @@ pub struct SeededArguments {
 /// A generator, named by author and year.
 #[derive(Debug, Subcommand)]
 pub enum Generator {
-    /// A sine with an envelope
+    /// [`Sine`]
+    #[command(name = Sine::GENERATOR.name, about = Sine::GENERATOR.title, after_help = source(&Sine::GENERATOR))]
     Sine(SineArguments),
-    /// Second derivative of a Gaussian
-    #[command(name = "ricker_1953")]
+    /// [`Ricker1953`]
+    #[command(name = Ricker1953::GENERATOR.name, about = Ricker1953::GENERATOR.title, after_help = source(&Ricker1953::GENERATOR))]
     Ricker(RickerArguments),
-    /// Velocity pulse of near-fault motions
-    #[command(name = "mavroeidis_papageorgiou_2003")]
+    /// [`MavroeidisPapageorgiou2003`]
+    #[command(name = MavroeidisPapageorgiou2003::GENERATOR.name, about = MavroeidisPapageorgiou2003::GENERATOR.title, after_help = source(&MavroeidisPapageorgiou2003::GENERATOR))]
     MavroeidisPapageorgiou(MavroeidisPapageorgiouArguments),
-    /// Trigonometric pulses of type A, B and C
-    #[command(name = "makris_roussos_2000")]
+    /// [`MakrisRoussos2000`]
+    #[command(name = MakrisRoussos2000::GENERATOR.name, about = MakrisRoussos2000::GENERATOR.title, after_help = source(&MakrisRoussos2000::GENERATOR))]
     MakrisRoussos(MakrisRoussosArguments),
-    /// White noise through one layer of ground, under an envelope
-    #[command(name = "kanai_tajimi_1960")]
+    /// [`KanaiTajimi1960`]
+    #[command(name = KanaiTajimi1960::GENERATOR.name, about = KanaiTajimi1960::GENERATOR.title, after_help = source(&KanaiTajimi1960::GENERATOR))]
     KanaiTajimi(KanaiTajimiArguments),
-    /// The same without displacements that grow for ever
-    #[command(name = "clough_penzien_1975")]
+    /// [`CloughPenzien1975`]
+    #[command(name = CloughPenzien1975::GENERATOR.name, about = CloughPenzien1975::GENERATOR.title, after_help = source(&CloughPenzien1975::GENERATOR))]
     CloughPenzien(CloughPenzienArguments),
-    /// Noise through a filter that changes, from its parameters or from an earthquake
-    #[command(name = "rezaeian_der_kiureghian_2010")]
+    /// [`RezaeianDerKiureghian2010`]
+    #[command(name = RezaeianDerKiureghian2010::GENERATOR.name, about = RezaeianDerKiureghian2010::GENERATOR.title, after_help = source(&RezaeianDerKiureghian2010::GENERATOR))]
     RezaeianDerKiureghian(RezaeianDerKiureghianArguments),
-    /// Stochastic motion of a point source
-    #[command(name = "boore_2003")]
+    /// [`Boore2003`]
+    #[command(name = Boore2003::GENERATOR.name, about = Boore2003::GENERATOR.title, after_help = source(&Boore2003::GENERATOR))]
     Boore(BooreArguments),
+}
+
+fn source(generator: &generators::Generator) -> String {
+    format!("Source: {}", generator.source)
 }
 
 /// Arguments of `motion synth sine`.

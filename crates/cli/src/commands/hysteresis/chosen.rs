@@ -1,12 +1,12 @@
 //! A law with its parameters.
 
-use pounding_assembly::law_parameter_dimension;
+use pounding_assembly::parameter_dimension;
 use pounding_case::parse_quantity;
+use pounding_catalogue::Descriptor;
 use pounding_hysteresis::laboratory::{Specimen, exponent_of_example};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, ParameterDescriptor};
 use serde_json::{Map, Value, json};
 
-use super::descriptor::verification;
 use crate::failure::Failure;
 
 /// The law with the parameters of `--set`: without any, those of its example; else what
@@ -26,12 +26,7 @@ pub fn given(descriptor: &'static LawDescriptor, set: &[String]) -> Result<LawPa
             )
         })?;
         let key = key.trim();
-        let known = descriptor.parameters.iter().find(|p| p.name == key);
-        let parameter = known.ok_or_else(|| HysteresisError::UnknownParameter {
-            law: descriptor.name,
-            parameter: key.to_owned(),
-            known: descriptor.parameters.iter().map(|p| p.name).collect(),
-        })?;
+        let parameter = descriptor.parameter(key).map_err(HysteresisError::from)?;
         if texts.iter().any(|(p, _, _)| p.name == key) {
             return Err(Failure::input(
                 format!("--set {text}: {key} is given twice"),
@@ -63,7 +58,7 @@ fn quantity(
     let free = descriptor.parameters.iter().find(|p| p.name == "exponent");
     let required = free.is_some_and(|p| p.default.is_none());
     let exponent = exponent.or(exponent_of_example(descriptor).filter(|_| required));
-    let wanted = law_parameter_dimension(descriptor, parameter, exponent);
+    let wanted = parameter_dimension(descriptor, parameter, exponent);
     match quantity.dimension {
         Some(found) if found != wanted => Err(Failure::input(
             format!(
@@ -97,7 +92,7 @@ pub fn text(specimen: &Specimen) -> String {
             example.join(", ")
         ));
     }
-    text.push_str(&format!("  {}\n", verification(descriptor)));
+    text.push_str(&format!("  {}\n", descriptor.verification));
     text
 }
 
@@ -121,7 +116,7 @@ pub fn json(specimen: &Specimen) -> Map<String, Value> {
             ("filled_from_example", json!(specimen.filled)),
             ("rate_dependent", json!(descriptor.rate_dependent)),
             ("initial_stiffness", json!(specimen.law.initial_stiffness())),
-            ("verification", json!(verification(descriptor))),
+            ("verification", json!(descriptor.verification.to_string())),
         ]
         .map(|(key, value)| (key.to_owned(), value)),
     )

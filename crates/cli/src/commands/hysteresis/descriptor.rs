@@ -1,8 +1,8 @@
 //! The descriptors of the laws, for people and for machines.
 
 use pounding_catalogue::numbers::all_digits;
-use pounding_hysteresis::{LawDescriptor, Verification};
-use pounding_report::documentation::{checked, laws::dependence};
+use pounding_hysteresis::LawDescriptor;
+use pounding_report::documentation::laws::dependence;
 use serde_json::{Value, json};
 
 use crate::tables::Table;
@@ -13,8 +13,7 @@ pub fn list(laws: &[&LawDescriptor]) -> String {
     table.set_header(["name", "law and its parameters", "checked"]);
     for d in laws {
         let law = format!("{}\n{}", d.title, parameters(d));
-        let verified = matches!(d.verification, Verification::Verified(_));
-        table.add_row([d.name, &law, checked(verified)]);
+        table.add_row([d.name, &law, d.verification.name()]);
     }
     format!(
         "{table}\nParameters in brackets have a default.\n\n`pounding hysteresis NAME` shows formula, parameters, source and traps; with --cycles \"10 mm,20 mm\",\n--history FILE or --dissipation \"0.1 mm,10 mm\" it drives the law."
@@ -35,14 +34,6 @@ fn parameters(d: &LawDescriptor) -> String {
     lines.join("\n")
 }
 
-/// How far the law has been checked, and against what.
-pub fn verification(d: &LawDescriptor) -> String {
-    match d.verification {
-        Verification::Verified(how) => format!("verified against: {how}"),
-        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    }
-}
-
 /// The descriptor as text.
 pub fn text(d: &LawDescriptor) -> String {
     let mut text = format!(
@@ -52,7 +43,7 @@ pub fn text(d: &LawDescriptor) -> String {
         d.formula.split(";  ").collect::<Vec<_>>().join("\n  "),
         dependence(d),
         d.citation,
-        verification(d)
+        d.verification
     );
     for alias in d.aliases {
         text.push_str(&format!(
@@ -108,6 +99,6 @@ pub fn json(d: &LawDescriptor) -> Value {
         "name": d.name, "aliases": aliases, "title": d.title, "formula": d.formula,
         "citation": d.citation, "rate_dependent": d.rate_dependent, "parameters": parameters,
         "example": example, "example_amplitude": d.example_amplitude,
-        "verification": verification(d), "traps": d.traps,
+        "verification": d.verification.to_string(), "traps": d.traps,
     })
 }

@@ -2,11 +2,10 @@
 
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
-use pounding_catalogue::suggestion;
+use pounding_catalogue::{Parameters, suggestion};
 use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
-    GapElementError, ModelDescriptor, ModelParameters, ParameterDescriptor, SeparationRule,
-    Verification, registry,
+    GapElementError, ModelDescriptor, ParameterDescriptor, SeparationRule, registry,
 };
 use serde_json::{Map, Value, json};
 
@@ -33,10 +32,7 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Specimen>, Failure> {
     let mut chosen = Vec::new();
     for &descriptor in &descriptors {
         let values = values(descriptor, &given, &mut used)?;
-        let parameters = ModelParameters {
-            values,
-            separation: None,
-        };
+        let parameters = Parameters { values }.into();
         chosen.push(Specimen::new(descriptor, parameters));
     }
     if let Some(at) = used.iter().position(|used| !used) {
@@ -276,10 +272,6 @@ pub fn pairs(specimen: &Specimen) -> String {
 
 /// The model and its parameters for machines.
 pub fn json(specimen: &Specimen) -> Map<String, Value> {
-    let verification = match specimen.descriptor.verification {
-        Verification::Verified(how) => format!("verified against: {how}"),
-        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    };
     Map::from_iter(
         [
             ("model", json!(specimen.descriptor.name)),
@@ -287,7 +279,10 @@ pub fn json(specimen: &Specimen) -> Map<String, Value> {
             ("parameters", json!(specimen.parameters.values)),
             ("filled_from_example", json!(specimen.filled)),
             ("separation", json!(specimen.separation().name())),
-            ("verification", json!(verification)),
+            (
+                "verification",
+                json!(specimen.descriptor.verification.to_string()),
+            ),
         ]
         .map(|(key, value)| (key.to_owned(), value)),
     )

@@ -1,6 +1,7 @@
 //! What collides: two bodies, or one that falls on a slab.
 
 use pounding_case::Dimension;
+use pounding_catalogue::DefinitionError;
 use pounding_catalogue::numbers::significant;
 use pounding_gap_element::{Bodies, CollisionOptions, GapElementError};
 use serde_json::{Map, Value, json};
@@ -164,13 +165,15 @@ fn mass(text: &str, option: &str) -> Result<f64, Failure> {
 /// What an error of a model means to somebody at the command line.
 pub fn refused(error: GapElementError) -> Failure {
     match &error {
-        GapElementError::MissingParameter { parameter, .. } => Failure::input(
-            error.to_string(),
-            Some(format!(
-                "add -p {}=VALUE, or --example for the values of the model's example",
-                parameter.replace(" or ", "=VALUE or -p ")
-            )),
-        ),
+        GapElementError::Definition(DefinitionError::MissingParameter { parameter, .. }) => {
+            Failure::input(
+                error.to_string(),
+                Some(format!(
+                    "add -p {}=VALUE, or --example for the values of the model's example",
+                    parameter.replace(" or ", "=VALUE or -p ")
+                )),
+            )
+        }
         _ => Failure::from(error),
     }
 }

@@ -1,26 +1,13 @@
 //! The descriptor of one model, for people and for machines.
 
-use pounding_gap_element::{ModelDescriptor, Verification};
+use pounding_gap_element::ModelDescriptor;
 use serde_json::json;
-
-/// How far the model has been checked, and against what.
-pub fn verification(d: &ModelDescriptor) -> String {
-    match d.verification {
-        Verification::Verified(how) => format!("verified against: {how}"),
-        Verification::SecondarySources(how) => format!("from secondary sources: {how}"),
-    }
-}
 
 /// The descriptor as text.
 pub fn text(d: &ModelDescriptor) -> String {
     let mut text = format!(
         "{} - {}\n\n  {}\n\nclass         {}\nsource        {}\nstatus        {}\n",
-        d.name,
-        d.title,
-        d.formula,
-        d.class,
-        d.citation,
-        verification(d)
+        d.name, d.title, d.formula, d.class, d.citation, d.verification
     );
     if !d.aliases.is_empty() {
         for alias in d.aliases {
@@ -74,6 +61,6 @@ pub fn json(d: &ModelDescriptor) -> serde_json::Value {
         "aliases": d.aliases.iter().map(|a| json!({"name": a.name, "citation": a.citation})).collect::<Vec<_>>(), "title": d.title, "formula": d.formula,
         "citation": d.citation, "class": d.class, "parameters": parameters,
         "separation_rules": d.separation_rules.iter().map(|r| r.name()).collect::<Vec<_>>(),
-        "verification": verification(d), "traps": d.traps,
+        "verification": d.verification.to_string(), "traps": d.traps,
     })
 }

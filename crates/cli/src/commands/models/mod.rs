@@ -4,8 +4,8 @@ mod descriptor;
 
 use std::path::Path;
 
-use pounding_gap_element::{ModelDescriptor, Verification, registry};
-use pounding_report::documentation::{checked, models as documentation};
+use pounding_gap_element::{ModelDescriptor, registry};
+use pounding_report::documentation::models as documentation;
 use serde_json::json;
 
 use crate::failure::Failure;
@@ -52,12 +52,7 @@ fn list(chosen: &[&ModelDescriptor]) -> String {
         } else {
             d.name.to_owned()
         };
-        table.add_row([
-            name.as_str(),
-            d.title,
-            d.class,
-            checked(matches!(d.verification, Verification::Verified(_))),
-        ]);
+        table.add_row([name.as_str(), d.title, d.class, d.verification.name()]);
     }
     format!(
         "{table}\n* recommended: returns the restitution asked for\n\n`pounding models NAME` shows formula, parameters, source and traps."

@@ -31,7 +31,7 @@ pub fn options(arguments: &ReadArguments, unless: Offset) -> Result<ReadOptions,
         text.as_ref().map(read).transpose()
     };
     Ok(ReadOptions {
-        format: arguments.format.as_deref().map(format).transpose()?,
+        format: arguments.format.as_deref().map(Format::find).transpose()?,
         time_step: positive(&arguments.time_step, "time-step", Dimension::TIME)?,
         unit: arguments
             .unit
@@ -53,16 +53,6 @@ pub fn options(arguments: &ReadArguments, unless: Offset) -> Result<ReadOptions,
             Some(OffsetWord::Keep) => Offset::Keep,
             Some(OffsetWord::Remove) => Offset::Remove,
         },
-    })
-}
-
-fn format(name: &str) -> Result<Format, Failure> {
-    Format::from_name(name).ok_or_else(|| {
-        let known: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
-        Failure::input(
-            format!("unknown record format \"{name}\""),
-            Some(format!("known formats are {}", known.join(", "))),
-        )
     })
 }
 

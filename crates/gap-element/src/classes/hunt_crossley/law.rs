@@ -4,7 +4,7 @@
 use super::closed_forms;
 use crate::classes::{DampingPhases, approach_only, no_tension, unbuilt};
 use crate::descriptor::{
-    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+    AchievedRestitution, ModelDescriptor, ParameterUnit, Verification, constant,
 };
 use crate::error::GapElementError;
 use crate::model::{
@@ -25,14 +25,8 @@ pub(crate) const DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "Hunt-Crossley class, damping in both phases",
     parameters: &[POWER_STIFFNESS, RESTITUTION, DAMPING_FACTOR, EXPONENT],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "damping_rate",
-            unit: ParameterUnit::SecondPerMetre,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("damping_rate", ParameterUnit::SecondPerMetre),
     ],
     separation_rules: &[SeparationRule::ZeroPenetration, SeparationRule::NoTension],
     needs_approach_velocity: true,
@@ -50,14 +44,8 @@ pub(crate) const LINEAR_DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "Hunt-Crossley class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_FACTOR],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetre,
-        },
-        ConstantDescriptor {
-            name: "damping_rate",
-            unit: ParameterUnit::SecondPerMetre,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetre),
+        constant("damping_rate", ParameterUnit::SecondPerMetre),
     ],
     example: &[("stiffness", 9.35e7)],
     ..DESCRIPTOR
@@ -83,7 +71,7 @@ impl HuntCrossley {
     ) -> Result<Box<dyn ImpactModel>, GapElementError> {
         Ok(Box::new(Self {
             descriptor,
-            stiffness: parameters.required(descriptor.name, "stiffness")?,
+            stiffness: parameters.get(descriptor, "stiffness")?,
             exponent,
             damping_factor: 0.0,
             phases: DampingPhases::Both,
@@ -100,9 +88,9 @@ impl HuntCrossley {
     ) -> Result<Box<dyn ImpactModel>, GapElementError> {
         Ok(Box::new(Self {
             descriptor,
-            stiffness: parameters.required(descriptor.name, "stiffness")?,
+            stiffness: parameters.get(descriptor, "stiffness")?,
             exponent: parameters.exponent(descriptor),
-            damping_factor: parameters.damping(descriptor.name, "damping_factor", relation)?,
+            damping_factor: parameters.damping(descriptor, "damping_factor", relation)?,
             phases,
             separation: parameters.separation(descriptor),
         }))

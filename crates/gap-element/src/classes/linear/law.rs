@@ -6,7 +6,7 @@ use crate::classes::{
     DampingPhases, approach_only, gap_shift, hunt_crossley, no_tension, no_tension_latched, unbuilt,
 };
 use crate::descriptor::{
-    AchievedRestitution, ConstantDescriptor, ModelDescriptor, ParameterUnit, Verification,
+    AchievedRestitution, ModelDescriptor, ParameterUnit, Verification, constant,
 };
 use crate::error::GapElementError;
 use crate::model::{
@@ -26,14 +26,8 @@ pub(crate) const DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "linear class, damping in both phases",
     parameters: &[POWER_STIFFNESS, RESTITUTION, DAMPING_RATIO, EXPONENT],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetreToExponent,
-        },
-        ConstantDescriptor {
-            name: "class_damping_ratio",
-            unit: ParameterUnit::One,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetreToExponent),
+        constant("class_damping_ratio", ParameterUnit::One),
     ],
     separation_rules: &[SeparationRule::ZeroPenetration],
     needs_approach_velocity: false,
@@ -51,14 +45,8 @@ pub(crate) const LINEAR_DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     class: "linear class, exponent 1, damping in both phases",
     parameters: &[LINEAR_STIFFNESS, RESTITUTION, DAMPING_RATIO],
     constants: &[
-        ConstantDescriptor {
-            name: "stiffness",
-            unit: ParameterUnit::NewtonPerMetre,
-        },
-        ConstantDescriptor {
-            name: "dashpot",
-            unit: ParameterUnit::NewtonSecondPerMetre,
-        },
+        constant("stiffness", ParameterUnit::NewtonPerMetre),
+        constant("dashpot", ParameterUnit::NewtonSecondPerMetre),
     ],
     example: &[("stiffness", 9.35e7)],
     ..DESCRIPTOR
@@ -87,9 +75,9 @@ impl LinearClass {
     ) -> Result<Box<dyn ImpactModel>, GapElementError> {
         Ok(Box::new(Self {
             descriptor,
-            stiffness: parameters.required(descriptor.name, "stiffness")?,
+            stiffness: parameters.get(descriptor, "stiffness")?,
             exponent: parameters.exponent(descriptor),
-            zeta: parameters.damping(descriptor.name, "damping_ratio", relation)?,
+            zeta: parameters.damping(descriptor, "damping_ratio", relation)?,
             phases,
             separation: parameters.separation(descriptor),
         }))

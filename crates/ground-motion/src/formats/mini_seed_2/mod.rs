@@ -5,6 +5,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::recording::Series;
 use crate::source::Source;
 
@@ -13,11 +14,20 @@ mod steim;
 
 use record::Record;
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "mini_seed_2",
+    title: "miniSEED 2 with integers, floats, Steim-1 or Steim-2; counts",
+    source: "Federation of Digital Seismograph Networks, SEED manual 2.4, chapter 8 and appendix B",
+    recognised_by: "a sequence number of six digits, then D, R, Q or M",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     record::is_start(source.bytes)
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut records = Vec::new();
     let mut at = 0;
     while at < source.bytes.len() {

@@ -5,6 +5,7 @@
 
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::recording::Series;
 use crate::source::Source;
@@ -132,12 +133,21 @@ fn looks_numeric(field: &[u8]) -> bool {
             .any(|w| field.eq_ignore_ascii_case(w))
 }
 
-pub(crate) fn matches(source: &Source<'_>) -> bool {
+pub(super) static FORMAT: Format = Format {
+    name: "plain_columns",
+    title: "Numbers: one or more columns, values along the rows, Fortran formats",
+    source: "whoever wrote the file",
+    recognised_by: "rows of numbers alone after any lines of text",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
     let mut first = rows(source).take(30).peekable();
     first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| looks_numeric(f)))
 }
 
-pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let header = header(source);
     let faulty = fault(source, header.as_ref());
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {

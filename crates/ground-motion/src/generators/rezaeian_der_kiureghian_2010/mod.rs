@@ -12,11 +12,11 @@ pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
 use crate::distributions::{gamma_quantile, ln_gamma};
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
-use crate::generators::{Generated, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid};
 use crate::measures::GRAVITY;
 use crate::step_record::StepRecord;
 
-const STEP: &str = "rezaeian_der_kiureghian_2010";
+const STEP: &str = RezaeianDerKiureghian2010::GENERATOR.name;
 /// The filter's frequency does not fall below this (Hz).
 const LEAST_FREQUENCY: f64 = 0.3;
 /// A pulse's response is followed down to this part of its start.
@@ -73,6 +73,13 @@ fn ratio(shape: f64) -> f64 {
 }
 
 impl RezaeianDerKiureghian2010 {
+    /// Name, title and source.
+    pub const GENERATOR: Generator = Generator {
+        name: "rezaeian_der_kiureghian_2010",
+        title: "Noise through a filter that changes, from its parameters or from an earthquake",
+        source: "Rezaeian and Der Kiureghian, Earthquake Engineering and Structural Dynamics 37 (2008) 1591 and 39 (2010) 1155",
+    };
+
     /// Corner of the high-pass (Hz) unless another is asked for.
     pub const USUAL_HIGH_PASS: f64 = 0.15;
 

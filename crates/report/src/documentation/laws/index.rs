@@ -1,8 +1,7 @@
 //! The index of the pages.
 
-use pounding_hysteresis::{LawDescriptor, Verification};
+use pounding_hysteresis::LawDescriptor;
 
-use super::super::checked;
 use super::page::carries_a_storey;
 
 /// The index of all laws.
@@ -19,7 +18,7 @@ pub fn index(laws: &[&'static LawDescriptor]) -> String {
             law.title,
             mark(carries_a_storey(law)),
             mark(law.rate_dependent),
-            checked(matches!(law.verification, Verification::Verified(_)))
+            law.verification.name()
         ));
     }
     text

@@ -2,7 +2,7 @@
 
 use pounding_catalogue::numbers::{all_digits, significant};
 use pounding_hysteresis::laboratory::Specimen;
-use pounding_hysteresis::{LawDescriptor, Verification, build};
+use pounding_hysteresis::{LawDescriptor, build};
 
 use super::super::{Head, PARAMETERS, parameter, quoted, traps};
 use super::{Example, dependence};
@@ -34,17 +34,13 @@ fn initial_stiffness(d: &'static LawDescriptor) -> Option<f64> {
 }
 
 fn head(d: &LawDescriptor) -> String {
-    let (verified, how) = match d.verification {
-        Verification::Verified(how) => (true, how),
-        Verification::SecondarySources(how) => (false, how),
-    };
     Head {
         name: d.name,
         title: d.title,
         formula: d.formula,
         citation: d.citation,
         kind: ("force of", dependence(d)),
-        checked: (verified, how),
+        checked: d.verification,
         aliases: d.aliases.iter().map(|a| (a.name, a.citation)).collect(),
     }
     .text()

@@ -1,10 +1,9 @@
 //! The page of one model.
 
+use pounding_catalogue::DefinitionError;
 use pounding_catalogue::numbers::all_digits;
 use pounding_gap_element::laboratory::EXAMPLE_RESTITUTION;
-use pounding_gap_element::{
-    GapElementError, ModelDescriptor, ParameterDescriptor, Verification, registry,
-};
+use pounding_gap_element::{GapElementError, ModelDescriptor, ParameterDescriptor, registry};
 
 use super::super::{Head, PARAMETERS, parameter, quoted, traps};
 use super::example::{BODIES_AS_ARGUMENTS, Example};
@@ -28,17 +27,13 @@ pub fn page(example: &Example) -> String {
 }
 
 fn head(d: &ModelDescriptor) -> String {
-    let (verified, how) = match d.verification {
-        Verification::Verified(how) => (true, how),
-        Verification::SecondarySources(how) => (false, how),
-    };
     let head = Head {
         name: d.name,
         title: d.title,
         formula: d.formula,
         citation: d.citation,
         kind: ("class", d.class),
-        checked: (verified, how),
+        checked: d.verification,
         aliases: d.aliases.iter().map(|a| (a.name, a.citation)).collect(),
     };
     let mut text = head.text();
@@ -95,7 +90,9 @@ fn default(d: &ModelDescriptor, p: &ParameterDescriptor) -> String {
     let mut parameters = d.example_parameters(EXAMPLE_RESTITUTION);
     parameters.values.remove(p.name);
     match registry::build(d.name, &parameters) {
-        Err(GapElementError::MissingParameter { parameter, .. }) if parameter != p.name => {
+        Err(GapElementError::Definition(DefinitionError::MissingParameter {
+            parameter, ..
+        })) if parameter != p.name => {
             format!("required: {parameter}")
         }
         _ => "optional".to_owned(),

@@ -1,0 +1,189 @@
+//! Descriptors by name.
+
+use crate::descriptor::Descriptor;
+use crate::error::DefinitionError;
+use crate::suggestion;
+
+/// Words of other programs and of the literature, and the name of what does what they say.
+type Synonyms = &'static [(&'static [&'static str], &'static str)];
+
+/// All descriptors of one kind, in the order in which users see them.
+#[derive(Debug)]
+pub struct Registry<D: 'static> {
+    all: &'static [&'static D],
+    synonyms: Synonyms,
+}
+
+impl<D: Descriptor> Registry<D> {
+    /// A registry of these. Synonyms, which are words within a name, are suggested and never
+    /// taken.
+    #[must_use]
+    pub const fn new(all: &'static [&'static D], synonyms: Synonyms) -> Self {
+        Self { all, synonyms }
+    }
+
+    /// All descriptors.
+    #[must_use]
+    pub const fn all(&self) -> &'static [&'static D] {
+        self.all
+    }
+
+    /// Names of all, without aliases.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + use<D> {
+        self.all.iter().map(|d| d.name())
+    }
+
+    /// What has this name or alias.
+    ///
+    /// # Errors
+    /// [`DefinitionError::UnknownName`] with the nearest known name.
+    pub fn find(&self, name: &str) -> Result<&'static D, DefinitionError> {
+        self.all
+            .iter()
+            .find(|d| names(**d).any(|known| known == name))
+            .copied()
+            .ok_or_else(|| DefinitionError::UnknownName {
+                kind: D::KIND,
+                name: name.to_owned(),
+                nearest: self.nearest(name),
+            })
+    }
+
+    /// The nearest known name: one that is misspelt, else one by a word that means it, else one
+    /// of which this is a part. Empty if nothing is known.
+    #[must_use]
+    pub fn nearest(&self, name: &str) -> &'static str {
+        let known = || self.all.iter().flat_map(|d| names(*d));
+        let spelt = suggestion::nearest(name, known()).unwrap_or_default();
+        if suggestion::is_within(name, spelt, 1 + name.chars().count() / 4) {
+            return spelt;
+        }
+        let by_part = || known().find(|k| !name.is_empty() && k.contains(name));
+        self.by_word(name).or_else(by_part).unwrap_or(spelt)
+    }
+
+    /// What a known word within the name means.
+    fn by_word(&self, name: &str) -> Option<&'static str> {
+        let plain = name.to_lowercase().replace(['-', ' '], "_");
+        let within = |word: &&str| format!("_{plain}_").contains(&format!("_{word}_"));
+        let mut meanings = self.synonyms.iter();
+        let (_, meant) = meanings.find(|(words, _)| words.iter().any(within))?;
+        Some(meant)
+    }
+}
+
+fn names<D: Descriptor>(descriptor: &D) -> impl Iterator<Item = &'static str> + use<D> {
+    let aliases = descriptor.aliases().iter().map(|a| a.name);
+    std::iter::once(descriptor.name()).chain(aliases)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Alias, ParameterDescriptor, ParameterUnit, Parameters, non_negative, optional_positive,
+    };
+
+    struct Law(&'static str, &'static [Alias]);
+
+    const PARAMETERS: &[ParameterDescriptor] = &[
+        non_negative("friction", ParameterUnit::Newton, "Friction"),
+        non_negative("ratio", ParameterUnit::One, "Ratio").default_to(0.5),
+        optional_positive("length", ParameterUnit::Metre, "Length"),
+    ];
+
+    impl Descriptor for Law {
+        const KIND: &'static str = "test law";
+        const NOUN: &'static str = "law";
+        fn name(&self) -> &'static str {
+            self.0
+        }
+        fn aliases(&self) -> &'static [Alias] {
+            self.1
+        }
+        fn parameters(&self) -> &'static [ParameterDescriptor] {
+            PARAMETERS
+        }
+    }
+
+    const COULOMB: &[Alias] = &[Alias {
+        name: "coulomb",
+        citation: "common",
+    }];
+    static ALL: Registry<Law> = Registry::new(
+        &[
+            &Law("coulomb_friction", COULOMB),
+            &Law("linear_spring", &[]),
+            &Law("cubic_spring", &[]),
+        ],
+        &[(&["elastic", "hooke"], "linear_spring")],
+    );
+
+    #[test]
+    fn spelling_comes_before_words_and_words_before_parts() {
+        for (name, nearest) in [
+            ("coulom", "coulomb"),
+            ("cubic_sprng", "cubic_spring"),
+            ("Hooke-law", "linear_spring"),
+            ("an elastic part", "linear_spring"),
+            ("inelastic_part", "linear_spring"),
+            ("bic", "cubic_spring"),
+        ] {
+            let Err(DefinitionError::UnknownName { nearest: found, .. }) = ALL.find(name) else {
+                panic!("{name} was found");
+            };
+            assert_eq!(found, nearest, "{name}");
+        }
+        let found = ALL.find("coulomb").map(Descriptor::name);
+        assert_eq!(found, Ok("coulomb_friction"));
+        let empty: Registry<Law> = Registry::new(&[], &[]);
+        assert_eq!(empty.nearest("coulomb"), "");
+        let names: Vec<_> = ALL.names().collect();
+        assert_eq!(names, ["coulomb_friction", "linear_spring", "cubic_spring"]);
+    }
+
+    #[test]
+    fn parameters_are_given_by_default_or_missing() {
+        let law = ALL.all()[0];
+        let given = Parameters::from_pairs(&[("friction", 2.0)]);
+        assert_eq!(given.check(law), Ok(()));
+        assert_eq!(given.get(law, "friction"), Ok(2.0));
+        assert_eq!(given.get(law, "ratio"), Ok(0.5));
+        assert_eq!(given.clone().with("ratio", 0.1).get(law, "ratio"), Ok(0.1));
+        assert_eq!(given.given("ratio"), None);
+        let refused =
+            |parameters: Parameters| parameters.check(law).map_err(|e| (e.to_string(), e.help()));
+        let because = |what: &str, help: &str| Err((what.to_owned(), help.to_owned()));
+        assert_eq!(
+            refused(Parameters::default()),
+            because(
+                "law coulomb_friction needs friction",
+                "add friction to the law"
+            )
+        );
+        assert_eq!(
+            refused(given.clone().with("lenght", 1.0)),
+            because(
+                "law coulomb_friction has no parameter \"lenght\"",
+                "did you mean \"length\"? its parameters are friction, ratio, length"
+            )
+        );
+        assert_eq!(
+            refused(given.clone().with("colour", 1.0)),
+            because(
+                "law coulomb_friction has no parameter \"colour\"",
+                "its parameters are friction, ratio, length"
+            )
+        );
+        for (value, shown) in [(0.0, "0"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+            assert_eq!(
+                refused(given.clone().with("length", value)),
+                because(
+                    &format!("law coulomb_friction: length = {shown} is outside (0, inf)"),
+                    "length: Length; check the unit"
+                )
+            );
+        }
+        assert_eq!(refused(given.with("friction", 0.0)), Ok(()));
+    }
+}

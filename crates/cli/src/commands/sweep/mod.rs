@@ -10,8 +10,8 @@ use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::FileUse;
 use pounding_study::{
-    MergeOptions, Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport,
-    case_of_run, parts_folder, sweep as make, writable,
+    MergeOptions, Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions,
+    SweepReport, case_of_run, parts_folder, sweep as make, writable,
 };
 use serde_json::{Value, json};
 
@@ -284,7 +284,8 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::Text { error, source_text } => Self::case(*error, &source_text),
             StudyError::Base(error) => Self::assembly(error, ""),
-            e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
+            e @ (StudyError::Store { .. }
+            | StudyError::ResultFile(StudyFileError::File { what: "write", .. })) => {
                 Self::unwritten(e.to_string(), help)
             }
             e @ StudyError::File { what, .. }

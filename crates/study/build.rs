@@ -12,12 +12,14 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 /// Crates whose sources decide the numbers of a run.
-const COMPUTING: [&str; 9] = [
+const COMPUTING: [&str; 11] = [
     "assembly",
     "case",
+    "catalogue",
     "gap-element",
     "ground-motion",
     "hysteresis",
+    "results",
     "runge-kutta",
     "shear-building",
     "study",

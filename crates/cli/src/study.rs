@@ -8,8 +8,8 @@ use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::FileUse;
 use pounding_study::{
-    Progress as Stand, Shard, Study, StudyError, SweepOptions, SweepReport, parts_folder,
-    sweep as make, writable,
+    Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions, SweepReport,
+    parts_folder, sweep as make, writable,
 };
 use serde_json::{Value, json};
 
@@ -216,7 +216,8 @@ impl From<StudyError> for Failure {
                 Self::together(errors.into_iter().map(Self::from).collect())
             }
             StudyError::Base(error) => Self::assembly(error, ""),
-            e @ (StudyError::Store { .. } | StudyError::ResultFile { what: "write", .. }) => {
+            e @ (StudyError::Store { .. }
+            | StudyError::ResultFile(StudyFileError::File { what: "write", .. })) => {
                 Self::unwritten(e.to_string(), help)
             }
             e @ StudyError::File { what, .. }

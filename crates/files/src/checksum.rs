@@ -28,6 +28,12 @@ const BLOCK: usize = 1 << 18;
 /// What people are told of a file that was read without a checksum.
 pub const ABSENT: &str = "has no checksum: a version of the program that wrote none made it, and damage to its numbers would not be seen";
 
+/// Bytes in hexadecimal digits.
+#[must_use]
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
+}
+
 /// What the checksum of a file says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Checksum {
@@ -263,10 +269,7 @@ mod tests {
             assert_eq!(found(&bytes).unwrap(), Checksum::Matches);
             let (before, line) = bytes.split_at(length);
             assert_eq!(before, content(length));
-            let digits: String = Sha256::digest(before)
-                .iter()
-                .map(|b| format!("{b:02x}"))
-                .collect();
+            let digits = hexadecimal(&Sha256::digest(before));
             let expected = format!("pounding-sha256:1 {digits}\n");
             assert_eq!(line, expected.as_bytes());
         }

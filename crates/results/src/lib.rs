@@ -1,14 +1,15 @@
-//! Result files in HDF5: those of runs are written here, those of runs and of studies are
-//! read here.
+//! Result files in HDF5, of runs and of studies: what stands in them, written and read.
 //!
 //! [`ResultFile::open`] is the only way to a result file: the checksum at its end is
 //! compared before the HDF5 library sees the file. What is then read has the type that was
 //! written and a size that is stored, or is an error: of a file without checksum, a
 //! damaged type or a lost piece would otherwise be read as zeros.
 
+mod attributes;
 mod chunks;
 pub mod dimension_scales;
 mod run;
+pub mod study;
 mod values;
 
 use std::path::Path;

@@ -173,7 +173,7 @@ mod tests {
             data.write_raw(&written).unwrap();
             assert_eq!(values::<f64>(file, "a").unwrap(), written);
             file.new_dataset::<f64>().shape(0).create("none").unwrap();
-            assert_eq!(values::<f64>(file, "none").unwrap(), []);
+            assert_eq!(values::<f64>(file, "none").unwrap(), [0.0; 0]);
             read_all(file).unwrap();
         });
     }

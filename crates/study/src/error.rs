@@ -6,7 +6,7 @@ use pounding_assembly::AssemblyError;
 use pounding_case::CaseError;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_ground_motion::GroundMotionError;
-use pounding_results::OpenError;
+use pounding_results::study::StudyFileError;
 
 /// A study that cannot be read, run, written or evaluated. A run that fails is none: it
 /// is recorded with its diagnosis.
@@ -101,42 +101,15 @@ pub enum StudyError {
         /// What it is.
         reason: String,
     },
-    /// A result that may not be parsed: see its reason.
-    #[error("cannot read the result {path}: {source}")]
-    Checksum {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        source: OpenError,
-    },
-    /// Shards that different builds of the program computed.
-    #[error("cannot merge shards that different builds of the program computed:\n{list}")]
-    MixedBuilds {
-        /// Each build with its files, a line each.
-        list: String,
-    },
     /// Another process works on the same runs.
     #[error("another process is working in {folder}")]
     Busy {
         /// Folder of the finished chunks.
         folder: PathBuf,
     },
-    /// The result cannot be written or read.
-    #[error("cannot {what} the result {path}: {reason}")]
-    ResultFile {
-        /// What was tried.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What HDF5 or the file system said.
-        reason: String,
-    },
-    /// Files that do not make one study together.
-    #[error("cannot merge: {reason}")]
-    Merge {
-        /// Why.
-        reason: String,
-    },
+    /// A result that cannot be written, read or merged.
+    #[error(transparent)]
+    ResultFile(#[from] StudyFileError),
     /// An output that is an input, or another output.
     #[error(transparent)]
     FileUse(#[from] pounding_files::FileUseError),
@@ -210,15 +183,6 @@ impl StudyError {
         }
     }
 
-    /// Why a result could not be read, without its path.
-    pub(crate) fn reason(&self) -> String {
-        match self {
-            Self::Checksum { source, .. } => source.to_string(),
-            Self::ResultFile { reason, .. } => reason.clone(),
-            other => other.to_string(),
-        }
-    }
-
     /// What to try.
     #[must_use]
     pub fn help(&self) -> Option<String> {
@@ -230,10 +194,6 @@ impl StudyError {
             Self::Records { .. } => {
                 "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are computed"
             }
-            Self::ResultFile { what: "write", .. } => {
-                "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
-            }
-            Self::ResultFile { .. } => "check that it is the HDF5 file of a sweep",
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
@@ -250,18 +210,10 @@ impl StudyError {
             Self::Standing { .. } => {
                 "name another result with -o; move the file away if it is of no use; without --resume it is replaced"
             }
-            Self::Checksum { source, .. } => source
-                .help()
-                .unwrap_or("check that it is the HDF5 file of a sweep"),
-            Self::MixedBuilds { .. } => {
-                "compute all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
-            }
             Self::Busy { .. } => "wait for it, or name another result with -o",
+            Self::ResultFile(error) => error.help(),
             Self::FileUse(error) => return Some(error.help()),
             Self::Interrupted { .. } => "go on with --resume",
-            Self::Merge { .. } => {
-                "merge all shards i/n of one study for one n, computed by one version of the program"
-            }
             Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",
             Self::NoSuchRun { .. } => return None,
             Self::NotShown { .. } => {

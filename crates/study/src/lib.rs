@@ -14,12 +14,13 @@ mod case_text;
 mod design;
 mod error;
 mod ida;
+mod merge;
 mod parts;
-mod result_file;
 mod runs;
 mod shown;
 mod study_file;
 mod sweep;
+mod table;
 
 /// What this program was built of and for, as far as the results of runs may depend on it:
 /// version, hash of the sources of the crates that compute and of the versions of their
@@ -32,8 +33,9 @@ pub const BUILD: &str = env!("POUNDING_BUILD");
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
 pub use ida::*;
-pub use result_file::{
-    Coordinate, Description, MergeOptions, MergeReport, ResultReader, RunTable, merge,
+pub use merge::{MergeReport, merge};
+pub use pounding_results::study::{
+    Coordinate, Description, MergeOptions, ResultReader, StudyFileError,
 };
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use shown::case_of_run;
@@ -42,3 +44,4 @@ pub use study_file::{
     Variable,
 };
 pub use sweep::{Progress, Shard, SweepOptions, SweepReport, parts_folder, sweep, writable};
+pub use table::RunTable;

@@ -6,15 +6,17 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use pounding_files::PartFile;
+use pounding_files::checksum::WithoutChecksum;
+use pounding_results::study::{
+    Coordinate, Description, ResultReader, ResultWriter, StudyFileError,
+};
 
 use crate::BUILD;
 use crate::error::StudyError;
 use crate::parts::{Parts, Store};
-use crate::result_file::{Description, ResultReader, ResultWriter, RunTable, coordinates};
-use pounding_files::checksum::WithoutChecksum;
-
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
-use crate::study_file::{Study, Value};
+use crate::study_file::{Study, Value, Values, Variable};
+use crate::table::RunTable;
 
 /// Part `index` of `count` of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -387,7 +389,7 @@ fn assemble(
         if let Some(table) = &mut table {
             table.push(&row, &point)?;
         }
-        writer.push(row, point)
+        writer.push(row, point).map_err(StudyError::from)
     })?;
     table.map_or(Ok(()), RunTable::finish)?;
     writer.finish()?;
@@ -400,16 +402,31 @@ fn assemble(
 /// [`StudyError::ResultFile`] if it is a folder or a device, or its folder is not there or
 /// cannot be written to.
 pub fn writable(path: &Path) -> Result<(), StudyError> {
-    let failed = |e: std::io::Error| StudyError::ResultFile {
+    let failed = |e: std::io::Error| StudyFileError::File {
         what: "write",
         path: path.to_owned(),
         reason: e.to_string(),
     };
-    PartFile::beside(path).map(drop).map_err(failed)
+    PartFile::beside(path).map(drop).map_err(failed)?;
+    Ok(())
 }
 
 /// The folder in which the finished runs of a result are kept until it is complete.
 #[must_use]
 pub fn parts_folder(output: &Path) -> PathBuf {
     Parts::folder(output)
+}
+
+/// The coordinates of a study.
+fn coordinates(study: &Study) -> Vec<Coordinate> {
+    let coordinate = |v: &Variable| Coordinate {
+        name: v.name.clone(),
+        long_name: v.long_name.clone(),
+        unit: v.unit.clone(),
+        choices: match &v.values {
+            Values::Choices(labels) => Some(labels.clone()),
+            _ => None,
+        },
+    };
+    study.variables.iter().map(coordinate).collect()
 }

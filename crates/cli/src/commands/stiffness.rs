@@ -214,7 +214,7 @@ fn as_text(result: &ContactStiffness) -> String {
         "\nin the gap of a case    {}\nsource                  {}\nstatus                  {}\n",
         result.case_line(),
         result.source,
-        result.status.to_string()
+        result.status
     ));
     if !result.warnings.is_empty() {
         text.push_str("\nwarnings\n");

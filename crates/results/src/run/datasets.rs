@@ -1,11 +1,10 @@
 //! Datasets and attributes with their units and names.
 
-use std::str::FromStr;
-
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Group, H5Type, Location};
+use hdf5::{Dataset, Group, H5Type};
 
 use super::Result;
+use crate::attributes::{describe, text, unicode};
 
 /// Rows of a chunk at most: a few hundred kilobytes for tall buildings, few chunks for
 /// short runs.
@@ -63,7 +62,7 @@ pub(super) fn labels(
     long_name: &str,
     values: &[String],
 ) -> Result<Dataset> {
-    let texts = values.iter().map(|v| unicode(name, v));
+    let texts = values.iter().map(|v| unicode(v));
     let texts = texts.collect::<Result<Vec<_>>>()?;
     let builder = group.new_dataset::<VarLenUnicode>();
     let data = builder.shape(texts.len()).create(name)?;
@@ -72,23 +71,4 @@ pub(super) fn labels(
     }
     text(&data, "long_name", long_name)?;
     Ok(data)
-}
-
-fn unicode(name: &str, value: &str) -> Result<VarLenUnicode> {
-    VarLenUnicode::from_str(value).map_err(|e| hdf5::Error::from(format!("{name}: {e}")))
-}
-
-pub(super) fn describe(data: &Dataset, units: &str, long_name: &str) -> Result<()> {
-    text(data, "units", units)?;
-    text(data, "long_name", long_name)
-}
-
-/// A UTF-8 text attribute.
-pub(super) fn text(location: &Location, name: &str, value: &str) -> Result<()> {
-    // A text ends at a NUL here.
-    let value = unicode(&format!("attribute {name}"), &value.replace('\0', " "))?;
-    location
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
 }

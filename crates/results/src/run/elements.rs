@@ -5,9 +5,10 @@ use pounding_time_history::{
     BuildingOutcome, ElementPlace, LinkLevelOutcome, Outcome, Peak, System,
 };
 
-use super::datasets::{series, text};
+use super::datasets::series;
 use super::tables::{Content, Tables};
 use super::{Result, levels, share_time};
+use crate::attributes::text;
 use crate::dimension_scales;
 
 /// Creates the dataset of the energy that storeys dissipate over time, for a building that

@@ -3,9 +3,10 @@
 use hdf5::{Dataset, H5Type};
 use pounding_time_history::{Impact, LevelPlace, Outcome, System};
 
-use super::datasets::{series, table as rows_of, text};
+use super::datasets::{series, table as rows_of};
 use super::tables::{Content, Tables};
 use super::{Result, levels, share_time};
+use crate::attributes::text;
 use crate::dimension_scales;
 
 /// One impact as a row of the compound table.

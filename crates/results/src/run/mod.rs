@@ -20,8 +20,8 @@ use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{Energy, Outcome, Sample, SampleSink, System, TimeHistoryError};
 use sha2::{Digest, Sha256};
 
-use crate::{CHECKSUM, CHECKSUM_FORM, dimension_scales};
-use datasets::text;
+use crate::attributes::{self, text};
+use crate::dimension_scales;
 pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
 use tables::{Content, Tables};
 
@@ -173,14 +173,10 @@ fn reason_of(error: &hdf5::Error) -> String {
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
     let file = hdf5::File::create(path)?;
-    text(&file, "Conventions", "CF-1.10")?;
-    text(&file, "title", head.title)?;
-    text(&file, "program", "pounding")?;
-    text(&file, "version", head.version)?;
-    text(&file, "build", head.build)?;
-    text(&file, CHECKSUM, CHECKSUM_FORM)?;
+    attributes::head(&file, head.title, head.version, head.build)?;
     text(&file, "case", head.case)?;
-    text(&file, "case_sha256", &sha256(head.case))?;
+    let case_sha256 = checksum::hexadecimal(&Sha256::digest(head.case));
+    text(&file, "case_sha256", &case_sha256)?;
     let origin = head.accelerogram.origin();
     text(
         &file,
@@ -269,11 +265,4 @@ fn run(file: &hdf5::File, ending: &RunEnding<'_>) -> Result<()> {
     }
     let wall = group.new_attr::<f64>().create("wall_time")?;
     wall.write_scalar(&ending.wall_time)
-}
-
-fn sha256(text: &str) -> String {
-    Sha256::digest(text.as_bytes())
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect()
 }

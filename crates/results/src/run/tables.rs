@@ -7,7 +7,8 @@ use ndarray::{ArrayView1, ArrayView2};
 use pounding_time_history::{Energy, History};
 
 use super::Result;
-use super::datasets::{CHUNK_ROWS, describe};
+use super::datasets::CHUNK_ROWS;
+use crate::attributes::describe;
 
 /// Bytes of a block of rows at most.
 const BLOCK_BYTES: usize = 32 << 20;

@@ -1,7 +1,5 @@
 //! What a case says, without how it is written.
 
-use std::fmt::Write as _;
-
 use pounding_case::parse_quantity;
 use toml::de::{DeTable, DeValue};
 
@@ -64,15 +62,6 @@ fn value(value_here: &DeValue<'_>, path: &str, lines: &mut Vec<String>) {
 
 fn number(path: &str, x: f64) -> String {
     format!("{path} = {x:e}")
-}
-
-/// Bytes as text.
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, b| {
-        // Writing into a text does not fail.
-        let _ = write!(text, "{b:02x}");
-        text
-    })
 }
 
 #[cfg(test)]

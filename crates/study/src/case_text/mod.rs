@@ -11,5 +11,6 @@ mod path;
 pub(crate) use edits::{
     Edits, Entry, Lost, apply, building_names, entry, options_of_gap, options_of_motion,
 };
-pub(crate) use identity::{canonical, hexadecimal};
+pub(crate) use identity::canonical;
 pub(crate) use path::Path;
+pub(crate) use pounding_files::checksum::hexadecimal;

@@ -4,8 +4,8 @@ use super::demands::{Demand, of_gap, of_limit, usual};
 use super::fragility::{Counts, FragilityFit, fit};
 use super::hazard::mean_annual_frequency;
 use crate::error::StudyError;
-use crate::result_file::ResultReader;
 use crate::study_file::{IdaSettings, Study, Value};
+use pounding_results::study::ResultReader;
 
 /// Runs at one intensity.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,10 +7,9 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::case_text::hexadecimal;
-use crate::runs::{Ending, Row};
+use crate::runs::{Ending, ID, Row};
 
-/// Bytes of a run's identity, and of the hash at the end.
-const ID: usize = 16;
+/// Bytes of the hash at the end.
 const HASH: usize = 32;
 
 /// The content of a piece: rows of a study, in the order of their runs.

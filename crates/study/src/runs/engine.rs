@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use super::runner::{Row, Runner};
+use super::Row;
+use super::runner::Runner;
 use crate::error::StudyError;
 
 /// Rows that may wait for the thread that stores them, for each thread that makes them.

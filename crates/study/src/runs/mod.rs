@@ -1,15 +1,14 @@
 //! Runs of a study: from a number to a row of results.
 
 mod cache;
-mod columns;
 mod engine;
 mod motions;
 mod runner;
+mod varied;
 
-pub(crate) use columns::is_result;
-pub use columns::{Axis, Layout, Place, Quantity};
 pub(crate) use engine::run_all;
 pub use motions::RecordReport;
 pub(crate) use motions::motion;
-pub use runner::{Ending, Row};
+pub use pounding_results::study::{Axis, Ending, Layout, Place, Quantity, Row};
+pub(crate) use pounding_results::study::{ID, is_result};
 pub(crate) use runner::{Runner, chosen, factor, wanted, written};

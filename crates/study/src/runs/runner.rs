@@ -12,76 +12,15 @@ use pounding_time_history::{
 use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
-use super::columns::Layout;
 use super::motions::{Motion, Motions};
+use super::varied::leave_out_varied;
+use super::{Ending, ID, Layout, Row};
 use crate::case_text::{Edits, apply, canonical, hexadecimal};
 use crate::error::StudyError;
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
 
-/// Bytes of a run's identity.
-pub(crate) const ID: usize = 16;
 /// Buildings and motions kept for runs to come.
 const KEPT: usize = 64;
-
-/// The result of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// Number of the run.
-    pub run: usize,
-    /// Identity: the first bytes of the SHA-256 of what the case says, of the bytes of the
-    /// record and of the version of the program.
-    pub id: [u8; ID],
-    /// Values in the columns of the [`Layout`]; all missing (NaN) if the run failed, all
-    /// but the isolated demand if it collapsed.
-    pub values: Vec<f64>,
-    /// How it ended.
-    pub ending: Ending,
-}
-
-/// How a run ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Ending {
-    /// It went on to its end.
-    Complete,
-    /// It could not be made, or came to no result: the diagnosis.
-    Failed(String),
-    /// Gravity overturned a building, which is an answer: when, which building, which
-    /// storey.
-    Collapsed(String),
-}
-
-impl Ending {
-    /// Its number and its name in results.
-    #[must_use]
-    pub fn status(&self) -> (i8, &'static str) {
-        match self {
-            Self::Complete => (0, "complete"),
-            Self::Failed(_) => (1, "failed"),
-            Self::Collapsed(_) => (2, "collapsed"),
-        }
-    }
-
-    /// Why it failed, or what collapsed.
-    #[must_use]
-    pub fn diagnosis(&self) -> Option<&str> {
-        match self {
-            Self::Complete => None,
-            Self::Failed(reason) | Self::Collapsed(reason) => Some(reason),
-        }
-    }
-
-    /// Whether it failed.
-    #[must_use]
-    pub fn failed(&self) -> bool {
-        matches!(self, Self::Failed(_))
-    }
-
-    /// Whether a building collapsed.
-    #[must_use]
-    pub fn collapsed(&self) -> bool {
-        matches!(self, Self::Collapsed(_))
-    }
-}
 
 /// A number as it stands in the case of a run.
 pub(crate) fn written(x: f64) -> String {
@@ -116,7 +55,7 @@ impl<'s> Runner<'s> {
         let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
         let system = assemble_with_record(&study.base, &rest)?.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
-        let varied = layout.leave_out_varied(study, &system);
+        let varied = leave_out_varied(&mut layout, study, &system);
         let mut warnings: Vec<String> = system
             .unequal_floor_warnings()
             .iter()

@@ -15,6 +15,7 @@ use std::path::{Path as FilePath, PathBuf};
 
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub use intensity::IntensityMeasure;
+pub use pounding_results::study::Value;
 pub use values::{Spacing, Values};
 
 use pounding_case::Case;
@@ -99,15 +100,6 @@ pub(crate) enum RecordKind {
         /// The command that makes it, but for the file that it goes into.
         command: String,
     },
-}
-
-/// The value of a variable in a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value {
-    /// A number in SI units.
-    Number(f64),
-    /// Which of the choices, from zero.
-    Choice(usize),
 }
 
 impl Study {

@@ -182,7 +182,7 @@ fn variables(root: &Table<'_, '_>, context: &Context<'_>) -> Result<Variables> {
     let items = reader.list(root.required("variable")?, "variable")?;
     let mut read = Variables {
         variables: Vec::new(),
-        whole: true,
+        whole: !root.misspelt("variable"),
         records: None,
     };
     for item in items {

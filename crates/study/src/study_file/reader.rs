@@ -256,8 +256,13 @@ impl<'v, 'a> Table<'v, 'a> {
     }
 
     /// Whether an unknown key may stand for this one, so that something of it is missing.
+    pub(super) fn misspelt(&self, key: &str) -> bool {
+        self.meant.contains(&key)
+    }
+
+    /// Whether this key is missing because it is misspelt.
     pub(super) fn lacks(&self, key: &str) -> bool {
-        self.meant.contains(&key) && self.get(key).is_none()
+        self.misspelt(key) && self.get(key).is_none()
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&'v Value<'a>> {

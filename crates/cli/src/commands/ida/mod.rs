@@ -7,7 +7,9 @@ use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_study::{FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, evaluate};
+use pounding_study::{
+    FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, StudyError, evaluate,
+};
 use serde_json::{Value, json};
 
 use crate::arguments::IdaArguments;
@@ -30,10 +32,8 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     have_a_place([arguments.plot.as_deref(), arguments.table.as_deref()])?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
-    let report = evaluate(
-        &study,
-        &ResultReader::open(&options.output, WithoutChecksum::Refuse)?,
-    )?;
+    let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
+    let report = evaluate(&study, &result.map_err(StudyError::from)?)?;
     if let Some(path) = &arguments.plot {
         plot::write(path, &picture::curves(&report)?)?;
     }

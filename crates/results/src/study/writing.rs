@@ -5,18 +5,15 @@ use std::path::{Path, PathBuf};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
-use pounding_files::{PartFile, checksum};
-use pounding_results::dimension_scales::make_scale;
+use pounding_files::PartFile;
+use pounding_files::checksum::{append, hexadecimal};
 
-use super::Description;
 use super::datasets::{
-    Axes, attributes, coordinates, dataset, describe, failures, labels, places, quantities, states,
-    unicode,
+    Axes, coordinates, dataset, describe, failures, labels, places, quantities, root, states,
 };
-use crate::case_text::hexadecimal;
-use crate::error::StudyError;
-use crate::runs::Row;
-use crate::study_file::Value;
+use super::{Description, Row, StudyFileError, Value};
+use crate::attributes::unicode;
+use crate::dimension_scales::make_scale;
 
 /// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
 pub(super) const BLOCK: usize = 1024;
@@ -26,7 +23,7 @@ pub(super) type Id = FixedAscii<32>;
 type Result<T> = hdf5::Result<T>;
 
 /// Writes a result beside its place; `finish` puts it there.
-pub(crate) struct ResultWriter {
+pub struct ResultWriter {
     path: PathBuf,
     open: Option<Open>,
     /// Dropped after `open`, which writes into it.
@@ -49,12 +46,12 @@ impl ResultWriter {
     /// Begins a result of `rows` rows.
     ///
     /// # Errors
-    /// [`StudyError::ResultFile`].
-    pub(crate) fn create(
+    /// [`StudyFileError::File`].
+    pub fn create(
         path: &Path,
         description: &Description,
         rows: usize,
-    ) -> std::result::Result<Self, StudyError> {
+    ) -> std::result::Result<Self, StudyFileError> {
         let mut writer = Self {
             path: path.to_owned(),
             open: None,
@@ -67,8 +64,8 @@ impl ResultWriter {
         Ok(writer)
     }
 
-    fn failed(&self, error: &dyn std::fmt::Display) -> StudyError {
-        StudyError::ResultFile {
+    fn failed(&self, error: &dyn std::fmt::Display) -> StudyFileError {
+        StudyFileError::File {
             what: "write",
             path: self.path.clone(),
             reason: error.to_string(),
@@ -78,12 +75,8 @@ impl ResultWriter {
     /// Adds the next row.
     ///
     /// # Errors
-    /// [`StudyError::ResultFile`].
-    pub(crate) fn push(
-        &mut self,
-        row: Row,
-        point: Vec<Value>,
-    ) -> std::result::Result<(), StudyError> {
+    /// [`StudyFileError::File`].
+    pub fn push(&mut self, row: Row, point: Vec<Value>) -> std::result::Result<(), StudyFileError> {
         let Some(open) = &mut self.open else {
             return Ok(());
         };
@@ -97,15 +90,15 @@ impl ResultWriter {
     /// Writes what is left, brings the file to the disk and renames it.
     ///
     /// # Errors
-    /// [`StudyError::ResultFile`]; nothing new stands under its name then.
-    pub(crate) fn finish(mut self) -> std::result::Result<(), StudyError> {
+    /// [`StudyFileError::File`]; nothing new stands under its name then.
+    pub fn finish(mut self) -> std::result::Result<(), StudyFileError> {
         let (Some(mut open), Some(part)) = (self.open.take(), self.part.take()) else {
             return Ok(());
         };
         let written = open.flush().and_then(|()| open.file.flush());
         drop(open);
         written.map_err(|e| self.failed(&e))?;
-        checksum::append(part.path())
+        append(part.path())
             .and_then(|()| part.finish())
             .map_err(|e| self.failed(&e))
     }
@@ -114,7 +107,7 @@ impl ResultWriter {
 impl Open {
     fn create(path: &Path, description: &Description, rows: usize) -> Result<Self> {
         let file = File::create(path)?;
-        attributes(&file, description)?;
+        root(&file, description)?;
         let run = dataset::<i64>(&file, "run", rows, None)?;
         describe(&run, "", "number of the run, from 0")?;
         make_scale(&run, "run")?;

@@ -1,20 +1,20 @@
-//! The HDF5 file of a study, netCDF-4 style: dimensions `run`, `storey` and `level`, a
-//! coordinate for every variable. The layout is in `docs/reference/studies.md`.
+//! The HDF5 file of a study or of a shard of one, netCDF-4 style: dimensions `run`, `storey` and
+//! `level`, a coordinate for every variable. The layout is in `docs/reference/studies.md`.
 
 mod datasets;
-mod merge;
-mod parquet_table;
+mod error;
+mod layout;
 mod reading;
-mod table;
+mod row;
+mod shards;
 mod writing;
 
-pub use merge::{MergeOptions, MergeReport, merge};
+pub use error::StudyFileError;
+pub use layout::{Axis, Layout, Place, Quantity, is_result};
 pub use reading::ResultReader;
-pub use table::RunTable;
-pub(crate) use writing::ResultWriter;
-
-use crate::runs::Layout;
-use crate::study_file::{Study, Values};
+pub use row::{Ending, ID, Row, Value};
+pub use shards::{MergeOptions, Shards};
+pub use writing::ResultWriter;
 
 /// A coordinate of the runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub struct Description {
     pub records: String,
     /// Version of the program.
     pub version: String,
-    /// What the program was built of and for, see [`crate::BUILD`]; a line for each build if
+    /// What the program was built of and for, see `BUILD` of the crate that makes the runs; a line for each build if
     /// a merged result has several. Empty in files of versions that did not record it.
     pub build: String,
     /// Number of runs of the whole study.
@@ -59,18 +59,4 @@ pub struct Description {
     pub layout: Layout,
     /// Variables of the study.
     pub coordinates: Vec<Coordinate>,
-}
-
-/// The coordinates of a study.
-pub(crate) fn coordinates(study: &Study) -> Vec<Coordinate> {
-    let coordinate = |v: &crate::study_file::Variable| Coordinate {
-        name: v.name.clone(),
-        long_name: v.long_name.clone(),
-        unit: v.unit.clone(),
-        choices: match &v.values {
-            Values::Choices(labels) => Some(labels.clone()),
-            _ => None,
-        },
-    };
-    study.variables.iter().map(coordinate).collect()
 }

@@ -1,16 +1,16 @@
 //! The rows as a table, CSV or Parquet: a line per run, a column for every variable and value.
 
+mod parquet_table;
+
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use pounding_files::PartFile;
+use pounding_results::study::{Axis, Description, Row, Value};
 
-use super::Description;
-use super::parquet_table::{Cell, ParquetTable};
 use crate::case_text::hexadecimal;
 use crate::error::StudyError;
-use crate::runs::{Axis, Row};
-use crate::study_file::Value;
+use parquet_table::{Cell, ParquetTable};
 
 /// Writes a table beside its place; `finish` puts it there. It is Parquet if its name ends
 /// in `.parquet`, else CSV.

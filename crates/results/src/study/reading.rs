@@ -7,13 +7,10 @@ use std::path::{Path, PathBuf};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
-use pounding_results::{OpenError, ResultFile, dataset, number, text, texts, values};
 
 use super::writing::Id;
-use super::{Coordinate, Description};
-use crate::error::StudyError;
-use crate::runs::{Axis, Ending, Layout, Place, Row};
-use crate::study_file::Value;
+use super::{Axis, Coordinate, Description, Ending, Layout, Place, Row, StudyFileError, Value};
+use crate::{OpenError, ResultFile, dataset, number, text, texts, values};
 
 /// A result that is read.
 #[derive(Debug)]
@@ -39,10 +36,10 @@ impl ResultReader {
     /// accepted.
     ///
     /// # Errors
-    /// [`StudyError::Checksum`], or [`StudyError::ResultFile`] if it is not the result of a
+    /// [`StudyFileError::Checksum`], or [`StudyFileError::File`] if it is not the result of a
     /// study or its parts do not fit one another.
-    pub fn open(path: &Path, without: WithoutChecksum) -> Result<Self, StudyError> {
-        let failed = |reason: String| StudyError::ResultFile {
+    pub fn open(path: &Path, without: WithoutChecksum) -> Result<Self, StudyFileError> {
+        let failed = |reason: String| StudyFileError::File {
             what: "read",
             path: path.to_owned(),
             reason,
@@ -51,7 +48,7 @@ impl ResultReader {
             OpenError::Checksum(ChecksumError::NotHdf5) => {
                 failed("it is not the result of a study (it is not HDF5)".to_owned())
             }
-            source => StudyError::Checksum {
+            source => StudyFileError::Checksum {
                 path: path.to_owned(),
                 source,
             },
@@ -120,9 +117,9 @@ impl ResultReader {
     /// Rows at these places of the file, with the values of the variables.
     ///
     /// # Errors
-    /// [`StudyError::ResultFile`].
-    pub fn block(&self, places: Range<usize>) -> Result<Vec<(Row, Vec<Value>)>, StudyError> {
-        self.read(places).map_err(|e| StudyError::ResultFile {
+    /// [`StudyFileError::File`].
+    pub fn block(&self, places: Range<usize>) -> Result<Vec<(Row, Vec<Value>)>, StudyFileError> {
+        self.read(places).map_err(|e| StudyFileError::File {
             what: "read",
             path: self.path.clone(),
             reason: e.to_string(),

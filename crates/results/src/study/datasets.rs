@@ -1,19 +1,15 @@
 //! Datasets and attributes of a result, with their units and names.
 
 use std::ops::Range;
-use std::str::FromStr;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{Dataset, File, Group, H5Type, Location};
-use pounding_results::dimension_scales::attach;
-use pounding_results::{CHECKSUM, CHECKSUM_FORM};
+use hdf5::{Dataset, File, Group, H5Type, Result};
 use serde_json::json;
 
-use super::Description;
 use super::writing::{BLOCK, Id};
-use crate::runs::Axis;
-
-type Result<T> = hdf5::Result<T>;
+use super::{Axis, Description};
+use crate::attributes::{self, text, unicode};
+use crate::dimension_scales::attach;
 
 /// What datasets are attached to.
 pub(super) struct Axes<'d> {
@@ -103,19 +99,14 @@ pub(super) fn quantities(
     Ok(quantities)
 }
 
-pub(super) fn attributes(file: &File, d: &Description) -> Result<()> {
+pub(super) fn root(file: &File, d: &Description) -> Result<()> {
     let variables: Vec<_> = d
         .coordinates
         .iter()
         .map(|c| json!({"name": c.name, "long_name": c.long_name, "unit": c.unit, "choices": c.choices}))
         .collect();
+    attributes::head(file, &d.title, &d.version, &d.build)?;
     for (name, value) in [
-        ("Conventions", "CF-1.10"),
-        ("title", &d.title),
-        ("program", "pounding"),
-        ("version", &d.version),
-        ("build", &d.build),
-        (CHECKSUM, CHECKSUM_FORM),
         ("study", &d.study),
         ("study_sha256", &d.study_sha256),
         ("case", &d.case),
@@ -276,22 +267,10 @@ pub(super) fn dataset<T: H5Type>(
     }
 }
 
+/// Long name of a dataset, and its unit if it has one.
 pub(super) fn describe(data: &Dataset, unit: &str, long_name: &str) -> Result<()> {
-    if !unit.is_empty() {
-        text(data, "units", unit)?;
+    match unit {
+        "" => text(data, "long_name", long_name),
+        _ => attributes::describe(data, unit, long_name),
     }
-    text(data, "long_name", long_name)
-}
-
-fn text(location: &Location, name: &str, value: &str) -> Result<()> {
-    let value = unicode(value)?;
-    location
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
-}
-
-pub(super) fn unicode(value: &str) -> Result<VarLenUnicode> {
-    // A text of HDF5 ends at its first zero.
-    VarLenUnicode::from_str(&value.replace('\0', " ")).map_err(|e| hdf5::Error::from(e.to_string()))
 }

@@ -1,13 +1,10 @@
-//! One result from the results of all shards.
+//! The shards of a study, which make one result.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use pounding_files::FileUse;
 use pounding_files::checksum::{Checksum, WithoutChecksum};
 
-use super::table::RunTable;
-use super::{Description, ResultReader, ResultWriter};
-use crate::error::StudyError;
+use super::{Description, ResultReader, Row, StudyFileError, Value};
 
 /// How shards are merged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,107 +16,106 @@ pub struct MergeOptions {
     pub without_checksum: WithoutChecksum,
 }
 
-/// What a merged result holds.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct MergeReport {
-    /// Its runs.
-    pub runs: usize,
-    /// Failed ones among them.
-    pub failed: usize,
-    /// Those in which a building collapsed.
-    pub collapsed: usize,
-    /// Shards without a checksum: damage that does not show in their form was not seen.
-    pub unchecked: Vec<PathBuf>,
-    /// Builds that computed the shards, each with them, if there are several.
-    pub builds: Vec<String>,
+/// All shards of a study, in their order.
+#[derive(Debug)]
+pub struct Shards {
+    ordered: Vec<ResultReader>,
+    description: Description,
+    unchecked: Vec<PathBuf>,
+    builds: Vec<String>,
 }
 
-/// Merges the results of all shards of a study into one, and into a table if `csv` names
-/// a file. The result is that of one call for the whole study.
-///
-/// # Errors
-/// [`StudyError::FileUse`] if the output or the table is one of the files,
-/// [`StudyError::Checksum`] if a file is not as it was written, [`StudyError::Merge`] if the
-/// files are not all shards of one study, [`StudyError::MixedBuilds`], or
-/// [`StudyError::ResultFile`].
-pub fn merge(
-    files: &[PathBuf],
-    output: &Path,
-    csv: Option<&Path>,
-    options: MergeOptions,
-) -> Result<MergeReport, StudyError> {
-    let mut used = FileUse::new();
-    for file in files {
-        used.reads("shard", file);
-    }
-    used.writes("output", output);
-    if let Some(path) = csv {
-        used.writes("table", path);
-    }
-    used.check()?;
-    let readers = files
-        .iter()
-        .map(|f| ResultReader::open(f, options.without_checksum))
-        .collect::<Result<Vec<_>, _>>()?;
-    let ordered = ordered(files, &readers)?;
-    let builds = builds(&ordered);
-    if builds.len() > 1 && !options.mixed_builds {
-        return Err(mixed(files, &readers, &builds));
-    }
-    let mut report = MergeReport {
-        unchecked: unchecked(files, &readers)?,
-        ..MergeReport::default()
-    };
-    let mut whole = Description {
-        shard: (1, 1),
-        ..ordered[0].description.clone()
-    };
-    if builds.len() > 1 {
-        report.builds = with_shards(&ordered, &builds);
-        whole.build = report.builds.join("\n");
-        whole.version = versions(&ordered);
-    }
-    let (runs, chunk) = (whole.runs, whole.chunk);
-    let mut writer = ResultWriter::create(output, &whole, runs)?;
-    let mut table = csv.map(|path| RunTable::create(path, &whole)).transpose()?;
-    for (number, start) in (0..runs).step_by(chunk).enumerate() {
-        let reader = ordered[number % ordered.len()];
-        let from = number / ordered.len() * chunk;
-        let expected = chunk.min(runs - start);
-        let rows = reader.block(from..(from + expected).min(reader.rows))?;
-        let fits = rows.len() == expected
-            && rows
-                .iter()
-                .enumerate()
-                .all(|(i, (r, _))| r.run == start + i);
-        if !fits {
-            return Err(StudyError::Merge {
-                reason: format!(
-                    "a shard has not the runs {start} to {}",
-                    start + expected - 1
-                ),
-            });
+impl Shards {
+    /// Opens the results of all shards of a study.
+    ///
+    /// # Errors
+    /// [`StudyFileError::Checksum`] if a file is not as it was written,
+    /// [`StudyFileError::Merge`] if the files are not all shards of one study,
+    /// [`StudyFileError::MixedBuilds`], or [`StudyFileError::File`].
+    pub fn open(files: &[PathBuf], options: MergeOptions) -> Result<Self, StudyFileError> {
+        let readers = files
+            .iter()
+            .map(|f| ResultReader::open(f, options.without_checksum))
+            .collect::<Result<Vec<_>, _>>()?;
+        let order = ordered(files, &readers)?;
+        let builds = builds(&order);
+        if builds.len() > 1 && !options.mixed_builds {
+            return Err(mixed(files, &readers, &builds));
         }
-        for (row, point) in rows {
-            report.runs += 1;
-            report.failed += usize::from(row.ending.failed());
-            report.collapsed += usize::from(row.ending.collapsed());
-            if let Some(table) = &mut table {
-                table.push(&row, &point)?;
+        let unchecked = unchecked(files, &readers)?;
+        let mut description = Description {
+            shard: (1, 1),
+            ..order[0].description.clone()
+        };
+        let mut listed = Vec::new();
+        if builds.len() > 1 {
+            listed = with_shards(&order, &builds);
+            description.build = listed.join("\n");
+            description.version = versions(&order);
+        }
+        let mut ordered = readers;
+        ordered.sort_by_key(|reader| reader.description.shard.0);
+        Ok(Self {
+            ordered,
+            description,
+            unchecked,
+            builds: listed,
+        })
+    }
+
+    /// What the result of the whole study says beside its rows.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// Shards without a checksum: damage that does not show in their form was not seen.
+    #[must_use]
+    pub fn unchecked(&self) -> &[PathBuf] {
+        &self.unchecked
+    }
+
+    /// Builds that computed the shards, each with them, if there are several.
+    #[must_use]
+    pub fn builds(&self) -> &[String] {
+        &self.builds
+    }
+
+    /// Hands out all rows with the values of their variables, in the order of the runs.
+    ///
+    /// # Errors
+    /// [`StudyFileError::File`], [`StudyFileError::Merge`] if a shard lacks a run, and what
+    /// `take` returns.
+    pub fn rows<E: From<StudyFileError>>(
+        &self,
+        mut take: impl FnMut(Row, Vec<Value>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (runs, chunk) = (self.description.runs, self.description.chunk);
+        for (number, start) in (0..runs).step_by(chunk).enumerate() {
+            let reader = &self.ordered[number % self.ordered.len()];
+            let from = number / self.ordered.len() * chunk;
+            let expected = chunk.min(runs - start);
+            let rows = reader.block(from..(from + expected).min(reader.rows))?;
+            let numbers = rows.iter().map(|(r, _)| r.run);
+            if rows.len() != expected || !numbers.eq(start..start + expected) {
+                return Err(E::from(StudyFileError::Merge {
+                    reason: format!(
+                        "a shard has not the runs {start} to {}",
+                        start + expected - 1
+                    ),
+                }));
             }
-            writer.push(row, point)?;
+            for (row, point) in rows {
+                take(row, point)?;
+            }
         }
+        Ok(())
     }
-    if let Some(table) = table {
-        table.finish()?;
-    }
-    writer.finish()?;
-    Ok(report)
 }
 
 /// Files without a checksum, each of them read to its end: if that fails, or brings the
 /// HDF5 library down, nothing is written yet.
-fn unchecked(files: &[PathBuf], readers: &[ResultReader]) -> Result<Vec<PathBuf>, StudyError> {
+fn unchecked(files: &[PathBuf], readers: &[ResultReader]) -> Result<Vec<PathBuf>, StudyFileError> {
     let mut unchecked = Vec::new();
     for (file, reader) in files.iter().zip(readers) {
         if reader.checksum == Checksum::Absent {
@@ -159,14 +155,14 @@ fn named(build: &str) -> &str {
 }
 
 /// Refuses builds that differ, with the files of each.
-fn mixed(files: &[PathBuf], readers: &[ResultReader], builds: &[&str]) -> StudyError {
+fn mixed(files: &[PathBuf], readers: &[ResultReader], builds: &[&str]) -> StudyFileError {
     let line = |build: &&str| {
         let its = files.iter().zip(readers);
         let its = its.filter(|(_, r)| r.description.build == *build);
         let its: Vec<String> = its.map(|(f, _)| f.display().to_string()).collect();
         format!("{}: {}", named(build), its.join(", "))
     };
-    StudyError::MixedBuilds {
+    StudyFileError::MixedBuilds {
         list: builds.iter().map(line).collect::<Vec<_>>().join("\n"),
     }
 }
@@ -202,8 +198,8 @@ fn versions(ordered: &[&ResultReader]) -> String {
 fn ordered<'r>(
     files: &[PathBuf],
     readers: &'r [ResultReader],
-) -> Result<Vec<&'r ResultReader>, StudyError> {
-    let wrong = |reason: String| StudyError::Merge { reason };
+) -> Result<Vec<&'r ResultReader>, StudyFileError> {
+    let wrong = |reason: String| StudyFileError::Merge { reason };
     let first = readers
         .first()
         .ok_or_else(|| wrong("no files are given".to_owned()))?;

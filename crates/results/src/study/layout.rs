@@ -2,8 +2,6 @@
 
 use pounding_time_history::{LevelPlace, Outcome, System};
 
-use crate::study_file::{Study, Target};
-
 /// What a quantity belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
@@ -142,7 +140,8 @@ const ISOLATED_DEMAND: Quantity = quantity(
 );
 
 /// Whether a name is taken by the results.
-pub(crate) fn is_result(name: &str) -> bool {
+#[must_use]
+pub fn is_result(name: &str) -> bool {
     let labels = [
         "storey_building",
         "storey_number",
@@ -210,7 +209,8 @@ pub struct Layout {
 
 impl Layout {
     /// The shape of the results of a system.
-    pub(crate) fn of(system: &System, isolated_demand: bool) -> Self {
+    #[must_use]
+    pub fn of(system: &System, isolated_demand: bool) -> Self {
         let storeys = system.buildings().iter().flat_map(|b| {
             (1..=b.storeys()).map(|n| Place {
                 label: format!("{} {n}", b.name()),
@@ -232,46 +232,8 @@ impl Layout {
         Self::from_places(storeys.collect(), levels.collect(), isolated_demand)
     }
 
-    /// Leaves out the elevations and widths that a variable of the study changes. Returns
-    /// the names of the gaps beside buildings whose storey heights vary.
-    pub(crate) fn leave_out_varied(&mut self, study: &Study, system: &System) -> Vec<String> {
-        let mut beside = Vec::new();
-        for variable in &study.variables {
-            let Target::Entry { path, .. } = &variable.target else {
-                continue;
-            };
-            if path.table() == "building" && path.leads_through("height") {
-                let names = system.buildings().iter().map(|b| b.name());
-                let name = path.second(names);
-                let varies = |building: &str| name.as_deref().is_none_or(|n| n == building);
-                for storey in self.storeys.iter_mut().filter(|s| varies(&s.of)) {
-                    storey.elevations.fill(None);
-                }
-                for gap in system.gaps() {
-                    let sides = gap.between.each_ref().map(|side| varies(side));
-                    if sides.contains(&true) && !beside.contains(&gap.name) {
-                        beside.push(gap.name.clone());
-                    }
-                    for level in self.levels.iter_mut().filter(|l| l.of == gap.name) {
-                        for (z, varies) in level.elevations.iter_mut().zip(sides) {
-                            *z = z.filter(|_| !varies);
-                        }
-                    }
-                }
-            }
-            if path.table() == "gap" && path.leads_through("width") {
-                let name = path.second(system.gaps().iter().map(|g| g.name.as_str()));
-                let varies = |gap: &str| name.as_deref().is_none_or(|n| n == gap);
-                for level in self.levels.iter_mut().filter(|l| varies(&l.of)) {
-                    level.width = None;
-                }
-            }
-        }
-        beside
-    }
-
     /// The shape with these storeys and levels.
-    pub(crate) fn from_places(
+    pub(super) fn from_places(
         storeys: Vec<Place>,
         levels: Vec<Place>,
         isolated_demand: bool,
@@ -318,7 +280,7 @@ impl Layout {
     }
 
     /// Puts an outcome into columns; `demand` holds the isolated demand of each level.
-    pub(crate) fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
+    pub fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
         out.clear();
         let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
         out.extend(storeys().map(|s| s.displacement.value));
@@ -341,14 +303,15 @@ impl Layout {
     }
 
     /// Puts a collapse into columns: nothing is known but the isolated demand of each level.
-    pub(crate) fn fill_collapsed(&self, demand: &[f64], out: &mut Vec<f64>) {
+    pub fn fill_collapsed(&self, demand: &[f64], out: &mut Vec<f64>) {
         out.clear();
         out.resize(self.columns() - demand.len(), f64::NAN);
         out.extend(demand);
     }
 
     /// A text that two layouts share if and only if they are equal.
-    pub(crate) fn signature(&self) -> String {
+    #[must_use]
+    pub fn signature(&self) -> String {
         let labels = self
             .storeys
             .iter()

@@ -1,0 +1,73 @@
+//! What can go wrong with the file of a study.
+
+use std::path::PathBuf;
+
+use crate::OpenError;
+
+/// A result that cannot be read or written, or shards that do not make one.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyFileError {
+    /// A result that may not be parsed: see its reason.
+    #[error("cannot read the result {path}: {source}")]
+    Checksum {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: OpenError,
+    },
+    /// The result cannot be written or read.
+    #[error("cannot {what} the result {path}: {reason}")]
+    File {
+        /// What was tried.
+        what: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What HDF5 or the file system said.
+        reason: String,
+    },
+    /// Files that do not make one study together.
+    #[error("cannot merge: {reason}")]
+    Merge {
+        /// Why.
+        reason: String,
+    },
+    /// Shards that different builds of the program computed.
+    #[error("cannot merge shards that different builds of the program computed:\n{list}")]
+    MixedBuilds {
+        /// Each build with its files, a line each.
+        list: String,
+    },
+}
+
+impl StudyFileError {
+    /// Why a result could not be read, without its path.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Checksum { source, .. } => source.to_string(),
+            Self::File { reason, .. } => reason.clone(),
+            other => other.to_string(),
+        }
+    }
+
+    /// What to try.
+    #[must_use]
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::File { what: "write", .. } => {
+                "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
+            }
+            Self::File { .. } => NO_SWEEP,
+            Self::Checksum { source, .. } => source.help().unwrap_or(NO_SWEEP),
+            Self::Merge { .. } => {
+                "merge all shards i/n of one study for one n, computed by one version of the program"
+            }
+            Self::MixedBuilds { .. } => {
+                "compute all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
+            }
+        }
+    }
+}
+
+const NO_SWEEP: &str = "check that it is the HDF5 file of a sweep";

@@ -1,0 +1,70 @@
+//! One result from the results of all shards.
+
+use std::path::{Path, PathBuf};
+
+use pounding_files::FileUse;
+use pounding_results::study::{MergeOptions, ResultWriter, Shards};
+
+use crate::error::StudyError;
+use crate::table::RunTable;
+
+/// What a merged result holds.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct MergeReport {
+    /// Its runs.
+    pub runs: usize,
+    /// Failed ones among them.
+    pub failed: usize,
+    /// Those in which a building collapsed.
+    pub collapsed: usize,
+    /// Shards without a checksum: damage that does not show in their form was not seen.
+    pub unchecked: Vec<PathBuf>,
+    /// Builds that computed the shards, each with them, if there are several.
+    pub builds: Vec<String>,
+}
+
+/// Merges the results of all shards of a study into one, and into a table if `csv` names
+/// a file. The result is that of one call for the whole study.
+///
+/// # Errors
+/// [`StudyError::FileUse`] if the output or the table is one of the files,
+/// as [`Shards::open`], or [`StudyError::ResultFile`].
+pub fn merge(
+    files: &[PathBuf],
+    output: &Path,
+    csv: Option<&Path>,
+    options: MergeOptions,
+) -> Result<MergeReport, StudyError> {
+    let mut used = FileUse::new();
+    for file in files {
+        used.reads("shard", file);
+    }
+    used.writes("output", output);
+    if let Some(path) = csv {
+        used.writes("table", path);
+    }
+    used.check()?;
+    let shards = Shards::open(files, options)?;
+    let mut report = MergeReport {
+        unchecked: shards.unchecked().to_vec(),
+        builds: shards.builds().to_vec(),
+        ..MergeReport::default()
+    };
+    let whole = shards.description();
+    let mut writer = ResultWriter::create(output, whole, whole.runs)?;
+    let mut table = csv.map(|path| RunTable::create(path, whole)).transpose()?;
+    shards.rows(|row, point| {
+        report.runs += 1;
+        report.failed += usize::from(row.ending.failed());
+        report.collapsed += usize::from(row.ending.collapsed());
+        if let Some(table) = &mut table {
+            table.push(&row, &point)?;
+        }
+        writer.push(row, point).map_err(StudyError::from)
+    })?;
+    if let Some(table) = table {
+        table.finish()?;
+    }
+    writer.finish()?;
+    Ok(report)
+}

@@ -5,18 +5,16 @@
 //! line and column. Which floors are level it asks `pounding-shear-building`, which knows
 //! where floors lie.
 
+pub mod document;
 mod error;
 mod files;
 mod parse;
 mod process;
-mod reader;
-mod schema;
 mod types;
 mod units;
 
 pub use error::{CaseError, Errors};
-pub use parse::process_steps;
+pub use parse::{process_steps, schema};
 pub use process::{BaselineKind, ProcessStep, RemovedOffset};
-pub use schema::schema;
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_quantity};

@@ -96,7 +96,7 @@ const ROWS: &[Row] = &[
         "0.05 }",
         "0.05, modes = [1, 2] }",
         8,
-        11,
+        44,
         "no meaning beside",
     ),
     (

@@ -1,285 +1,273 @@
 //! Buildings: storeys and damping.
 
+use std::ops::Range;
+
 use pounding_catalogue::wording::counted;
-use toml::de::DeValue;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-use super::law::storey_laws;
-use super::{check_name, not_negative, spread};
-use crate::error::CaseError;
-use crate::reader::{List, Reader, Table, Value, Values};
-use crate::schema;
+use super::law::{LawTable, storey_laws};
+use super::{check_name, spread};
+use crate::document::{
+    Count, Dashpot, Entry, Field, Frequency, Kinds, Length, Mass, NotNegative, OneOrEach, Optional,
+    Positive, Ratio, Reader, Signed, Stiffness, Time, Velocity,
+};
 use crate::types::{Building, Damping, Located};
-use crate::units::Dimension;
 
-/// A building, and whether its heights are sound.
-type Read = Result<(Building, bool), CaseError>;
-
-/// Reads a building; its name also where the rest is wrong.
-pub(super) fn building(reader: &Reader<'_>, value: &Value<'_>) -> (Option<Located<String>>, Read) {
-    let table = match reader.section(value, "[[building]]", schema::BUILDING) {
-        Ok(table) => table,
-        Err(e) => return (None, Err(e)),
-    };
-    let name = reader.errors.keep(name(reader, &table));
-    let rest = named(reader, &table, name.clone());
-    (name, rest)
+/// A building
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename = "[[building]]")]
+pub(super) struct BuildingTable {
+    /// Name, unique in the case; "wall" is reserved
+    name: Field<String>,
+    /// Number of storeys, if no list says it
+    storeys: Optional<Count<1>>,
+    /// Floor mass (kg), one for all storeys or a list, bottom first
+    mass: Field<OneOrEach<Positive<Mass>>>,
+    /// Storey stiffness (N/m), one for all storeys or a list, bottom first
+    stiffness: Field<OneOrEach<Positive<Stiffness>>>,
+    /// Storey height (m), one for all storeys or a list, bottom first
+    height: Field<OneOrEach<Positive<Length>>>,
+    /// Floor displacement relative to the ground at time zero (m), one for all floors or a
+    /// list; by default at rest
+    initial_displacement: Optional<OneOrEach<Signed<Length>>>,
+    /// Floor velocity relative to the ground at time zero (m/s), one for all floors or a
+    /// list; by default at rest
+    initial_velocity: Optional<OneOrEach<Signed<Velocity>>>,
+    /// Force-deformation law with memory in the place of the storey stiffness, one for all
+    /// storeys or a list of laws that name theirs; `pounding hysteresis` lists them
+    law: Optional<OneOrEach<Field<LawTable>, 0>>,
+    /// Whether gravity acts through the drift: takes weight above over height off every
+    /// storey stiffness
+    p_delta: Optional<bool>,
+    /// Viscous damping, one of its kinds
+    damping: Field<Kinds<DampingTable>>,
 }
 
-fn name(reader: &Reader<'_>, table: &Table<'_, '_>) -> Result<Located<String>, CaseError> {
-    let name = check_name(
-        reader,
-        reader.text(table.required("name")?, "name")?,
-        "building",
-    )?;
-    if name.value == "wall" {
-        return Err(reader.error(
-            name.span,
-            "a building cannot be called \"wall\"",
-            "in `between`, \"wall\" is the rigid wall; give the building another name",
-        ));
+/// Viscous damping, one of its kinds
+#[derive(Deserialize, JsonSchema)]
+#[serde(
+    rename_all = "snake_case",
+    expecting = "a table\nfor example { stiffness_proportional = 0.05 }, the ratio in the first mode"
+)]
+#[schemars(untagged)]
+enum DampingTable {
+    Ratio {
+        /// Rayleigh: ratio in both `modes` (-)
+        ratio: Ratio,
+        /// Rayleigh: the two modes, from 1
+        modes: Located<Modes>,
+    },
+    Rayleigh {
+        /// C = alpha M + beta K
+        rayleigh: Rayleigh,
+    },
+    StiffnessProportional {
+        /// Ratio in mode 1 (-)
+        stiffness_proportional: Ratio,
+    },
+    MassProportional {
+        /// Ratio in mode 1 (-)
+        mass_proportional: Ratio,
+    },
+    Modal {
+        /// Ratio of every mode (-), or one for all
+        modal: Located<OneOrEach<Ratio>>,
+    },
+    Dashpots {
+        /// Coefficient of every storey (N s/m), or one for all
+        dashpots: Located<OneOrEach<NotNegative<Dashpot>>>,
+    },
+}
+
+#[derive(Deserialize, JsonSchema)]
+struct Rayleigh {
+    /// Mass factor (1/s)
+    alpha: NotNegative<Frequency>,
+    /// Stiffness factor (s)
+    beta: NotNegative<Time>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(expecting = "a list of two modes")]
+#[schemars(extend("minItems" = 2, "maxItems" = 2, "uniqueItems" = true))]
+struct Modes(Vec<Count<1>>);
+
+impl BuildingTable {
+    /// The name, if it can be one.
+    pub(super) fn name(&self, reader: &Reader<'_>) -> Option<Located<String>> {
+        let name = check_name(reader, self.name.clone().located()?, "building")?;
+        if name.value == "wall" {
+            return reader.refuse(
+                name.span,
+                "a building cannot be called \"wall\"",
+                "in `between`, \"wall\" is the rigid wall; give the building another name",
+            );
+        }
+        Some(name)
     }
-    Ok(name)
-}
 
-fn named(reader: &Reader<'_>, table: &Table<'_, '_>, name: Option<Located<String>>) -> Read {
-    let keep = reader.errors;
-    let read = |key: &str, dimension| {
-        let value = table.required(key);
-        keep.keep(value.and_then(|v| reader.list(v, key, |v| reader.positive(v, key, dimension))))
-    };
-    let mass = read("mass", Dimension::MASS);
-    let stiffness = read("stiffness", Dimension::STIFFNESS);
-    let height = read("height", Dimension::LENGTH);
-    let start = |key: &'static str, dimension| {
-        let value = table.get(key);
-        keep.or_default(
-            value
-                .map(|value| reader.list(value, key, |v| reader.quantity(v, key, dimension)))
-                .transpose(),
-        )
-    };
-    let displacement = start("initial_displacement", Dimension::LENGTH);
-    let velocity = start("initial_velocity", Dimension::VELOCITY);
-    let stated = table.get("storeys").map(|v| reader.count(v, "storeys", 1));
-    let stated = keep.keep(stated.transpose());
-    let p_delta = keep.or_default(table.flag("p_delta"));
-    let damped = keep.keep(table.required("damping"));
-    let sound = [&mass, &stiffness, &height].iter().all(|l| l.is_some());
-    let lists: Vec<(&str, &List)> = [
-        ("mass", &mass),
-        ("stiffness", &stiffness),
-        ("height", &height),
-        ("initial_displacement", &displacement),
-        ("initial_velocity", &velocity),
-    ]
-    .into_iter()
-    .filter_map(|(key, list)| Some((key, list.as_ref()?)))
-    .collect();
-    let storeys = match storeys(table, stated.flatten(), &lists)? {
-        Some(storeys) => storeys,
-        // One of the values that are wrong may say it.
-        None if !sound || stated.is_none() => return Err(reader.lost()),
-        None => {
-            return Err(table.misspelt("storeys").unwrap_or_else(|| {
-                table.reader.error(
-                    table.span.clone(),
+    /// The building, with stand-ins for values that are wrong, and whether its heights are
+    /// sound.
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+        place: Range<usize>,
+        name: Option<Located<String>>,
+    ) -> Option<(Building, bool)> {
+        let keep = reader.errors;
+        let sound = !(self.mass.is_wrong() || self.stiffness.is_wrong() || self.height.is_wrong());
+        let storeys = match self.storeys(reader)? {
+            Some(storeys) => storeys,
+            // One of the values that are wrong may say it.
+            None if !sound || self.storeys.is_wrong() => return None,
+            None => {
+                return reader.refuse(
+                    place,
                     "the building does not say how many storeys it has",
                     "add `storeys = ...`",
-                )
-            }));
-        }
-    };
-    let all = |list: List| match list.values {
-        Values::Scalar(x) => vec![x; storeys],
-        Values::List(values) => values,
-    };
-    let or = |list: Option<List>, stand_in: f64| list.map_or_else(|| vec![stand_in; storeys], all);
-    let laws = match table.get("law") {
-        Some(value) => keep.or_default(storey_laws(reader, value, storeys)),
-        None => Vec::new(),
-    };
-    if stiffness.is_none() {
-        // A law is held against the stiffness of its storey.
-        for law in &laws {
-            keep.incomplete(law.model.span.clone());
-        }
-    }
-    let damping = damped.and_then(|value| {
-        Some(Located {
-            value: keep.keep(damping(reader, value, storeys))?,
-            span: value.span(),
-        })
-    });
-    let name = name.unwrap_or_else(|| Located {
-        value: String::new(),
-        span: table.span.clone(),
-    });
-    // With stand-ins for masses or stiffnesses, damping and gravity would say nothing.
-    let damping = damping.filter(|_| sound).unwrap_or_else(|| {
-        keep.incomplete(table.span.clone());
-        Located {
-            value: Damping::MassProportional { ratio: 0.0 },
-            span: table.span.clone(),
-        }
-    });
-    let heights = height.is_some();
-    let building = Building {
-        initial_displacement: Located {
-            span: displacement
-                .as_ref()
-                .map_or_else(|| name.span.clone(), |l| l.span.clone()),
-            value: or(displacement, 0.0),
-        },
-        initial_velocity: or(velocity, 0.0),
-        name,
-        mass: or(mass, 1.0),
-        stiffness: or(stiffness, 1.0),
-        height: or(height, 1.0),
-        laws,
-        p_delta: p_delta && sound,
-        damping,
-    };
-    Ok((building, heights))
-}
-
-/// The number of storeys, on which `storeys` and all lists must agree; `None` if nothing
-/// says it.
-fn storeys(
-    table: &Table<'_, '_>,
-    stated: Option<usize>,
-    lists: &[(&str, &List)],
-) -> Result<Option<usize>, CaseError> {
-    let mut known = stated.map(|n| ("storeys", n));
-    for &(key, list) in lists {
-        let Values::List(values) = &list.values else {
-            continue;
+                );
+            }
         };
-        match known {
-            None => known = Some((key, values.len())),
-            Some((other, n)) if n != values.len() => {
-                return Err(table.reader.error(
-                    list.span.clone(),
-                    format!(
-                        "`{key}` has {}, but `{other}` says {}",
-                        counted(values.len(), "value"),
-                        counted(n, "storey")
-                    ),
-                    "give one value per storey, or a single value for all",
-                ));
+        let laws = self.law.value();
+        let laws = laws.map_or_else(Vec::new, |laws| storey_laws(reader, laws, storeys));
+        if self.stiffness.is_wrong() {
+            // A law is held against the stiffness of its storey.
+            for law in &laws {
+                keep.incomplete(law.model.span.clone());
             }
-            Some(_) => {}
         }
+        let damping = self.damping.located().and_then(|damping| {
+            Some(Located {
+                value: damping.value.0.read(reader, storeys)?,
+                span: damping.span,
+            })
+        });
+        let name = name.unwrap_or_else(|| Located {
+            value: String::new(),
+            span: place.clone(),
+        });
+        // With stand-ins for masses or stiffnesses, damping and gravity would say nothing.
+        let damping = damping.filter(|_| sound).unwrap_or_else(|| {
+            keep.incomplete(place.clone());
+            Located {
+                value: Damping::MassProportional { ratio: 0.0 },
+                span: place,
+            }
+        });
+        let heights = !self.height.is_wrong();
+        let displaced = self.initial_displacement.span();
+        let building = Building {
+            initial_displacement: Located {
+                value: each(self.initial_displacement, storeys, 0.0),
+                span: displaced.unwrap_or_else(|| name.span.clone()),
+            },
+            initial_velocity: each(self.initial_velocity, storeys, 0.0),
+            name,
+            mass: each(self.mass, storeys, 1.0),
+            stiffness: each(self.stiffness, storeys, 1.0),
+            height: each(self.height, storeys, 1.0),
+            laws,
+            p_delta: self.p_delta.value().unwrap_or_default() && sound,
+            damping,
+        };
+        Some((building, heights))
     }
-    Ok(known.map(|(_, n)| n))
-}
 
-fn damping(reader: &Reader<'_>, value: &Value<'_>, storeys: usize) -> Result<Damping, CaseError> {
-    let table = reader.table(value, "damping", schema::DAMPING)?;
-    let kind = kind(&table)?;
-    let value = table.required(kind)?;
-    let ratio = |v: &Value<'_>| {
-        let ratio = reader.quantity(v, kind, Dimension::NUMBER)?;
-        if (0.0..1.0).contains(&ratio) {
-            Ok(ratio)
-        } else {
-            Err(reader.error(
-                v.span(),
-                format!("damping ratio {ratio} is not in 0..1"),
-                "5 % of critical is 0.05 or \"5 %\"",
-            ))
+    /// The number of storeys, on which `storeys` and all lists must agree; `Some(None)` if
+    /// nothing says it.
+    fn storeys(&self, reader: &Reader<'_>) -> Option<Option<usize>> {
+        let mut known = None;
+        if let Some(Field::Given(stated)) = &self.storeys {
+            known = Some(("storeys", stated.value.0));
         }
-    };
-    Ok(match kind {
-        "ratio" => Damping::RayleighRatio {
-            ratio: ratio(value)?,
-            modes: two_modes(reader, table.required("modes")?, storeys)?,
-        },
-        "rayleigh" => {
-            let table = reader.table(value, "rayleigh", schema::RAYLEIGH)?;
-            Damping::Rayleigh {
-                alpha: not_negative(
-                    reader,
-                    table.required("alpha")?,
-                    "alpha",
-                    Dimension::FREQUENCY,
-                )?,
-                beta: not_negative(reader, table.required("beta")?, "beta", Dimension::TIME)?,
+        for (key, list) in [
+            ("mass", length(Some(&self.mass))),
+            ("stiffness", length(Some(&self.stiffness))),
+            ("height", length(Some(&self.height))),
+            (
+                "initial_displacement",
+                length(self.initial_displacement.as_ref()),
+            ),
+            ("initial_velocity", length(self.initial_velocity.as_ref())),
+        ] {
+            let Some((values, span)) = list else {
+                continue;
+            };
+            match known {
+                None => known = Some((key, values)),
+                Some((other, n)) if n != values => {
+                    return reader.refuse(
+                        span,
+                        format!(
+                            "`{key}` has {}, but `{other}` says {}",
+                            counted(values, "value"),
+                            counted(n, "storey")
+                        ),
+                        "give one value per storey, or a single value for all",
+                    );
+                }
+                Some(_) => {}
             }
         }
-        "stiffness_proportional" => Damping::StiffnessProportional {
-            ratio: ratio(value)?,
-        },
-        "mass_proportional" => Damping::MassProportional {
-            ratio: ratio(value)?,
-        },
-        "modal" => Damping::Modal {
-            ratios: spread(reader, reader.list(value, kind, ratio)?, storeys, "mode")?,
-        },
-        _ => {
-            let read = |v: &Value<'_>| not_negative(reader, v, kind, Dimension::DASHPOT);
-            Damping::Dashpots {
-                coefficients: spread(reader, reader.list(value, kind, read)?, storeys, "storey")?,
-            }
-        }
-    })
-}
-
-/// The one kind of damping that the keys of its table say.
-fn kind(table: &Table<'_, '_>) -> Result<&'static str, CaseError> {
-    let error = |message: String| {
-        let kinds: Vec<String> = schema::DAMPING_KINDS
-            .iter()
-            .map(|keys| format!("{{ {} }}", keys.join(", ")))
-            .collect();
-        table.reader.error(
-            table.span.clone(),
-            message,
-            format!("write one of {}", kinds.join(", ")),
-        )
-    };
-    let found: Vec<&[&'static str]> = schema::DAMPING_KINDS
-        .iter()
-        .filter(|keys| keys.first().is_some_and(|k| table.get(k).is_some()))
-        .copied()
-        .collect();
-    let [keys] = found.as_slice() else {
-        return Err(error(format!(
-            "`damping` must be of one kind, not {}",
-            found.len()
-        )));
-    };
-    let stray = table
-        .entries()
-        .into_iter()
-        .find(|(key, _)| !keys.contains(&key.value.as_str()));
-    match (stray, keys.first()) {
-        (None, Some(kind)) => Ok(kind),
-        (Some((key, _)), _) => Err(error(format!(
-            "`{}` has no meaning beside `{}`",
-            key.value, keys[0]
-        ))),
-        (None, None) => Err(error("`damping` is empty".to_owned())),
+        Some(known.map(|(_, n)| n))
     }
 }
 
-fn two_modes(
-    reader: &Reader<'_>,
-    value: &Value<'_>,
-    storeys: usize,
-) -> Result<[usize; 2], CaseError> {
-    let DeValue::Array(items) = value.get_ref() else {
-        return Err(reader.wrong_type(value, "modes", "a list of two modes"));
-    };
-    let modes = items
-        .iter()
-        .map(|v| reader.count(v, "modes", 1))
-        .collect::<Result<Vec<_>, _>>()?;
-    match modes.as_slice() {
-        [a, b] if a != b && *a <= storeys && *b <= storeys => Ok([*a, *b]),
-        _ => Err(reader.error(
-            value.span(),
+/// Length and place of a list.
+fn length<T>(list: Option<&Field<OneOrEach<T>>>) -> Option<(usize, Range<usize>)> {
+    match list? {
+        Field::Given(list) => Some((list.value.length()?, list.span.clone())),
+        Field::Wrong => None,
+    }
+}
+
+/// One value for each storey.
+fn each<T: Into<f64>>(list: impl Entry<OneOrEach<T>>, storeys: usize, stand_in: f64) -> Vec<f64> {
+    match list.value() {
+        Some(list) => list.spread(storeys),
+        None => vec![stand_in; storeys],
+    }
+}
+
+impl DampingTable {
+    fn read(self, reader: &Reader<'_>, storeys: usize) -> Option<Damping> {
+        Some(match self {
+            Self::Ratio { ratio, modes } => Damping::RayleighRatio {
+                ratio: ratio.into(),
+                modes: two_modes(reader, modes, storeys)?,
+            },
+            Self::Rayleigh { rayleigh } => Damping::Rayleigh {
+                alpha: rayleigh.alpha.into(),
+                beta: rayleigh.beta.into(),
+            },
+            Self::StiffnessProportional {
+                stiffness_proportional: ratio,
+            } => Damping::StiffnessProportional {
+                ratio: ratio.into(),
+            },
+            Self::MassProportional {
+                mass_proportional: ratio,
+            } => Damping::MassProportional {
+                ratio: ratio.into(),
+            },
+            Self::Modal { modal } => Damping::Modal {
+                ratios: spread(reader, modal, storeys, "mode")?,
+            },
+            Self::Dashpots { dashpots } => Damping::Dashpots {
+                coefficients: spread(reader, dashpots, storeys, "storey")?,
+            },
+        })
+    }
+}
+
+fn two_modes(reader: &Reader<'_>, modes: Located<Modes>, storeys: usize) -> Option<[usize; 2]> {
+    match modes.value.0.as_slice() {
+        [Count(a), Count(b)] if a != b && *a <= storeys && *b <= storeys => Some([*a, *b]),
+        _ => reader.refuse(
+            modes.span,
             format!("`modes` must be two different modes from 1 to {storeys}"),
             "for a single storey use { mass_proportional = ... }",
-        )),
+        ),
     }
 }

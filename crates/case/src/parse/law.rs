@@ -2,217 +2,205 @@
 
 use std::ops::Range;
 
-use toml::de::DeValue;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-use super::gap::{Faced, Pair, between, levels, name, useless_tolerance};
-use super::{Row, one_each};
-use crate::error::CaseError;
-use crate::reader::{Reader, Table, Value};
-use crate::schema::{self, Key};
+use super::levels::{Between, Faced, Faces, Levels, useless_tolerance};
+use super::{Row, name, spread};
+use crate::document::{
+    Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
+};
 use crate::types::{LawParameter, Link, Located, Side, StoreyLaw};
+use crate::units::Quantity;
 
-/// Reads `law` of a building: one table, or several that name their storeys.
+/// Law of some storeys
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename = "law")]
+pub(super) struct LawTable {
+    /// Law of the storey
+    model: Field<String>,
+    /// Storeys of this law, from 1 at the bottom; by default all
+    storeys: Optional<Storeys>,
+    /// Parameters of the law: yield_force (N), hardening_ratio, ..., one for all its storeys
+    /// or a list; its stiffness is that of the storey
+    #[serde(rename = "*")]
+    parameters: FreeKeys<Values>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(expecting = "a list of storeys, from 1")]
+#[schemars(extend("minItems" = 1))]
+struct Storeys(Vec<Located<Count<1>>>);
+
+type Values = OneOrEach<Located<Quantity>, 0>;
+
+/// A link between floors
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename = "[[link]]")]
+pub(super) struct LinkTable {
+    /// Name of the link, by default left-right
+    name: Optional<String>,
+    /// Left and right neighbour; "wall" is a rigid wall that moves with the ground
+    between: Field<Between>,
+    /// Law of the link
+    model: Field<String>,
+    /// Pairs of storey numbers that are joined, or "matching" for the floors at equal
+    /// elevation only
+    levels: Optional<Levels>,
+    /// Floors this close in elevation are level (m), by default 0.01
+    elevation_tolerance: Optional<Positive<Length>>,
+    /// Parameters of the law, one for all levels or a list, bottom first
+    #[serde(rename = "*")]
+    parameters: FreeKeys<Values>,
+}
+
+/// The laws of a building of so many storeys.
 pub(super) fn storey_laws(
     reader: &Reader<'_>,
-    value: &Value<'_>,
+    tables: OneOrEach<Field<LawTable>, 0>,
     storeys: usize,
-) -> Result<Vec<StoreyLaw>, CaseError> {
-    let tables: Vec<&Value<'_>> = match value.get_ref() {
-        DeValue::Array(items) => items.iter().collect(),
-        _ => vec![value],
-    };
+) -> Vec<StoreyLaw> {
     let mut taken: Vec<Option<Range<usize>>> = vec![None; storeys];
     let mut laws = Vec::new();
-    for value in tables {
-        let table = reader.section(value, "law", schema::STOREY_LAW)?;
-        let Some(law) = reader.errors.keep(storey_law(reader, &table, storeys)) else {
+    let tables: Vec<Field<LawTable>> = tables.into_list();
+    for law in tables {
+        let Some(law) = law.value().and_then(|law| law.read(reader, storeys)) else {
             continue;
         };
         for storey in &law.storeys {
             if let Some(first) = &taken[*storey] {
-                return Err(reader.error(
-                    law.model.span.clone(),
-                    format!(
-                        "storey {} has two laws, the first in line {}",
-                        storey + 1,
-                        reader.line(first)
-                    ),
-                    "name the storeys of each law with `storeys = [...]`",
-                ));
+                let message = format!(
+                    "storey {} has two laws, the first in line {}",
+                    storey + 1,
+                    reader.line(first)
+                );
+                let help = "name the storeys of each law with `storeys = [...]`";
+                let none = reader.refuse(law.model.span, message, help);
+                return none.unwrap_or_default();
             }
             taken[*storey] = Some(law.model.span.clone());
         }
         laws.push(law);
     }
-    Ok(laws)
+    laws
 }
 
-fn storey_law(
-    reader: &Reader<'_>,
-    table: &Table<'_, '_>,
-    storeys: usize,
-) -> Result<StoreyLaw, CaseError> {
-    let model = table
-        .required("model")
-        .and_then(|v| reader.text(v, "model"));
-    let model = reader.errors.keep(model);
-    let listed = match (table.misspelt("storeys"), table.get("storeys")) {
-        (Some(error), _) => Err(error),
-        (None, None) => Ok((0..storeys).collect()),
-        (None, Some(value)) => listed_storeys(reader, value, storeys),
-    };
-    let listed: Option<Vec<usize>> = reader.errors.keep(listed);
-    let count = listed.as_ref().map(Vec::len);
-    let (parameters, whole) = parameters(table, schema::STOREY_LAW, count);
-    let model = model.ok_or_else(|| reader.lost())?;
-    if !whole {
-        reader.errors.incomplete(model.span.clone());
+impl LawTable {
+    fn read(self, reader: &Reader<'_>, storeys: usize) -> Option<StoreyLaw> {
+        let listed: Option<Vec<usize>> = match self.storeys {
+            None => Some((0..storeys).collect()),
+            Some(listed) => listed
+                .located()
+                .and_then(|listed| listed_storeys(reader, listed, storeys)),
+        };
+        let count = listed.as_ref().map(Vec::len);
+        let (parameters, whole) = parameters(reader, self.parameters, count);
+        let model = self.model.located()?;
+        if !whole {
+            reader.errors.incomplete(model.span.clone());
+        }
+        Some(StoreyLaw {
+            parameters,
+            // Without its storeys a law can be judged by its name.
+            storeys: listed.unwrap_or_default(),
+            model,
+        })
     }
-    Ok(StoreyLaw {
-        parameters,
-        // Without its storeys a law can be judged by its name.
-        storeys: listed.unwrap_or_default(),
-        model,
-    })
 }
 
 fn listed_storeys(
     reader: &Reader<'_>,
-    value: &Value<'_>,
+    given: Located<Storeys>,
     storeys: usize,
-) -> Result<Vec<usize>, CaseError> {
-    let DeValue::Array(items) = value.get_ref() else {
-        return Err(reader.wrong_type(value, "storeys", "a list of storeys, from 1"));
-    };
+) -> Option<Vec<usize>> {
     let mut listed = Vec::new();
-    for item in items.iter() {
-        let storey = reader.count(item, "storeys", 1)?;
+    for Located { value, span } in given.value.0 {
+        let Count(storey) = value;
         if storey > storeys || listed.contains(&(storey - 1)) {
-            return Err(reader.error(
-                item.span(),
+            return reader.refuse(
+                span,
                 format!("storey {storey} is not one of {storeys}, or stands here twice"),
                 "name each storey of this law once, from 1 at the bottom",
-            ));
+            );
         }
         listed.push(storey - 1);
     }
     if listed.is_empty() {
-        return Err(reader.error(
-            value.span(),
+        return reader.refuse(
+            given.span,
             "`storeys` is empty",
             "name at least one storey, or leave the key out for all",
-        ));
+        );
     }
-    Ok(listed)
+    Some(listed)
 }
 
-/// Reads a link; also returns where its `between` stands. Where neighbours or levels are
-/// wrong there is no such place, and the link lies between walls: its law can be judged.
-pub(super) fn link(
-    reader: &Reader<'_>,
-    value: &Value<'_>,
-    row: &Row,
-) -> Result<(Link, Option<Range<usize>>), CaseError> {
-    let table = reader.section(value, "[[link]]", schema::LINK)?;
-    let keep = reader.errors;
-    let model = keep.keep(
-        table
-            .required("model")
-            .and_then(|v| reader.text(v, "model")),
-    );
-    let name = keep.or_default(name(&table, "link"));
-    let placed = keep.keep(placed(&table, row));
-    let levels = placed.as_ref().map(|p| p.levels.len());
-    let (parameters, whole) = parameters(&table, schema::LINK, levels);
-    let model = model.ok_or_else(|| reader.lost())?;
-    if !whole {
-        keep.incomplete(model.span.clone());
+impl LinkTable {
+    /// Reads a link; also returns where its `between` stands. Where neighbours or levels are
+    /// wrong there is no such place, and the link lies between walls: its law can be judged.
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+        row: &Row,
+    ) -> Option<(Link, Option<Range<usize>>)> {
+        let name = name(reader, self.name, "link");
+        let faces = Faces {
+            between: self.between,
+            levels: self.levels,
+            tolerance: self.elevation_tolerance,
+        };
+        let placed = placed(reader, faces, row);
+        let levels = placed.as_ref().map(|p| p.pairs.len());
+        let (parameters, whole) = parameters(reader, self.parameters, levels);
+        let model = self.model.located()?;
+        if !whole {
+            reader.errors.incomplete(model.span.clone());
+        }
+        let place = placed.as_ref().map(|p| p.place.clone());
+        let (between, names, levels) = match placed {
+            Some(faced) => {
+                let mut levels: Vec<_> = faced.pairs.into_iter().map(|(pair, _)| pair).collect();
+                levels.sort_unstable();
+                (faced.between, faced.names, levels)
+            }
+            None => ([Side::Wall; 2], Default::default(), vec![(None, None)]),
+        };
+        let link = Link {
+            name: name.unwrap_or_else(|| names.join("-")),
+            between,
+            parameters,
+            levels,
+            model,
+        };
+        Some((link, place))
     }
-    let place = placed.as_ref().map(|p| p.place.clone());
-    let placed = placed.unwrap_or(Placed {
-        place: 0..0,
-        between: [Side::Wall; 2],
-        names: Default::default(),
-        levels: vec![(None, None)],
-    });
-    let link = Link {
-        name: name.unwrap_or_else(|| placed.names.join("-")),
-        between: placed.between,
-        parameters,
-        levels: placed.levels,
-        model,
-    };
-    Ok((link, place))
 }
 
-/// Where a link lies.
-struct Placed {
-    /// Where its `between` stands.
-    place: Range<usize>,
-    between: [Side; 2],
-    names: [String; 2],
-    levels: Vec<Pair>,
-}
-
-fn placed(table: &Table<'_, '_>, row: &Row) -> Result<Placed, CaseError> {
-    let reader = &table.reader;
-    let place = table.required("between")?;
-    let (between, names) = between(reader, place, row)?;
-    let Faced { pairs, listed, .. } = levels(table, between, row.buildings(reader)?, place.span())?;
-    // A link may join floors at any elevations.
-    if let (Some(value), true) = (table.get("elevation_tolerance"), listed) {
-        return Err(useless_tolerance(
-            reader,
-            value,
-            "listed `levels` of a link",
-        ));
+fn placed(reader: &Reader<'_>, faces: Faces, row: &Row) -> Option<Faced> {
+    let tolerance = faces.tolerance.span();
+    let faced = faces.read(reader, row)?;
+    match tolerance {
+        // A link may join floors at any elevations.
+        Some(span) if faced.listed => useless_tolerance(reader, span, "listed `levels` of a link"),
+        _ => Some(faced),
     }
-    let mut levels: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
-    levels.sort_unstable();
-    Ok(Placed {
-        place: place.span(),
-        between,
-        names,
-        levels,
-    })
 }
 
-/// All keys but those of the table itself, and whether all of them could be read: one value
-/// for each of `count` places, or for one where their number is not known.
+/// The parameters of a law, and whether all of them could be read: one value for each of
+/// `count` places, or for one where their number is not known.
 fn parameters(
-    table: &Table<'_, '_>,
-    keys: &[Key],
+    reader: &Reader<'_>,
+    keys: FreeKeys<Values>,
     count: Option<usize>,
 ) -> (Vec<LawParameter>, bool) {
-    let reader = &table.reader;
     let mut whole = true;
-    let keep = reader.errors;
     let mut parameters = Vec::new();
-    for (key, value) in table.entries() {
-        let own = keys.iter().any(|k| k.name == key.value);
-        if own || table.is_unknown(&key.value) {
-            whole &= own;
-            continue;
-        }
-        let one = |v: &Value<'_>| {
-            Ok::<_, CaseError>(Located {
-                value: reader.any_quantity(v, &key.value)?,
-                span: v.span(),
-            })
-        };
-        let values = match value.get_ref() {
-            DeValue::Array(items) => {
-                let values = keep.all(items.iter().map(one));
-                keep.keep(values.and_then(|v| match count {
-                    Some(count) => one_each(reader, v, value.span(), count),
-                    None => Ok(v),
-                }))
-            }
-            _ => keep
-                .keep(one(value))
-                .map(|value| vec![value; count.unwrap_or(1)]),
-        };
-        let values = values.filter(|values| !values.is_empty());
+    for (key, values) in keys.0 {
+        let values = values.located().and_then(|values| match count {
+            Some(count) => spread(reader, values, count, "place"),
+            None => Some(values.value.into_list()),
+        });
+        let values: Option<Vec<_>> = values.filter(|values| !values.is_empty());
         whole &= values.is_some();
         parameters.extend(values.map(|values| LawParameter { key, values }));
     }

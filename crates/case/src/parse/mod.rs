@@ -1,51 +1,78 @@
-//! From the TOML tree to a case.
+//! The case file: its keys, and from there to a case.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_shear_building::{NAMES, is_name};
-use toml::de::DeValue;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
+use crate::document::{self, Entry, Field, OneOrEach, Optional, Reader, Table, Tables};
 use crate::error::{CaseError, Errors};
-use crate::reader::{List, Reader, Table, Value, Values};
-use crate::schema;
-use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Refusal, Separation};
-use crate::units::Dimension;
+use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Refusal};
+use analysis::AnalysisTable;
+use building::BuildingTable;
+use gap::GapTable;
+use ground_motion::MotionTable;
+use law::LinkTable;
+use separation::SeparationTable;
 
+mod analysis;
 mod building;
 mod gap;
 mod ground_motion;
 mod law;
+mod levels;
+mod process;
 mod scale;
 mod separation;
 
-pub use ground_motion::process_steps;
+pub use process::process_steps;
 pub(crate) use separation::keys as separation_keys;
+
+/// A case of seismic pounding
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename = "the case")]
+#[schemars(title = "pounding case")]
+struct CaseFile {
+    /// Title of the case
+    title: Optional<String>,
+    /// Buildings, from the left
+    #[schemars(required)]
+    building: Optional<Tables<BuildingTable>>,
+    /// Gaps between neighbours, or to a rigid wall
+    gap: Optional<Tables<GapTable>>,
+    /// Joints, dampers and bumpers between floors of neighbours
+    link: Optional<Tables<LinkTable>>,
+    /// The recorded motion
+    ground_motion: Field<Table<MotionTable>>,
+    /// Method, duration, output
+    analysis: Optional<Table<AnalysisTable>>,
+    /// What provisions for the gap need to know
+    separation: Optional<SeparationTable>,
+}
+
+/// JSON Schema (2020-12) of a case file: the keys that the reader accepts, with
+/// what they are and their units.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    document::schema_of::<CaseFile>("pounding/case.schema.json")
+}
 
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
     let name = file.display().to_string();
     let errors = Errors::default();
-    let read = whole(
-        Reader {
-            file: &name,
-            source,
-            errors: &errors,
-        },
-        file,
-    );
-    let draft = errors.keep(read);
-    let incomplete = errors.all_incomplete();
+    let reader = Reader {
+        file: &name,
+        source,
+        errors: &errors,
+    };
+    let case = reader.read::<CaseFile>("see the example in docs/reference/case-file.md");
+    let draft = case.map(|case| case.draft(&reader, file));
     match (errors.finish(Ok(())), draft) {
         (Ok(()), Some(draft)) => Ok(draft.case),
-        (Err(error), draft) => {
-            let draft = draft.map(|draft| Draft {
-                incomplete,
-                ..draft
-            });
-            Err(Box::new(Refusal { error, draft }))
-        }
+        (Err(error), draft) => Err(Box::new(Refusal { error, draft })),
         // Without a draft there is an error, which was recorded.
         (Ok(()), None) => {
             let error = CaseError::new(&name, source, 0..0, "the file cannot be read", None);
@@ -54,49 +81,38 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
     }
 }
 
-fn whole(reader: Reader<'_>, file: &Path) -> Result<Draft, CaseError> {
-    let tree = reader.document("see the example in docs/reference/case-file.md")?;
-    let root = Table::new(reader, tree.get_ref(), 0..0, "the case", schema::CASE);
-    let keep = reader.errors;
-    let title = keep.or_default(root.optional_text("title"));
-    let row = buildings(&reader, &root);
-    let gaps = gaps(&reader, &root, &row);
-    let links = links(&reader, &root, &row);
-    let before = keep.count();
-    let ground_motion = keep.keep(
-        root.required("ground_motion")
-            .and_then(|v| ground_motion::ground_motion(&reader, v)),
-    );
-    let motion_is_known = keep.count() == before;
-    let ground_motion = ground_motion.unwrap_or_else(ground_motion::unknown);
-    let analysis = root.get("analysis");
-    let analysis = analysis.and_then(|value| keep.keep(analysis_of(&reader, value)));
-    let analysis = analysis.unwrap_or_else(default_analysis);
-    let separation = match root.get("separation") {
-        Some(value) if row.count > 0 => {
-            keep.or_default(separation::separation(&reader, value, row.count))
+impl CaseFile {
+    /// The case as far as it could be read.
+    fn draft(self, reader: &Reader<'_>, file: &Path) -> Draft {
+        let row = Row::new(reader, self.building);
+        let gaps = gaps(reader, self.gap, &row);
+        let links = links(reader, self.link, &row);
+        let before = reader.errors.count();
+        let motion = self.ground_motion.value().unwrap_or_default();
+        let ground_motion = motion.value.read(reader);
+        let motion_is_known = motion.whole && reader.errors.count() == before;
+        let separation = self.separation.value().filter(|_| row.count > 0);
+        let separation = separation.map(|table| table.read(reader, row.count));
+        Draft {
+            case: Case {
+                title: self.title.value().unwrap_or_default(),
+                buildings: row.readable,
+                gaps,
+                links,
+                ground_motion,
+                analysis: Analysis::from(self.analysis.value().unwrap_or_default()),
+                separation: separation.unwrap_or_default(),
+                source: reader.source.to_owned(),
+                file: file.to_owned(),
+            },
+            incomplete: reader.errors.all_incomplete(),
+            motion_is_known,
         }
-        _ => Separation::default(),
-    };
-    Ok(Draft {
-        case: Case {
-            title: title.map_or(String::new(), |t| t.value),
-            buildings: row.readable,
-            gaps,
-            links,
-            ground_motion,
-            analysis,
-            separation,
-            source: reader.source.to_owned(),
-            file: file.to_owned(),
-        },
-        incomplete: Vec::new(),
-        motion_is_known,
-    })
+    }
 }
 
 /// The row of buildings as far as it could be read.
-pub(super) struct Row {
+struct Row {
     /// How many there are.
     count: usize,
     /// Their names, if all are sound.
@@ -108,92 +124,87 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The names of the buildings.
-    fn names(&self, reader: &Reader<'_>) -> Result<&[String], CaseError> {
-        self.names.as_deref().ok_or_else(|| reader.lost())
-    }
-
-    /// The buildings: sound as far as names and storey heights go.
-    fn buildings(&self, reader: &Reader<'_>) -> Result<&[Building], CaseError> {
-        if self.heights {
-            Ok(&self.readable)
-        } else {
-            Err(reader.lost())
+    fn new(reader: &Reader<'_>, tables: Optional<Tables<BuildingTable>>) -> Self {
+        let wrong = tables.is_wrong();
+        let tables = tables.value().map_or_else(Vec::new, |tables| tables.0);
+        if tables.is_empty() && !wrong {
+            reader.refuse::<()>(0..0, "the case has no building", "add a [[building]]");
         }
-    }
-}
-
-fn buildings(reader: &Reader<'_>, root: &Table<'_, '_>) -> Row {
-    let keep = reader.errors;
-    let values = keep.or_default(tables(root, "building"));
-    if values.is_empty() && root.get("building").is_none_or(|v| v.get_ref().is_array()) {
-        let none = || reader.error(0..0, "the case has no building", "add a [[building]]");
-        keep.record(root.misspelt("building").unwrap_or_else(none));
-    }
-    let mut names: Vec<Option<Located<String>>> = Vec::new();
-    let mut readable = Vec::new();
-    let mut heights = !values.is_empty();
-    for value in &values {
-        let (name, building) = building::building(reader, value);
-        let twice = name.as_ref().and_then(|name| {
-            let first = names.iter().flatten().find(|n| n.value == name.value)?;
-            Some(reader.error(
-                name.span.clone(),
-                format!(
+        let mut row = Self {
+            count: tables.len(),
+            names: None,
+            readable: Vec::new(),
+            heights: !tables.is_empty(),
+        };
+        let mut names: Vec<Option<Located<String>>> = Vec::new();
+        for table in tables {
+            let Some(Located { value, span }) = table.located() else {
+                names.push(None);
+                row.heights = false;
+                continue;
+            };
+            let name = value.name(reader);
+            let twice = name.as_ref().and_then(|name| {
+                let first = names.iter().flatten().find(|n| n.value == name.value)?;
+                let message = format!(
                     "building \"{}\" is given twice, first in line {}",
                     name.value,
                     reader.line(&first.span)
-                ),
-                "give every building its own name",
-            ))
-        });
-        let unique = twice.map(|e| keep.record(e)).is_none();
-        names.push(name.filter(|_| unique));
-        let building = keep.keep(building);
-        heights &= building.as_ref().is_some_and(|(_, heights)| *heights);
-        readable.extend(building.map(|(building, _)| building));
+                );
+                Some(reader.error(
+                    name.span.clone(),
+                    message,
+                    "give every building its own name",
+                ))
+            });
+            let unique = twice.map(|e| reader.errors.record(e)).is_none();
+            let building = value.read(reader, span, name.clone());
+            names.push(name.filter(|_| unique));
+            row.heights &= building.as_ref().is_some_and(|(_, heights)| *heights);
+            row.readable.extend(building.map(|(building, _)| building));
+        }
+        if row.count > 0 {
+            row.names = names.into_iter().map(|n| Some(n?.value)).collect();
+        }
+        row
     }
-    let sound = !values.is_empty();
-    let names = names.into_iter().map(|n| Some(n?.value)).collect();
-    Row {
-        count: values.len(),
-        names: if sound { names } else { None },
-        readable,
-        heights,
+
+    /// The buildings, if they are sound as far as storey heights go.
+    fn buildings(&self) -> Option<&[Building]> {
+        self.heights.then_some(&self.readable)
     }
 }
 
-fn gaps(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Gap> {
-    let keep = reader.errors;
+/// Gaps and links with the places of their `between`; without one of those where that is
+/// wrong.
+fn read<T, U>(
+    tables: Optional<Tables<T>>,
+    one: impl Fn(T) -> Option<(U, Option<Range<usize>>)>,
+) -> (Vec<(U, Range<usize>)>, Vec<U>) {
+    let tables = tables.value().map_or_else(Vec::new, |tables| tables.0);
+    let (mut placed, mut without_place) = (Vec::new(), Vec::new());
+    for (read, place) in tables.into_iter().filter_map(|t| one(t.value()?)) {
+        match place {
+            Some(place) => placed.push((read, place)),
+            None => without_place.push(read),
+        }
+    }
+    (placed, without_place)
+}
+
+fn gaps(reader: &Reader<'_>, tables: Optional<Tables<GapTable>>, row: &Row) -> Vec<Gap> {
+    let (placed, without_place) = read(tables, |table: GapTable| table.read(reader, row));
     let mut gaps: Vec<(Gap, Range<usize>)> = Vec::new();
-    let mut without_place = Vec::new();
-    for value in keep.or_default(tables(root, "gap")) {
-        let Some((gap, span)) = keep.keep(gap::gap(reader, value, row)) else {
-            continue;
-        };
-        let Some(span) = span else {
-            without_place.push(gap);
-            continue;
-        };
+    for (gap, span) in placed {
         if let Some((_, first)) = gaps.iter().find(|(g, _)| g.between == gap.between) {
-            keep.record(reader.error(
-                span,
-                format!(
-                    "gap given twice: the first is in line {}",
-                    reader.line(first)
-                ),
-                "remove one; several levels of one gap go into its `levels` and `width`",
-            ));
+            let message = format!(
+                "gap given twice: the first is in line {}",
+                reader.line(first)
+            );
+            let help = "remove one; several levels of one gap go into its `levels` and `width`";
+            reader.refuse::<()>(span, message, help);
         } else if let Some((_, first)) = gaps.iter().find(|(g, _)| g.name == gap.name) {
-            keep.record(reader.error(
-                span,
-                format!(
-                    "two gaps have the name \"{}\", the first in line {}",
-                    gap.name,
-                    reader.line(first)
-                ),
-                "give every gap its own `name`",
-            ));
+            same_name(reader, "gap", &gap.name, span, first);
         } else {
             gaps.push((gap, span));
         }
@@ -202,179 +213,68 @@ fn gaps(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Gap> {
     gaps.chain(without_place).collect()
 }
 
-fn links(reader: &Reader<'_>, root: &Table<'_, '_>, row: &Row) -> Vec<Link> {
-    let keep = reader.errors;
+fn links(reader: &Reader<'_>, tables: Optional<Tables<LinkTable>>, row: &Row) -> Vec<Link> {
+    let (placed, without_place) = read(tables, |table: LinkTable| table.read(reader, row));
     let mut links: Vec<(Link, Range<usize>)> = Vec::new();
-    let mut without_place = Vec::new();
-    for value in keep.or_default(tables(root, "link")) {
-        let Some((link, span)) = keep.keep(law::link(reader, value, row)) else {
-            continue;
-        };
-        let Some(span) = span else {
-            without_place.push(link);
-            continue;
-        };
-        if let Some((_, first)) = links.iter().find(|(l, _)| l.name == link.name) {
-            keep.record(reader.error(
-                span,
-                format!(
-                    "two links have the name \"{}\", the first in line {}",
-                    link.name,
-                    reader.line(first)
-                ),
-                "give every link its own `name`",
-            ));
-        } else {
-            links.push((link, span));
+    for (link, span) in placed {
+        match links.iter().find(|(l, _)| l.name == link.name) {
+            Some((_, first)) => same_name(reader, "link", &link.name, span, first),
+            None => links.push((link, span)),
         }
     }
     let links = links.into_iter().map(|(link, _)| link);
     links.chain(without_place).collect()
 }
 
-/// Refuses names that cannot stand in messages or as a group of the result file.
-fn check_name(
+fn same_name(
     reader: &Reader<'_>,
-    name: Located<String>,
     what: &str,
-) -> Result<Located<String>, CaseError> {
-    let text = &name.value;
-    if is_name(text) {
-        return Ok(name);
-    }
-    Err(reader.error(name.span, format!("{text:?} cannot name a {what}"), NAMES))
+    name: &str,
+    span: Range<usize>,
+    first: &Range<usize>,
+) {
+    let line = reader.line(first);
+    let message = format!("two {what}s have the name \"{name}\", the first in line {line}");
+    let help = format!("give every {what} its own `name`");
+    reader.refuse::<()>(span, message, help);
 }
 
-/// The tables of an array of tables; none if the key is absent.
-fn tables<'v, 'a>(root: &Table<'v, 'a>, key: &str) -> Result<Vec<&'v Value<'a>>, CaseError> {
-    match root.get(key) {
-        None => Ok(Vec::new()),
-        Some(value) => match value.get_ref() {
-            DeValue::Array(items) => Ok(items.iter().collect()),
-            _ => Err(root.reader.error(
-                value.span(),
-                format!("`{key}` must be a list of tables"),
-                format!("write [[{key}]] with double brackets"),
-            )),
-        },
-    }
+/// The name of a gap or link, if it states one.
+fn name(reader: &Reader<'_>, given: Optional<String>, what: &str) -> Option<String> {
+    Some(check_name(reader, given.located()?, what)?.value)
 }
 
-fn not_negative(
+/// Refuses names that cannot stand in messages or as a group of the result file.
+fn check_name(reader: &Reader<'_>, name: Located<String>, what: &str) -> Option<Located<String>> {
+    if is_name(&name.value) {
+        return Some(name);
+    }
+    let message = format!("{:?} cannot name a {what}", name.value);
+    reader.refuse(name.span, message, NAMES)
+}
+
+/// One value for each of `count` places. A list that holds one value is more likely short
+/// than meant for all.
+fn spread<T: Into<U>, U: Clone, const LEAST: usize>(
     reader: &Reader<'_>,
-    value: &Value<'_>,
-    key: &str,
-    dimension: Dimension,
-) -> Result<f64, CaseError> {
-    let number = reader.quantity(value, key, dimension)?;
-    if number >= 0.0 {
-        Ok(number)
-    } else {
-        Err(reader.error(
-            value.span(),
-            format!("`{key}` = {number} must be zero or more"),
-            "correct the value",
-        ))
-    }
-}
-
-/// One value for each of `count` places.
-fn spread(
-    reader: &Reader<'_>,
-    list: List,
+    list: Located<OneOrEach<T, LEAST>>,
     count: usize,
     place: &str,
-) -> Result<Vec<f64>, CaseError> {
-    match list.values {
-        Values::Scalar(x) => Ok(vec![x; count]),
-        Values::List(values) if values.len() == count => Ok(values),
-        Values::List(values) => Err(reader.error(
+) -> Option<Vec<U>> {
+    match list.value.length() {
+        Some(length) if length != count => reader.refuse(
             list.span,
             format!(
                 "{} where there {} {}",
-                counted(values.len(), "value"),
+                counted(length, "value"),
                 agreeing(&count, "is", "are"),
                 counted(count, place)
             ),
-            format!("give one value per {place}, or a single value for all"),
-        )),
-    }
-}
-
-/// A list of anything that was read one by one: as many as there are places, as a list
-/// that holds one value is more likely short than meant for all.
-fn one_each<T>(
-    reader: &Reader<'_>,
-    values: Vec<T>,
-    span: Range<usize>,
-    count: usize,
-) -> Result<Vec<T>, CaseError> {
-    if values.len() == count {
-        return Ok(values);
-    }
-    Err(reader.error(
-        span,
-        format!(
-            "{} where there {} {}",
-            counted(values.len(), "value"),
-            agreeing(&count, "is", "are"),
-            counted(count, "place")
+            match place {
+                "place" => "give one value per storey or level of this law, or a single value without brackets for all".to_owned(),
+                _ => format!("give one value per {place}, or a single value for all"),
+            },
         ),
-        "give one value per storey or level of this law, or a single value without brackets for all",
-    ))
-}
-
-fn default_analysis() -> Analysis {
-    Analysis {
-        method: Located {
-            value: "event_driven".to_owned(),
-            span: 0..0,
-        },
-        duration: None,
-        output_step: 0.01,
-        step: None,
-        beta: None,
-        gamma: None,
-        alpha: None,
-        theta: None,
-        relative_tolerance: None,
-        energy_tolerance: None,
-        places: BTreeMap::new(),
+        _ => Some(list.value.spread(count)),
     }
-}
-
-/// A step (s) in place of one that could not be read.
-const STEP: f64 = 1.0e-3;
-
-fn analysis_of(reader: &Reader<'_>, value: &Value<'_>) -> Result<Analysis, CaseError> {
-    let table = reader.section(value, "[analysis]", schema::ANALYSIS)?;
-    let keep = reader.errors;
-    let default = default_analysis();
-    let positive = |key: &str, dimension| keep.or_default(table.optional_positive(key, dimension));
-    let number = |key: &str| keep.or_default(table.optional_number(key));
-    // Any step stands in for one that is wrong: a method that needs one has it.
-    let step = match keep.keep(table.optional_positive("step", Dimension::TIME)) {
-        Some(None) => table.misspelt("step").map(|_| STEP),
-        Some(step) => step,
-        None => Some(STEP),
-    };
-    Ok(Analysis {
-        method: keep
-            .or_default(table.optional_text("method"))
-            .unwrap_or(default.method),
-        duration: positive("duration", Dimension::TIME),
-        output_step: positive("output_step", Dimension::TIME).unwrap_or(default.output_step),
-        step,
-        beta: number("beta"),
-        gamma: number("gamma"),
-        alpha: number("alpha"),
-        theta: number("theta"),
-        relative_tolerance: positive("relative_tolerance", Dimension::NUMBER),
-        energy_tolerance: positive("energy_tolerance", Dimension::NUMBER),
-        places: table
-            .entries()
-            .into_iter()
-            .map(|(key, value)| (key.value, value.span()))
-            .collect(),
-    })
 }

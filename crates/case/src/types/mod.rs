@@ -7,6 +7,9 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use crate::error::CaseError;
 use crate::process::ProcessStep;
 use crate::units::Quantity;
@@ -14,7 +17,8 @@ use crate::units::Quantity;
 pub use laws::{LawParameter, Link, StoreyLaw};
 
 /// A value and where it stands in the source (bytes).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename = "$located")]
 pub struct Located<T> {
     /// Value.
     pub value: T,
@@ -241,7 +245,8 @@ pub struct Rotation {
 }
 
 /// What becomes of the mean of a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 pub enum Offset {
     /// Taken off raw records, kept in corrected ones.
     #[default]

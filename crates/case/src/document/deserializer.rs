@@ -1,0 +1,646 @@
+//! Serde's view of a TOML tree, with the places of its values.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use pounding_catalogue::suggestion;
+use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
+use serde::de::{
+    DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected,
+    IntoDeserializer, MapAccess, SeqAccess, Unexpected, VariantAccess, Visitor,
+};
+use serde::forward_to_deserialize_any;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::Reader;
+use super::entries::ask;
+use super::error::{Error, Fault};
+
+/// The root of a tree; `None` after recording what is wrong.
+pub(super) fn read<T: DeserializeOwned>(
+    reader: Reader<'_>,
+    root: &Spanned<DeValue<'_>>,
+) -> Option<T> {
+    let root = Value {
+        reader,
+        key: "",
+        wanted: "",
+        held: Held::Given(root),
+    };
+    root.recorded(PhantomData).ok()
+}
+
+/// A value with the name of its key.
+#[derive(Clone, Copy)]
+struct Value<'r> {
+    reader: Reader<'r>,
+    /// Empty for the root.
+    key: &'r str,
+    /// What the type that holds this one expects, if it says so.
+    wanted: &'r str,
+    held: Held<'r>,
+}
+
+#[derive(Clone, Copy)]
+enum Held<'r> {
+    Given(&'r Spanned<DeValue<'r>>),
+    /// Not given in this table.
+    Absent(&'r Keys<'r>),
+    /// Not read because of an error that was recorded.
+    Lost,
+    /// What the table does not name.
+    Free(&'r Keys<'r>),
+}
+
+/// What enums of words expect by `#[serde(expecting)]`; others are tables.
+const WORD: &str = "a text in quotes";
+
+/// The name of a key or table in a message.
+fn quoted(name: &str) -> String {
+    match name.contains('`') {
+        true => name.to_owned(),
+        false => format!("`{name}`"),
+    }
+}
+
+/// What a type expects.
+fn expected<'de>(visitor: &impl Visitor<'de>) -> String {
+    (visitor as &dyn Expected).to_string()
+}
+
+impl<'r> Value<'r> {
+    /// What is held by another key or at another place.
+    fn with(self, key: &'r str, held: Held<'r>) -> Self {
+        Self {
+            key,
+            wanted: "",
+            held,
+            ..self
+        }
+    }
+
+    fn given(self) -> Result<&'r Spanned<DeValue<'r>>, Error> {
+        match self.held {
+            Held::Given(value) => Ok(value),
+            Held::Absent(keys) => Err(keys.lacks(self.key)),
+            Held::Lost | Held::Free(_) => Err(Error::Recorded),
+        }
+    }
+
+    /// Reads the value; errors come with their place.
+    fn read<'de, S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
+        seed.deserialize(self).map_err(|error| self.placed(error))
+    }
+
+    /// The same; errors are recorded.
+    fn recorded<'de, S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
+        self.read(seed).map_err(|error| self.record(error))
+    }
+
+    fn record(self, error: Error) -> Error {
+        if let Error::Placed(error) = error {
+            self.reader.errors.record(*error);
+        }
+        Error::Recorded
+    }
+
+    fn placed(self, error: Error) -> Error {
+        let Error::New(Fault { message, help }) = error else {
+            return error;
+        };
+        let message = match message.starts_with([' ', ':']) {
+            true => format!("{}{message}", quoted(self.key)),
+            false => message,
+        };
+        let span = match self.held {
+            Held::Given(value) => value.span(),
+            _ => 0..0,
+        };
+        let help = help.replace("{key}", self.key);
+        Error::Placed(Box::new(self.reader.error(span, message, help)))
+    }
+
+    fn wrong_type(self, wanted: &str) -> Error {
+        let found = match self.given() {
+            Err(error) => return error,
+            Ok(value) => match value.get_ref() {
+                DeValue::String(text) => Unexpected::Str(text),
+                DeValue::Boolean(flag) => Unexpected::Bool(*flag),
+                DeValue::Integer(_) | DeValue::Float(_) => Unexpected::Signed(0),
+                DeValue::Datetime(_) => Unexpected::Other("a date"),
+                DeValue::Array(_) => Unexpected::Seq,
+                DeValue::Table(_) => Unexpected::Map,
+            },
+        };
+        Error::invalid_type(found, &wanted)
+    }
+
+    /// Reads the value if it is of a type.
+    fn only<'de, V: Visitor<'de>>(
+        self,
+        fits: impl Fn(&DeValue<'r>) -> bool,
+        wanted: &str,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        match fits(self.given()?.get_ref()) {
+            true => self.deserialize_any(visitor),
+            false => Err(self.wrong_type(wanted)),
+        }
+    }
+
+    /// What the type that holds this one expects, or else this.
+    fn wanted(self, otherwise: &'r str) -> &'r str {
+        match self.wanted.is_empty() {
+            true => otherwise,
+            false => self.wanted,
+        }
+    }
+
+    /// A table with these keys, which is called by its own name or else like its key.
+    fn table(
+        self,
+        name: &'r str,
+        fields: &'r [&'r str],
+        expecting: &dyn Expected,
+    ) -> Result<Keys<'r>, Error> {
+        let name = match name.starts_with(char::is_uppercase) {
+            true => self.key,
+            false => name,
+        };
+        let value = self.given()?;
+        if let DeValue::Table(table) = value.get_ref() {
+            return Ok(Keys::new(self.reader, name, value.span(), table, fields));
+        }
+        let expecting = expecting.to_string();
+        let is_derived = expecting.starts_with("struct ") || expecting.starts_with("enum ");
+        let wanted = if is_derived { "a table" } else { &expecting };
+        let named = self.with(name, self.held);
+        Err(named.placed(named.wrong_type(wanted)))
+    }
+}
+
+impl<'de> Deserializer<'de> for Value<'_> {
+    type Error = Error;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.given()?.get_ref() {
+            DeValue::String(text) => visitor.visit_str(text),
+            DeValue::Boolean(flag) => visitor.visit_bool(*flag),
+            // What is no such number is as far out of every range as can be.
+            DeValue::Integer(i) => {
+                visitor.visit_i64(i64::from_str_radix(i.as_str(), i.radix()).unwrap_or(i64::MIN))
+            }
+            DeValue::Array(_) => self.deserialize_seq(visitor),
+            _ => Err(self.wrong_type(&expected(&visitor))),
+        }
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.only(DeValue::is_bool, "true or false", visitor)
+    }
+
+    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.only(DeValue::is_integer, self.wanted("a whole number"), visitor)
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.only(DeValue::is_str, WORD, visitor)
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.held {
+            Held::Absent(_) => visitor.visit_none(),
+            _ => visitor.visit_some(self),
+        }
+    }
+
+    /// Errors of the entries are recorded, and the next entry can be read after one.
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if let Held::Free(keys) = self.held {
+            let entry = |(key, held)| keys.entry(key, self.with(key.get_ref(), held));
+            return visitor.visit_seq(parts(keys.free().into_iter().map(entry)));
+        }
+        let item = |item| Part::Recorded(self.with(self.key, Held::Given(item)));
+        match self.given()?.get_ref() {
+            DeValue::Array(items) => visitor.visit_seq(parts(items.iter().map(item))),
+            _ => Err(self.wrong_type(self.wanted("a list"))),
+        }
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        match name {
+            ask::FIELD => match self.held {
+                Held::Given(_) | Held::Free(_) => visitor.visit_seq(parts([Part::Recorded(self)])),
+                _ => {
+                    self.given().map_err(|error| self.record(error)).err();
+                    visitor.visit_unit()
+                }
+            },
+            ask::ONE_OR_EACH => match self.given()?.get_ref() {
+                DeValue::Array(_) => self.deserialize_seq(visitor),
+                _ => visitor.visit_newtype_struct(self),
+            },
+            ask::WRITTEN => {
+                let digits = match self.given()?.get_ref() {
+                    DeValue::String(text) => return visitor.visit_str(text),
+                    DeValue::Integer(i) if i.radix() == 10 => i.as_str().to_owned(),
+                    DeValue::Integer(i) => {
+                        let number = u64::from_str_radix(i.as_str(), i.radix());
+                        number.map_or_else(|_| i.as_str().to_owned(), |n| n.to_string())
+                    }
+                    DeValue::Float(f) => f.as_str().to_owned(),
+                    _ => return Err(self.wrong_type(&expected(&visitor))),
+                };
+                visitor.visit_newtype_struct(digits.into_deserializer())
+            }
+            _ => {
+                let wanted = expected(&visitor);
+                let is_derived = wanted.starts_with("tuple struct ");
+                visitor.visit_newtype_struct(Value {
+                    wanted: if is_derived { "" } else { &wanted },
+                    ..self
+                })
+            }
+        }
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        match name {
+            ask::LOCATED => {
+                let span = self.given()?.span();
+                return visitor.visit_seq(parts([Part::Value(self), Part::Span(span)]));
+            }
+            ask::TABLE => {
+                let errors = self.reader.errors.count();
+                let facts = [
+                    Part::Value(self),
+                    Part::Whole(self, errors),
+                    Part::Places(self),
+                ];
+                return visitor.visit_seq(parts(facts));
+            }
+            _ => {}
+        }
+        let keys = self.table(name, fields, &visitor)?;
+        let unknown = keys.all_known();
+        // Keys of other tables mean something together.
+        if !(self.key.is_empty() || name.starts_with('[') || keys.is_open()) {
+            unknown?;
+        }
+        visitor.visit_map(Fields {
+            table: self,
+            keys: &keys,
+            next: 0,
+        })
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        if name == ask::TABLE_OR {
+            let is_table = self.given()?.get_ref().is_table();
+            return visitor.visit_enum(Kind {
+                variant: variants[usize::from(is_table)],
+                value: self,
+                table: None,
+            });
+        }
+        if expected(&visitor) == WORD {
+            let DeValue::String(word) = self.given()?.get_ref() else {
+                return Err(self.wrong_type(WORD));
+            };
+            if let Some(variant) = variants.iter().find(|v| *v == word) {
+                return visitor.visit_enum(StrDeserializer::new(variant));
+            }
+            let known: Vec<_> = variants.iter().map(|v| format!("\"{v}\"")).collect();
+            let message = format!(" cannot be \"{word}\"");
+            return Err(Error::New(Fault::new(
+                message,
+                format!("write {}", known.join(" or ")),
+            )));
+        }
+        // Of several kinds with keys of their own, or with one key.
+        let kinds = self.wanted.split_once('\n');
+        let all: Vec<&str> = match kinds {
+            Some((keys, _)) => keys.split(", ").collect(),
+            None => variants.to_vec(),
+        };
+        let keys = self.table(name, &all, &visitor)?;
+        keys.all_known()?;
+        let given: Vec<_> = variants.iter().filter(|v| keys.get(v).is_some()).collect();
+        let [variant] = given.as_slice() else {
+            let (name, count) = (quoted(keys.name), given.len());
+            return Err(Error::New(match kinds {
+                Some((_, kinds)) => Fault::new(
+                    format!("{name} must be of one kind, not {count}"),
+                    format!("it needs one of {kinds}, and nothing of the other kinds"),
+                ),
+                None => Fault::new(
+                    format!("{name} has one key, not {count}"),
+                    expected(&visitor)
+                        .lines()
+                        .nth(1)
+                        .unwrap_or("write one of them"),
+                ),
+            }));
+        };
+        visitor.visit_enum(Kind {
+            variant,
+            value: self.with(variant, keys.held(variant)),
+            table: Some((self, &keys)),
+        })
+    }
+
+    forward_to_deserialize_any! {
+        i8 i16 i32 i128 u8 u16 u32 u64 u128 f32 f64 char bytes byte_buf unit unit_struct tuple
+        tuple_struct map identifier ignored_any
+    }
+}
+
+/// What a value can be asked for.
+enum Part<'r> {
+    Value(Value<'r>),
+    /// A value whose errors are recorded.
+    Recorded(Value<'r>),
+    /// Whether no errors came to so many.
+    Whole(Value<'r>, usize),
+    /// Where the values of the keys of a table stand.
+    Places(Value<'r>),
+    Text(&'r str),
+    Span(Range<usize>),
+    Parts(Vec<Part<'r>>),
+}
+
+struct Parts<'r>(std::vec::IntoIter<Part<'r>>);
+
+fn parts<'r>(parts: impl IntoIterator<Item = Part<'r>>) -> Parts<'r> {
+    Parts(parts.into_iter().collect::<Vec<_>>().into_iter())
+}
+
+fn ends(span: Range<usize>) -> Vec<usize> {
+    vec![span.start, span.end]
+}
+
+impl<'de> SeqAccess<'de> for Parts<'_> {
+    type Error = Error;
+    fn next_element_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let Some(part) = self.0.next() else {
+            return Ok(None);
+        };
+        match part {
+            Part::Value(value) => value.read(seed),
+            Part::Recorded(value) => value.recorded(seed),
+            Part::Whole(value, before) => {
+                let whole = value.reader.errors.count() == before;
+                seed.deserialize(whole.into_deserializer())
+            }
+            Part::Places(value) => {
+                let table = value.given()?.get_ref().as_table();
+                let table = table.into_iter().flatten();
+                let places = table.map(|(key, v)| (key.get_ref().to_string(), ends(v.span())));
+                seed.deserialize(places.collect::<BTreeMap<_, _>>().into_deserializer())
+            }
+            Part::Text(text) => seed.deserialize(text.into_deserializer()),
+            Part::Span(span) => seed.deserialize(ends(span).into_deserializer()),
+            Part::Parts(inner) => seed.deserialize(SeqAccessDeserializer::new(parts(inner))),
+        }
+        .map(Some)
+    }
+}
+
+type Key<'r> = Spanned<Cow<'r, str>>;
+
+/// The keys of a table beside those that it may have.
+struct Keys<'r> {
+    reader: Reader<'r>,
+    name: &'r str,
+    span: Range<usize>,
+    table: &'r DeTable<'r>,
+    fields: &'r [&'r str],
+    /// Keys that are none of the table's, with the one that may be meant, in the order of the
+    /// file.
+    unknown: Vec<(&'r Key<'r>, Option<&'r str>)>,
+    /// Of which kinds it can be.
+    kinds: &'r str,
+}
+
+/// The field of all keys that a table does not name.
+const FREE: &str = "*";
+
+impl<'r> Keys<'r> {
+    fn new(
+        reader: Reader<'r>,
+        name: &'r str,
+        span: Range<usize>,
+        table: &'r DeTable<'r>,
+        fields: &'r [&'r str],
+    ) -> Self {
+        let mut keys = Self {
+            reader,
+            name,
+            span,
+            table,
+            fields,
+            unknown: Vec::new(),
+            kinds: "",
+        };
+        keys.unknown = keys
+            .others()
+            .filter_map(|(key, _)| {
+                let known = fields.iter().copied().filter(|k| *k != FREE);
+                // Where any key may stand, one that is nearly another is a slip.
+                match keys.is_open() {
+                    false => Some((key, suggestion::misspelt(key.get_ref(), known))),
+                    true => suggestion::nearest(key.get_ref(), known)
+                        .filter(|k| suggestion::is_within(key.get_ref(), k, 2))
+                        .map(|k| (key, Some(k))),
+                }
+            })
+            .collect();
+        keys.unknown.sort_by_key(|(key, _)| key.span().start);
+        keys
+    }
+
+    fn is_open(&self) -> bool {
+        self.fields.contains(&FREE)
+    }
+
+    fn get(&self, key: &str) -> Option<&'r Spanned<DeValue<'r>>> {
+        self.table.get(key)
+    }
+
+    /// The keys that are not among the fields.
+    fn others(&self) -> impl Iterator<Item = (&'r Key<'r>, &'r Spanned<DeValue<'r>>)> + use<'r> {
+        let fields = self.fields;
+        let is_other = move |key: &Key<'r>| fields.iter().all(|f| f != key.get_ref());
+        self.table.iter().filter(move |(key, _)| is_other(key))
+    }
+
+    /// Records the keys that are unknown.
+    fn all_known(&self) -> Result<(), Error> {
+        for (key, nearest) in &self.unknown {
+            let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`?"));
+            let help = match self.is_open() {
+                true => guess,
+                false => format!("{guess} known keys: {}", self.fields.join(", ")),
+            };
+            let message = format!("unknown key `{}` in {}", key.get_ref(), self.name);
+            let error = self.reader.error(key.span(), message, help.trim_start());
+            self.reader.errors.record(error);
+        }
+        match self.unknown.as_slice() {
+            [] => Ok(()),
+            _ => Err(Error::Recorded),
+        }
+    }
+
+    /// The error of a key that is not given.
+    fn lacks(&self, key: &str) -> Error {
+        let message = format!("{} has no `{key}`", self.name);
+        let help = match self.kinds {
+            "" => format!("add `{key} = ...`"),
+            kinds => format!("add `{key} = ...`; known are {kinds}"),
+        };
+        let error = self.reader.error(self.span.clone(), message, help);
+        Error::Placed(Box::new(error))
+    }
+
+    /// What a field holds.
+    fn held(&'r self, field: &str) -> Held<'r> {
+        match self.get(field) {
+            _ if field == FREE => Held::Free(self),
+            Some(value) => Held::Given(value),
+            None if self.unknown.iter().any(|(_, k)| *k == Some(field)) => Held::Lost,
+            None => Held::Absent(self),
+        }
+    }
+
+    /// The keys that the table does not name, in the order of the file; those that are nearly
+    /// others without value.
+    fn free(&self) -> Vec<(&'r Key<'r>, Held<'r>)> {
+        let held = |(key, value): (&'r Key<'r>, _)| {
+            let unknown = self.unknown.iter().any(|(k, _)| k.span() == key.span());
+            (
+                key,
+                if unknown {
+                    Held::Lost
+                } else {
+                    Held::Given(value)
+                },
+            )
+        };
+        let mut free: Vec<_> = self.others().map(held).collect();
+        free.sort_by_key(|(key, _)| key.span().start);
+        free
+    }
+
+    /// A key with its place, and its value.
+    fn entry(&self, key: &'r Key<'r>, value: Value<'r>) -> Part<'r> {
+        let located = vec![Part::Text(key.get_ref()), Part::Span(key.span())];
+        Part::Parts(vec![Part::Parts(located), Part::Value(value)])
+    }
+}
+
+/// Every field of a table, whether it is given or not.
+struct Fields<'r> {
+    table: Value<'r>,
+    keys: &'r Keys<'r>,
+    next: usize,
+}
+
+impl<'de> MapAccess<'de> for Fields<'_> {
+    type Error = Error;
+    fn next_key_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let field = self.keys.fields.get(self.next);
+        self.next += 1;
+        field
+            .map(|field| seed.deserialize(StrDeserializer::new(field)))
+            .transpose()
+    }
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
+        let field = self.keys.fields[self.next - 1];
+        self.table.with(field, self.keys.held(field)).read(seed)
+    }
+}
+
+/// One of several kinds of values.
+struct Kind<'r> {
+    variant: &'static str,
+    /// The value of the key of that name.
+    value: Value<'r>,
+    /// The table that this key stands in, with those of all kinds.
+    table: Option<(Value<'r>, &'r Keys<'r>)>,
+}
+
+impl<'de> EnumAccess<'de> for Kind<'_> {
+    type Error = Error;
+    type Variant = Self;
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self), Error> {
+        let variant = seed.deserialize(StrDeserializer::<Error>::new(self.variant))?;
+        Ok((variant, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Kind<'_> {
+    type Error = Error;
+
+    fn unit_variant(self) -> Result<(), Error> {
+        Err(self.value.wrong_type(WORD))
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
+        self.value.read(seed)
+    }
+
+    /// A table in which all keys belong to the one that names the kind.
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        let (table, all) = self.table.ok_or(Error::Recorded)?;
+        let mut keys = Keys::new(table.reader, all.name, all.span.clone(), all.table, fields);
+        keys.kinds = table.wanted.split_once('\n').map_or("", |(_, kinds)| kinds);
+        if let Some((key, _)) = keys.unknown.first() {
+            let text = key.get_ref();
+            let message = format!("`{text}` has no meaning beside `{}`", self.variant);
+            let help = format!("remove `{text}`");
+            let error = table.reader.error(key.span(), message, help);
+            return Err(Error::Placed(Box::new(error)));
+        }
+        visitor.visit_map(Fields {
+            table,
+            keys: &keys,
+            next: 0,
+        })
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
+        Err(self.value.wrong_type(&expected(&visitor)))
+    }
+}

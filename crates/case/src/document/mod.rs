@@ -1,0 +1,97 @@
+//! Files that people write, read by serde: a table is a type that derives `Deserialize` and
+//! `JsonSchema`, a key is one field of it, and the comment on the field explains the key in
+//! the JSON Schema.
+//!
+//! All that is wrong in a file is found in one reading, each error at its place: a [`Field`]
+//! records what is wrong in its value, and the rest of its table is read all the same.
+//! Fields without it make their table wrong as a whole. What only follows from another error
+//! is not reported. The name of a struct, where `#[serde(rename)]` gives one, is that of its
+//! table in messages; in a table with a name in brackets, and in one with [`FreeKeys`], an
+//! unknown key does not keep the others from being read. An enum whose variants have fields
+//! is a table of several kinds, each known by the key that is called like the variant; one
+//! whose variants hold one value is a table with one key.
+
+mod deserializer;
+mod entries;
+mod error;
+mod numbers;
+mod schema;
+
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{CaseError, Errors};
+
+pub use entries::{Entry, Field, FreeKeys, Kinds, OneOrEach, Optional, Table, TableOr, Tables};
+pub use error::Fault;
+pub use numbers::{
+    Acceleration, Amount, Count, Dashpot, Dimensioned, Frequency, Length, Mass, NotNegative,
+    Number, Positive, Ratio, Signed, Stiffness, Time, Velocity, Within, Written,
+};
+pub use schema::schema_of;
+
+/// A text being read.
+#[derive(Debug, Clone, Copy)]
+pub struct Reader<'a> {
+    /// Its name in messages.
+    pub file: &'a str,
+    /// The text.
+    pub source: &'a str,
+    /// What was found wrong so far.
+    pub errors: &'a Errors,
+}
+
+impl Reader<'_> {
+    /// An error at a place of the text.
+    #[must_use]
+    pub fn error(
+        &self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> CaseError {
+        CaseError::new(self.file, self.source, span, message, Some(help.into()))
+    }
+
+    /// Records an error; in the place of the value that is not there because of it.
+    pub fn refuse<T>(
+        &self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.errors.record(self.error(span, message, help));
+        None
+    }
+
+    /// Line of a place, from 1.
+    #[must_use]
+    pub fn line(&self, span: &Range<usize>) -> usize {
+        self.error(span.clone(), "", "").line
+    }
+
+    /// The whole text; `help` says how to write it. `None` after its errors were recorded.
+    #[must_use]
+    pub fn read<T: DeserializeOwned>(&self, help: &str) -> Option<T> {
+        let (tree, wrong) = DeTable::parse_recoverable(self.source);
+        let mut lines = Vec::new();
+        for e in wrong {
+            let span = e.span().unwrap_or(0..0);
+            let line = self.line(&span);
+            // What follows in the same line is mostly of the parser's own making.
+            if !lines.contains(&line) {
+                lines.push(line);
+                let message = format!("this is not TOML: {}", e.message());
+                self.errors.record(self.error(span, message, help));
+            }
+        }
+        if !lines.is_empty() {
+            return None;
+        }
+        let root = Spanned::new(0..0, DeValue::Table(tree.into_inner()));
+        deserializer::read(*self, &root)
+    }
+}

@@ -1,0 +1,293 @@
+//! Numbers: quantities of a dimension, and counts.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{self, Deserializer, Visitor};
+
+use super::entries::ask;
+use super::error::Fault;
+use crate::units::{Dimension, Quantity, parse_quantity};
+
+/// A number in SI units or a text with a unit, as written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    text: String,
+    /// Whether it is a plain number.
+    plain: bool,
+}
+
+impl Written {
+    /// The quantity, where this dimension is wanted, which is not checked: a unit that is not
+    /// known leads to one that gives it.
+    fn quantity(self, wanted: Option<Dimension>) -> Result<Quantity, Fault> {
+        let quantity = if self.plain {
+            Quantity {
+                // What is no number is not finite either.
+                value: self.text.parse().unwrap_or(f64::NAN),
+                dimension: None,
+                text: self.text,
+            }
+        } else {
+            parse_quantity(&self.text)
+                .map_err(|e| Fault::new(format!(": {e}"), e.help_for(wanted)))?
+        };
+        if quantity.value.is_finite() {
+            return Ok(quantity);
+        }
+        let message = format!(" = {} is not a finite number", quantity.text);
+        Err(Fault::new(message, "correct the number"))
+    }
+
+    /// The value in SI units of a quantity of this dimension.
+    ///
+    /// # Errors
+    /// A text that is no quantity, a number that is not finite, or another dimension.
+    pub fn of(self, wanted: Dimension) -> Result<f64, Fault> {
+        self.quantity(Some(wanted))?.of(wanted)
+    }
+
+    /// Whether this stands in the unit.
+    #[must_use]
+    pub fn mentions(&self, unit: &str) -> bool {
+        self.text.contains(unit)
+    }
+}
+
+impl Quantity {
+    /// The value in SI units, if it is of this dimension or a plain number.
+    ///
+    /// # Errors
+    /// Another dimension.
+    pub fn of(&self, wanted: Dimension) -> Result<f64, Fault> {
+        match self.dimension {
+            Some(found) if found != wanted => Err(Fault::new(
+                format!(" must be {wanted}, but \"{}\" is {found}", self.text),
+                dimension_help(wanted, found),
+            )),
+            _ => Ok(self.value),
+        }
+    }
+}
+
+fn dimension_help(wanted: Dimension, found: Dimension) -> String {
+    if wanted == Dimension::MASS && found == Dimension::FORCE {
+        "a weight is a force: divide it by g, or write the mass in kg or t".to_owned()
+    } else if wanted == Dimension::STIFFNESS && found == Dimension::FORCE {
+        "a stiffness is a force over a length, such as \"3.46 MN/m\"".to_owned()
+    } else if found == Dimension::ACCELERATION && wanted == Dimension::MASS {
+        "\"g\" is the acceleration of gravity; write the mass in kg or t".to_owned()
+    } else if wanted == Dimension::FORCE && found == Dimension::MASS {
+        "a mass is no force: write N, kN, MN, lbf or kip".to_owned()
+    } else {
+        "correct the unit; plain numbers are SI".to_owned()
+    }
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Text;
+        impl<'de> Visitor<'de> for Text {
+            type Value = Written;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a number, or a text with unit")
+            }
+            fn visit_str<E>(self, text: &str) -> Result<Written, E> {
+                Ok(Written {
+                    text: text.to_owned(),
+                    plain: false,
+                })
+            }
+            /// The digits of a number.
+            fn visit_newtype_struct<D: Deserializer<'de>>(
+                self,
+                digits: D,
+            ) -> Result<Written, D::Error> {
+                Ok(Written {
+                    text: String::deserialize(digits)?,
+                    plain: true,
+                })
+            }
+        }
+        deserializer.deserialize_newtype_struct(ask::WRITTEN, Text)
+    }
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let written = Written::deserialize(deserializer)?;
+        written.quantity(None).map_err(de::Error::custom)
+    }
+}
+
+/// A dimension as a type.
+pub trait Dimensioned {
+    /// The dimension.
+    const DIMENSION: Dimension;
+}
+
+macro_rules! dimensions {
+    ($($name:ident $constant:ident $what:literal;)*) => {$(
+        #[doc = $what]
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct $name;
+        impl Dimensioned for $name {
+            const DIMENSION: Dimension = Dimension::$constant;
+        }
+    )*};
+}
+
+dimensions! {
+    Number NUMBER "A pure number.";
+    Mass MASS "Mass, kg.";
+    Length LENGTH "Length, m.";
+    Time TIME "Time, s.";
+    Frequency FREQUENCY "Frequency, 1/s.";
+    Velocity VELOCITY "Velocity, m/s.";
+    Acceleration ACCELERATION "Acceleration, m/s2.";
+    Stiffness STIFFNESS "Stiffness, N/m.";
+    Dashpot DASHPOT "Dashpot coefficient, N s/m.";
+}
+
+/// The values that a number may have.
+pub trait Within {
+    /// Refuses others.
+    ///
+    /// # Errors
+    /// A value outside.
+    fn check(value: f64) -> Result<(), Fault>;
+    /// The same for numbers without unit in a schema.
+    const SCHEMA: &[(&str, f64)];
+}
+
+macro_rules! ranges {
+    ($($name:ident $what:literal $schema:expr, |$value:ident| $inside:expr, $message:expr, $help:literal;)*) => {$(
+        #[doc = $what]
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct $name;
+        impl Within for $name {
+            const SCHEMA: &[(&str, f64)] = $schema;
+            fn check($value: f64) -> Result<(), Fault> {
+                if $inside {
+                    return Ok(());
+                }
+                Err(Fault::new($message, $help))
+            }
+        }
+    )*};
+}
+
+ranges! {
+    Any "Any value." &[], |value| true, format!(" = {value}"), "";
+    AboveZero "Above zero." &[("exclusiveMinimum", 0.0)], |value| value > 0.0,
+        format!(" = {value} must be greater than zero"), "correct the value";
+    FromZero "Zero or more." &[("minimum", 0.0)], |value| value >= 0.0,
+        format!(" = {value} must be zero or more"), "correct the value";
+    BelowOne "A damping ratio." &[("minimum", 0.0), ("exclusiveMaximum", 1.0)],
+        |value| (0.0..1.0).contains(&value),
+        format!("damping ratio {value} is not in 0..1"), "5 % of critical is 0.05 or \"5 %\"";
+}
+
+/// A quantity of a dimension within a range, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Amount<D, R> {
+    value: f64,
+    of: PhantomData<(D, R)>,
+}
+
+/// Any value of a dimension.
+pub type Signed<D> = Amount<D, Any>;
+/// A value above zero.
+pub type Positive<D> = Amount<D, AboveZero>;
+/// Zero or more.
+pub type NotNegative<D> = Amount<D, FromZero>;
+/// A damping ratio.
+pub type Ratio = Amount<Number, BelowOne>;
+
+impl<D, R> From<Amount<D, R>> for f64 {
+    fn from(amount: Amount<D, R>) -> Self {
+        amount.value
+    }
+}
+
+impl<D: Dimensioned, R: Within> TryFrom<Written> for Amount<D, R> {
+    type Error = Fault;
+    fn try_from(written: Written) -> Result<Self, Fault> {
+        let value = written.of(D::DIMENSION)?;
+        R::check(value)?;
+        Ok(Self {
+            value,
+            of: PhantomData,
+        })
+    }
+}
+
+impl<'de, D: Dimensioned, R: Within> Deserialize<'de> for Amount<D, R> {
+    fn deserialize<T: Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let written = Written::deserialize(deserializer)?;
+        Self::try_from(written).map_err(de::Error::custom)
+    }
+}
+
+/// A whole number in a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Count<const LEAST: usize, const MOST: usize = LARGEST_COUNT>(pub usize);
+
+/// Largest number of storeys, lines to skip and the like: far above any use, and small enough
+/// that a slip of the pen does not fill the memory.
+const LARGEST_COUNT: usize = 100_000;
+
+impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Count<LEAST, MOST> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let number = usize::try_from(i64::deserialize(deserializer)?);
+        match number {
+            Ok(number) if (LEAST..=MOST).contains(&number) => Ok(Self(number)),
+            _ => Err(de::Error::custom(format!(
+                " must be a whole number from {LEAST} to {MOST}\ncorrect the number"
+            ))),
+        }
+    }
+}
+
+impl JsonSchema for Written {
+    fn schema_name() -> Cow<'static, str> {
+        "quantity".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": ["number", "string"]})
+    }
+}
+
+impl JsonSchema for Quantity {
+    fn schema_name() -> Cow<'static, str> {
+        Written::schema_name()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Written::json_schema(generator)
+    }
+}
+
+impl<D, R: Within> JsonSchema for Amount<D, R> {
+    fn schema_name() -> Cow<'static, str> {
+        Written::schema_name()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = Written::json_schema(generator);
+        for (limit, value) in R::SCHEMA {
+            schema.insert((*limit).to_owned(), (*value).into());
+        }
+        schema
+    }
+}
+
+impl<const LEAST: usize, const MOST: usize> JsonSchema for Count<LEAST, MOST> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("from {LEAST} to {MOST}").into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": "integer", "minimum": LEAST, "maximum": MOST})
+    }
+}

@@ -1,0 +1,323 @@
+//! What is done to a record before it is scaled.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::scale::ScaleValue;
+use crate::document::{
+    Acceleration, Count, Entry, Fault, Field, Frequency, Kinds, NotNegative, Number, Positive,
+    Reader, Signed, TableOr, Time, Written,
+};
+use crate::error::{CaseError, Errors};
+use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
+use crate::types::Located;
+
+/// A text that holds nothing but steps.
+#[derive(Deserialize)]
+#[serde(rename = "the steps")]
+struct Steps {
+    process: Field<Process>,
+}
+
+/// Steps in their order.
+#[derive(Deserialize, JsonSchema)]
+#[serde(expecting = "a list of steps")]
+pub(super) struct Process(Vec<Field<Step>>);
+
+/// A step of processing
+#[derive(Deserialize, JsonSchema)]
+#[serde(
+    rename = "a step of `process`",
+    rename_all = "snake_case",
+    expecting = "a table\nwrite one table per step: [{ remove_offset = \"mean\" }, { pad = { after = \"10 s\" } }]"
+)]
+enum Step {
+    /// The values, taken as m/s2, are in truth in this unit
+    TrueUnit(Located<String>),
+    /// "reversed" turns the sign
+    Sign(Sign),
+    /// Takes "mean", the mean of the time before the event, or a value off all samples
+    RemoveOffset(TableOr<Kinds<RemoveTable>, OfAll>),
+    /// Butterworth filter: high-pass, low-pass, or both
+    Filter(Located<FilterTable>),
+    /// Corrects the baseline
+    Baseline(Kinds<BaselineTable>),
+    /// Keeps a part
+    Trim(Kinds<TrimTable>),
+    /// Brings the ends to zero by half a cosine
+    Taper(Located<TaperTable>),
+    /// Puts zeros before and after: after, for free vibration
+    Pad(Located<PadTable>),
+    /// Changes the time step
+    Resample(ResampleTable),
+    /// Scales
+    Scale(ScaleValue),
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum Sign {
+    Reversed,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum OfAll {
+    Mean,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(untagged)]
+enum RemoveTable {
+    PreEvent {
+        /// Length of the time before the event (s), whose mean is taken off
+        pre_event: Positive<Time>,
+    },
+    Value {
+        /// Value to take off (m/s2)
+        value: Signed<Acceleration>,
+    },
+}
+
+#[derive(Deserialize, JsonSchema)]
+struct FilterTable {
+    /// High-pass (low-cut) corner (Hz)
+    high_pass: Option<Corner>,
+    /// Low-pass (high-cut) corner (Hz)
+    low_pass: Option<Corner>,
+    /// Order of each pass and side, by default 4
+    order: Option<Count<1>>,
+    /// zero (default: forward and backward) or causal (forward)
+    phase: Option<Phase>,
+    /// Zero phase: whether the zeros put at both ends stay, by default true
+    keep_pads: Option<bool>,
+}
+
+/// A corner frequency (Hz).
+#[derive(Deserialize, JsonSchema)]
+#[serde(try_from = "Written")]
+struct Corner(f64);
+
+impl TryFrom<Written> for Corner {
+    type Error = Fault;
+    fn try_from(written: Written) -> Result<Self, Fault> {
+        // An angle per second is a circular frequency.
+        let cycle = if written.mentions("rad") { TAU } else { 1.0 };
+        let frequency = Positive::<Frequency>::try_from(written)?;
+        Ok(Self(f64::from(frequency) / cycle))
+    }
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum Phase {
+    Zero,
+    Causal,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(untagged)]
+enum BaselineTable {
+    Acceleration {
+        /// Degree, 0 to 5, of a polynomial that is fitted to the acceleration and taken off
+        acceleration: Count<0>,
+    },
+    Velocity {
+        /// Degree, 1 to 5, of a polynomial that is fitted to the velocity, whose derivative
+        /// is taken off
+        velocity: Count<1>,
+    },
+    Start {
+        /// Two segments: start t1 of the first (s)
+        start: NotNegative<Time>,
+        /// Two segments: end t2 of the first (s)
+        end: NotNegative<Time>,
+        /// Two segments: start of the fit (s), by default t2
+        fit_from: Option<NotNegative<Time>>,
+    },
+    Threshold {
+        /// Two segments: from the first to the last sample at this acceleration (m/s2)
+        threshold: Positive<Acceleration>,
+        /// Two segments: start of the fit (s), by default t2
+        fit_from: Option<NotNegative<Time>>,
+    },
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(untagged)]
+enum TrimTable {
+    End {
+        /// Start (s), by default 0
+        start: Option<NotNegative<Time>>,
+        /// End (s)
+        end: NotNegative<Time>,
+    },
+    AriasFrom {
+        /// Part of the Arias intensity at the start, such as 0.001
+        arias_from: Positive<Number>,
+        /// Part of the Arias intensity at the end, such as 0.999
+        arias_to: Positive<Number>,
+    },
+}
+
+#[derive(Deserialize, JsonSchema)]
+struct TaperTable {
+    /// Length at the start (s)
+    start: Option<NotNegative<Time>>,
+    /// Length at the end (s)
+    end: Option<NotNegative<Time>>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+struct PadTable {
+    /// Length before (s)
+    before: Option<NotNegative<Time>>,
+    /// Length after (s)
+    after: Option<NotNegative<Time>>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+struct ResampleTable {
+    /// New time step (s)
+    time_step: Positive<Time>,
+    /// linear (default) or band_limited
+    interpolation: Option<Interpolation>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum Interpolation {
+    Linear,
+    BandLimited,
+}
+
+/// Reads a text `process = [...]`, the same list as in a case file: for programs that
+/// offer the steps elsewhere. `name` stands in messages.
+///
+/// # Errors
+/// All that is wrong in the text, with its places.
+pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep>>, CaseError> {
+    let errors = Errors::default();
+    let reader = Reader {
+        file: name,
+        source,
+        errors: &errors,
+    };
+    let steps = reader.read::<Steps>("write process = [{ remove_offset = \"mean\" }, ...]");
+    let steps = steps.and_then(|steps| steps.process.value()?.read(&reader));
+    errors.finish(Ok(steps.unwrap_or_default()))
+}
+
+impl Process {
+    pub(super) fn read(self, reader: &Reader<'_>) -> Option<Vec<Located<ProcessStep>>> {
+        let made = |step: Field<Step>| {
+            let step = step.located()?;
+            Some(Located {
+                value: step.value.read(reader)?,
+                span: step.span,
+            })
+        };
+        let steps: Vec<_> = self.0.into_iter().map(made).collect();
+        steps.into_iter().collect()
+    }
+}
+
+/// A table in which nothing is given that it needs.
+fn nothing<T>(reader: &Reader<'_>, place: Range<usize>, needed: &str) -> Option<T> {
+    let message = format!("{needed}, and nothing of the other kinds");
+    reader.refuse(place, message, "write each kind as a step of its own")
+}
+
+impl Step {
+    fn read(self, reader: &Reader<'_>) -> Option<ProcessStep> {
+        let or_zero = |time: Option<NotNegative<Time>>| time.map_or(0.0, f64::from);
+        Some(match self {
+            Self::TrueUnit(unit) => ProcessStep::Unit(unit),
+            Self::Sign(Sign::Reversed) => ProcessStep::ReverseSign,
+            Self::RemoveOffset(offset) => ProcessStep::RemoveOffset(match offset {
+                TableOr::Value(OfAll::Mean) => RemovedOffset::Mean,
+                TableOr::Table(Kinds(RemoveTable::PreEvent { pre_event })) => {
+                    RemovedOffset::PreEventMean(pre_event.into())
+                }
+                TableOr::Table(Kinds(RemoveTable::Value { value })) => {
+                    RemovedOffset::Value(value.into())
+                }
+            }),
+            Self::Filter(Located { value, span }) => {
+                if value.high_pass.is_none() && value.low_pass.is_none() {
+                    let needed = "`filter` needs `high_pass`, `low_pass` or both";
+                    return nothing(reader, span, needed);
+                }
+                ProcessStep::Filter {
+                    order: value.order.map_or(4, |order| order.0),
+                    high_pass: value.high_pass.map(|corner| corner.0),
+                    low_pass: value.low_pass.map(|corner| corner.0),
+                    causal: matches!(value.phase, Some(Phase::Causal)),
+                    keep_pads: value.keep_pads.unwrap_or(true),
+                }
+            }
+            Self::Baseline(Kinds(table)) => ProcessStep::Baseline(table.into()),
+            Self::Trim(Kinds(TrimTable::End { start, end })) => ProcessStep::TrimTimes {
+                start: or_zero(start),
+                end: end.into(),
+            },
+            Self::Trim(Kinds(TrimTable::AriasFrom {
+                arias_from,
+                arias_to,
+            })) => ProcessStep::TrimArias {
+                from: arias_from.into(),
+                to: arias_to.into(),
+            },
+            Self::Taper(Located { value, span }) => {
+                let (start, end) = (or_zero(value.start), or_zero(value.end));
+                if start == 0.0 && end == 0.0 {
+                    return nothing(reader, span, "`taper` needs `start`, `end` or both");
+                }
+                ProcessStep::Taper { start, end }
+            }
+            Self::Pad(Located { value, span }) => {
+                let (before, after) = (or_zero(value.before), or_zero(value.after));
+                if before == 0.0 && after == 0.0 {
+                    return nothing(reader, span, "`pad` needs `before`, `after` or both");
+                }
+                ProcessStep::Pad { before, after }
+            }
+            Self::Resample(table) => ProcessStep::Resample {
+                time_step: table.time_step.into(),
+                band_limited: matches!(table.interpolation, Some(Interpolation::BandLimited)),
+            },
+            Self::Scale(scale) => ProcessStep::Scale(scale.into()),
+        })
+    }
+}
+
+impl From<BaselineTable> for BaselineKind {
+    fn from(table: BaselineTable) -> Self {
+        match table {
+            BaselineTable::Acceleration { acceleration } => Self::Acceleration(acceleration.0),
+            BaselineTable::Velocity { velocity } => Self::Velocity(velocity.0),
+            BaselineTable::Start {
+                start,
+                end,
+                fit_from,
+            } => Self::Segments {
+                start: start.into(),
+                end: end.into(),
+                fit_from: fit_from.map(f64::from),
+            },
+            BaselineTable::Threshold {
+                threshold,
+                fit_from,
+            } => Self::Threshold {
+                threshold: threshold.into(),
+                fit_from: fit_from.map(f64::from),
+            },
+        }
+    }
+}

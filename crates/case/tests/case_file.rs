@@ -165,6 +165,35 @@ fn schema_and_parser_know_the_same_keys() {
     }
 }
 
+/// Every key stands once, in its table, with what is known of it from its type.
+#[test]
+fn the_schema_stands_by_itself() {
+    let schema = schema();
+    let text = schema.to_string();
+    assert!(!text.contains("$ref") && !text.contains("null"), "{text}");
+    assert_eq!(schema["$id"], "pounding/case.schema.json");
+    let building = &schema["properties"]["building"]["items"];
+    let required = ["name", "mass", "stiffness", "height", "damping"];
+    assert_eq!(building["required"], serde_json::json!(required));
+    assert_eq!(building["additionalProperties"], false);
+    let mass = &building["properties"]["mass"];
+    assert_eq!(mass["anyOf"][0]["exclusiveMinimum"], 0.0);
+    assert_eq!(mass["anyOf"][1]["minItems"], 1);
+    let damping = &building["properties"]["damping"]["oneOf"];
+    assert_eq!(damping.as_array().unwrap().len(), 6);
+    assert_eq!(
+        damping[0]["required"],
+        serde_json::json!(["ratio", "modes"])
+    );
+    let free = &schema["properties"]["link"]["items"]["additionalProperties"];
+    assert!(
+        free["description"]
+            .as_str()
+            .unwrap()
+            .starts_with("Parameters of the law")
+    );
+}
+
 #[test]
 fn hostile_texts_are_refused_with_a_place() {
     for text in [

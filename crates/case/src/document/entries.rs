@@ -6,7 +6,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 
@@ -105,9 +105,8 @@ pub struct Table<T> {
 pub struct Tables<T>(pub Vec<Field<T>>);
 
 /// A table, or a value in its place.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename = "$table_or")]
-#[schemars(untagged)]
 pub enum TableOr<T, V> {
     /// Another value.
     Value(V),
@@ -126,13 +125,12 @@ pub struct FreeKeys<T>(pub Vec<(Located<String>, Field<T>)>);
 pub struct Kinds<T>(pub T);
 
 /// One value for all places, or a list with one for each; of at least so many entries.
-#[derive(Debug, Clone, PartialEq, JsonSchema)]
-#[schemars(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum OneOrEach<T, const LEAST: usize = 1> {
     /// For all.
     One(T),
     /// A list.
-    Each(#[schemars(length(min = LEAST))] Vec<T>),
+    Each(Vec<T>),
 }
 
 impl<T, const LEAST: usize> OneOrEach<T, LEAST> {
@@ -253,6 +251,25 @@ macro_rules! as_what_they_hold {
 }
 
 as_what_they_hold!(Located, Field, Table, FreeKeys);
+
+impl<T: JsonSchema, V: JsonSchema> JsonSchema for TableOr<T, V> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("{} or {}", V::schema_name(), T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({"anyOf": [V::json_schema(generator), T::json_schema(generator)]})
+    }
+}
+
+impl<T: JsonSchema, const LEAST: usize> JsonSchema for OneOrEach<T, LEAST> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("{} or a list of {LEAST}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = T::json_schema(generator);
+        json_schema!({"anyOf": [one, {"type": "array", "minItems": LEAST, "items": one}]})
+    }
+}
 
 impl<T: JsonSchema> JsonSchema for Kinds<T> {
     fn schema_name() -> Cow<'static, str> {

@@ -252,23 +252,20 @@ impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Count<LEAS
     }
 }
 
-impl JsonSchema for Written {
-    fn schema_name() -> Cow<'static, str> {
-        "quantity".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({"type": ["number", "string"]})
-    }
+macro_rules! written {
+    ($($name:ident),*) => {$(
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                "quantity".into()
+            }
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!({"type": ["number", "string"]})
+            }
+        }
+    )*};
 }
 
-impl JsonSchema for Quantity {
-    fn schema_name() -> Cow<'static, str> {
-        Written::schema_name()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        Written::json_schema(generator)
-    }
-}
+written!(Written, Quantity);
 
 impl<D, R: Within> JsonSchema for Amount<D, R> {
     fn schema_name() -> Cow<'static, str> {

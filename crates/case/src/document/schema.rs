@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
@@ -93,12 +94,12 @@ fn with_one_key(object: &mut Map<String, Value>) {
 
 thread_local! {
     /// What [`kinds_of`] says, by the name of the type: it is asked for in every case of a study.
-    static KINDS: RefCell<HashMap<&'static str, String>> = RefCell::default();
+    static KINDS: RefCell<HashMap<&'static str, Rc<str>>> = RefCell::default();
 }
 
 /// The keys of a table of several kinds that is read as `T`, and in a second line its kinds,
 /// each with the keys that it needs and may have.
-pub(super) fn kinds_of<T: JsonSchema>() -> String {
+pub(super) fn kinds_of<T: JsonSchema>() -> Rc<str> {
     let name = std::any::type_name::<T>();
     if let Some(kinds) = KINDS.with_borrow(|known| known.get(name).cloned()) {
         return kinds;
@@ -123,6 +124,7 @@ pub(super) fn kinds_of<T: JsonSchema>() -> String {
     }
     let last = kinds.pop().unwrap_or_default();
     let text = format!("{}\n{} or {last}", keys.join(", "), kinds.join(", "));
-    KINDS.with_borrow_mut(|known| known.insert(name, text.clone()));
+    let text: Rc<str> = text.into();
+    KINDS.with_borrow_mut(|known| known.insert(name, Rc::clone(&text)));
     text
 }

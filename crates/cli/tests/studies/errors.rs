@@ -23,7 +23,11 @@ fn errors_point_at_their_place() {
             "gap.light-heavi.width",
             vec!["did you mean `light-heavy`?"],
         ),
-        ("gap.0.width", "gap.7.width", vec!["`gap` has 1 entries"]),
+        (
+            "gap.0.width",
+            "gap.7.width",
+            vec!["`gap` has 1 entry, counted from 0"],
+        ),
         (
             "\"5 mm\"",
             "\"5 kg\"",

@@ -14,7 +14,7 @@ mod types;
 mod units;
 
 pub use error::{CaseError, Errors};
-pub use parse::{process_steps, schema};
+pub use parse::{ground_motion_schema, process_steps, schema};
 pub use process::{BaselineKind, ProcessStep, RemovedOffset};
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_quantity};

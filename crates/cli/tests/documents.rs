@@ -8,6 +8,7 @@ use std::process::Command;
 
 use pounding_ground_motion::Format;
 use pounding_ground_motion::generators::GENERATORS;
+use serde_json::Value;
 
 fn root() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -256,26 +257,124 @@ fn keys(schema: &serde_json::Value, found: &mut BTreeSet<String>) {
     }
 }
 
-#[test]
-fn every_key_of_the_case_file_is_documented() {
-    let schema = printed(pounding().arg("schema"), "schema");
+/// The keys of the schemas that stand on none of these pages of the reference.
+fn undocumented(schemas: &[&str], pages: &[&str]) -> (usize, BTreeSet<String>) {
     let mut found = BTreeSet::new();
-    keys(&serde_json::from_str(&schema).unwrap(), &mut found);
-    assert!(found.len() > 80, "{found:?}");
-    let pages: String = [
+    for file in schemas {
+        let schema = printed(pounding().args(["schema", file]), file);
+        keys(&serde_json::from_str(&schema).unwrap(), &mut found);
+    }
+    let pages = pages
+        .iter()
+        .map(|name| page(&format!("docs/reference/{name}.md")));
+    let pages: String = pages.collect();
+    let named: BTreeSet<&str> = pages
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .collect();
+    let all = found.len();
+    found.retain(|key| !named.contains(key.as_str()));
+    (all, found)
+}
+
+#[test]
+fn every_key_of_the_input_files_is_documented() {
+    let of_case = [
         "case-file",
         "ground-motions",
         "yielding-storeys-and-links",
         "gap-check",
-    ]
-    .iter()
-    .map(|name| page(&format!("docs/reference/{name}.md")))
-    .collect();
-    let named: BTreeSet<&str> = pages
-        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
-        .collect();
-    found.retain(|key| !named.contains(key.as_str()));
-    assert!(found.is_empty(), "no page names {found:?}");
+    ];
+    let (all, lost) = undocumented(&["case"], &of_case);
+    assert!(
+        all > 80 && lost.is_empty(),
+        "of {all}, no page names {lost:?}"
+    );
+    let of_study = ["studies", "ground-motions"];
+    let (all, lost) = undocumented(&["study", "hazard"], &of_study);
+    assert!(
+        all > 40 && lost.is_empty(),
+        "of {all}, no page names {lost:?}"
+    );
+}
+
+/// Whether a value may stand where this schema does, as far as keys and kinds of values go.
+fn fits(value: &Value, schema: &Value) -> bool {
+    let Value::Object(rules) = schema else {
+        return schema != &Value::Bool(false);
+    };
+    for choice in ["anyOf", "oneOf"] {
+        if let Some(Value::Array(choices)) = rules.get(choice)
+            && !choices.iter().any(|choice| fits(value, choice))
+        {
+            return false;
+        }
+    }
+    let kind = match value {
+        Value::Object(_) => "object",
+        Value::Array(_) => "array",
+        Value::String(_) => "string",
+        Value::Bool(_) => "boolean",
+        Value::Number(n) if n.is_f64() => "number",
+        _ => "integer",
+    };
+    let allowed = |wanted: &Value| wanted == kind || (wanted == "number" && kind == "integer");
+    let typed = match rules.get("type") {
+        Some(Value::Array(kinds)) => kinds.iter().any(allowed),
+        Some(wanted) => allowed(wanted),
+        None => true,
+    };
+    let open = Value::Bool(true);
+    let words = rules.get("enum").and_then(Value::as_array);
+    typed
+        && words.is_none_or(|words| words.contains(value))
+        && match value {
+            Value::Object(entries) => {
+                let others = rules.get("additionalProperties").unwrap_or(&open);
+                let known = |key: &String| rules.get("properties").and_then(|p| p.get(key));
+                let needed = rules.get("required").and_then(Value::as_array);
+                let has = |key: &Value| key.as_str().is_some_and(|k| entries.contains_key(k));
+                needed.is_none_or(|keys| keys.iter().all(has))
+                    && entries
+                        .iter()
+                        .all(|(key, value)| fits(value, known(key).unwrap_or(others)))
+            }
+            Value::Array(items) => {
+                let each = rules.get("items").unwrap_or(&open);
+                items.iter().all(|item| fits(item, each))
+            }
+            _ => true,
+        }
+}
+
+/// The cases and studies of the examples fit the schemas; with a key misspelt they do not.
+#[test]
+fn the_examples_fit_the_schemas() {
+    let mut checked = [0; 2];
+    for (count, (file, name, key)) in checked.iter_mut().zip([
+        ("case", "case.toml", "width"),
+        ("study", "study.toml", "path"),
+    ]) {
+        let schema = printed(pounding().args(["schema", file]), file);
+        let schema: Value = serde_json::from_str(&schema).unwrap();
+        for example in std::fs::read_dir(root().join("examples")).unwrap() {
+            let Ok(text) = std::fs::read_to_string(example.unwrap().path().join(name)) else {
+                continue;
+            };
+            *count += 1;
+            let value: Value = toml::from_str(&text).unwrap();
+            assert!(fits(&value, &schema), "{text}");
+            let misspelt = text.replacen(&format!("\n{key} ="), "\nnosuchkey =", 1);
+            if misspelt != text && file == "study" {
+                let value: Value = toml::from_str(&misspelt).unwrap();
+                assert!(!fits(&value, &schema), "{misspelt}");
+            }
+        }
+    }
+    assert!(checked[0] >= 10 && checked[1] >= 2, "{checked:?}");
+    let hazard = printed(pounding().args(["schema", "hazard"]), "hazard");
+    let hazard: Value = serde_json::from_str(&hazard).unwrap();
+    let points: Value = serde_json::from_str("[[0.1, 1e-2], [\"0.5 g\", 1e-4]]").unwrap();
+    assert!(fits(&points, &hazard) && !fits(&Value::from(3), &hazard));
 }
 
 /// The case of the page, and every kind of damping in its table.

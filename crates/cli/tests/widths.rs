@@ -91,6 +91,8 @@ fn text_for_programs_is_as_it_is() {
     for arguments in [
         "check examples/three_storey_pair/case.toml --json",
         "schema",
+        "schema study",
+        "schema hazard",
         "sweep examples/sweep_three_storey_pair/study.toml --show 1",
     ] {
         assert_eq!(printed(arguments, Some(60)), printed(arguments, None));

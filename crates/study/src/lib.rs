@@ -41,7 +41,7 @@ pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use shown::case_of_run;
 pub use study_file::{
     DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
-    Variable,
+    Variable, hazard_schema, study_schema,
 };
 pub use sweep::{Progress, Shard, SweepOptions, SweepReport, parts_folder, sweep, writable};
 pub use table::RunTable;

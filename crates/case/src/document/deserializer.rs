@@ -3,9 +3,11 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
+use std::num::IntErrorKind;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
+use pounding_catalogue::wording::agreeing;
 use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
 use serde::de::{
     DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected,
@@ -59,16 +61,33 @@ enum Held<'r> {
 const WORD: &str = "a text in quotes";
 
 /// The name of a key or table in a message.
-fn quoted(name: &str) -> String {
+pub(super) fn quoted(name: &str) -> String {
     match name.contains('`') {
         true => name.to_owned(),
         false => format!("`{name}`"),
     }
 }
 
+/// Whether this is the name of a type, which is none for messages.
+fn is_type(name: &str) -> bool {
+    name.starts_with(char::is_uppercase)
+}
+
 /// What a type expects.
 fn expected<'de>(visitor: &impl Visitor<'de>) -> String {
     (visitor as &dyn Expected).to_string()
+}
+
+/// The remedy for a word that is not known.
+fn unknown_word(word: &str, known: &[&str], more: &str) -> String {
+    let nearest = suggestion::misspelt(word, known);
+    let guess = nearest.map_or_else(String::new, |k| format!("did you mean \"{k}\"? "));
+    let more = match more {
+        "" => String::new(),
+        more => format!("; {more}"),
+    };
+    let are = agreeing(&known.len(), "is", "are");
+    format!("{guess}known {are} {}{more}", known.join(", "))
 }
 
 impl<'r> Value<'r> {
@@ -108,19 +127,14 @@ impl<'r> Value<'r> {
     }
 
     fn placed(self, error: Error) -> Error {
-        let Error::New(Fault { message, help }) = error else {
+        let Error::New(fault) = error else {
             return error;
-        };
-        let message = match message.starts_with([' ', ':']) {
-            true => format!("{}{message}", quoted(self.key)),
-            false => message,
         };
         let span = match self.held {
             Held::Given(value) => value.span(),
             _ => 0..0,
         };
-        let help = help.replace("{key}", self.key);
-        Error::Placed(Box::new(self.reader.error(span, message, help)))
+        Error::Placed(Box::new(self.reader.fault(span, self.key, fault)))
     }
 
     fn wrong_type(self, wanted: &str) -> Error {
@@ -166,7 +180,7 @@ impl<'r> Value<'r> {
         fields: &'r [&'r str],
         expecting: &dyn Expected,
     ) -> Result<Keys<'r>, Error> {
-        let name = match name.starts_with(char::is_uppercase) {
+        let name = match is_type(name) {
             true => self.key,
             false => name,
         };
@@ -189,9 +203,13 @@ impl<'de> Deserializer<'de> for Value<'_> {
         match self.given()?.get_ref() {
             DeValue::String(text) => visitor.visit_str(text),
             DeValue::Boolean(flag) => visitor.visit_bool(*flag),
-            // What is no such number is as far out of every range as can be.
             DeValue::Integer(i) => {
-                visitor.visit_i64(i64::from_str_radix(i.as_str(), i.radix()).unwrap_or(i64::MIN))
+                // What is no such number is as far out of every range as can be.
+                let number = i64::from_str_radix(i.as_str(), i.radix());
+                visitor.visit_i64(number.unwrap_or_else(|e| match e.kind() {
+                    IntErrorKind::PosOverflow => i64::MAX,
+                    _ => i64::MIN,
+                }))
             }
             DeValue::Array(_) => self.deserialize_seq(visitor),
             _ => Err(self.wrong_type(&expected(&visitor))),
@@ -299,8 +317,8 @@ impl<'de> Deserializer<'de> for Value<'_> {
         }
         let keys = self.table(name, fields, &visitor)?;
         let unknown = keys.all_known();
-        // Keys of other tables mean something together.
-        if !(self.key.is_empty() || name.starts_with('[') || keys.is_open()) {
+        // Keys of tables without a name of their own mean something together.
+        if is_type(name) && !(self.key.is_empty() || keys.is_open()) {
             unknown?;
         }
         visitor.visit_map(Fields {
@@ -324,7 +342,9 @@ impl<'de> Deserializer<'de> for Value<'_> {
                 table: None,
             });
         }
-        if expected(&visitor) == WORD {
+        let expecting = expected(&visitor);
+        let (expecting, more) = expecting.split_once('\n').unwrap_or((&expecting, ""));
+        if expecting == WORD {
             let DeValue::String(word) = self.given()?.get_ref() else {
                 return Err(self.wrong_type(WORD));
             };
@@ -332,11 +352,16 @@ impl<'de> Deserializer<'de> for Value<'_> {
                 return visitor.visit_enum(StrDeserializer::new(variant));
             }
             let known: Vec<_> = variants.iter().map(|v| format!("\"{v}\"")).collect();
-            let message = format!(" cannot be \"{word}\"");
-            return Err(Error::New(Fault::new(
-                message,
-                format!("write {}", known.join(" or ")),
-            )));
+            return Err(Error::New(match is_type(name) {
+                true => Fault::new(
+                    format!(" cannot be \"{word}\""),
+                    format!("write {}", known.join(" or ")),
+                ),
+                false => Fault::new(
+                    format!("unknown {name} \"{word}\""),
+                    unknown_word(word, variants, more),
+                ),
+            }));
         }
         // Of several kinds with keys of their own, or with one key.
         let kinds = self.wanted.split_once('\n');
@@ -370,9 +395,14 @@ impl<'de> Deserializer<'de> for Value<'_> {
         })
     }
 
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.given()?;
+        visitor.visit_unit()
+    }
+
     forward_to_deserialize_any! {
         i8 i16 i32 i128 u8 u16 u32 u64 u128 f32 f64 char bytes byte_buf unit unit_struct tuple
-        tuple_struct map identifier ignored_any
+        tuple_struct map identifier
     }
 }
 

@@ -10,6 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 
+use super::error::Fault;
 use super::schema::kinds_of;
 use crate::types::Located;
 
@@ -47,6 +48,25 @@ pub trait Entry<T>: Sized {
     /// The value.
     fn value(self) -> Option<T> {
         self.located().map(|located| located.value)
+    }
+    /// What is given, which may be nothing; `None` where it is wrong.
+    fn stated(self) -> Option<Option<Located<T>>> {
+        let is_wrong = self.is_wrong();
+        let given = self.located();
+        (given.is_some() || !is_wrong).then_some(given)
+    }
+    /// The value, or this one where none is given; `None` where it is wrong.
+    fn value_or(self, default: T) -> Option<T> {
+        let given = self.stated()?;
+        Some(given.map_or(default, |located| located.value))
+    }
+    /// The same in SI units.
+    fn number_or(self, default: f64) -> Option<f64>
+    where
+        T: Into<f64>,
+    {
+        let given = self.stated()?;
+        Some(given.map_or(default, |located| located.value.into()))
     }
     /// The value in SI units.
     fn number(self) -> Option<f64>
@@ -103,6 +123,33 @@ pub struct Table<T> {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of tables\nwrite [[{key}]] with double brackets")]
 pub struct Tables<T>(pub Vec<Field<T>>);
+
+/// A list of at least one entry.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "Vec<Field<T>>")]
+#[schemars(extend("minItems" = 1))]
+pub struct List<T>(pub Vec<Field<T>>);
+
+impl<T> TryFrom<Vec<Field<T>>> for List<T> {
+    type Error = Fault;
+    fn try_from(entries: Vec<Field<T>>) -> Result<Self, Fault> {
+        match entries.is_empty() {
+            false => Ok(Self(entries)),
+            true => Err(Fault::new(
+                " must be a list that is not empty",
+                "write a list that is not empty",
+            )),
+        }
+    }
+}
+
+impl<T> List<T> {
+    /// The entries with their places, if none of them is wrong.
+    #[must_use]
+    pub fn whole(self) -> Option<Vec<Located<T>>> {
+        self.0.into_iter().map(Entry::located).collect()
+    }
+}
 
 /// A table, or a value in its place.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -229,7 +276,7 @@ impl<'de, T: Deserialize<'de>, const LEAST: usize> Visitor<'de> for Of<OneOrEach
         match wrong {
             Some(e) => Err(e),
             None if values.len() < LEAST => Err(de::Error::custom(
-                " is an empty list\ngive one value per storey, or a single value for all",
+                " is an empty list\ngive a list of values, or a single value for all",
             )),
             None => Ok(OneOrEach::Each(values)),
         }

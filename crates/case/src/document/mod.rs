@@ -6,8 +6,9 @@
 //! records what is wrong in its value, and the rest of its table is read all the same.
 //! Fields without it make their table wrong as a whole. What only follows from another error
 //! is not reported. The name of a struct, where `#[serde(rename)]` gives one, is that of its
-//! table in messages; in a table with a name in brackets, and in one with [`FreeKeys`], an
-//! unknown key does not keep the others from being read. An enum whose variants have fields
+//! table in messages; in a table with such a name, and in one with [`FreeKeys`], an unknown key
+//! does not keep the others from being read. An enum whose variants have no fields is a text;
+//! with `#[serde(rename)]` a text that is none of them is called an unknown one of that name. An enum whose variants have fields
 //! is a table of several kinds, each known by the key that is called like the variant; one
 //! whose variants hold one value is a table with one key.
 
@@ -25,11 +26,14 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{CaseError, Errors};
 
-pub use entries::{Entry, Field, FreeKeys, Kinds, OneOrEach, Optional, Table, TableOr, Tables};
+pub use entries::{
+    Entry, Field, FreeKeys, Kinds, List, OneOrEach, Optional, Table, TableOr, Tables,
+};
 pub use error::Fault;
 pub use numbers::{
-    Acceleration, Amount, Count, Dashpot, Dimensioned, Frequency, Length, Mass, NotNegative,
-    Number, Positive, Ratio, Signed, Stiffness, Time, Velocity, Within, Written,
+    AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Dimensioned, Frequency, Length, Mass,
+    NotNegative, Number, Positive, Ratio, Scalar, Signed, Stiffness, Time, Velocity, Within,
+    Written,
 };
 pub use schema::schema_of;
 
@@ -65,6 +69,24 @@ impl Reader<'_> {
     ) -> Option<T> {
         self.errors.record(self.error(span, message, help));
         None
+    }
+
+    /// The value, which stands at a key; `None` after recording what is wrong with it.
+    pub fn keep<T>(&self, span: &Range<usize>, key: &str, value: Result<T, Fault>) -> Option<T> {
+        let error = |fault| self.fault(span.clone(), key, fault);
+        self.errors.keep(value.map_err(error))
+    }
+
+    /// The error of a value that stands at a key.
+    fn fault(&self, span: Range<usize>, key: &str, fault: Fault) -> CaseError {
+        let Fault { message, help } = fault;
+        let message = match message.starts_with([' ', ':']) {
+            true => format!("{}{message}", deserializer::quoted(key)),
+            false => message,
+        };
+        let written = self.source.get(span.clone()).unwrap_or_default();
+        let message = message.replace("{written}", written);
+        self.error(span, message, help.replace("{key}", key))
     }
 
     /// Line of a place, from 1.

@@ -1,6 +1,7 @@
 //! Numbers: quantities of a dimension, and counts.
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -50,9 +51,38 @@ impl Written {
         self.quantity(Some(wanted))?.of(wanted)
     }
 
-    /// Whether this stands in the unit.
+    /// The quantity, of any dimension.
+    ///
+    /// # Errors
+    /// A text that is no quantity, or a number that is not finite.
+    pub fn any(self) -> Result<Quantity, Fault> {
+        self.quantity(None)
+    }
+
+    /// The value in SI units of a quantity of this dimension that is above zero.
+    ///
+    /// # Errors
+    /// As [`Written::of`], and a value that is not above zero.
+    pub fn above_zero(self, wanted: Dimension) -> Result<f64, Fault> {
+        let value = self.of(wanted)?;
+        AboveZero::check(value)?;
+        Ok(value)
+    }
+
+    /// The text, or the digits of a number.
     #[must_use]
-    pub fn mentions(&self, unit: &str) -> bool {
+    pub fn as_written(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether it is a plain number, and no text.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.plain
+    }
+
+    /// Whether this stands in the unit.
+    fn mentions(&self, unit: &str) -> bool {
         self.text.contains(unit)
     }
 }
@@ -87,39 +117,74 @@ fn dimension_help(wanted: Dimension, found: Dimension) -> String {
     }
 }
 
+/// A visitor of what is written.
+struct Text;
+
+impl<'de> Visitor<'de> for Text {
+    type Value = Written;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, or a text with unit")
+    }
+    fn visit_str<E>(self, text: &str) -> Result<Written, E> {
+        Ok(Written {
+            text: text.to_owned(),
+            plain: false,
+        })
+    }
+    /// The digits of a number.
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, digits: D) -> Result<Written, D::Error> {
+        Ok(Written {
+            text: String::deserialize(digits)?,
+            plain: true,
+        })
+    }
+}
+
 impl<'de> Deserialize<'de> for Written {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Text;
-        impl<'de> Visitor<'de> for Text {
-            type Value = Written;
+        deserializer.deserialize_newtype_struct(ask::WRITTEN, Text)
+    }
+}
+
+/// A value that is no list and no table.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum Scalar {
+    /// True or false.
+    Flag(bool),
+    /// A number or a text.
+    Written(Written),
+}
+
+impl<'de> Deserialize<'de> for Scalar {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Given;
+        impl<'de> Visitor<'de> for Given {
+            type Value = Scalar;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number, or a text with unit")
+                f.write_str("a number or a text")
             }
-            fn visit_str<E>(self, text: &str) -> Result<Written, E> {
-                Ok(Written {
-                    text: text.to_owned(),
-                    plain: false,
-                })
+            fn visit_bool<E>(self, flag: bool) -> Result<Scalar, E> {
+                Ok(Scalar::Flag(flag))
             }
-            /// The digits of a number.
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Scalar, E> {
+                Text.visit_str(text).map(Scalar::Written)
+            }
             fn visit_newtype_struct<D: Deserializer<'de>>(
                 self,
                 digits: D,
-            ) -> Result<Written, D::Error> {
-                Ok(Written {
-                    text: String::deserialize(digits)?,
-                    plain: true,
-                })
+            ) -> Result<Scalar, D::Error> {
+                Text.visit_newtype_struct(digits).map(Scalar::Written)
             }
         }
-        deserializer.deserialize_newtype_struct(ask::WRITTEN, Text)
+        deserializer.deserialize_newtype_struct(ask::WRITTEN, Given)
     }
 }
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let written = Written::deserialize(deserializer)?;
-        written.quantity(None).map_err(de::Error::custom)
+        written.any().map_err(de::Error::custom)
     }
 }
 
@@ -127,6 +192,17 @@ impl<'de> Deserialize<'de> for Quantity {
 pub trait Dimensioned {
     /// The dimension.
     const DIMENSION: Dimension;
+    /// What a unit of an angle stands for: a number, as is usual, or a part of a cycle.
+    const RADIAN: f64 = 1.0;
+}
+
+/// Frequency, Hz. An angle per second is a circular frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cycles;
+
+impl Dimensioned for Cycles {
+    const DIMENSION: Dimension = Dimension::FREQUENCY;
+    const RADIAN: f64 = TAU;
 }
 
 macro_rules! dimensions {
@@ -216,10 +292,15 @@ impl<D, R> From<Amount<D, R>> for f64 {
 impl<D: Dimensioned, R: Within> TryFrom<Written> for Amount<D, R> {
     type Error = Fault;
     fn try_from(written: Written) -> Result<Self, Fault> {
+        let radian = if written.mentions("rad") {
+            D::RADIAN
+        } else {
+            1.0
+        };
         let value = written.of(D::DIMENSION)?;
         R::check(value)?;
         Ok(Self {
-            value,
+            value: value / radian,
             of: PhantomData,
         })
     }

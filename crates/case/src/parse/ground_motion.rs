@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::process::Process;
@@ -56,6 +56,11 @@ pub(super) struct MotionTable {
     process: Optional<Process>,
     /// A factor, or a table such as { pga = "0.35 g" }
     scale: Optional<ScaleValue>,
+}
+
+/// JSON Schema of the table `[ground_motion]` of a case, for files whose records have its keys.
+pub fn ground_motion_schema(generator: &mut SchemaGenerator) -> Schema {
+    MotionTable::json_schema(generator)
 }
 
 /// Counts per m/s2.

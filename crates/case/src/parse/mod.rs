@@ -28,6 +28,7 @@ mod process;
 mod scale;
 mod separation;
 
+pub use ground_motion::ground_motion_schema;
 pub use process::process_steps;
 pub(crate) use separation::keys as separation_keys;
 

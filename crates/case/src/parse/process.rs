@@ -1,6 +1,5 @@
 //! What is done to a record before it is scaled.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use schemars::JsonSchema;
@@ -8,8 +7,8 @@ use serde::Deserialize;
 
 use super::scale::ScaleValue;
 use crate::document::{
-    Acceleration, Count, Entry, Fault, Field, Frequency, Kinds, NotNegative, Number, Positive,
-    Reader, Signed, TableOr, Time, Written,
+    Acceleration, Count, Cycles, Entry, Field, Kinds, NotNegative, Number, Positive, Reader,
+    Signed, TableOr, Time,
 };
 use crate::error::{CaseError, Errors};
 use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
@@ -86,30 +85,15 @@ enum RemoveTable {
 #[derive(Deserialize, JsonSchema)]
 struct FilterTable {
     /// High-pass (low-cut) corner (Hz)
-    high_pass: Option<Corner>,
+    high_pass: Option<Positive<Cycles>>,
     /// Low-pass (high-cut) corner (Hz)
-    low_pass: Option<Corner>,
+    low_pass: Option<Positive<Cycles>>,
     /// Order of each pass and side, by default 4
     order: Option<Count<1>>,
     /// zero (default: forward and backward) or causal (forward)
     phase: Option<Phase>,
     /// Zero phase: whether the zeros put at both ends stay, by default true
     keep_pads: Option<bool>,
-}
-
-/// A corner frequency (Hz).
-#[derive(Deserialize, JsonSchema)]
-#[serde(try_from = "Written")]
-struct Corner(f64);
-
-impl TryFrom<Written> for Corner {
-    type Error = Fault;
-    fn try_from(written: Written) -> Result<Self, Fault> {
-        // An angle per second is a circular frequency.
-        let cycle = if written.mentions("rad") { TAU } else { 1.0 };
-        let frequency = Positive::<Frequency>::try_from(written)?;
-        Ok(Self(f64::from(frequency) / cycle))
-    }
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -256,8 +240,8 @@ impl Step {
                 }
                 ProcessStep::Filter {
                     order: value.order.map_or(4, |order| order.0),
-                    high_pass: value.high_pass.map(|corner| corner.0),
-                    low_pass: value.low_pass.map(|corner| corner.0),
+                    high_pass: value.high_pass.map(f64::from),
+                    low_pass: value.low_pass.map(f64::from),
                     causal: matches!(value.phase, Some(Phase::Causal)),
                     keep_pads: value.keep_pads.unwrap_or(true),
                 }

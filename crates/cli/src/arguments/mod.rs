@@ -10,7 +10,7 @@ mod quantities;
 mod study;
 mod verification;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use quantities::figure_file;
@@ -95,8 +95,12 @@ pub enum Command {
     Stiffness(StiffnessArguments),
     /// Compute published results and compare
     Verify(VerifyArguments),
-    /// Print the JSON Schema of the case file
-    Schema,
+    /// Print the JSON Schema of an input file
+    Schema {
+        /// Which file
+        #[arg(default_value = "case")]
+        file: SchemaOf,
+    },
     /// Print shell completions
     Completions {
         /// Shell
@@ -281,4 +285,15 @@ pub struct MultipleArguments {
     /// How many times that; 10 to 100 are in use
     #[arg(long, default_value = "20", allow_hyphen_values = true)]
     pub factor: String,
+}
+
+/// A file that has a schema.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum SchemaOf {
+    /// What stands in a case
+    Case,
+    /// What stands in a study of `sweep` and `ida`
+    Study,
+    /// The hazard curve of an incremental dynamic analysis: points, and the columns of its CSV file
+    Hazard,
 }

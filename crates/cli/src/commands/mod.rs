@@ -18,7 +18,7 @@ mod verify;
 use clap::CommandFactory;
 use pounding_files::FileUse;
 
-use crate::arguments::{Arguments, Command, ImpactCommand};
+use crate::arguments::{Arguments, Command, ImpactCommand, SchemaOf};
 use crate::failure::Failure;
 use crate::files::name_left_over;
 use crate::output::{pretty, print, print_as_it_is};
@@ -54,7 +54,11 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             output,
             accept_without_checksum,
         } => report::report(&result, output.as_deref(), accept_without_checksum, files),
-        Command::Schema => print(&pretty(&pounding_case::schema())),
+        Command::Schema { file } => print(&pretty(&match file {
+            SchemaOf::Case => pounding_case::schema(),
+            SchemaOf::Study => pounding_study::study_schema(),
+            SchemaOf::Hazard => pounding_study::hazard_schema(),
+        })),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "pounding", &mut bytes);

@@ -1,11 +1,12 @@
 //! What a study file is read against: its case, as far as that is sound.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use pounding_case::Case;
+use pounding_case::document::Reader;
+use pounding_case::{Case, Located};
 
-use super::reader::{Reader, Result, Value, Wrong};
 use crate::case_text::building_names;
+use crate::error::StudyError;
 
 /// A case that can be assembled.
 pub(super) struct Base {
@@ -15,48 +16,27 @@ pub(super) struct Base {
 }
 
 /// What is known of the case.
-pub(super) struct Context<'c> {
-    /// The case; `None` where something is wrong with it, which was recorded.
+#[derive(Default)]
+pub(super) struct Context {
+    /// The case; `None` where something is wrong with it.
     pub base: Option<Base>,
     /// Its text, if it is TOML.
     pub text: Option<String>,
+    /// What is wrong with it.
+    pub wrong: Option<StudyError>,
     /// Folder of the study.
-    pub folder: &'c Path,
+    pub folder: PathBuf,
 }
 
-impl<'c> Context<'c> {
-    /// Nothing but the folder.
-    pub(super) fn unknown(folder: &'c Path) -> Self {
-        Self {
-            base: None,
-            text: None,
-            folder,
-        }
-    }
-
-    /// The case.
-    pub(super) fn base(&self) -> Result<&Base> {
-        self.base.as_ref().ok_or(Wrong::Recorded)
-    }
-
-    /// The text of the case.
-    pub(super) fn text(&self) -> Result<&str> {
-        self.text.as_deref().ok_or(Wrong::Recorded)
-    }
-
-    /// Index of the building that a value names.
-    ///
-    /// # Errors
-    /// A name that is none.
-    pub(super) fn building(&self, reader: &Reader<'_>, value: &Value<'_>) -> Result<usize> {
-        let name = reader.text(value, "building")?;
-        let names = building_names(self.text()?);
-        names.iter().position(|n| *n == name).ok_or_else(|| {
-            reader.error(
-                value.span(),
-                format!("the case has no building \"{name}\""),
-                format!("its buildings are {}", names.join(", ")),
-            )
+impl Context {
+    /// Index of the building of this name; `None` after recording that there is none.
+    pub(super) fn building(&self, reader: &Reader<'_>, name: &Located<String>) -> Option<usize> {
+        let names = building_names(self.text.as_deref()?);
+        let Located { value: name, span } = name;
+        names.iter().position(|n| n == name).or_else(|| {
+            let message = format!("the case has no building \"{name}\"");
+            let help = format!("its buildings are {}", names.join(", "));
+            reader.refuse(span.clone(), message, help)
         })
     }
 }

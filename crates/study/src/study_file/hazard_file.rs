@@ -1,8 +1,11 @@
 //! A hazard curve from a table: intensity and mean annual frequency.
 
+use std::borrow::Cow;
 use std::path::Path;
 
+use pounding_case::document::schema_of;
 use pounding_case::{Dimension, parse_quantity, read_text};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::IntensityMeasure;
 
@@ -39,6 +42,58 @@ const ANNUAL: [&str; 5] = [
 ];
 const FREQUENCY: [&str; 3] = ["frequency", "rate", "lambda"];
 const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
+
+/// The points of a hazard curve, as a schema knows them.
+pub(super) struct Points;
+
+impl JsonSchema for Points {
+    fn schema_name() -> Cow<'static, str> {
+        "hazard curve".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "title": "pounding hazard curve",
+            "description": "Points of a hazard curve, intensities rising and frequencies falling: a list of pairs in a study, or the rows of a CSV file of two columns whose header has one of `names` for each, with its unit such as `sa (g)` or `sa_g`",
+            "type": "array",
+            "minItems": 2,
+            "items": {
+                "type": "array",
+                "minItems": 2,
+                "maxItems": 2,
+                "prefixItems": [
+                    {
+                        "title": "intensity",
+                        "description": "Intensity in the measure of the study (SI, or with a unit); a column states its unit",
+                        "type": ["number", "string"],
+                        "exclusiveMinimum": 0,
+                        "names": {
+                            "of_any_measure": ANY_INTENSITY,
+                            "peak_ground_acceleration": GROUND_ACCELERATION,
+                            "peak_ground_velocity": GROUND_VELOCITY,
+                            "spectral_acceleration": SPECTRAL,
+                            "average_spectral_acceleration": SPECTRAL,
+                        },
+                    },
+                    {
+                        "title": "frequency",
+                        "description": "Mean annual frequency with which the intensity is exceeded (1/year); a column states its unit unless its name does",
+                        "type": ["number", "string"],
+                        "exclusiveMinimum": 0,
+                        "names": { "without_unit": ANNUAL, "with_unit": FREQUENCY },
+                        "units": PER_YEAR,
+                    },
+                ],
+            },
+        })
+    }
+}
+
+/// JSON Schema (2020-12) of the points of a hazard curve, with the names that a CSV file may
+/// have for its columns.
+#[must_use]
+pub fn hazard_schema() -> serde_json::Value {
+    schema_of::<Points>("pounding/hazard.schema.json")
+}
 
 /// A file on its way to points.
 struct Table<'t> {

@@ -1,16 +1,30 @@
 //! What an incremental dynamic analysis evaluates.
 
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use pounding_case::Dimension;
+use pounding_case::document::{
+    AboveZero, Amount, Entry, Fault, Field, List, Number, Optional, Positive, Reader, TableOr,
+    Within, Written,
+};
+use pounding_case::{Dimension, Located};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use super::context::Context;
-use super::reader::{Reader, Result, Table, Value, Wrong};
-use super::values::numbers;
+use super::values::{Numbers, Whole, all, not_both};
 use super::{IntensityMeasure, hazard_file};
 
 /// A demand whose exceedance is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(
+    rename = "demand",
+    rename_all = "snake_case",
+    expecting = "a text in quotes"
+)]
 pub enum DemandKind {
     /// Maximum floor displacement (m).
     Displacement,
@@ -31,29 +45,21 @@ pub enum DemandKind {
 }
 
 impl DemandKind {
-    /// All, with their names in a study.
-    pub const ALL: [(Self, &'static str, Dimension); 8] = [
-        (Self::Displacement, "displacement", Dimension::LENGTH),
-        (Self::DriftRatio, "drift_ratio", Dimension::NUMBER),
-        (Self::StoreyShear, "storey_shear", Dimension::FORCE),
-        (
-            Self::AccelerationAbsolute,
-            "acceleration_absolute",
-            Dimension::ACCELERATION,
-        ),
-        (Self::ContactForce, "contact_force", Dimension::FORCE),
-        (
-            Self::Impulse,
-            "impulse",
-            Dimension {
+    /// Dimension of its values.
+    #[must_use]
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Displacement | Self::IsolatedDemand => Dimension::LENGTH,
+            Self::DriftRatio | Self::Impacts => Dimension::NUMBER,
+            Self::StoreyShear | Self::ContactForce => Dimension::FORCE,
+            Self::AccelerationAbsolute => Dimension::ACCELERATION,
+            Self::Impulse => Dimension {
                 mass: 1.0,
                 length: 1.0,
                 time: -1.0,
             },
-        ),
-        (Self::Impacts, "impacts", Dimension::NUMBER),
-        (Self::IsolatedDemand, "isolated_demand", Dimension::LENGTH),
-    ];
+        }
+    }
 }
 
 /// A state that counts as reached when a demand exceeds a value.
@@ -102,212 +108,272 @@ pub struct IdaSettings {
     pub confidence: f64,
 }
 
-const IDA: [&str; 5] = ["gaps", "limit", "hazard", "target_frequency", "confidence"];
-const LIMIT: [&str; 6] = ["name", "demand", "building", "storey", "level", "exceeds"];
+/// The range of a confidence.
+#[derive(Debug)]
+struct BelowOne;
 
-/// Reads `[ida]`; `variables` are the indices of record and intensity, whose measure this is.
-pub(super) fn settings(
-    reader: &Reader<'_>,
-    value: &Value<'_>,
-    context: &Context<'_>,
-    variables: Option<(usize, usize)>,
-    measure: Option<IntensityMeasure>,
-) -> Result<IdaSettings> {
-    let table = reader.table(value, "[ida]", &IDA)?;
-    let limits = table.or("limit", Vec::new(), |v| {
-        let items = reader.list(v, "limit")?;
-        reader.all(items.iter().map(|item| limit(reader, item, context)))
-    });
-    let limits = reader.keep(limits);
-    let hazard = table.or("hazard", None, |v| {
-        hazard(reader, v, measure.as_ref(), context.folder).map(Some)
-    });
-    let hazard = reader.keep(hazard);
-    let hazard_file = table
-        .get("hazard")
-        .and_then(|v| v.get_ref().as_str())
-        .map(|name| context.folder.join(name));
-    let target_frequency = table.optional("target_frequency", |v| {
-        reader.positive(v, "target_frequency", Dimension::NUMBER)
-    });
-    let no_hazard = table.get("hazard").is_none() && !table.lacks("hazard");
-    if let (Some(v), true) = (table.get("target_frequency"), no_hazard) {
-        reader.check(Err(reader.error(
-            v.span(),
-            "a target frequency needs a hazard curve",
-            "add `hazard = [[intensity, frequency], ...]` or the name of a CSV file",
-        )));
-    }
-    let confidence = table.or("confidence", 0.95, |v| {
-        let c = reader.positive(v, "confidence", Dimension::NUMBER)?;
-        if c < 1.0 {
-            return Ok(c);
+impl Within for BelowOne {
+    const SCHEMA: &[(&str, f64)] = &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)];
+    fn check(value: f64) -> Result<(), Fault> {
+        AboveZero::check(value)?;
+        match value < 1.0 {
+            true => Ok(()),
+            false => Err(Fault::new(" lies between 0 and 1", "for example 0.95")),
         }
-        Err(reader.error(
-            v.span(),
-            "`confidence` lies between 0 and 1",
-            "for example 0.95",
-        ))
-    });
-    let confidence = reader.keep(confidence);
-    let gaps = reader.keep(table.or("gaps", Vec::new(), |v| gaps(reader, v)));
-    let (Some(gaps), Some(limits), Some(hazard), Some(confidence), Some(measure)) =
-        (gaps, limits, hazard, confidence, measure)
-    else {
-        return Err(Wrong::Recorded);
-    };
-    let (record, intensity) = variables.ok_or(Wrong::Recorded)?;
-    Ok(IdaSettings {
-        record,
-        intensity,
-        measure,
-        gaps,
-        limits,
-        hazard,
-        hazard_file,
-        target_frequency,
-        confidence,
-    })
+    }
+}
+
+/// What an incremental dynamic analysis evaluates
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "[ida]")]
+pub(super) struct IdaTable {
+    /// Gap widths (m) for which the probability of pounding is wanted: a list or a range
+    gaps: Optional<TableOr<Numbers, List<Written>>>,
+    /// States beside pounding itself
+    limit: Optional<List<LimitTable>>,
+    /// Hazard at the site: points, or the name of a CSV file
+    hazard: Optional<Hazard>,
+    /// Mean annual frequency of pounding that is aimed at (1/year)
+    target_frequency: Optional<Positive<Number>>,
+    /// Confidence of intervals, by default 0.95
+    confidence: Optional<Amount<Number, BelowOne>>,
+}
+
+/// A state that counts as reached when a demand exceeds a value
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "[[ida.limit]]")]
+struct LimitTable {
+    /// Name of the state
+    name: Field<String>,
+    /// The demand
+    demand: Field<DemandKind>,
+    /// Building whose storeys count, by default all
+    building: Optional<String>,
+    /// Storey from 1 at the bottom, by default the worst
+    storey: Optional<Whole<1>>,
+    /// Level of gaps from 1, for demands at gaps
+    level: Optional<Whole<1>>,
+    /// Value that it exceeds (SI, or with a unit)
+    exceeds: Field<Written>,
+}
+
+/// Where a hazard curve stands.
+#[derive(Debug)]
+enum Hazard {
+    /// In a CSV file of two columns.
+    File(String),
+    /// Here: intensities and frequencies.
+    Points(Vec<Field<Vec<Field<Written>>>>),
+}
+
+impl<'de> Deserialize<'de> for Hazard {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Given;
+        impl<'de> Visitor<'de> for Given {
+            type Value = Hazard;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of points [intensity, frequency], or the name of a CSV file")
+            }
+            fn visit_str<E>(self, name: &str) -> Result<Hazard, E> {
+                Ok(Hazard::File(name.to_owned()))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Hazard, A::Error> {
+                let mut points = Vec::new();
+                while let Some(point) = items.next_element()? {
+                    points.push(point);
+                }
+                Ok(Hazard::Points(points))
+            }
+        }
+        deserializer.deserialize_any(Given)
+    }
+}
+
+impl JsonSchema for Hazard {
+    fn schema_name() -> Cow<'static, str> {
+        "hazard".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({"anyOf": [
+            {"type": "string", "description": "CSV file, relative to the folder of the study"},
+            hazard_file::Points::json_schema(generator)
+        ]})
+    }
+}
+
+impl IdaTable {
+    /// What an analysis evaluates; `variables` are the indices of record and intensity, whose
+    /// measure this is.
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+        context: &Context,
+        variables: Option<(usize, usize)>,
+        measure: Option<IntensityMeasure>,
+    ) -> Option<IdaSettings> {
+        let limits = self.limit.stated().and_then(|limits| {
+            let limits = limits.map_or_else(Vec::new, |limits| limits.value.0);
+            let read = |limit: Field<LimitTable>| limit.value()?.read(reader, context);
+            all(limits.into_iter().map(read))
+        });
+        if let (Some(target), None) = (self.target_frequency.span(), &self.hazard) {
+            let message = "a target frequency needs a hazard curve";
+            let help = "add `hazard = [[intensity, frequency], ...]` or the name of a CSV file";
+            reader.refuse::<()>(target, message, help);
+        }
+        let hazard = self.hazard.stated().and_then(|hazard| match hazard {
+            None => Some((None, None)),
+            Some(hazard) => {
+                let file = match &hazard.value {
+                    Hazard::File(name) => Some(context.folder.join(name)),
+                    Hazard::Points(_) => None,
+                };
+                let curve = hazard_curve(reader, hazard, measure.as_ref(), file.as_deref())?;
+                Some((Some(curve), file))
+            }
+        });
+        let gaps = self.gaps.stated().and_then(|gaps| match gaps {
+            None => Some(Vec::new()),
+            Some(gaps) => widths(reader, gaps),
+        });
+        let (record, intensity) = variables?;
+        let (hazard, hazard_file) = hazard?;
+        Some(IdaSettings {
+            record,
+            intensity,
+            measure: measure?,
+            gaps: gaps?,
+            limits: limits?,
+            hazard,
+            hazard_file,
+            target_frequency: self.target_frequency.number(),
+            confidence: self.confidence.number_or(0.95)?,
+        })
+    }
 }
 
 /// A list of widths, or a table with a range and a count.
-fn gaps(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<f64>> {
-    let positive = |v: &Value<'_>, key: &str| reader.positive(v, key, Dimension::LENGTH);
-    if value.get_ref().as_table().is_none() {
-        let items = reader.list(value, "gaps")?;
-        return reader.all(items.iter().map(|v| positive(v, "gaps")));
-    }
-    let keys = ["values", "from", "to", "count", "spacing"];
-    let table: Table<'_, '_> = reader.table(value, "gaps", &keys)?;
-    let (values, _) = numbers(&table, &positive)?;
+fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -> Option<Vec<f64>> {
+    let Located { value, span } = gaps;
+    let keys = match value {
+        TableOr::Table(keys) => keys,
+        TableOr::Value(List(list)) => {
+            let width = |item: Field<Written>| {
+                let Located { value, span } = item.located()?;
+                reader.keep(&span, "gaps", value.above_zero(Dimension::LENGTH))
+            };
+            return all(list.into_iter().map(width));
+        }
+    };
+    let width = |written: Written| written.above_zero(Dimension::LENGTH);
+    let (values, _) = keys.read(reader, ("gaps", span.clone()), &width)?;
     let Some(count) = values.count() else {
-        return Err(reader.error(
-            value.span(),
+        return reader.refuse(
+            span,
             "the range of gaps has no `count`",
             "add `count = ...`",
-        ));
+        );
     };
     let number = |i| match values.at(i) {
         super::Value::Number(x) => x,
         super::Value::Choice(_) => f64::NAN,
     };
-    Ok((0..count).map(number).collect())
+    Some((0..count).map(number).collect())
 }
 
-fn limit(reader: &Reader<'_>, value: &Value<'_>, context: &Context<'_>) -> Result<Limit> {
-    let table = reader.table(value, "[[ida.limit]]", &LIMIT)?;
-    let name = table.required("name").and_then(|v| reader.text(v, "name"));
-    let name = reader.keep(name);
-    let demand = reader.keep(demand(&table));
-    let exceeds = table.required("exceeds").and_then(|v| match demand {
-        Some((_, dimension)) => reader.positive(v, "exceeds", dimension),
-        None => Ok(reader.any_quantity(v, "exceeds")?.value),
-    });
-    let exceeds = reader.keep(exceeds);
-    let building = table.or("building", None, |v| context.building(reader, v).map(Some));
-    let building = reader.keep(building);
-    table.not_both("building", "level")?;
-    table.not_both("storey", "level")?;
-    let count = |key| table.or(key, None, |v| reader.count(v, key, 1).map(Some));
-    let storey = reader.keep(count("storey"));
-    let level = reader.keep(count("level"));
-    let (Some(building), Some(storey), Some(level)) = (building, storey, level) else {
-        return Err(Wrong::Recorded);
-    };
-    if let Some(v) = table.get("storey") {
-        match (storey, building) {
-            (Some(n), Some(b)) => {
-                let storeys = context.base()?.case.buildings[b].mass.len();
-                if n > storeys {
-                    return Err(reader.error(
-                        v.span(),
-                        format!("the building has no storey {n}"),
-                        format!("it has {storeys}"),
-                    ));
-                }
+impl LimitTable {
+    fn read(self, reader: &Reader<'_>, context: &Context) -> Option<Limit> {
+        let demand = self.demand.value();
+        let exceeds = self.exceeds.located().and_then(|exceeds| {
+            let value = match demand {
+                Some(demand) => exceeds.value.above_zero(demand.dimension()),
+                None => exceeds.value.any().map(|quantity| quantity.value),
+            };
+            reader.keep(&exceeds.span, "exceeds", value)
+        });
+        let places = (self.building.span(), self.storey.span(), self.level.span());
+        let has_building = self.building.is_some();
+        let building = self.building.stated().and_then(|name| match name {
+            None => Some(None),
+            Some(name) => context.building(reader, &name).map(Some),
+        });
+        let excluded = |key, place: &Option<Range<usize>>| {
+            let level = ("level", places.2.clone());
+            not_both(reader, "[[ida.limit]]", (key, place.clone()), level)
+        };
+        excluded("building", &places.0)?;
+        excluded("storey", &places.1)?;
+        let storey = self.storey.stated();
+        let level = self.level.stated();
+        let (building, storey, level) = (building?, storey?, level?);
+        if let Some(Located {
+            value: Whole(n),
+            span,
+        }) = &storey
+        {
+            if !has_building {
+                let message = "a storey of which building?";
+                return reader.refuse(span.clone(), message, "add `building = \"...\"`");
             }
-            _ if table.lacks("building") => {}
-            _ => {
-                return Err(reader.error(
-                    v.span(),
-                    "a storey of which building?",
-                    "add `building = \"...\"`",
-                ));
+            let storeys = context.base.as_ref()?.case.buildings[building?].mass.len();
+            if *n > storeys {
+                let message = format!("the building has no storey {n}");
+                return reader.refuse(span.clone(), message, format!("it has {storeys}"));
             }
         }
-    }
-    let (name, (demand, _), exceeds) = match (name, demand, exceeds) {
-        (Some(name), Some(demand), Some(exceeds)) => (name, demand, exceeds),
-        _ => return Err(Wrong::Recorded),
-    };
-    Ok(Limit {
-        name,
-        demand,
-        building,
-        place: storey.or(level).map(|n| n - 1),
-        exceeds,
-    })
-}
-
-/// The demand of a limit, and its dimension.
-fn demand(table: &Table<'_, '_>) -> Result<(DemandKind, Dimension)> {
-    let reader = table.reader;
-    let place = table.required("demand")?;
-    let name = reader.text(place, "demand")?;
-    let known = DemandKind::ALL.into_iter().find(|(_, n, _)| *n == name);
-    known
-        .map(|(demand, _, dimension)| (demand, dimension))
-        .ok_or_else(|| {
-            let names = DemandKind::ALL.map(|(_, n, _)| n);
-            reader.error(
-                place.span(),
-                format!("unknown demand \"{name}\""),
-                format!("known are {}", names.join(", ")),
-            )
+        Some(Limit {
+            name: self.name.value()?,
+            demand: demand?,
+            building,
+            place: storey.or(level).map(|number| number.value.0 - 1),
+            exceeds: exceeds?,
         })
+    }
 }
 
-/// Points, or the name of a CSV file of two columns.
-fn hazard(
+/// The curve through points, or from a file.
+fn hazard_curve(
     reader: &Reader<'_>,
-    value: &Value<'_>,
+    hazard: Located<Hazard>,
     measure: Option<&IntensityMeasure>,
-    folder: &Path,
-) -> Result<HazardCurve> {
-    let wrong = |reason: String| {
+    file: Option<&Path>,
+) -> Option<HazardCurve> {
+    let Located { value, span } = hazard;
+    let wrong = |reason: &str| {
         let help = "give intensities (SI, or with a unit) and mean annual frequencies (1/year), intensities rising, frequencies falling";
-        reader.error(value.span(), format!("the hazard curve: {reason}"), help)
+        reader.error(span.clone(), format!("the hazard curve: {reason}"), help)
     };
-    let refused = |refusals: Vec<hazard_file::Refusal>| {
-        for (message, help) in refusals {
-            reader.check(Err(reader.error(value.span(), message, help)));
-        }
-        Wrong::Recorded
-    };
-    let points = match value.get_ref().as_str() {
-        Some(name) => {
-            let text = hazard_file::text(&folder.join(name)).map_err(refused)?;
-            let measure = measure.ok_or(Wrong::Recorded)?;
-            hazard_file::points(&folder.join(name), &text, measure).map_err(refused)?
-        }
-        None => {
-            let intensity = |v| match measure {
-                Some(measure) => reader.positive(v, "hazard", measure.dimension()),
-                None => Ok(reader.any_quantity(v, "hazard")?.value),
+    let points = match (value, file) {
+        (Hazard::Points(points), _) => all(points.into_iter().map(|item| {
+            let Ok([intensity, frequency]) = <[_; 2]>::try_from(item.value()?) else {
+                reader.errors.record(wrong("a point is a pair"));
+                return None;
             };
-            let point = |item| match reader.list(item, "hazard")? {
-                [a, b] => {
-                    let frequency = reader.positive(b, "hazard", Dimension::NUMBER);
-                    let point = reader.keep(intensity(a)).zip(reader.keep(frequency));
-                    point.ok_or(Wrong::Recorded)
+            let number = |item: Field<Written>, wanted: Option<Dimension>| {
+                let item = item.located()?;
+                let value = match wanted {
+                    Some(wanted) => item.value.above_zero(wanted),
+                    None => item.value.any().map(|quantity| quantity.value),
+                };
+                reader.keep(&item.span, "hazard", value)
+            };
+            let intensity = number(intensity, measure.map(IntensityMeasure::dimension));
+            intensity.zip(number(frequency, Some(Dimension::NUMBER)))
+        }))?,
+        (Hazard::File(_), file) => {
+            let refused = |refusals: Vec<hazard_file::Refusal>| {
+                for (message, help) in refusals {
+                    reader.refuse::<()>(span.clone(), message, help);
                 }
-                _ => Err(wrong("a point is a pair".to_owned())),
             };
-            reader.all(reader.list(value, "hazard")?.iter().map(point))?
+            let text = hazard_file::text(file?).map_err(refused).ok()?;
+            let points = hazard_file::points(file?, &text, measure?);
+            points.map_err(refused).ok()?
         }
     };
-    measure.ok_or(Wrong::Recorded)?;
-    HazardCurve::new(points).map_err(|e| wrong(e.to_string()))
+    measure?;
+    let curve = HazardCurve::new(points);
+    reader.errors.keep(curve.map_err(|e| wrong(&e.to_string())))
 }
 
 impl HazardCurve {
@@ -316,7 +382,7 @@ impl HazardCurve {
     /// # Errors
     /// Fewer than two points, values that are not positive, intensities that do not rise
     /// or frequencies that do not fall.
-    pub fn new(points: Vec<(f64, f64)>) -> std::result::Result<Self, crate::StudyError> {
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, crate::StudyError> {
         let wrong = |reason: &str| crate::StudyError::Evaluation {
             what: "hazard curve",
             reason: reason.to_owned(),

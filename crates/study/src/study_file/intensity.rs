@@ -1,12 +1,18 @@
 //! Intensity measures to which records are scaled.
 
-use pounding_case::Dimension;
+use pounding_case::document::{
+    AboveZero, Amount, Entry, Fault, Number, OneOrEach, Optional, Positive, Reader, Time, Within,
+};
+use pounding_case::{Dimension, Located};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use super::context::Context;
-use super::reader::{Result, Table, Wrong};
+use super::values::{all, not_both};
 use crate::error::StudyError;
 
 /// What is held at a value by scaling a record. Every measure grows in proportion to the
@@ -38,7 +44,7 @@ impl IntensityMeasure {
     ///
     /// # Errors
     /// Periods too short for the time step of the record.
-    pub fn of(&self, record: &Accelerogram) -> std::result::Result<f64, StudyError> {
+    pub fn of(&self, record: &Accelerogram) -> Result<f64, StudyError> {
         let evaluation = Evaluation::PiecewiseLinear;
         Ok(match self {
             Self::PeakGroundAcceleration => record.peak().value,
@@ -88,84 +94,105 @@ impl IntensityMeasure {
     }
 }
 
-/// Reads `intensity` with `building`, `period` and `damping`.
-pub(super) fn intensity(table: &Table<'_, '_>, context: &Context<'_>) -> Result<IntensityMeasure> {
-    let reader = table.reader;
-    let value = table.required("intensity")?;
-    let name = reader.text(value, "intensity")?;
-    let of_ground = match name.as_str() {
-        "peak_ground_acceleration" => Some(IntensityMeasure::PeakGroundAcceleration),
-        "peak_ground_velocity" => Some(IntensityMeasure::PeakGroundVelocity),
-        _ => None,
-    };
-    if let Some(measure) = of_ground {
-        for key in ["building", "period", "damping"] {
-            if let Some(extra) = table.get(key) {
-                reader.check(Err(reader.error(
-                    extra.span(),
-                    format!("`{key}` has no meaning for {name}"),
-                    "remove it",
-                )));
-            }
+/// Intensity measure
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(
+    rename = "intensity measure",
+    rename_all = "snake_case",
+    expecting = "a text in quotes"
+)]
+pub(super) enum Measure {
+    PeakGroundAcceleration,
+    PeakGroundVelocity,
+    SpectralAcceleration,
+    AverageSpectralAcceleration,
+}
+
+/// The range of a damping ratio that a spectrum is computed with.
+#[derive(Debug)]
+pub(super) struct BelowOne;
+
+impl Within for BelowOne {
+    const SCHEMA: &[(&str, f64)] = &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)];
+    fn check(value: f64) -> Result<(), Fault> {
+        AboveZero::check(value)?;
+        match value < 1.0 {
+            true => Ok(()),
+            false => Err(Fault::new(
+                format!(" = {value} must be a ratio below 1"),
+                "5 % is 0.05, or \"5 %\"",
+            )),
         }
-        return Ok(measure);
     }
-    let averaged = match name.as_str() {
-        "spectral_acceleration" => Ok(false),
-        "average_spectral_acceleration" => Ok(true),
-        _ => Err(reader.error(
-            value.span(),
-            format!("unknown intensity measure \"{name}\""),
-            "known are peak_ground_acceleration, peak_ground_velocity, spectral_acceleration, average_spectral_acceleration",
-        )),
-    };
-    let averaged = reader.keep(averaged);
-    let damping = table.or("damping", 0.05, |v| {
-        let ratio = reader.positive(v, "damping", Dimension::NUMBER)?;
-        if ratio < 1.0 {
-            return Ok(ratio);
+}
+
+/// What a variable says of its intensity.
+pub(super) struct IntensityKeys {
+    pub intensity: Optional<Measure>,
+    pub building: Optional<OneOrEach<Located<String>>>,
+    pub period: Optional<OneOrEach<Positive<Time>>>,
+    pub damping: Optional<Amount<Number, BelowOne>>,
+}
+
+impl IntensityKeys {
+    /// The measure.
+    pub(super) fn read(self, reader: &Reader<'_>, context: &Context) -> Option<IntensityMeasure> {
+        let measure = self.intensity.located();
+        let of_ground = measure.as_ref().and_then(|measure| match measure.value {
+            Measure::PeakGroundAcceleration => Some(IntensityMeasure::PeakGroundAcceleration),
+            Measure::PeakGroundVelocity => Some(IntensityMeasure::PeakGroundVelocity),
+            _ => None,
+        });
+        if let (Some(of_ground), Some(measure)) = (of_ground, &measure) {
+            let name = reader.source[measure.span.clone()].trim_matches(['"', '\'']);
+            for (key, place) in [
+                ("building", self.building.span()),
+                ("period", self.period.span()),
+                ("damping", self.damping.span()),
+            ] {
+                place.and_then(|place| {
+                    let message = format!("`{key}` has no meaning for {name}");
+                    reader.refuse::<()>(place, message, "remove it")
+                });
+            }
+            return Some(of_ground);
         }
-        Err(reader.error(
-            v.span(),
-            format!("`damping` = {ratio} must be a ratio below 1"),
-            "5 % is 0.05, or \"5 %\"",
-        ))
-    });
-    let damping = reader.keep(damping);
-    let periods = periods(table, context)?;
-    let (averaged, damping) = averaged.zip(damping).ok_or(Wrong::Recorded)?;
-    Ok(IntensityMeasure::SpectralAcceleration {
-        periods: if averaged { band(&periods) } else { periods },
-        damping,
-    })
+        let damping = self.damping.number_or(0.05);
+        let periods = periods(reader, self.building, self.period, context)?;
+        Some(IntensityMeasure::SpectralAcceleration {
+            periods: match measure?.value {
+                Measure::AverageSpectralAcceleration => band(&periods),
+                _ => periods,
+            },
+            damping: damping?,
+        })
+    }
 }
 
 /// The periods that a table names, by themselves or by buildings.
-fn periods(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Vec<f64>> {
-    let reader = table.reader;
-    table.not_both("building", "period")?;
-    if let Some(value) = table.get("period") {
-        let read = |v| reader.positive(v, "period", Dimension::TIME);
-        return match reader.list(value, "period") {
-            Ok(items) => reader.all(items.iter().map(read)),
-            Err(_) => Ok(vec![read(value)?]),
-        };
+fn periods(
+    reader: &Reader<'_>,
+    building: Optional<OneOrEach<Located<String>>>,
+    period: Optional<OneOrEach<Positive<Time>>>,
+    context: &Context,
+) -> Option<Vec<f64>> {
+    let places = (("building", building.span()), ("period", period.span()));
+    not_both(reader, "[[variable]]", places.0, places.1)?;
+    if let Some(periods) = period.stated()? {
+        let periods = periods.value.into_list().into_iter();
+        return Some(periods.map(f64::from).collect());
     }
-    let Some(value) = table.get("building") else {
+    let buildings = building.stated()?.map(|names| names.value.into_list());
+    let at = buildings.map(|names| all(names.iter().map(|name| context.building(reader, name))));
+    let first = context.base.as_ref().map(|base| &base.first_periods);
+    match at {
+        Some(at) => {
+            let (at, first) = at.zip(first)?;
+            Some(at.into_iter().map(|i| first[i]).collect())
+        }
         // Neither building is the one that counts.
-        return Ok(context.base()?.first_periods.clone());
-    };
-    let items = match value.get_ref().as_array() {
-        Some(_) => reader.list(value, "building")?.iter().collect(),
-        None => vec![value],
-    };
-    let at = reader.all(
-        items
-            .into_iter()
-            .map(|item| context.building(&reader, item)),
-    )?;
-    let first = &context.base()?.first_periods;
-    Ok(at.into_iter().map(|i| first[i]).collect())
+        None => first.cloned(),
+    }
 }
 
 /// From 0.2 to 3 times the geometric mean of some periods.

@@ -6,16 +6,17 @@ mod hazard_file;
 mod ida;
 mod intensity;
 mod read;
-mod reader;
 mod records;
 mod values;
 mod variables;
 
 use std::path::{Path as FilePath, PathBuf};
 
+pub use hazard_file::hazard_schema;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;
+pub use read::study_schema;
 pub use values::{Spacing, Values};
 
 use pounding_case::Case;

@@ -1,149 +1,214 @@
 //! From the TOML tree to a study.
 
-use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
 use pounding_assembly::{AssemblyError, assemble_with_record};
-use pounding_case::{CaseError, Errors};
+use pounding_case::document::{Entry, Field, List, Optional, Reader, Table, schema_of};
+use pounding_case::{CaseError, Errors, Located};
+use pounding_catalogue::suggestion;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use toml::de::DeTable;
 
 use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context};
-use super::reader::{Reader, Result, Table, Value, Wrong};
-use super::variables::variable;
-use super::{IntensityMeasure, RecordSource, Study, Target, Values, Variable, ida, records};
+use super::ida::IdaTable;
+use super::values::{Whole, all, lacks};
+use super::variables::VariableTable;
+use super::{IntensityMeasure, RecordSource, Study, Target, Values, Variable, records};
 use crate::design::Design;
 use crate::error::StudyError;
 
-const STUDY: [&str; 6] = ["title", "case", "variable", "design", "output", "ida"];
-const DESIGN: [&str; 3] = ["kind", "runs", "seed"];
-const OUTPUT: [&str; 2] = ["chunk", "isolated_demand"];
 /// Runs of a chunk unless the study says otherwise: a second or less of work that can be
 /// lost, and files that are not too many.
 const CHUNK: usize = 256;
 
-pub(super) fn study(source: &str, file: &Path) -> std::result::Result<Study, StudyError> {
+/// Many runs of one case
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "the study")]
+#[schemars(title = "pounding study")]
+struct StudyFile {
+    /// Title of the study
+    title: Optional<String>,
+    /// Case file, relative to the folder of the study
+    case: Field<String>,
+    /// What varies
+    variable: Field<List<VariableTable>>,
+    /// How the variables are sampled, by default a grid
+    design: Optional<DesignTable>,
+    /// What is stored
+    output: Optional<OutputTable>,
+    /// What an incremental dynamic analysis evaluates
+    ida: Optional<IdaTable>,
+}
+
+/// How the variables are sampled
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "[design]")]
+struct DesignTable {
+    /// grid (default): every combination; list: the first values of all, then the second;
+    /// latin_hypercube or sobol: so many runs
+    kind: Optional<Kind>,
+    /// Number of runs of latin_hypercube and sobol
+    runs: Optional<Whole<1>>,
+    /// Seed of latin_hypercube, by default 1, and of the random shift of sobol
+    seed: Optional<Whole<0>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(
+    rename = "design",
+    rename_all = "snake_case",
+    expecting = "a text in quotes"
+)]
+enum Kind {
+    Grid,
+    List,
+    LatinHypercube,
+    Sobol,
+}
+
+/// What is stored
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "[output]")]
+struct OutputTable {
+    /// Runs that are stored at once at most, by default 256; shards are dealt in chunks
+    chunk: Optional<Whole<1>>,
+    /// Adds the gap that just keeps the isolated buildings apart, by default false
+    isolated_demand: Optional<bool>,
+}
+
+/// JSON Schema (2020-12) of a study file: the keys that the reader accepts, with what they
+/// are and their units.
+#[must_use]
+pub fn study_schema() -> serde_json::Value {
+    schema_of::<StudyFile>("pounding/study.schema.json")
+}
+
+pub(super) fn study(source: &str, file: &Path) -> Result<Study, StudyError> {
     let name = file.display().to_string();
-    let (errors, elsewhere) = (Errors::default(), RefCell::default());
+    let errors = Errors::default();
     let reader = Reader {
         file: &name,
         source,
         errors: &errors,
-        elsewhere: &elsewhere,
     };
-    let study = reader.keep(whole(&reader, file));
+    let mut context = Context {
+        folder: file.parent().unwrap_or(Path::new("")).to_owned(),
+        ..Context::default()
+    };
+    let table = reader.read::<Table<StudyFile>>("see docs/reference/studies.md");
+    let study = table.and_then(|table| table.value.read(&reader, file, &mut context, table.places));
     let text = |error| StudyError::Text {
         error: Box::new(error),
         source_text: source.to_owned(),
     };
-    let here = errors.finish(Ok(())).map_err(text).err();
-    let mut wrong: Vec<_> = here.into_iter().chain(elsewhere.into_inner()).collect();
-    match study {
-        Some(study) if wrong.is_empty() => return Ok(study),
-        None if wrong.is_empty() => {
-            let nothing = CaseError::new(&name, source, 0..0, "the study cannot be read", None);
-            wrong.push(text(nothing));
+    // Without a study there is an error, here or in the case.
+    match (errors.finish(Ok(())), context.wrong, study) {
+        (Ok(()), None, Some(study)) => Ok(study),
+        (Ok(()), Some(wrong), _) => Err(wrong),
+        (Err(error), wrong, _) => {
+            let wrong = std::iter::once(text(error)).chain(wrong);
+            Err(StudyError::of_all(wrong.collect()))
         }
-        _ => {}
+        (Ok(()), None, None) => {
+            let message = "the study cannot be read";
+            Err(text(CaseError::new(&name, source, 0..0, message, None)))
+        }
     }
-    Err(StudyError::of_all(wrong))
 }
 
-/// The study, if it is whole; all that is wrong is recorded.
-fn whole(reader: &Reader<'_>, file: &Path) -> Result<Study> {
-    let (tree, wrong) = DeTable::parse_recoverable(reader.source);
-    let mut starts: Vec<usize> = Vec::new();
-    for e in wrong {
-        let span = e.span().unwrap_or(0..0);
-        let line = reader.source[..span.start].matches('\n').count();
-        // What follows in the same line is mostly of the parser's own making.
-        if !starts.contains(&line) {
-            starts.push(line);
-            let message = format!("this is not TOML: {}", e.message());
-            reader.check(Err(reader.error(
-                span,
-                message,
-                "see docs/reference/studies.md",
-            )));
-        }
-    }
-    if !starts.is_empty() {
-        return Err(Wrong::Recorded);
-    }
-    let root = Table::new(*reader, tree.get_ref(), 0..0, "the study", &STUDY);
-    let title = root.optional("title", |v| reader.text(v, "title"));
-    let output = reader.keep(output(&root));
-    let folder = file.parent().unwrap_or(Path::new(""));
-    let context = reader
-        .keep(context(&root, folder))
-        .unwrap_or_else(|| Context::unknown(folder));
-    let read = reader.keep(variables(&root, &context));
-    let whole = read.as_ref().filter(|v| v.whole);
-    let design = reader.keep(design(&root, whole.map(|v| &*v.variables)));
-    let ida = root.optional("ida", |value| {
+impl StudyFile {
+    /// The study, if it is whole; all that is wrong is recorded.
+    fn read(
+        self,
+        reader: &Reader<'_>,
+        file: &Path,
+        context: &mut Context,
+        places: BTreeMap<String, Range<usize>>,
+    ) -> Option<Study> {
+        // One that is called nearly so holds more variables.
+        let is_one =
+            |key: &String| key != "variable" && suggestion::misspelt(key, ["variable"]).is_some();
+        let all_known = !places.keys().any(is_one);
+        let list = self.variable.value().map(|list| list.0);
+        let names_records = list.iter().flatten().any(|table| match table {
+            Field::Given(table) => table.value.records.is_some() || table.value.synthetic.is_some(),
+            Field::Wrong => false,
+        });
+        // Without records of its own the study takes that of the case.
+        read_case(reader, self.case, context, !names_records);
+        let read = list.map(|list| variables(reader, list, context));
+        let whole = read.as_ref().filter(|read| read.whole && all_known);
+        let design = design(reader, self.design, whole.map(|read| &*read.variables));
         let measure = read
             .as_ref()
-            .and_then(|v| v.variables.iter().find_map(intensity_of));
-        let both = whole.map(|v| ida_variables(reader, value, &v.variables));
-        let both = both.and_then(|b| reader.keep(b));
-        ida::settings(reader, value, &context, both, measure)
-    });
-    let (Some(base), Some(read), Some((chunk, demand)), Some(design)) =
-        (context.base, read, output, design)
-    else {
-        return Err(Wrong::Recorded);
-    };
-    Ok(Study {
-        title: title.unwrap_or_default(),
-        file: file.to_owned(),
-        source: reader.source.to_owned(),
-        variables: read.variables,
-        design,
-        chunk,
-        isolated_demand: demand || ida.is_some(),
-        ida,
-        records: read
-            .records
-            .unwrap_or_else(|| vec![records::of_case(&base.case)]),
-        base: base.case,
-    })
+            .and_then(|read| read.variables.iter().find_map(intensity_of));
+        let ida = self.ida.stated().and_then(|ida| match ida {
+            None => Some(None),
+            Some(Located { value, span }) => {
+                let both = whole.and_then(|read| ida_variables(reader, span, &read.variables));
+                value.read(reader, context, both, measure).map(Some)
+            }
+        });
+        let output = match self.output.stated()? {
+            None => Some((CHUNK, false)),
+            Some(Located { value, .. }) => value
+                .chunk
+                .value_or(Whole(CHUNK))
+                .map(|chunk| chunk.0)
+                .zip(value.isolated_demand.value_or(false)),
+        };
+        let (ida, (chunk, demand), read) = (ida?, output?, read?);
+        let base = context.base.take()?.case;
+        Some(Study {
+            title: self.title.value().unwrap_or_default(),
+            file: file.to_owned(),
+            source: reader.source.to_owned(),
+            variables: read.variables,
+            design: design?,
+            chunk,
+            isolated_demand: demand || ida.is_some(),
+            ida,
+            records: read
+                .records
+                .unwrap_or_else(|| vec![records::of_case(&base)]),
+            base,
+        })
+    }
 }
 
-/// The case and what can be known of it.
-fn context<'c>(root: &Table<'_, '_>, folder: &'c Path) -> Result<Context<'c>> {
-    let reader = root.reader;
-    let value = root.required("case")?;
-    let path = folder.join(reader.text(value, "case")?);
-    let source = pounding_case::read_text(&path, "case").map_err(|e| {
-        let relative = "`case` is relative to the folder of the study".to_owned();
-        let help = match path.is_file() {
-            true => e.help.clone().unwrap_or(relative),
-            false => relative,
-        };
-        reader.error(value.span(), e.to_string(), help)
-    })?;
-    // Without records of its own the study takes that of the case.
-    let variables = root.get("variable").and_then(|v| v.get_ref().as_array());
-    let names_records = |v: &Value<'_>| {
-        let table = v.get_ref().as_table();
-        table.is_some_and(|t| {
-            t.keys()
-                .any(|k| matches!(&**k.get_ref(), "records" | "synthetic"))
-        })
+/// Reads the case and what can be known of it into the context.
+fn read_case(reader: &Reader<'_>, name: Field<String>, context: &mut Context, own_record: bool) {
+    let Some(Located { value: name, span }) = name.located() else {
+        return;
     };
-    let own_record = !variables.into_iter().flatten().any(names_records);
-    let base = base(&source, &path, own_record).map_err(|e| reader.elsewhere(e));
-    Ok(Context {
-        base: base.ok(),
-        text: Some(source).filter(|text| DeTable::parse(text).is_ok()),
-        folder,
-    })
+    let path = context.folder.join(name);
+    let source = match pounding_case::read_text(&path, "case") {
+        Ok(source) => source,
+        Err(e) => {
+            let relative = "`case` is relative to the folder of the study".to_owned();
+            let help = match path.is_file() {
+                true => e.help.clone().unwrap_or(relative),
+                false => relative,
+            };
+            reader.refuse::<()>(span, e.to_string(), help);
+            return;
+        }
+    };
+    match base(&source, &path, own_record) {
+        Ok(base) => context.base = Some(base),
+        Err(wrong) => context.wrong = Some(wrong),
+    }
+    context.text = Some(source).filter(|text| DeTable::parse(text).is_ok());
 }
 
 /// The case, if it is sound.
-fn base(source: &str, path: &Path, own_record: bool) -> std::result::Result<Base, StudyError> {
+fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError> {
     let error = |e| StudyError::Text {
         error: Box::new(e),
         source_text: source.to_owned(),
@@ -177,40 +242,36 @@ struct Variables {
     records: Option<Vec<RecordSource>>,
 }
 
-fn variables(root: &Table<'_, '_>, context: &Context<'_>) -> Result<Variables> {
-    let reader = root.reader;
-    let items = reader.list(root.required("variable")?, "variable")?;
+fn variables(
+    reader: &Reader<'_>,
+    tables: Vec<Field<VariableTable>>,
+    context: &Context,
+) -> Variables {
     let mut read = Variables {
         variables: Vec::new(),
-        whole: !root.misspelt("variable"),
+        whole: true,
         records: None,
     };
-    for item in items {
-        let sound = variable(&reader, item, context).and_then(|(variable, named)| {
+    for table in tables {
+        let sound = table.located().and_then(|Located { value, span }| {
+            let (variable, named) = value.read(reader, &span, context)?;
             if named.is_some() && read.records.is_some() {
-                return Err(reader.error(
-                    item.span(),
-                    "records are given twice",
-                    "put them into one list",
-                ));
+                return reader.refuse(span, "records are given twice", "put them into one list");
             }
             if let Some(other) = read.variables.iter().find(|v| collide(v, &variable)) {
                 let both = format!(
                     "\"{}\" and \"{}\" vary the same entry",
                     other.name, variable.name
                 );
-                return Err(reader.error(item.span(), both, "remove one of them"));
+                return reader.refuse(span, both, "remove one of them");
             }
             if read.variables.iter().any(|v| v.name == variable.name) {
-                return Err(reader.error(
-                    item.span(),
-                    format!("two variables have the name \"{}\"", variable.name),
-                    "give each its own `name`",
-                ));
+                let message = format!("two variables have the name \"{}\"", variable.name);
+                return reader.refuse(span, message, "give each its own `name`");
             }
-            Ok((variable, named))
+            Some((variable, named))
         });
-        match reader.keep(sound) {
+        match sound {
             Some((variable, named)) => {
                 read.variables.push(variable);
                 read.records = read.records.or(named);
@@ -218,15 +279,14 @@ fn variables(root: &Table<'_, '_>, context: &Context<'_>) -> Result<Variables> {
             None => read.whole = false,
         }
     }
-    Ok(read)
+    read
 }
 
 /// Whether two variables change the same bytes of the case, or the same property of the
 /// motion.
 fn collide(a: &Variable, b: &Variable) -> bool {
-    let overlap = |a: &std::ops::Range<usize>, b: &std::ops::Range<usize>| {
-        a == b || (a.start < b.end && b.start < a.end)
-    };
+    let overlap =
+        |a: &Range<usize>, b: &Range<usize>| a == b || (a.start < b.end && b.start < a.end);
     let spans = |v: &Variable| match &v.target {
         Target::Entry { entry, .. } => vec![(entry.span.clone(), entry.before.clone())],
         Target::Model { edits } => edits.first().map_or_else(Vec::new, |edits| {
@@ -253,111 +313,82 @@ fn collide(a: &Variable, b: &Variable) -> bool {
     }
 }
 
-/// Kinds of designs.
-const KINDS: [&str; 4] = ["grid", "list", "latin_hypercube", "sobol"];
-
-fn design(root: &Table<'_, '_>, variables: Option<&[Variable]>) -> Result<Design> {
-    let reader = root.reader;
-    let variables = variables.ok_or(Wrong::Recorded);
-    let Some(value) = root.get("design") else {
-        return match root.lacks("design") {
-            true => Err(Wrong::Recorded),
-            false => grid(&reader, root.span.clone(), variables?),
-        };
+fn design(
+    reader: &Reader<'_>,
+    table: Optional<DesignTable>,
+    variables: Option<&[Variable]>,
+) -> Option<Design> {
+    let Some(Located { value: table, span }) = table.stated()? else {
+        return grid(reader, 0..0, variables?);
     };
-    let table = reader.table(value, "[design]", &DESIGN)?;
-    let runs = table.optional("runs", |v| reader.count(v, "runs", 1));
-    let seed = table.optional("seed", |v| reader.count(v, "seed", 0));
-    let kind = table.or("kind", "grid".to_owned(), |v| reader.text(v, "kind"))?;
-    let place = table.get("kind").unwrap_or(value).span();
-    if !KINDS.contains(&kind.as_str()) {
-        let help = format!("known are {}", KINDS.join(", "));
-        return Err(reader.error(place, format!("unknown design \"{kind}\""), help));
-    }
-    if matches!(kind.as_str(), "grid" | "list") {
-        for key in ["runs", "seed"] {
-            if let Some(v) = table.get(key) {
-                let message = format!("`{key}` has no meaning for {kind}");
-                reader.check(Err(reader.error(v.span(), message, "remove it")));
-            }
+    let place = table.kind.span().unwrap_or_else(|| span.clone());
+    let kind = table.kind.value_or(Kind::Grid)?;
+    if matches!(kind, Kind::Grid | Kind::List) {
+        let name = if kind == Kind::Grid { "grid" } else { "list" };
+        for (key, extra) in [("runs", table.runs.span()), ("seed", table.seed.span())] {
+            extra.and_then(|extra| {
+                let message = format!("`{key}` has no meaning for {name}");
+                reader.refuse::<()>(extra, message, "remove it")
+            });
         }
-        return match kind.as_str() {
-            "grid" => grid(&reader, place, variables?),
-            _ => list(&reader, &place, variables?),
+        return match kind {
+            Kind::Grid => grid(reader, place, variables?),
+            _ => list(reader, place, variables?),
         };
     }
-    table.required("runs")?;
-    let runs = runs.ok_or(Wrong::Recorded)?;
-    let seed = seed.map(|s| s as u64);
-    if kind == "sobol" {
-        return Design::sobol(runs, seed, variables?.len())
-            .map_err(|reason| reader.error(place, reason, "use latin_hypercube"));
+    if table.runs.is_none() {
+        return lacks(reader, "[design]", span, "runs");
     }
-    Ok(Design::LatinHypercube {
-        runs,
-        seed: seed.unwrap_or(1),
-    })
+    let runs = table.runs.value()?.0;
+    let seed = table.seed.stated()?.map(|seed| seed.value.0 as u64);
+    if kind == Kind::LatinHypercube {
+        let seed = seed.unwrap_or(1);
+        return Some(Design::LatinHypercube { runs, seed });
+    }
+    match Design::sobol(runs, seed, variables?.len()) {
+        Ok(design) => Some(design),
+        Err(reason) => reader.refuse(place, reason, "use latin_hypercube"),
+    }
 }
 
-fn grid(
-    reader: &Reader<'_>,
-    place: std::ops::Range<usize>,
-    variables: &[Variable],
-) -> Result<Design> {
-    let sizes = reader.all(variables.iter().map(|v| {
-        v.values.count().ok_or_else(|| {
-            reader.error(
-                place.clone(),
-                format!(
-                    "the range of \"{}\" has no `count`, which a grid needs",
-                    v.name
-                ),
-                "add `count = ...` to the variable",
-            )
+fn grid(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Option<Design> {
+    let sizes = all(variables.iter().map(|v| {
+        v.values.count().or_else(|| {
+            let message = format!(
+                "the range of \"{}\" has no `count`, which a grid needs",
+                v.name
+            );
+            reader.refuse(place.clone(), message, "add `count = ...` to the variable")
         })
     }))?;
     let runs = sizes.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));
     // Numbers of runs stay exact in the results.
     match runs.filter(|n| *n <= 1 << 48) {
-        Some(_) => Ok(Design::Grid { sizes }),
-        None => Err(reader.error(
-            place,
-            "the grid has more runs than can be counted",
-            "make it coarser",
-        )),
+        Some(_) => Some(Design::Grid { sizes }),
+        None => {
+            let message = "the grid has more runs than can be counted";
+            reader.refuse(place, message, "make it coarser")
+        }
     }
 }
 
-fn list(
-    reader: &Reader<'_>,
-    place: &std::ops::Range<usize>,
-    variables: &[Variable],
-) -> Result<Design> {
+fn list(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Option<Design> {
     let mut counts = variables.iter().map(|v| (&v.name, v.values.count()));
     let first = counts.next().and_then(|(_, n)| n);
     match (first, counts.find(|(_, n)| *n != first)) {
-        (Some(runs), None) => Ok(Design::List { runs }),
-        (None, _) => Err(reader.error(place.clone(), "a range without `count` is no list", "add `count = ...`, or give `values`")),
-        (_, Some((name, _))) => Err(reader.error(
-            place.clone(),
-            format!("a list takes one value of each variable for every run, but \"{name}\" has another number of them than the first"),
+        (Some(runs), None) => Some(Design::List { runs }),
+        (None, _) => {
+            let message = "a range without `count` is no list";
+            reader.refuse(place, message, "add `count = ...`, or give `values`")
+        }
+        (_, Some((name, _))) => reader.refuse(
+            place,
+            format!(
+                "a list takes one value of each variable for every run, but \"{name}\" has another number of them than the first"
+            ),
             "give all variables as many values, or use kind = \"grid\"",
-        )),
+        ),
     }
-}
-
-fn output(root: &Table<'_, '_>) -> Result<(usize, bool)> {
-    let Some(value) = root.get("output") else {
-        return Ok((CHUNK, false));
-    };
-    let reader = root.reader;
-    let table = reader.table(value, "[output]", &OUTPUT)?;
-    let chunk = table.or("chunk", CHUNK, |v| reader.count(v, "chunk", 1));
-    let demand = table.or("isolated_demand", false, |v| {
-        reader.flag(v, "isolated_demand")
-    });
-    let (chunk, demand) = (reader.keep(chunk), reader.keep(demand));
-    chunk.zip(demand).ok_or(Wrong::Recorded)
 }
 
 /// The measure of a variable that is an intensity.
@@ -372,28 +403,26 @@ fn intensity_of(variable: &Variable) -> Option<IntensityMeasure> {
 /// and the intensity.
 fn ida_variables(
     reader: &Reader<'_>,
-    place: &Value<'_>,
+    place: Range<usize>,
     variables: &[Variable],
-) -> Result<(usize, usize)> {
+) -> Option<(usize, usize)> {
     let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
     let record = at(&|v| matches!(v.target, Target::Record));
     let intensity = at(&|v| intensity_of(v).is_some());
     match (record, intensity) {
         (Some(record), Some(intensity)) if variables.len() == 2 => {
             match variables[intensity].values {
-                Values::Range { count: None, .. } => {}
-                _ => return Ok((record, intensity)),
+                Values::Range { count: None, .. } => {
+                    let message = "the range of intensities has no `count`";
+                    reader.refuse(place, message, "add `count = ...`")
+                }
+                _ => Some((record, intensity)),
             }
-            Err(reader.error(
-                place.span(),
-                "the range of intensities has no `count`",
-                "add `count = ...`",
-            ))
         }
-        _ => Err(reader.error(
-            place.span(),
+        _ => reader.refuse(
+            place,
             "an incremental dynamic analysis has two variables: `records` and `intensity`",
             "give these two, or remove [ida]",
-        )),
+        ),
     }
 }

@@ -1,63 +1,100 @@
 //! The motions of a study: files, and synthetic motions from seeds.
 
-use std::f64::consts::TAU;
+use std::borrow::Cow;
+use std::ops::Range;
 use std::path::Path;
+use std::sync::LazyLock;
 
-use pounding_case::{Case, Dimension};
+use pounding_case::document::{
+    Cycles, Dimensioned, Entry, Field, FreeKeys, List, Number, Optional, Reader, Signed, TableOr,
+    Time, Velocity,
+};
+use pounding_case::{Case, Dimension, Located};
+use pounding_catalogue::suggestion;
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::{Value, json};
+
 use super::context::Context;
-use super::reader::{Reader, Result, Table, Value, Wrong};
+use super::values::{Whole, all};
 use super::{RecordKind, RecordSource};
 use crate::case_text::{Edits, apply, options_of_motion};
 
-/// Keys of a record beside `name`: those of `[ground_motion]` but `scale`.
-const RECORD: [&str; 18] = [
-    "name",
-    "file",
-    "format",
-    "time_step",
-    "unit",
-    "layout",
-    "component",
-    "second_component",
-    "rotate",
-    "quantity",
-    "skip_lines",
-    "skip_columns",
-    "prepend_zero",
-    "lenient",
-    "sensitivity",
-    "gravity",
-    "offset",
-    "process",
-];
+/// A record: the name of its file, or a table.
+pub(super) type Record = TableOr<RecordTable, String>;
+
+/// A record with the keys of `[ground_motion]` of a case but `scale`.
+#[derive(Debug, Deserialize)]
+#[serde(rename = "a record")]
+pub(super) struct RecordTable {
+    name: Optional<String>,
+    file: Field<String>,
+    #[serde(rename = "*")]
+    others: FreeKeys<IgnoredAny>,
+}
+
+impl JsonSchema for RecordTable {
+    fn schema_name() -> Cow<'static, str> {
+        "record".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = pounding_case::ground_motion_schema(generator);
+        schema.insert("description".to_owned(), "A record".into());
+        if let Some(Value::Object(keys)) = schema.get_mut("properties") {
+            keys.remove("scale");
+            let name = json!({"type": "string", "description": "Name in the results, by default that of the file"});
+            keys.insert("name".to_owned(), name);
+        }
+        schema
+    }
+}
+
+/// Keys that a record may have.
+static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let schema = RecordTable::json_schema(&mut SchemaGenerator::default());
+    let keys = schema.get("properties").and_then(Value::as_object);
+    keys.into_iter()
+        .flatten()
+        .map(|(key, _)| key.clone())
+        .collect()
+});
 
 /// Reads `records` and `synthetic` of a variable.
-pub(super) fn records(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Vec<RecordSource>> {
-    let reader = table.reader;
-    let files = table.or("records", Vec::new(), |value| {
-        let items = reader.list(value, "records")?;
-        let read = |item| Ok((record(&reader, item, context)?, Value::span(item)));
-        reader.all(items.iter().map(read))
+pub(super) fn records(
+    reader: &Reader<'_>,
+    records: Optional<List<Record>>,
+    synthetic: Optional<SyntheticTable>,
+    context: &Context,
+) -> Option<Vec<RecordSource>> {
+    let files = records.stated().and_then(|list| {
+        let items = list.map_or_else(Vec::new, |list| list.value.0);
+        all(items.into_iter().map(|item| {
+            let item = item.located()?;
+            let span = item.span.clone();
+            Some((record(reader, item, context)?, span))
+        }))
     });
-    let made = table.or("synthetic", Vec::new(), |value| {
-        let made = synthetic(&reader, value)?;
-        Ok(made.into_iter().map(|m| (m, value.span())).collect())
+    let made = synthetic.stated().and_then(|table| {
+        let Some(table) = table else {
+            return Some(Vec::new());
+        };
+        let span = table.span.clone();
+        let made = table.value.read(reader, &table.span)?;
+        Some(made.into_iter().map(|m| (m, span.clone())).collect())
     });
-    let (files, made) = (reader.keep(files), reader.keep(made));
-    let (mut records, made) = files.zip(made).ok_or(Wrong::Recorded)?;
+    let (mut records, made) = files.zip(made)?;
     records.extend(made);
     for (i, (record, place)) in records.iter().enumerate() {
         if records[..i].iter().any(|(r, _)| r.name == record.name) {
-            return Err(reader.error(
-                place.clone(),
-                format!("two records have the name \"{}\"", record.name),
-                "write { name = \"...\", file = \"...\" }",
-            ));
+            let message = format!("two records have the name \"{}\"", record.name);
+            let help = "write { name = \"...\", file = \"...\" }";
+            return reader.refuse(place.clone(), message, help);
         }
     }
-    Ok(records.into_iter().map(|(record, _)| record).collect())
+    Some(records.into_iter().map(|(record, _)| record).collect())
 }
 
 /// The record that the case itself names.
@@ -79,60 +116,55 @@ fn stem(file: &Path) -> String {
         .into_owned()
 }
 
-fn record(reader: &Reader<'_>, item: &Value<'_>, context: &Context<'_>) -> Result<RecordSource> {
+fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Option<RecordSource> {
+    let Located { value, span } = item;
     // What the case file would hold, a line each, as it is written here.
     let mut lines = String::new();
-    let (mut name, mut file, mut processed) = (None, None, false);
-    if item.get_ref().as_str().is_some() {
-        file = Some(reader.text(item, "records")?);
-    } else {
-        let table = reader.table(item, "a record", &RECORD)?;
-        for (key, value) in table.entries() {
-            match key.as_str() {
-                "name" => name = reader.keep(reader.text(value, "name")),
-                "file" => file = reader.keep(reader.text(value, "file")),
-                // Said before.
-                key if !RECORD.contains(&key) => {}
-                _ => {
-                    processed |= key == "process";
-                    lines.push_str(&format!("\n{key} = {}", &reader.source[value.span()]));
-                }
-            }
-        }
-        table.required("file")?;
-        if file.is_none() {
-            return Err(Wrong::Recorded);
+    let (name, file, others) = match value {
+        TableOr::Value(file) => (None, file, Vec::new()),
+        TableOr::Table(table) => (table.name.value(), table.file.value()?, table.others.0),
+    };
+    let mut processed = false;
+    for (Located { value: key, span }, value) in others {
+        if KEYS.contains(&key) {
+            let Some(place) = value.span() else { continue };
+            processed |= key == "process";
+            lines.push_str(&format!("\n{key} = {}", &reader.source[place]));
+        } else if !value.is_wrong() {
+            let nearest = suggestion::misspelt(&key, KEYS.iter());
+            let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
+            let help = format!("{guess}known keys: {}", KEYS.join(", "));
+            reader.refuse::<()>(span, format!("unknown key `{key}` in a record"), help);
         }
     }
-    let file = file.unwrap_or_default();
     let path = context.folder.join(&file);
     let path = std::path::absolute(&path).unwrap_or(path);
     let shown = toml::Value::String(path.display().to_string()).to_string();
     let new = format!("\nfile = {shown}{lines}");
-    let lost = |(message, help): (String, String)| reader.error(item.span(), message, help);
-    let base = &context.base()?.case;
+    let base = &context.base.as_ref()?.case;
     // What the case does to its own record it does to all, unless one says otherwise.
     let kept: &[&str] = if processed {
         &["scale"]
     } else {
         &["scale", "process"]
     };
-    let (old, header) = options_of_motion(&base.source, kept).map_err(lost)?;
+    let (old, header) = match options_of_motion(&base.source, kept) {
+        Ok(options) => options,
+        Err((message, help)) => return reader.refuse(span, message, help),
+    };
     let mut edits: Edits = old
         .into_iter()
         .map(|place| (place, String::new()))
         .collect();
     edits.push((header..header, new));
-    let case = Case::parse(&apply(&base.source, edits.clone()), &base.file);
-    let case = case.map_err(|e| {
-        let help = e.help.unwrap_or_default();
-        reader.error(
-            item.span(),
-            format!("in a case, this record: {}", e.message),
-            help,
-        )
-    })?;
-    Ok(RecordSource {
+    let case = match Case::parse(&apply(&base.source, edits.clone()), &base.file) {
+        Ok(case) => case,
+        Err(e) => {
+            let message = format!("in a case, this record: {}", e.message);
+            return reader.refuse(span, message, e.help.unwrap_or_default());
+        }
+    };
+    Some(RecordSource {
         name: name.unwrap_or_else(|| stem(Path::new(&file))),
         kind: RecordKind::File {
             case: Box::new(case),
@@ -141,123 +173,92 @@ fn record(reader: &Reader<'_>, item: &Value<'_>, context: &Context<'_>) -> Resul
     })
 }
 
-const SYNTHETIC: [&str; 12] = [
-    "model",
-    "count",
-    "seed",
-    "time_step",
-    "duration",
-    "arias_intensity",
-    "significant_duration",
-    "middle_time",
-    "middle_frequency",
-    "frequency_rate",
-    "damping",
-    "high_pass",
-];
+/// Generator of synthetic motions
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(
+    rename = "model of motions",
+    expecting = "a text in quotes\nmotions of others are read from files"
+)]
+enum Generator {
+    #[serde(rename = "rezaeian_der_kiureghian_2010")]
+    RezaeianDerKiureghian2010,
+}
 
-/// Motions of consecutive seeds.
-fn synthetic(reader: &Reader<'_>, value: &Value<'_>) -> Result<Vec<RecordSource>> {
-    let table = reader.table(value, "synthetic", &SYNTHETIC)?;
-    let model = table.required("model").and_then(|model| {
-        if reader.text(model, "model")? == "rezaeian_der_kiureghian_2010" {
-            return Ok(());
-        }
-        Err(reader.error(
-            model.span(),
-            "unknown model of motions",
-            "known is rezaeian_der_kiureghian_2010; motions of others are read from files",
-        ))
-    });
-    let model = reader.keep(model);
-    // An angle per second, such as "15.6 rad/s", is a circular frequency.
-    let number = |value: &Value<'_>, key: &str, dimension| {
-        let text = value.get_ref().as_str().unwrap_or_default();
-        let angle = dimension == Dimension::FREQUENCY && text.contains("rad");
-        let turns = if angle { TAU } else { 1.0 };
-        Ok(reader.quantity(value, key, dimension)? / turns)
+/// Hz/s.
+#[derive(Debug)]
+struct FrequencyRate;
+
+impl Dimensioned for FrequencyRate {
+    const DIMENSION: Dimension = Dimension {
+        mass: 0.0,
+        length: 0.0,
+        time: -2.0,
     };
-    let needed = |key, dimension| {
-        let value = table.required(key);
-        reader.keep(value.and_then(|v| number(v, key, dimension)))
-    };
-    let or = |key, dimension, default| {
-        reader.keep(table.or(key, default, |v| number(v, key, dimension)))
-    };
-    let count = table.required("count");
-    let count = reader.keep(count.and_then(|v| reader.count(v, "count", 1)));
-    let first = reader.keep(table.or("seed", 1, |v| reader.count(v, "seed", 0)));
-    let duration = needed("duration", Dimension::TIME);
-    let time_step = or("time_step", Dimension::TIME, TimeGrid::USUAL_TIME_STEP);
-    let significant_duration = needed("significant_duration", Dimension::TIME);
-    let middle_time = needed("middle_time", Dimension::TIME);
-    let middle_frequency = needed("middle_frequency", Dimension::FREQUENCY);
-    // What stands in for a missing one is not seen: all are read, and nothing is made.
-    let usual = RezaeianDerKiureghian2010::usual(
-        significant_duration.unwrap_or(1.0),
-        middle_time.unwrap_or(1.0),
-        middle_frequency.unwrap_or(1.0),
-    );
-    let arias_intensity = or(
-        "arias_intensity",
-        Dimension::VELOCITY,
-        usual.arias_intensity,
-    );
-    let frequency_rate = or("frequency_rate", per_second_squared(), usual.frequency_rate);
-    let damping = or("damping", Dimension::NUMBER, usual.damping);
-    let high_pass = or("high_pass", Dimension::FREQUENCY, usual.high_pass);
-    let read = [significant_duration, middle_time, middle_frequency];
-    let (
-        Some(()),
-        true,
-        Some(arias_intensity),
-        Some(frequency_rate),
-        Some(damping),
-        Some(high_pass),
-        Some(time_step),
-        Some(duration),
-        Some(count),
-        Some(first),
-    ) = (
-        model,
-        read.iter().all(Option::is_some),
-        arias_intensity,
-        frequency_rate,
-        damping,
-        high_pass,
-        time_step,
-        duration,
-        count,
-        first,
-    )
-    else {
-        return Err(Wrong::Recorded);
-    };
-    let motion = RezaeianDerKiureghian2010 {
-        arias_intensity,
-        frequency_rate,
-        damping,
-        high_pass,
-        ..usual
-    };
-    let grid = TimeGrid {
-        time_step,
-        duration,
-    };
-    (first..first + count)
-        .map(|seed| {
-            let made = motion.generate(grid, seed as u64).map_err(|e| {
-                reader.error(value.span(), e.to_string(), e.help().unwrap_or_default())
-            })?;
-            Ok(RecordSource {
+}
+
+/// Synthetic motions of consecutive seeds
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "synthetic")]
+pub(super) struct SyntheticTable {
+    /// Generator
+    model: Field<Generator>,
+    /// How many motions
+    count: Field<Whole<1>>,
+    /// Seed of the first, by default 1
+    seed: Optional<Whole<0>>,
+    /// Time step (s), by default 0.01
+    time_step: Optional<Signed<Time>>,
+    /// Duration (s)
+    duration: Field<Signed<Time>>,
+    /// Arias intensity (m/s), by default 1
+    arias_intensity: Optional<Signed<Velocity>>,
+    /// Time from 5 to 95 % of the Arias intensity (s)
+    significant_duration: Field<Signed<Time>>,
+    /// Time at 45 % of the Arias intensity (s)
+    middle_time: Field<Signed<Time>>,
+    /// Frequency at the middle time (Hz)
+    middle_frequency: Field<Signed<Cycles>>,
+    /// Change of the frequency (Hz/s), by default -0.1
+    frequency_rate: Optional<Signed<FrequencyRate>>,
+    /// Damping ratio of the filter, by default 0.3
+    damping: Optional<Signed<Number>>,
+    /// Corner of the high-pass filter (Hz), by default 0.15
+    high_pass: Optional<Signed<Cycles>>,
+}
+
+impl SyntheticTable {
+    /// The motions of a table that stands here.
+    fn read(self, reader: &Reader<'_>, span: &Range<usize>) -> Option<Vec<RecordSource>> {
+        self.model.value()?;
+        let usual = RezaeianDerKiureghian2010::usual(
+            self.significant_duration.number()?,
+            self.middle_time.number()?,
+            self.middle_frequency.number()?,
+        );
+        let motion = RezaeianDerKiureghian2010 {
+            arias_intensity: self.arias_intensity.number_or(usual.arias_intensity)?,
+            frequency_rate: self.frequency_rate.number_or(usual.frequency_rate)?,
+            damping: self.damping.number_or(usual.damping)?,
+            high_pass: self.high_pass.number_or(usual.high_pass)?,
+            ..usual
+        };
+        let grid = TimeGrid {
+            time_step: self.time_step.number_or(TimeGrid::USUAL_TIME_STEP)?,
+            duration: self.duration.number()?,
+        };
+        let first = self.seed.value_or(Whole(1))?.0;
+        let made = |seed| match motion.generate(grid, seed as u64) {
+            Ok(made) => Some(RecordSource {
                 name: format!("seed_{seed}"),
                 kind: RecordKind::Made {
                     record: Box::new(made.accelerogram),
                     command: command(&motion, grid, seed),
                 },
-            })
-        })
-        .collect()
+            }),
+            Err(e) => reader.refuse(span.clone(), e.to_string(), e.help().unwrap_or_default()),
+        };
+        (first..first + self.count.value()?.0).map(made).collect()
+    }
 }
 
 /// The command that writes such a motion into a file; numbers to the last bit.
@@ -278,13 +279,4 @@ fn command(motion: &RezaeianDerKiureghian2010, grid: TimeGrid, seed: usize) -> S
         "pounding motion synth rezaeian_der_kiureghian_2010 {} --seed {seed}",
         options.join(" ")
     )
-}
-
-/// Hz/s.
-fn per_second_squared() -> Dimension {
-    Dimension {
-        mass: 0.0,
-        length: 0.0,
-        time: -2.0,
-    }
 }

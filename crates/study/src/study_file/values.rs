@@ -1,11 +1,16 @@
 //! Values of a variable: lists and ranges.
 
-use pounding_case::Dimension;
+use std::borrow::Cow;
+use std::ops::Range;
 
-use super::reader::{Reader, Result, Table, Value, Wrong};
+use pounding_case::document::{Entry, Fault, Field, List, Optional, Reader, Written};
+use pounding_case::{Dimension, Located};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Deserialize, Deserializer, Error as _};
 
 /// How a range is divided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 pub enum Spacing {
     /// Even steps.
     Linear,
@@ -80,76 +85,157 @@ impl Values {
     }
 }
 
-/// Numbers of a table with `values`, or with `from`, `to`, `count` and `spacing`; and the
-/// places from which they were read.
-pub(super) fn numbers<'v, 'a>(
-    table: &Table<'v, 'a>,
-    read: &dyn Fn(&Value<'a>, &str) -> Result<f64>,
-) -> Result<(Values, Vec<&'v Value<'a>>)> {
-    let reader = table.reader;
-    for key in ["from", "to", "count", "spacing"] {
-        table.not_both("values", key)?;
+/// Largest count that is taken for meant.
+const LARGEST_COUNT: i64 = 1_000_000_000;
+
+/// A whole number of runs, values and the like, at least so large.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Whole<const LEAST: i64>(pub usize);
+
+impl<'de, const LEAST: i64> Deserialize<'de> for Whole<LEAST> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let number = i64::deserialize(deserializer)?;
+        match usize::try_from(number) {
+            _ if number > LARGEST_COUNT => Err(D::Error::custom(Fault::new(
+                " = {written} is too large",
+                format!("write a whole number from {LEAST} to {LARGEST_COUNT}"),
+            ))),
+            Ok(count) if number >= LEAST => Ok(Self(count)),
+            _ => Err(D::Error::custom(Fault::new(
+                format!(" must be a whole number from {LEAST} on"),
+                format!("write a whole number from {LEAST} on"),
+            ))),
+        }
     }
-    let count = table.or("count", None, |v| reader.count(v, "count", 2).map(Some));
-    let (count, spacing) = (reader.keep(count), reader.keep(spacing(table, &reader)));
-    if let Some(list) = table.get("values") {
-        let items = reader.list(list, "values")?;
-        let numbers = reader.all(items.iter().map(|item| read(item, "values")))?;
-        return Ok((Values::Numbers(numbers), items.iter().collect()));
-    }
-    if ["values", "from"].iter().any(|k| table.lacks(k)) {
-        table.optional("to", |v| read(v, "to"));
-        return Err(Wrong::Recorded);
-    }
-    if table.get("from").is_none() {
-        return Err(reader.error(
-            table.span.clone(),
-            "this says not which values it takes",
-            "add `values = [...]`, or `from`, `to` and, for a grid, `count`",
-        ));
-    }
-    let end = |key: &str| {
-        let place = table.required(key)?;
-        Ok((place, read(place, key)?))
-    };
-    let ends = reader.keep(end("from")).zip(reader.keep(end("to")));
-    let (((first, from), (last, to)), spacing) = ends.zip(spacing).ok_or(Wrong::Recorded)?;
-    if spacing == Spacing::Logarithmic && !(from > 0.0 && to > 0.0) {
-        return Err(reader.error(
-            first.span(),
-            "a logarithmic range lies above zero",
-            "correct the range, or write spacing = \"linear\"",
-        ));
-    }
-    if from == to {
-        return Err(reader.error(
-            last.span(),
-            "the range is empty: it ends where it begins",
-            "correct `to`, or give one value by `values`",
-        ));
-    }
-    let values = Values::Range {
-        from,
-        to,
-        spacing,
-        count: count.ok_or(Wrong::Recorded)?,
-    };
-    Ok((values, vec![first, last]))
 }
 
-fn spacing(table: &Table<'_, '_>, reader: &Reader<'_>) -> Result<Spacing> {
-    let Some(value) = table.get("spacing") else {
-        return Ok(Spacing::Linear);
-    };
-    match reader.text(value, "spacing")?.as_str() {
-        "linear" => Ok(Spacing::Linear),
-        "logarithmic" => Ok(Spacing::Logarithmic),
-        _ => Err(reader.error(
-            value.span(),
-            "`spacing` is \"linear\" or \"logarithmic\"",
-            "correct it",
-        )),
+impl<const LEAST: i64> JsonSchema for Whole<LEAST> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("from {LEAST}").into()
     }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": "integer", "minimum": LEAST, "maximum": LARGEST_COUNT})
+    }
+}
+
+/// Numbers: a list, or a range
+#[derive(Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename = "gaps")]
+pub(super) struct Numbers {
+    /// The numbers
+    pub values: Optional<List<Written>>,
+    /// First number of a range
+    pub from: Optional<Written>,
+    /// Last number of a range
+    pub to: Optional<Written>,
+    /// How many numbers, both ends included
+    pub count: Optional<Whole<2>>,
+    /// linear (default) or logarithmic
+    pub spacing: Optional<Spacing>,
+}
+
+impl Numbers {
+    /// The numbers of a table that is called so and stands here, and the places from which
+    /// they were read.
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+        (table, span): (&str, Range<usize>),
+        number: &dyn Fn(Written) -> Result<f64, Fault>,
+    ) -> Option<(Values, Vec<Located<Written>>)> {
+        let read = |key: &str, written: &Located<Written>| {
+            reader.keep(&written.span, key, number(written.value.clone()))
+        };
+        for (key, place) in [
+            ("from", self.from.span()),
+            ("to", self.to.span()),
+            ("count", self.count.span()),
+            ("spacing", self.spacing.span()),
+        ] {
+            not_both(reader, table, ("values", self.values.span()), (key, place))?;
+        }
+        let Some(list) = self.values.stated() else {
+            // Said before; the rest is looked at.
+            self.to.located().and_then(|to| read("to", &to));
+            return None;
+        };
+        if let Some(list) = list {
+            let entry = |item: Field<Written>| {
+                let item = item.located()?;
+                Some((read("values", &item)?, item))
+            };
+            let (numbers, places) = all(list.value.0.into_iter().map(entry))?
+                .into_iter()
+                .unzip();
+            return Some((Values::Numbers(numbers), places));
+        }
+        if self.from.is_none() {
+            let message = "this says not which values it takes";
+            let help = "add `values = [...]`, or `from`, `to` and, for a grid, `count`";
+            return reader.refuse(span, message, help);
+        }
+        let end = |key: &str, given: Optional<Written>| {
+            let Some(given) = given else {
+                return lacks(reader, table, span.clone(), key);
+            };
+            let written = given.located()?;
+            Some((read(key, &written)?, written))
+        };
+        let ends = (end("from", self.from), end("to", self.to));
+        let ((from, first), (to, last)) = ends.0.zip(ends.1)?;
+        let spacing = self.spacing.value_or(Spacing::Linear)?;
+        if spacing == Spacing::Logarithmic && !(from > 0.0 && to > 0.0) {
+            let message = "a logarithmic range lies above zero";
+            let help = "correct the range, or write spacing = \"linear\"";
+            return reader.refuse(first.span, message, help);
+        }
+        if from == to {
+            let message = "the range is empty: it ends where it begins";
+            let help = "correct `to`, or give one value by `values`";
+            return reader.refuse(last.span, message, help);
+        }
+        let values = Values::Range {
+            from,
+            to,
+            spacing,
+            count: self.count.stated()?.map(|count| count.value.0),
+        };
+        Some((values, vec![first, last]))
+    }
+}
+
+/// All values, unless one of them is wrong; every one is looked at.
+pub(super) fn all<T>(values: impl IntoIterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let values: Vec<_> = values.into_iter().collect();
+    values.into_iter().collect()
+}
+
+/// Refuses a table in which a key is missing.
+pub(super) fn lacks<T>(
+    reader: &Reader<'_>,
+    table: &str,
+    span: Range<usize>,
+    key: &str,
+) -> Option<T> {
+    let message = format!("{table} has no `{key}`");
+    reader.refuse(span, message, format!("add `{key} = ...`"))
+}
+
+/// A key and where its value stands, if it is given.
+type Place<'k> = (&'k str, Option<Range<usize>>);
+
+/// Refuses a table that has both keys, which exclude one another.
+pub(super) fn not_both(
+    reader: &Reader<'_>,
+    table: &str,
+    (a, first): Place<'_>,
+    (b, second): Place<'_>,
+) -> Option<()> {
+    let Some((_, second)) = first.zip(second) else {
+        return Some(());
+    };
+    let message = format!("{table} has `{a}` and `{b}`, which exclude one another");
+    reader.refuse(second, message, "remove one of them")
 }
 
 /// A dimension as the attribute `units` of a result has it, such as `kg m-0.5 s-2`.

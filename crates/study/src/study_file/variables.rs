@@ -1,196 +1,321 @@
 //! Variables: what varies, and every value tried in the case.
 
+use std::ops::Range;
+
 use pounding_assembly::{AssemblyError, assemble_with_record, parameter_dimension};
-use pounding_case::{Case, CaseError, Dimension};
+use pounding_case::document::{
+    Amount, Entry, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader, Scalar,
+    TableOr, Time, Written,
+};
+use pounding_case::{Case, CaseError, Dimension, Located};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::context::Context;
-use super::intensity::intensity;
-use super::reader::{Reader, Result, Table, Value, Wrong};
-use super::values::{Values, numbers, unit_of};
-use super::{RecordSource, Target, Variable, records};
-use crate::case_text::{Edits, Entry, Lost, Path, apply, entry, options_of_gap};
+use super::intensity::{BelowOne, IntensityKeys, Measure};
+use super::records::{Record, SyntheticTable};
+use super::values::{Numbers, Spacing, Values, Whole, all, unit_of};
+use super::{IntensityMeasure, RecordSource, Target, Variable, records};
+use crate::case_text::{Edits, Entry as CaseEntry, Lost, Path, apply, entry, options_of_gap};
 use crate::runs::written;
 
-const VARIABLE: [&str; 14] = [
-    "name",
-    "path",
-    "values",
-    "from",
-    "to",
-    "count",
-    "spacing",
-    "records",
-    "synthetic",
-    "intensity",
-    "building",
-    "period",
-    "damping",
-    "long_name",
-];
+/// Something that varies: an entry of the case, the records, or their intensity
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename = "[[variable]]")]
+pub(super) struct VariableTable {
+    /// Name of the coordinate in the results
+    name: Optional<String>,
+    /// Entry of the case that varies, such as gap.0.width
+    path: Optional<String>,
+    /// Values: numbers, texts, or models with all their options
+    values: Optional<List<TableOr<ModelTable, Scalar>>>,
+    /// First number of a range
+    from: Optional<Written>,
+    /// Last number of a range
+    to: Optional<Written>,
+    /// How many numbers of a range, both ends included, for a grid or a list
+    count: Optional<Whole<2>>,
+    /// linear (default) or logarithmic
+    spacing: Optional<Spacing>,
+    /// Motions from files, relative to the folder of the study
+    pub records: Optional<List<Record>>,
+    /// Synthetic motions
+    pub synthetic: Optional<SyntheticTable>,
+    /// Measure of the intensity to which the records are scaled
+    intensity: Optional<Measure>,
+    /// Buildings whose first periods a spectral acceleration is taken at, by default all
+    building: Optional<OneOrEach<Located<String>>>,
+    /// Periods (s) that a spectral acceleration is taken at
+    period: Optional<OneOrEach<Positive<Time>>>,
+    /// Damping ratio of a spectral acceleration, by default 0.05
+    damping: Optional<Amount<Number, BelowOne>>,
+    /// What it is, for people
+    long_name: Optional<String>,
+}
+
+/// Impact model of a gap with all its options
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(rename = "a model")]
+struct ModelTable {
+    /// Name in the results, by default that of the model
+    label: Optional<String>,
+    /// Impact model, author_year
+    model: Field<String>,
+    /// Parameters of the model
+    #[serde(rename = "*")]
+    #[schemars(with = "FreeKeys<Written>")]
+    parameters: FreeKeys<IgnoredAny>,
+}
 
 /// Names that results use themselves.
 const RESERVED: [&str; 5] = ["run", "storey", "level", "status", "run_id"];
 
-/// What a variable is one of.
-const KINDS: [&str; 4] = ["path", "records", "synthetic", "intensity"];
+/// A variable, with the records if it is the one that names them.
+type Read = (Variable, Option<Vec<RecordSource>>);
 
-/// Reads a `[[variable]]`; with the records, if it is the one that names them.
-pub(super) fn variable(
-    reader: &Reader<'_>,
-    value: &Value<'_>,
-    context: &Context<'_>,
-) -> Result<(Variable, Option<Vec<RecordSource>>)> {
-    let table = reader.table(value, "[[variable]]", &VARIABLE)?;
-    let kinds: Vec<&str> = KINDS
-        .into_iter()
-        .filter(|k| table.get(k).is_some())
-        .collect();
-    match kinds.as_slice() {
-        ["path"] => Ok((of_path(&table, context)?, None)),
-        ["intensity"] => Ok((of_intensity(&table, context)?, None)),
-        ["records" | "synthetic"] | ["records", "synthetic"] => {
-            let (variable, records) = of_records(&table, context)?;
-            Ok((variable, Some(records)))
-        }
-        [] if KINDS.iter().any(|k| table.lacks(k)) => {
-            // What it is of is not known, but its numbers can be looked at.
-            if first_value(&table).is_none_or(|v| reader.maybe_quantity(v).is_some()) {
-                numbers(&table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
+impl VariableTable {
+    /// Reads a table that stands here.
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        context: &Context,
+    ) -> Option<Read> {
+        let kinds = [
+            ("path", self.path.span(), self.path.is_wrong()),
+            ("records", self.records.span(), self.records.is_wrong()),
+            ("records", self.synthetic.span(), self.synthetic.is_wrong()),
+            (
+                "intensity",
+                self.intensity.span(),
+                self.intensity.is_wrong(),
+            ),
+        ];
+        let given = kinds.iter().filter(|(_, place, _)| place.is_some());
+        let mut kinds: Vec<&str> = match given.clone().next() {
+            Some(_) => given.map(|(kind, ..)| *kind).collect(),
+            // What it is of is not known, but the rest can be looked at.
+            None => kinds
+                .iter()
+                .filter(|(.., wrong)| *wrong)
+                .map(|(kind, ..)| *kind)
+                .collect(),
+        };
+        kinds.dedup();
+        match kinds.as_slice() {
+            ["path"] => Some((self.of_path(reader, span, context)?, None)),
+            ["intensity"] => Some((self.of_intensity(reader, span, context)?, None)),
+            ["records"] => self.of_records(reader, span, context),
+            _ => {
+                let message =
+                    "a variable is one of `path`, `records` with `synthetic`, and `intensity`";
+                reader.refuse(span.clone(), message, "for example path = \"gap.0.width\"")
             }
-            Err(Wrong::Recorded)
         }
-        _ => Err(reader.error(
-            value.span(),
-            "a variable is one of `path`, `records` with `synthetic`, and `intensity`",
-            "for example path = \"gap.0.width\"",
-        )),
+    }
+
+    /// The name of the variable, by default as given, and how people call it.
+    fn names(
+        &self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        default: &str,
+        title: &str,
+    ) -> Option<(String, String)> {
+        let long = self.long_name.clone().value_or(title.to_owned());
+        let place = self.name.span().unwrap_or_else(|| span.clone());
+        let name = self.name.clone().value_or(default.to_owned())?;
+        let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        let begins = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic());
+        let taken = RESERVED.contains(&name.as_str()) || crate::runs::is_result(&name);
+        if !plain || !begins || taken {
+            let message = format!("\"{name}\" cannot name a coordinate of the results");
+            let help = "a name begins with a letter, has letters, digits and underscores, and is not that of a result; write `name = ...`";
+            return reader.refuse(place, message, help);
+        }
+        Some((name, long?))
+    }
+
+    fn of_records(
+        self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        context: &Context,
+    ) -> Option<Read> {
+        let names = self.names(reader, span, "record", "ground motion");
+        let records = records::records(reader, self.records, self.synthetic, context)?;
+        let (name, long_name) = names?;
+        let labels = records.iter().map(|r| r.name.clone()).collect();
+        let variable = Variable {
+            name,
+            long_name,
+            unit: String::new(),
+            values: Values::Choices(labels),
+            target: Target::Record,
+        };
+        Some((variable, Some(records)))
+    }
+
+    fn of_intensity(
+        mut self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        context: &Context,
+    ) -> Option<Variable> {
+        let keys = IntensityKeys {
+            intensity: self.intensity.take(),
+            building: self.building.take(),
+            period: self.period.take(),
+            damping: self.damping.take(),
+        };
+        let measure = keys.read(reader, context);
+        let title = measure
+            .as_ref()
+            .map_or_else(String::new, IntensityMeasure::title);
+        let names = self.names(reader, span, "intensity", &title);
+        let read = |written: Written| match &measure {
+            Some(measure) => written.above_zero(measure.dimension()),
+            None => written.any().map(|quantity| quantity.value),
+        };
+        let values = self
+            .numbers(reader)
+            .read(reader, (TABLE, span.clone()), &read);
+        let (name, long_name) = names?;
+        let (values, _) = values?;
+        let measure = measure?;
+        Some(Variable {
+            name,
+            long_name,
+            unit: unit_of(measure.dimension()),
+            values,
+            target: Target::Intensity(measure),
+        })
+    }
+
+    /// What says which numbers it takes.
+    fn numbers(self, reader: &Reader<'_>) -> Numbers {
+        let number = |item: Field<_>| match item {
+            Field::Given(Located { value, span }) => match value {
+                TableOr::Value(Scalar::Written(value)) => Field::Given(Located { value, span }),
+                _ => {
+                    let message = "`values` must be numbers, or texts with a unit";
+                    reader.refuse::<()>(span, message, "write a number, or a text with a unit");
+                    Field::Wrong
+                }
+            },
+            Field::Wrong => Field::Wrong,
+        };
+        let numbers = |list: Field<List<_>>| match list {
+            Field::Given(Located {
+                value: List(items),
+                span,
+            }) => Field::Given(Located {
+                value: List(items.into_iter().map(number).collect()),
+                span,
+            }),
+            Field::Wrong => Field::Wrong,
+        };
+        Numbers {
+            values: self.values.map(numbers),
+            from: self.from,
+            to: self.to,
+            count: self.count,
+            spacing: self.spacing,
+        }
+    }
+
+    fn of_path(
+        self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        context: &Context,
+    ) -> Option<Variable> {
+        let place = self.path.span().unwrap_or_else(|| span.clone());
+        let path = self
+            .path
+            .clone()
+            .located()
+            .and_then(|text| path(reader, &text));
+        let names = match (&path, &self.name) {
+            // What it would be called is not known, which is no fault of its name.
+            (None, None) => None,
+            _ => {
+                let default = path.as_ref().map_or_else(String::new, default_name);
+                let title = path.as_ref().map_or_else(String::new, Path::to_string);
+                self.names(reader, span, &default, &title)
+            }
+        };
+        let entry = path.as_ref().and_then(|path| {
+            let entry = entry(context.text.as_deref()?, path);
+            kept(reader, &place, entry)
+        });
+        let tried = context.base.as_ref().zip(path.as_ref().zip(entry));
+        let tried = tried.map(|(base, (path, entry))| Trial {
+            reader: *reader,
+            base: &base.case,
+            path,
+            entry,
+            place: place.clone(),
+        });
+        let first = match &self.values {
+            Some(Field::Given(list)) => list.value.0.first().cloned().and_then(Entry::value),
+            _ => None,
+        };
+        let is_named = match &first {
+            Some(TableOr::Value(Scalar::Flag(_))) => true,
+            Some(TableOr::Value(Scalar::Written(written))) => {
+                !written.is_plain() && written.clone().any().is_err()
+            }
+            _ => false,
+        };
+        let mut unit = String::new();
+        let (values, target) = match (first, self.values) {
+            (Some(TableOr::Table(_)), Some(Field::Given(list))) => {
+                models(reader, list, path.as_ref(), tried.as_ref())?
+            }
+            (_, Some(Field::Given(list))) if is_named => named(reader, list.value, tried.as_ref())?,
+            (_, values) => {
+                let numbers = Self { values, ..self }.numbers(reader);
+                let any = |written: Written| written.any().map(|quantity| quantity.value);
+                let (values, places) = numbers.read(reader, (TABLE, span.clone()), &any)?;
+                let tried = tried.as_ref()?;
+                unit = unit_of_numbers(&places, tried);
+                counted(values, places, tried)?
+            }
+        };
+        tried?;
+        let (name, long_name) = names?;
+        Some(Variable {
+            name,
+            long_name,
+            unit,
+            values,
+            target,
+        })
     }
 }
 
-/// The name of a variable, by default as given, and how people call it.
-fn names(table: &Table<'_, '_>, default: &str, title: &str) -> Result<(String, String)> {
-    let reader = table.reader;
-    let long = table.or("long_name", title.to_owned(), |v| {
-        reader.text(v, "long_name")
-    });
-    let long = reader.keep(long);
-    let name = table.or("name", default.to_owned(), |v| reader.text(v, "name"))?;
-    let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    let begins = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic());
-    let taken = RESERVED.contains(&name.as_str()) || crate::runs::is_result(&name);
-    if !plain || !begins || taken {
-        let place = table
-            .get("name")
-            .map_or_else(|| table.span.clone(), Value::span);
-        return Err(reader.error(
-            place,
-            format!("\"{name}\" cannot name a coordinate of the results"),
-            "a name begins with a letter, has letters, digits and underscores, and is not that of a result; write `name = ...`",
-        ));
+/// The name of the table in messages.
+const TABLE: &str = "[[variable]]";
+
+/// The value, or what is wrong with it at this place.
+fn kept<T>(reader: &Reader<'_>, place: &Range<usize>, value: Result<T, Lost>) -> Option<T> {
+    match value {
+        Ok(value) => Some(value),
+        Err((message, help)) => reader.refuse(place.clone(), message, help),
     }
-    Ok((name, long.ok_or(Wrong::Recorded)?))
 }
 
-fn of_records(
-    table: &Table<'_, '_>,
-    context: &Context<'_>,
-) -> Result<(Variable, Vec<RecordSource>)> {
-    let reader = table.reader;
-    let names = reader.keep(names(table, "record", "ground motion"));
-    let records = records::records(table, context)?;
-    let (name, long_name) = names.ok_or(Wrong::Recorded)?;
-    let labels = records.iter().map(|r| r.name.clone()).collect();
-    let variable = Variable {
-        name,
-        long_name,
-        unit: String::new(),
-        values: Values::Choices(labels),
-        target: Target::Record,
-    };
-    Ok((variable, records))
-}
-
-fn of_intensity(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
-    let reader = table.reader;
-    let measure = reader.keep(intensity(table, context));
-    let read = |v: &Value<'_>, key: &str| match &measure {
-        Some(measure) => reader.positive(v, key, measure.dimension()),
-        None => Ok(reader.any_quantity(v, key)?.value),
-    };
-    let values = reader.keep(numbers(table, &read));
-    let title = measure.as_ref().map_or_else(String::new, |m| m.title());
-    let (name, long_name) = names(table, "intensity", &title)?;
-    let (measure, (values, _)) = measure.zip(values).ok_or(Wrong::Recorded)?;
-    Ok(Variable {
-        name,
-        long_name,
-        unit: unit_of(measure.dimension()),
-        values,
-        target: Target::Intensity(measure),
-    })
-}
-
-fn of_path(table: &Table<'_, '_>, context: &Context<'_>) -> Result<Variable> {
-    let reader = table.reader;
-    let place = table.required("path")?;
-    let path = reader.keep(path(&reader, place));
-    let default = path.as_ref().map_or_else(String::new, default_name);
-    let names = match (&path, table.get("name")) {
-        // What it would be called is not known, which is no fault of its name.
-        (None, None) => None,
-        _ => {
-            let title = path.as_ref().map_or_else(String::new, Path::to_string);
-            reader.keep(names(table, &default, &title))
-        }
-    };
-    let entry = path.as_ref().and_then(|path| {
-        let lost = |(message, help): Lost| reader.error(place.span(), message, help);
-        let entry = context
-            .text()
-            .and_then(|text| entry(text, path).map_err(lost));
-        reader.keep(entry)
-    });
-    let tried = context.base.as_ref().zip(path.as_ref().zip(entry));
-    let tried = tried.map(|(base, (path, entry))| Trial {
-        reader,
-        base: &base.case,
-        path,
-        entry,
-        place,
-    });
-    let (values, target) = match first_value(table) {
-        Some(first) if first.get_ref().as_table().is_some() => {
-            models(table, path.as_ref(), tried.as_ref())?
-        }
-        Some(first) if reader.maybe_quantity(first).is_none() => named(table, tried.as_ref())?,
-        _ => counted(table, tried.as_ref())?,
-    };
-    let tried = tried.ok_or(Wrong::Recorded)?;
-    let (name, long_name) = names.ok_or(Wrong::Recorded)?;
-    let numeric = !matches!(values, Values::Choices(_));
-    Ok(Variable {
-        name,
-        long_name,
-        unit: if numeric {
-            unit(table, &tried)
-        } else {
-            String::new()
-        },
-        values,
-        target,
-    })
-}
-
-fn path(reader: &Reader<'_>, place: &Value<'_>) -> Result<Path> {
-    let text = reader.text(place, "path")?;
-    Path::parse(&text).map_err(|reason| {
-        reader.error(
-            place.span(),
-            format!("\"{text}\" is not a path: {reason}"),
-            "write paths such as gap.0.width or building.light.mass.2",
+fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
+    let wrong = |reason| {
+        (
+            format!("\"{}\" is not a path: {reason}", text.value),
+            "write paths such as gap.0.width or building.light.mass.2".to_owned(),
         )
-    })
+    };
+    kept(reader, &text.span, Path::parse(&text.value).map_err(wrong))
 }
 
 /// The name of a variable that states none.
@@ -202,135 +327,126 @@ fn default_name(path: &Path) -> String {
 }
 
 /// Values that are texts of the case, such as methods.
-fn named(table: &Table<'_, '_>, tried: Option<&Trial<'_, '_>>) -> Result<(Values, Target)> {
-    let reader = table.reader;
-    let items = reader.list(table.required("values")?, "values")?;
-    let (labels, texts) = choices(&reader, items)?;
-    let tried = tried.ok_or(Wrong::Recorded)?;
-    tried.values(
-        items
-            .iter()
-            .zip(texts.iter().map(|text| vec![text.clone()])),
-    )?;
-    Ok((Values::Choices(labels), tried.target(texts)))
+fn named(
+    reader: &Reader<'_>,
+    list: List<TableOr<ModelTable, Scalar>>,
+    tried: Option<&Trial<'_>>,
+) -> Option<(Values, Target)> {
+    let choices = all(list.0.into_iter().map(|item| {
+        let Located { value, span } = item.located()?;
+        let text = reader.source[span.clone()].to_owned();
+        match value {
+            TableOr::Value(Scalar::Flag(flag)) => Some((flag.to_string(), text, span)),
+            TableOr::Value(Scalar::Written(written)) if !written.is_plain() => {
+                Some((written.as_written().to_owned(), text, span))
+            }
+            _ => {
+                let wanted = "a text in quotes";
+                let message = format!("`values` must be {wanted}");
+                reader.refuse(span, message, format!("write {wanted}"))
+            }
+        }
+    }))?;
+    let tried = tried?;
+    let texts = choices
+        .iter()
+        .map(|(_, text, span)| (span.clone(), vec![text.clone()]));
+    tried.values(texts)?;
+    let (labels, texts) = choices
+        .into_iter()
+        .map(|(label, text, _)| (label, text))
+        .unzip();
+    Some((Values::Choices(labels), tried.target(texts)))
 }
 
 /// Values that are numbers.
-fn counted(table: &Table<'_, '_>, tried: Option<&Trial<'_, '_>>) -> Result<(Values, Target)> {
-    let reader = table.reader;
-    let (values, places) = numbers(table, &|v, key| Ok(reader.any_quantity(v, key)?.value))?;
-    let tried = tried.ok_or(Wrong::Recorded)?;
-    let texts = places.into_iter().map(|value| {
+fn counted(
+    values: Values,
+    places: Vec<Located<Written>>,
+    tried: &Trial<'_>,
+) -> Option<(Values, Target)> {
+    let texts = places.into_iter().map(|Located { value, span }| {
         // As it is written, so that its unit is checked, and as runs will have it.
-        let number = reader.maybe_quantity(value).map(|q| written(q.value));
-        let texts = std::iter::once(reader.source[value.span()].to_owned()).chain(number);
-        (value, texts.collect())
+        let number = value.any().map(|quantity| written(quantity.value));
+        let given = tried.reader.source[span.clone()].to_owned();
+        (span, std::iter::once(given).chain(number).collect())
     });
     tried.values(texts)?;
-    Ok((values, tried.target(Vec::new())))
-}
-
-fn first_value<'v, 'a>(table: &Table<'v, 'a>) -> Option<&'v Value<'a>> {
-    table.get("values")?.get_ref().as_array()?.first()
-}
-
-/// Names of choices and the texts that they stand for in a case.
-fn choices(reader: &Reader<'_>, items: &[Value<'_>]) -> Result<(Vec<String>, Vec<String>)> {
-    let labels = items.iter().map(|item| match item.get_ref().as_bool() {
-        Some(flag) => Ok(flag.to_string()),
-        None => reader.text(item, "values"),
-    });
-    let texts = items
-        .iter()
-        .map(|item| reader.source[item.span()].to_owned());
-    Ok((reader.all(labels)?, texts.collect()))
+    Some((values, tried.target(Vec::new())))
 }
 
 /// Models with all their options.
 fn models(
-    table: &Table<'_, '_>,
+    reader: &Reader<'_>,
+    list: Located<List<TableOr<ModelTable, Scalar>>>,
     path: Option<&Path>,
-    tried: Option<&Trial<'_, '_>>,
-) -> Result<(Values, Target)> {
-    let reader = table.reader;
-    let list = table.required("values")?;
+    tried: Option<&Trial<'_>>,
+) -> Option<(Values, Target)> {
     let of_gap = |path: &Path| path.table() == "gap" && path.to_string().ends_with(".model");
     if path.is_some_and(|path| !of_gap(path)) {
-        return Err(reader.error(
-            list.span(),
+        return reader.refuse(
+            list.span,
             "tables are values of the model of a gap only",
             "write path = \"gap.0.model\", or give numbers",
-        ));
+        );
     }
-    let items = reader.list(list, "values")?;
     let mut labels: Vec<String> = Vec::new();
-    let texts = reader.all(items.iter().map(|item| {
-        let (label, text) = model(&reader, item)?;
+    let texts = all(list.value.0.into_iter().map(|item| {
+        let Located { value, span } = item.located()?;
+        let TableOr::Table(model) = value else {
+            let message = "give all models as tables, or none";
+            return reader.refuse(span, message, "write { model = \"...\", ... }");
+        };
+        let (label, text) = model.read(reader)?;
         if labels.contains(&label) {
-            return Err(reader.error(
-                item.span(),
-                format!("two values are called \"{label}\""),
-                "add label = \"...\"",
-            ));
+            let message = format!("two values are called \"{label}\"");
+            return reader.refuse(span, message, "add label = \"...\"");
         }
         labels.push(label);
-        Ok((item, text))
+        Some((span, text))
     }))?;
-    let tried = tried.ok_or(Wrong::Recorded)?;
+    let tried = tried?;
     let gap = Path(tried.path.0[..tried.path.0.len() - 1].to_vec());
-    let lost = |(message, help): Lost| reader.error(list.span(), message, help);
-    let (old, header) = options_of_gap(&tried.base.source, &gap).map_err(lost)?;
-    let edits = reader.all(texts.into_iter().map(|(item, text)| {
+    let options = options_of_gap(&tried.base.source, &gap);
+    let (old, header) = kept(reader, &list.span, options)?;
+    let edits = all(texts.into_iter().map(|(span, text)| {
         let removed = old.iter().map(|place| (place.clone(), String::new()));
         let edits: Edits = removed.chain([(header..header, text)]).collect();
-        tried.edits(edits.clone(), item)?;
-        Ok(edits)
+        match tried.refusal(edits.clone()) {
+            Ok(()) => Some(edits),
+            Err(refusal) => tried.wrong(refusal, span),
+        }
     }))?;
-    Ok((Values::Choices(labels), Target::Model { edits }))
+    Some((Values::Choices(labels), Target::Model { edits }))
 }
 
-/// The label of a model, and its lines in a case.
-fn model(reader: &Reader<'_>, item: &Value<'_>) -> Result<(String, String)> {
-    // Keys are those of a gap: the case knows them.
-    let Some(table) = item.get_ref().as_table() else {
-        return Err(reader.error(
-            item.span(),
-            "give all models as tables, or none",
-            "write { model = \"...\", ... }",
-        ));
-    };
-    let (mut text, mut label, mut model) = (String::new(), None, None);
-    for (key, value) in table.iter() {
-        let key = key.get_ref();
-        match key.as_ref() {
-            "label" => label = Some(reader.text(value, "label")?),
-            _ => text.push_str(&format!("\n{key} = {}", &reader.source[value.span()])),
+impl ModelTable {
+    /// The label of a model, and its lines in a case, which knows the keys of its gaps.
+    fn read(self, reader: &Reader<'_>) -> Option<(String, String)> {
+        let mut text = match self.model.span() {
+            Some(place) => format!("\nmodel = {}", &reader.source[place]),
+            None => return None,
+        };
+        for (key, value) in self.parameters.0 {
+            let place = value.span()?;
+            text.push_str(&format!("\n{} = {}", key.value, &reader.source[place]));
         }
-        if key == "model" {
-            model = Some(reader.text(value, "model")?);
-        }
+        let label = self.label.value_or(self.model.value()?)?;
+        Some((label, text))
     }
-    let Some(model) = model else {
-        return Err(reader.error(
-            item.span(),
-            "this says not which model",
-            "add model = \"...\"",
-        ));
-    };
-    Ok((label.unwrap_or(model), text))
 }
 
 /// Tries values in the case.
-struct Trial<'r, 'c> {
+struct Trial<'r> {
     reader: Reader<'r>,
-    base: &'c Case,
-    path: &'c Path,
-    entry: Entry,
+    base: &'r Case,
+    path: &'r Path,
+    entry: CaseEntry,
     /// Where the study names the path.
-    place: &'c Value<'r>,
+    place: Range<usize>,
 }
 
-impl Trial<'_, '_> {
+impl Trial<'_> {
     /// What a variable of these values changes.
     fn target(&self, texts: Vec<String>) -> Target {
         Target::Entry {
@@ -342,42 +458,30 @@ impl Trial<'_, '_> {
 
     /// Tries values, each with its texts. What is wrong with the entry itself is said once,
     /// where the study names it.
-    fn values<'v, 'a: 'v>(
-        &self,
-        values: impl IntoIterator<Item = (&'v Value<'a>, Vec<String>)>,
-    ) -> Result<()> {
+    fn values(&self, values: impl IntoIterator<Item = (Range<usize>, Vec<String>)>) -> Option<()> {
         let mut sound = true;
-        for (value, texts) in values {
-            for text in texts {
-                match self.refusal(vec![self.entry.with(&text)]) {
-                    Ok(()) => {}
-                    Err(refusal) if refusal.of_key => return Err(self.wrong(refusal, self.place)),
-                    Err(refusal) => {
-                        sound = false;
-                        self.reader.check(Err(self.wrong(refusal, value)));
-                        break;
-                    }
+        for (place, texts) in values {
+            let refused = |text: &String| self.refusal(vec![self.entry.with(text)]).err();
+            match texts.iter().find_map(refused) {
+                None => {}
+                Some(refusal) if refusal.of_key => return self.wrong(refusal, self.place.clone()),
+                Some(refusal) => {
+                    sound = false;
+                    self.wrong::<()>(refusal, place);
                 }
             }
         }
-        if sound { Ok(()) } else { Err(Wrong::Recorded) }
+        sound.then_some(())
     }
 
-    /// Tries the case with these edits.
-    fn edits(&self, edits: Edits, place: &Value<'_>) -> Result<()> {
-        let refused = self.refusal(edits);
-        refused.map_err(|refusal| self.wrong(refusal, place))
-    }
-
-    fn wrong(&self, refusal: Refusal, place: &Value<'_>) -> Wrong {
+    fn wrong<T>(&self, refusal: Refusal, place: Range<usize>) -> Option<T> {
         let Refusal { message, help, .. } = refusal;
         let message = format!("the case refuses this for `{}`: {message}", self.path);
-        self.reader
-            .error(place.span(), message, help.unwrap_or_default())
+        self.reader.refuse(place, message, help.unwrap_or_default())
     }
 
     /// Reads and assembles the case with these edits, without its record.
-    fn refusal(&self, edits: Edits) -> std::result::Result<(), Refusal> {
+    fn refusal(&self, edits: Edits) -> Result<(), Refusal> {
         // An entry that the case leaves out brings its key with it.
         let key = self.entry.span.start..self.entry.span.start + self.entry.before.len();
         let of_text = |e: CaseError| Refusal {
@@ -413,22 +517,16 @@ struct Refusal {
 
 /// Unit of the numbers of a variable: that of its texts, or that of the entry in the
 /// case; empty if neither states one.
-fn unit(table: &Table<'_, '_>, tried: &Trial<'_, '_>) -> String {
-    let reader = table.reader;
-    let list = table.get("values").and_then(|v| v.get_ref().as_array());
-    let items = list.into_iter().flatten();
-    let ends = ["from", "to"].into_iter().filter_map(|k| table.get(k));
-    let mut stated = items
-        .chain(ends)
-        .filter_map(|v| reader.maybe_quantity(v)?.dimension);
-    if let Some(dimension) = stated.next() {
-        return unit_of(dimension);
-    }
-    known_dimension(tried).map_or_else(String::new, unit_of)
+fn unit_of_numbers(places: &[Located<Written>], tried: &Trial<'_>) -> String {
+    let mut stated = places
+        .iter()
+        .filter_map(|p| p.value.clone().any().ok()?.dimension);
+    let dimension = stated.next().or_else(|| known_dimension(tried));
+    dimension.map_or_else(String::new, unit_of)
 }
 
 /// Dimension of an entry by its key, for the entries that studies vary most.
-fn known_dimension(tried: &Trial<'_, '_>) -> Option<Dimension> {
+fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
     let text = tried.path.to_string();
     let words: Vec<&str> = text
         .split('.')

@@ -244,15 +244,15 @@ fn every_command_has_its_line() {
 }
 
 /// Keys of a part of the JSON Schema, and of all parts in it.
-fn keys(schema: &serde_json::Value, found: &mut BTreeSet<String>) {
+fn keys(schema: &Value, found: &mut BTreeSet<String>) {
     match schema {
-        serde_json::Value::Object(map) => {
-            if let Some(serde_json::Value::Object(properties)) = map.get("properties") {
+        Value::Object(map) => {
+            if let Some(Value::Object(properties)) = map.get("properties") {
                 found.extend(properties.keys().cloned());
             }
             map.values().for_each(|value| keys(value, found));
         }
-        serde_json::Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
+        Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
         _ => {}
     }
 }

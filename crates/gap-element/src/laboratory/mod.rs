@@ -1,5 +1,5 @@
 //! The laboratory: impact models with the values of their examples, put through collisions of
-//! two bodies ([`crate::collide_with`], [`crate::restitution_table`]) and held against measured
+//! two bodies ([`crate::collide_with`], [`crate::restitution_table()`]) and held against measured
 //! contact forces ([`MeasuredForce`]).
 
 mod measured;

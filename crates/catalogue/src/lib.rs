@@ -37,6 +37,9 @@
 //! # Ok::<(), pounding_catalogue::DefinitionError>(())
 //! ```
 
+/// Standard gravity (m/s2): the third General Conference on Weights and Measures (1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
 pub mod numbers;
 pub mod suggestion;
 pub mod wording;

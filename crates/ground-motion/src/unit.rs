@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+use pounding_catalogue::STANDARD_GRAVITY;
+
 use crate::error::GroundMotionError;
 
 /// A unit of acceleration.
@@ -27,7 +29,7 @@ impl AccelerationUnit {
     pub fn in_si(self) -> f64 {
         match self {
             Self::MetrePerSecondSquared => 1.0,
-            Self::StandardGravity => 9.80665,
+            Self::StandardGravity => STANDARD_GRAVITY,
             Self::Gal => 0.01,
             Self::MillimetrePerSecondSquared => 0.001,
             Self::InchPerSecondSquared => 0.0254,

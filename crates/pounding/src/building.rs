@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 
 use crate::error::Error;
 use crate::law::Law;
 use crate::units::{Length, Mass, Stiffness, Velocity};
-
-/// Acceleration of gravity that acts through P-Delta (m/s2).
-const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// One storey: the floor above it, and what carries that floor.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,11 @@
 //! Quantities with units, so that a mass cannot be taken for a stiffness.
 
+use pounding_catalogue::STANDARD_GRAVITY;
+
 /// Declares quantities: their SI unit, and the units that they may be given in. Parts of a unit
 /// are divided by, so that 9 mm is the number nearest to 0.009 m.
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident($si:ident) { $($(#[$unit_doc:meta])* $unit:ident: $factor:literal $(/ $divisor:literal)?),+ $(,)? })+) => {$(
+    ($($(#[$doc:meta])* $name:ident($si:ident) { $($(#[$unit_doc:meta])* $unit:ident: $factor:tt $(/ $divisor:literal)?),+ $(,)? })+) => {$(
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
         pub struct $name(f64);
@@ -70,7 +72,7 @@ quantities! {
     Acceleration(metres_per_second_squared) {
         /// In m/s2.
         metres_per_second_squared: 1.0,
-        /// In standard gravities of 9.80665 m/s2.
-        gravities: 9.806_65,
+        /// In standard gravities (9.80665 m/s2).
+        gravities: STANDARD_GRAVITY,
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::Arc;
 
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
 use pounding_shear_building::{Damping, DampingMatrix, Modes, ShearBuilding};
@@ -28,7 +29,6 @@ pub(crate) const APPROACH_VELOCITY: f64 = 0.5;
 const ISOLATOR: (f64, f64) = (0.2, 0.7);
 /// Steps times floors from which a run takes long enough to say so.
 const LONG_RUN: f64 = 1.0e9;
-const GRAVITY: f64 = 9.80665;
 
 /// Something that is possible, but more often a mistake.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,7 +143,7 @@ impl fmt::Display for Warning {
             Self::GroundAcceleration { peak } => write!(
                 f,
                 "the peak ground acceleration is {} g, more than the {GROUND_ACCELERATION} g that the strongest records reach: are unit and scale of the record right?",
-                short(peak / GRAVITY)
+                short(peak / STANDARD_GRAVITY)
             ),
             Self::DampingInIsolator {
                 building,
@@ -318,7 +318,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
     warnings.extend(system.unequal_floor_warnings());
     let samples = system.ground().samples.iter();
     let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
-    if peak > GROUND_ACCELERATION * GRAVITY {
+    if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
         warnings.push(Warning::GroundAcceleration { peak });
     }
     let duration = options.duration.unwrap_or_else(|| system.record_duration());

@@ -7,7 +7,8 @@ pub use again::{assemble_with_record, regap};
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Damping, Errors, Gap, Located, Side};
+use pounding_case::{Building, Case, CaseError, Errors, Gap, Located, Side};
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::suggestion;
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
@@ -200,35 +201,14 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
         })
 }
 
-/// Acceleration of gravity that acts through P-Delta (m/s2).
-const STANDARD_GRAVITY: f64 = 9.80665;
-
 fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
-    let damping = match b.damping.value.clone() {
-        Damping::Rayleigh { alpha, beta } => {
-            pounding_shear_building::Damping::Rayleigh { alpha, beta }
-        }
-        Damping::RayleighRatio { ratio, modes } => {
-            pounding_shear_building::Damping::RayleighRatio { ratio, modes }
-        }
-        Damping::StiffnessProportional { ratio } => {
-            pounding_shear_building::Damping::StiffnessProportional { ratio }
-        }
-        Damping::MassProportional { ratio } => {
-            pounding_shear_building::Damping::MassProportional { ratio }
-        }
-        Damping::Modal { ratios } => pounding_shear_building::Damping::Modal { ratios },
-        Damping::Dashpots { coefficients } => {
-            pounding_shear_building::Damping::Dashpots { coefficients }
-        }
-    };
     let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
     let building = ShearBuilding::under_gravity(
         b.name.value.clone(),
         b.mass.clone(),
         b.stiffness.clone(),
         b.height.clone(),
-        damping,
+        b.damping.value.clone(),
         gravity,
     )
     .map_err(|e| {

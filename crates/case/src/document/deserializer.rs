@@ -60,6 +60,9 @@ enum Held<'r> {
 /// What enums of words expect by `#[serde(expecting)]`; others are tables.
 const WORD: &str = "a text in quotes";
 
+/// What counts expect.
+const WHOLE: &str = "a whole number";
+
 /// The name of a key or table in a message.
 pub(super) fn quoted(name: &str) -> String {
     match name.contains('`') {
@@ -143,7 +146,9 @@ impl<'r> Value<'r> {
             Ok(value) => match value.get_ref() {
                 DeValue::String(text) => Unexpected::Str(text),
                 DeValue::Boolean(flag) => Unexpected::Bool(*flag),
-                DeValue::Integer(_) | DeValue::Float(_) => Unexpected::Signed(0),
+                DeValue::Integer(_) => Unexpected::Signed(0),
+                DeValue::Float(_) if wanted == WHOLE => Unexpected::Other("one with a fraction"),
+                DeValue::Float(_) => Unexpected::Float(0.0),
                 DeValue::Datetime(_) => Unexpected::Other("a date"),
                 DeValue::Array(_) => Unexpected::Seq,
                 DeValue::Table(_) => Unexpected::Map,
@@ -221,7 +226,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
     }
 
     fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        self.only(DeValue::is_integer, self.wanted("a whole number"), visitor)
+        self.only(DeValue::is_integer, self.wanted(WHOLE), visitor)
     }
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

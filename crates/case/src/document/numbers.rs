@@ -318,7 +318,7 @@ impl<'de, D: Dimensioned, R: Within> Deserialize<'de> for Amount<D, R> {
 pub struct Count<const LEAST: usize, const MOST: usize = LARGEST_COUNT>(pub usize);
 
 /// Largest number of storeys, lines to skip and the like: far above any use, and small enough
-/// that a slip of the pen does not fill the memory.
+/// that a mistyped number does not fill the memory.
 const LARGEST_COUNT: usize = 100_000;
 
 impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Count<LEAST, MOST> {

@@ -15,6 +15,7 @@ use crate::process::ProcessStep;
 use crate::units::Quantity;
 
 pub use laws::{LawParameter, Link, StoreyLaw};
+pub use pounding_shear_building::Damping;
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -93,45 +94,6 @@ pub struct Building {
     pub p_delta: bool,
     /// Damping.
     pub damping: Located<Damping>,
-}
-
-/// Damping as written.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Damping {
-    /// `{ rayleigh = { alpha, beta } }` in 1/s and s.
-    Rayleigh {
-        /// Mass factor.
-        alpha: f64,
-        /// Stiffness factor.
-        beta: f64,
-    },
-    /// `{ ratio, modes }`.
-    RayleighRatio {
-        /// Ratio in both modes.
-        ratio: f64,
-        /// The two modes, from 1.
-        modes: [usize; 2],
-    },
-    /// `{ stiffness_proportional }`: ratio in mode 1.
-    StiffnessProportional {
-        /// Ratio.
-        ratio: f64,
-    },
-    /// `{ mass_proportional }`: ratio in mode 1.
-    MassProportional {
-        /// Ratio.
-        ratio: f64,
-    },
-    /// `{ modal }`: a ratio per mode.
-    Modal {
-        /// Ratios.
-        ratios: Vec<f64>,
-    },
-    /// `{ dashpots }`: a coefficient per storey (N s/m).
-    Dashpots {
-        /// Coefficients.
-        coefficients: Vec<f64>,
-    },
 }
 
 /// One end of a gap.

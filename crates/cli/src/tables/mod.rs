@@ -14,8 +14,8 @@ use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
 
-/// Standard gravity (m/s2), the unit of accelerations on the screen.
-pub const G: f64 = 9.806_65;
+/// The unit of accelerations on the screen (m/s2).
+pub use pounding_catalogue::STANDARD_GRAVITY as G;
 
 /// A run that has ended, to be shown.
 pub struct Run<'a> {

@@ -15,8 +15,7 @@ pub use duration::Husid;
 pub use motion::GroundMotion;
 pub(crate) use motion::integrate;
 
-/// Standard gravity (m/s2, ISO 80000-3).
-pub(crate) const GRAVITY: f64 = 9.806_65;
+pub(crate) use pounding_catalogue::STANDARD_GRAVITY as GRAVITY;
 
 /// Constants that measures are defined with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

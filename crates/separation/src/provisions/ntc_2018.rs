@@ -1,12 +1,11 @@
 //! Norme Tecniche per le Costruzioni 2018.
 
+use pounding_catalogue::STANDARD_GRAVITY;
+
 use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::working::Working;
-
-/// Standard gravity (m/s2).
-const GRAVITY: f64 = 9.806_65;
 
 fn sum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
     Ok(working.displacement(&situation.left)? + working.displacement(&situation.right)?)
@@ -16,7 +15,7 @@ fn minimum(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     let given = situation.site.design_ground_acceleration;
     let acceleration = working.need(given, Input::DesignGroundAcceleration, "")?;
     let acceleration = working.note("a_g S", acceleration, "m/s2");
-    let ratio = (2.0 * acceleration / GRAVITY).min(1.0);
+    let ratio = (2.0 * acceleration / STANDARD_GRAVITY).min(1.0);
     let ratio = working.note("min(1, 2 a_g S / g)", ratio, "-");
     Ok(0.01 * working.elevation(situation.elevation) * ratio)
 }
@@ -66,7 +65,7 @@ mod tests {
             right: structure(0.06),
             elevation: 9.0,
             site: Site {
-                design_ground_acceleration: Some(acceleration * 9.806_65),
+                design_ground_acceleration: Some(acceleration * STANDARD_GRAVITY),
                 ..Site::default()
             },
         };

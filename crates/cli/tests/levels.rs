@@ -349,8 +349,8 @@ fn a_level_is_known_by_its_storeys_and_elevations() {
     ] {
         let said = bench.text(command);
         let row = |label: &str| said.lines().find(|l| l.contains(label)).unwrap_or(&said);
-        assert!(row(" 5-2 ").contains("15.3 | 6"), "{command}: {said}");
-        assert!(row(" 2-wall ").contains("6 | wall"), "{command}: {said}");
+        assert!(row(" 5-2 ").contains("15.3 / 6"), "{command}: {said}");
+        assert!(row(" 2-wall ").contains("6 / wall"), "{command}: {said}");
     }
     bench.text("report run.h5 -o run.html");
     let page = std::fs::read_to_string(bench.path("run.html")).unwrap();

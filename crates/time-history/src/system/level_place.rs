@@ -21,10 +21,10 @@ impl LevelPlace {
         self.storeys.map(or_wall).join("-")
     }
 
-    /// Left and right elevation (m), `9 | 9`, or `9 | wall`.
+    /// Left and right elevation (m), `9 / 9`, or `9 / wall`.
     #[must_use]
     pub fn elevations_label(&self) -> String {
-        self.elevations.map(or_wall).join(" | ")
+        self.elevations.map(or_wall).join(" / ")
     }
 
     /// Elevation of the left floor, or of the right one beside a wall on the left (m).
@@ -85,7 +85,7 @@ mod tests {
             elevations: [Some(12.0), Some(3.06)],
         };
         assert_eq!(place.label(), "4-1");
-        assert_eq!(place.elevations_label(), "12 | 3.06");
+        assert_eq!(place.elevations_label(), "12 / 3.06");
         assert_eq!(place.to_string(), "4-1 (12 m | 3.06 m)");
         assert!(!place.is_level(0.01) && place.is_level(9.0));
         let wall = LevelPlace {

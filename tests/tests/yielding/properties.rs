@@ -181,3 +181,24 @@ fn lasting_contact_beside_a_link() {
     assert!(outcome.gaps[0].levels.iter().any(|l| l.sticks > 0));
     assert!(outcome.energy.residual_ratio < 1.0e-9);
 }
+
+/// A Menegotto-Pinto storey that reaches, at one sample, the deformation at which an
+/// estimate of the error of its work vanished by chance.
+#[test]
+fn work_of_a_curved_law_is_exact_everywhere() {
+    let pair = Pair {
+        laws: [4, 2],
+        strength: [0.202_161_913_003_082_83, 0.438_357_667_443_555_5],
+        period: [0.520_761_075_056_433_2, 0.309_405_609_919_355_56],
+        width: 0.018_890_778_974_695_557,
+        rigid: false,
+        linked: true,
+    };
+    let outcome = go(
+        &pair.system(false, pair.width, &el_centro()),
+        ADAPTIVE,
+        DURATION,
+    );
+    let ratio = outcome.energy.residual_ratio;
+    assert!(ratio < 1.0e-9, "{:?}", outcome.energy);
+}

@@ -237,7 +237,7 @@ fn output_that_cannot_be_written_is_told_apart() {
 #[test]
 fn deformations_that_cannot_be_followed_are_refused() {
     // The descriptors' examples yield at 10 mm.
-    for law in ["bouc_wen", "baber_noori_1985", "menegotto_pinto_1973"] {
+    for law in ["bouc_wen", "baber_noori_1985"] {
         refused(
             &format!("{law} --set yield_force=2e5 --set stiffness=2e7 --cycles 5000m"),
             &[

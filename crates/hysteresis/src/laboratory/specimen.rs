@@ -14,8 +14,6 @@ use crate::registry::build;
 /// work grows with it, for exponents above this one in proportion to them as well.
 const LONGEST: f64 = 2.0e6;
 const USUAL_EXPONENT: f64 = 2.0;
-/// Law whose energy is an integral along its path, without internal variables.
-const INTEGRATED_ENERGY: &str = "menegotto_pinto_1973";
 
 /// A law with its parameters.
 pub struct Specimen {
@@ -147,7 +145,7 @@ impl Specimen {
             return Ok(());
         };
         let law = self.descriptor.name;
-        let integrated = self.law.internal_variables() > 0 || law == INTEGRATED_ENERGY;
+        let integrated = self.law.internal_variables() > 0;
         let sharper = value("exponent").map_or(1.0, |n| (n / USUAL_EXPONENT).max(1.0));
         let (ratio, most) = (length * stiffness / yield_force, LONGEST / sharper);
         if !integrated || ratio <= most {

@@ -78,6 +78,11 @@ fn the_case_itself_runs() {
     );
     // The method was not asked for: what happens in its place is said.
     assert!(text.contains("adaptive pair"), "{text}");
+    // Straight branches are followed exactly.
+    let output = run(&case(LAW, ""), &[]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("exact between events"), "{text}");
+    assert!(!text.contains("adaptive pair"), "{text}");
 }
 
 #[test]

@@ -70,6 +70,14 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// Whether on every branch that can be held the force is an affine function of
+    /// deformation and velocity, whatever the internal variables, which only account for
+    /// what the motion does: between two changes of branch the element is a spring and a
+    /// dashpot with constant coefficients.
+    fn is_piecewise_linear(&self) -> bool {
+        false
+    }
+
     /// Derivative of the force by the deformation before anything happened (N/m):
     /// for a rate-dependent law that of an infinitely fast start.
     fn initial_stiffness(&self) -> f64;

@@ -20,6 +20,11 @@ pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
 
     fn begin(&self) -> History;
 
+    /// Whether all branches are straight.
+    fn straight(&self) -> bool {
+        true
+    }
+
     /// Force and its slope on the held branch; straight unless the law says more.
     fn on_branch(&self, history: &History, deformation: f64) -> (f64, f64) {
         let branch = &history.branch;
@@ -83,6 +88,9 @@ impl<L: PathLaw> HysteresisLaw for L {
     }
     fn is_linear(&self) -> bool {
         self.linear()
+    }
+    fn is_piecewise_linear(&self) -> bool {
+        self.straight()
     }
     fn initial_stiffness(&self) -> f64 {
         self.stiffness_when_new()

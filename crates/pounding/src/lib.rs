@@ -114,9 +114,8 @@
 //! let motion = GroundMotion::read("ground_motions/el_centro_1940_ns.csv")?;
 //! let simulation = Simulation::of([left, building("right")]).gap(gap).link(damper);
 //! let simulation = simulation.ground_motion(motion).duration(Time::seconds(5.0));
-//! // Storeys that yield and dampers are integrated by the adaptive pair.
-//! let method = MethodChoice::Adaptive { relative_tolerance: 1e-10 };
-//! let outcome = simulation.method(method).run()?;
+//! // The default method: exact from event to event, also where storeys yield.
+//! let outcome = simulation.run()?;
 //! assert_eq!(outcome.links[0].levels.len(), 1);
 //! # Ok(())
 //! # }

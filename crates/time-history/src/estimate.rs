@@ -115,7 +115,7 @@ impl StepEstimate {
     #[must_use]
     pub fn new(system: &System, method: &MethodChoice, duration: f64) -> Self {
         let ground = system.ground().time_step;
-        let linear = system.elements().is_empty();
+        let exact = system.first_curved_element().is_none();
         let by_rate = |longest: f64| {
             let rates = system.buildings().iter();
             let rates = rates.map(|b| (fastest_rate(std::slice::from_ref(b)), b.name()));
@@ -128,9 +128,10 @@ impl StepEstimate {
             (longest / rate, limit)
         };
         let (step, limit) = match *method {
-            MethodChoice::EventDriven { .. } if linear => by_rate(SERIES),
             MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
-                let (buildings, elements) = (by_rate(STABLE), by_element(system));
+                let series = exact && matches!(method, MethodChoice::EventDriven { .. });
+                let longest = if series { SERIES } else { STABLE };
+                let (buildings, elements) = (by_rate(longest), by_element(system, longest));
                 match elements {
                     Some(elements) if elements.0 < buildings.0 => elements,
                     _ => buildings,
@@ -168,8 +169,9 @@ impl StepEstimate {
     }
 }
 
-/// Stable steps of the pair of order 8 on the stiffest storey or link that follows a law.
-fn by_element(system: &System) -> Option<(f64, StepLimit)> {
+/// Steps on the stiffest storey or link that follows a law, whose product with its rate is
+/// `longest`.
+fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     let rate = |element: &Element| {
         let added = (element.law.initial_stiffness() - element.carried).max(0.0);
         let ends = [element.far, element.near].into_iter().flatten();
@@ -181,7 +183,7 @@ fn by_element(system: &System) -> Option<(f64, StepLimit)> {
         place: system.place_of_element(index),
         period: TAU / rate,
     };
-    (rate > 0.0).then(|| (STABLE / rate, limit))
+    (rate > 0.0).then(|| (longest / rate, limit))
 }
 
 /// Refuses contacts that round-off of the time would lose: those that would stop a floor

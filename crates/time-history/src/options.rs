@@ -22,7 +22,8 @@ pub enum MethodChoice {
         relative_tolerance: f64,
     },
     /// Exact between impacts, a Taylor series to round-off in contacts whose law is
-    /// affine, the adaptive pair in all others.
+    /// affine and while storeys and links are on straight branches of their laws, the
+    /// adaptive pair in all others.
     EventDriven {
         /// Relative tolerance of the adaptive pair (-).
         relative_tolerance: f64,

@@ -115,7 +115,7 @@ pub enum Warning {
     },
     /// The event-driven method left a run to the adaptive pair.
     AdaptiveInPlace {
-        /// The first storey or link with a law.
+        /// The first storey or link whose law is not linear between changes of branch.
         place: String,
     },
 }
@@ -209,7 +209,7 @@ impl fmt::Display for Warning {
             ),
             Self::AdaptiveInPlace { place } => write!(
                 f,
-                "{place} follows a law: in place of exact steps, which are for linear storeys without links, the whole run was made by the adaptive pair 8(5,3), which locates every event as well"
+                "{place} follows a law that is not linear between changes of branch: in place of exact steps the whole run was made by the adaptive pair 8(5,3), which locates every event as well"
             ),
         }
     }
@@ -263,8 +263,8 @@ impl Warning {
     ) -> Vec<Self> {
         let mut warnings = standing(system, options);
         let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
-        if event_driven && !system.elements().is_empty() {
-            let place = system.place_of_element(0);
+        if let (true, Some(curved)) = (event_driven, system.first_curved_element()) {
+            let place = system.place_of_element(curved);
             warnings.push(Self::AdaptiveInPlace { place });
         }
         let met = |l: usize| {

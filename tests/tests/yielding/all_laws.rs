@@ -6,7 +6,9 @@ use std::sync::Arc;
 use pounding_hysteresis::{LawParameters, descriptors};
 use pounding_time_history::{Floor, LinkedPair, System};
 
-use super::setup::{ADAPTIVE, building, difference, el_centro, go, law, newmark};
+use super::setup::{
+    ADAPTIVE, EVENT_DRIVEN, TIGHT, building, difference, el_centro, go, law, newmark,
+};
 
 /// Seconds of El Centro.
 const DURATION: f64 = 6.0;
@@ -72,6 +74,30 @@ fn check(law: &str, system: &System) {
     );
     assert!(energy.residual_ratio < 1.0e-7, "{law}: {energy:?}");
     assert!(worst < 2.0e-4, "{law}: {worst}");
+    // The event-driven method goes by series where all branches are straight.
+    let (by_events, tight) = (
+        go(system, EVENT_DRIVEN, DURATION),
+        go(system, TIGHT, DURATION),
+    );
+    let straight = system
+        .elements()
+        .iter()
+        .all(|e| e.law.is_piecewise_linear());
+    let worst = difference(&by_events, &tight);
+    println!(
+        "    event-driven: peaks {worst:.1e}, residual {:.1e}, {:?}",
+        by_events.energy.residual_ratio, by_events.statistics
+    );
+    assert!(
+        worst < if straight { 1.0e-9 } else { 1.0e-7 },
+        "{law}: {worst}"
+    );
+    let title = by_events.method.title;
+    assert_eq!(straight, title.contains("exact"), "{law}: {title}");
+    if straight {
+        let residual = by_events.energy.residual_ratio;
+        assert!(residual < 1.0e-11, "{law}: {residual}");
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 mod all_laws;
 mod convergence;
+mod event_driven;
 mod exact_oscillator;
 mod p_delta;
 mod properties;

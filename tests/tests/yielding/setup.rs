@@ -112,6 +112,16 @@ pub const ADAPTIVE: MethodChoice = MethodChoice::Adaptive {
     relative_tolerance: pounding_time_history::DEFAULT_RELATIVE_TOLERANCE,
 };
 
+/// The event-driven method at its default tolerance.
+pub const EVENT_DRIVEN: MethodChoice = MethodChoice::EventDriven {
+    relative_tolerance: pounding_time_history::DEFAULT_RELATIVE_TOLERANCE,
+};
+
+/// The explicit pair at a tolerance that leaves round-off.
+pub const TIGHT: MethodChoice = MethodChoice::Adaptive {
+    relative_tolerance: 1.0e-13,
+};
+
 /// Newmark's average acceleration with this step (s).
 pub fn newmark(step: f64) -> MethodChoice {
     MethodChoice::Newmark {

@@ -142,8 +142,9 @@ pub(super) fn laws(building: &ShearBuilding) -> String {
 
 /// What the event-driven method does where a storey or a link follows a law.
 pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static str {
-    if case.analysis.method.value == "event_driven" && !system.elements().is_empty() {
-        " (by the adaptive pair 8(5,3), since storeys or links follow laws)"
+    let curved = system.first_curved_element().is_some();
+    if case.analysis.method.value == "event_driven" && curved {
+        " (by the adaptive pair 8(5,3), since laws of storeys or links are not linear between changes of branch)"
     } else {
         ""
     }

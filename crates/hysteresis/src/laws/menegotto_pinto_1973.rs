@@ -243,6 +243,9 @@ impl PathLaw for MenegottoPinto {
         }; 2];
         history
     }
+    fn straight(&self) -> bool {
+        false
+    }
     fn on_branch(&self, history: &History, deformation: f64) -> (f64, f64) {
         let curve = self.curve(history);
         let (k, r) = (self.stiffness, self.hardening_ratio);

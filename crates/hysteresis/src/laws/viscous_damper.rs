@@ -100,6 +100,9 @@ impl HysteresisLaw for ViscousDamper {
     fn is_linear(&self) -> bool {
         self.exponent == 1.0
     }
+    fn is_piecewise_linear(&self) -> bool {
+        self.is_linear()
+    }
     fn initial_stiffness(&self) -> f64 {
         0.0
     }

@@ -11,10 +11,13 @@ pub(crate) const TERMS: usize = 60;
 /// Terms smaller than this (m, m/s) end the series.
 const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
 
-/// A closed contact whose force is `at_rest + stiffness u + dashpot v`, with the
-/// displacement `u` and velocity `v` of its left floor relative to its right one.
+/// A closed contact, or a storey or link on a straight branch of its law, whose force is
+/// `at_rest + stiffness u + dashpot v`, with the displacement `u` and velocity `v` of its
+/// left floor relative to its right one. What the matrices of the buildings carry of an
+/// element is left out.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct AffineContact {
+pub(crate) struct Spring {
+    /// The level of a contact; of no use for an element.
     pub level: usize,
     pub left: Option<usize>,
     pub right: Option<usize>,
@@ -23,11 +26,32 @@ pub(crate) struct AffineContact {
     pub dashpot: f64,
 }
 
-impl AffineContact {
+impl Spring {
     /// Its force from term number `k - 1`.
     pub(crate) fn term(&self, k: usize, u: f64, v: f64) -> f64 {
         let constant = if k == 1 { self.at_rest } else { 0.0 };
         constant + self.stiffness * u + self.dashpot * v
+    }
+
+    /// Adds that force, times a factor of the floor, to its floors: it pushes them apart.
+    /// Displacements and velocities stand from the place `first` on.
+    #[inline(always)]
+    pub(crate) fn push(
+        &self,
+        (k, first): (usize, usize),
+        (u, v): (&[f64], &[f64]),
+        factor: impl Fn(usize) -> f64,
+        out: &mut [f64],
+    ) {
+        let at = |x: &[f64], floor: Option<usize>| floor.map_or(0.0, |i| x[first + i]);
+        let relative = |x: &[f64]| at(x, self.left) - at(x, self.right);
+        let force = self.term(k, relative(u), relative(v));
+        if let Some(l) = self.left {
+            out[l] -= force * factor(l);
+        }
+        if let Some(r) = self.right {
+            out[r] += force * factor(r);
+        }
     }
 }
 
@@ -130,7 +154,7 @@ impl Chain {
     /// ground acceleration and its change over the step. Returns the number of terms.
     pub(crate) fn sum(
         &mut self,
-        contacts: &[AffineContact],
+        springs: &[Spring],
         load: [f64; 2],
         h: f64,
         start: (&[f64], &[f64]),
@@ -139,7 +163,7 @@ impl Chain {
         self.u[1..=n].copy_from_slice(start.0);
         self.v[1..=n].copy_from_slice(start.1);
         self.sums.begin(start.0, start.1);
-        series(self, contacts, load, h)
+        series(self, springs, load, h)
     }
 }
 
@@ -149,13 +173,14 @@ impl Chain {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn series(chain: &mut Chain, contacts: &[AffineContact], load: [f64; 2], h: f64) -> u64 {
+fn series(chain: &mut Chain, springs: &[Spring], load: [f64; 2], h: f64) -> u64 {
     let n = chain.acceleration.len();
     for k in 1..TERMS {
         let a = &mut chain.acceleration[..n];
         chain.bands.resist(&chain.u, &chain.v, a);
-        for contact in contacts {
-            push(contact, k, &chain.u, &chain.v, &chain.inverse_mass, a);
+        for spring in springs {
+            let (motion, inverse_mass) = ((&*chain.u, &*chain.v), &chain.inverse_mass);
+            spring.push((k, 1), motion, |i| inverse_mass[i], a);
         }
         let ground = load.get(k - 1).copied().unwrap_or(0.0);
         let scale = h / k as f64;
@@ -171,25 +196,4 @@ fn series(chain: &mut Chain, contacts: &[AffineContact], load: [f64; 2], h: f64)
         }
     }
     TERMS as u64
-}
-
-/// Pushes the floors of a contact apart.
-#[inline(always)]
-fn push(
-    contact: &AffineContact,
-    k: usize,
-    u: &[f64],
-    v: &[f64],
-    inverse_mass: &[f64],
-    a: &mut [f64],
-) {
-    let at = |x: &[f64], floor: Option<usize>| floor.map_or(0.0, |i| x[i + 1]);
-    let relative = |x: &[f64]| at(x, contact.left) - at(x, contact.right);
-    let force = contact.term(k, relative(u), relative(v));
-    if let Some(l) = contact.left {
-        a[l] -= force * inverse_mass[l];
-    }
-    if let Some(r) = contact.right {
-        a[r] += force * inverse_mass[r];
-    }
 }

@@ -4,7 +4,7 @@ use super::taylor::Taylor;
 use super::{Adaptive, Context, Counts, Information, Method, Verdict};
 use crate::estimate::SERIES;
 use crate::polynomial::Polynomial;
-use crate::rates::fastest_rate;
+use crate::rates::{Rates, fastest_rate};
 use crate::system::System;
 
 /// Maximum product of rate and step for the Taylor series, for the fastest mode
@@ -14,7 +14,8 @@ use crate::system::System;
 const LONGEST: (f64, f64) = (SERIES, 0.4);
 
 /// Contact-free motion by the exact step of the modes (`contact_free`), a Taylor series to
-/// round-off while all closed contacts are affine, the adaptive pair for the others.
+/// round-off while all closed contacts are affine and all storeys and links that follow
+/// laws are on straight branches, the adaptive pair for the others.
 #[derive(Debug, Clone)]
 pub(crate) struct EventDriven {
     taylor: Taylor,
@@ -24,8 +25,11 @@ pub(crate) struct EventDriven {
     /// Circular frequency of the stiffest closed contact (rad/s).
     contact: f64,
     by_series: bool,
-    /// Whether no storey and no link has a memory.
+    /// Whether no storey and no link has a memory, and whether all that have one are linear
+    /// between changes of branch.
     linear: bool,
+    piecewise_linear: bool,
+    rates: Rates,
     /// Whether the next step can be a Taylor series.
     affine: bool,
 }
@@ -39,13 +43,15 @@ impl EventDriven {
             contact: 0.0,
             by_series: false,
             linear: system.elements().is_empty(),
+            piecewise_linear: system.first_curved_element().is_none(),
+            rates: Rates::new(system),
             affine: true,
         }
     }
 
     /// Shortest wavelength of what follows, and whether the series can follow it.
     fn look_at(&mut self, context: &Context<'_, '_>) {
-        self.affine = Taylor::applies(context);
+        self.affine = self.piecewise_linear && Taylor::applies(context);
         self.contact = 0.0;
         if !self.affine {
             return;
@@ -66,10 +72,10 @@ impl Method for EventDriven {
     fn information(&self) -> Information {
         Information {
             name: "event_driven",
-            title: if self.linear {
-                "event-driven, exact between impacts"
-            } else {
-                "event-driven, adaptive Runge-Kutta 8(5,3) between events"
+            title: match (self.linear, self.piecewise_linear) {
+                (true, _) => "event-driven, exact between impacts",
+                (_, true) => "event-driven, exact between events",
+                _ => "event-driven, adaptive Runge-Kutta 8(5,3) between events",
             },
             order: pounding_runge_kutta::ORDER,
             implicit: false,
@@ -83,7 +89,11 @@ impl Method for EventDriven {
             return self.pair.propose(context, tau, state);
         }
         let rest = context.segment.length - tau;
-        let fastest = (self.fastest / LONGEST.0).max(self.contact / LONGEST.1);
+        let fastest = if self.linear {
+            (self.fastest / LONGEST.0).max(self.contact / LONGEST.1)
+        } else {
+            self.rates.at(context, state) / LONGEST.0
+        };
         let parts = (rest * fastest).ceil().max(1.0);
         rest / parts
     }

@@ -2,7 +2,7 @@
 //! damping matrix is full: a term then costs a few operations a mode, where the damping
 //! forces of the floors would cost the square of their number.
 
-use super::chain::{AffineContact, Sums, TERMS};
+use super::chain::{Spring, Sums, TERMS};
 use crate::contact_episode::LevelRows;
 use crate::contact_free::{
     ContactFree, Four, Lane, WIDTH, gather, spread, transform, transform_fours,
@@ -45,10 +45,11 @@ pub(crate) struct ModalSeries {
 }
 
 impl ModalSeries {
-    /// `None` where buildings are small, or where modes are coupled.
+    /// `None` where buildings are small, where modes are coupled, or where storeys and links
+    /// follow laws.
     pub(crate) fn new(system: &System) -> Option<Self> {
         let n = system.degrees_of_freedom();
-        if n <= LARGE || system.bands().is_some() {
+        if n <= LARGE || system.bands().is_some() || !system.elements().is_empty() {
             return None;
         }
         let constants = system.contact_free()?;
@@ -78,7 +79,7 @@ impl ModalSeries {
     pub(crate) fn sum(
         &mut self,
         constants: &ContactFree,
-        contacts: &[AffineContact],
+        contacts: &[Spring],
         (load, h): ([f64; 2], f64),
         start: &[f64],
         out: &mut Sums,
@@ -131,7 +132,7 @@ impl ModalSeries {
     fn add_term(
         &mut self,
         constants: &ContactFree,
-        contacts: &[AffineContact],
+        contacts: &[Spring],
         k: usize,
         (ground, h): (f64, f64),
     ) -> bool {

@@ -1,9 +1,12 @@
-//! Taylor series of a linear system: buildings with all closed contacts affine.
+//! Taylor series of a system that is linear between events: buildings with all closed
+//! contacts affine, and storeys and links on straight branches of their laws.
 
 use super::Context;
-use super::chain::{AffineContact, Chain, Sums, TERMS};
+use super::chain::{Chain, Spring, Sums, TERMS};
 use super::modal_series::ModalSeries;
-use crate::dynamics::{Layout, push_apart};
+use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
+
+use crate::dynamics::Layout;
 use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, hermite, septic, value};
 use crate::system::System;
 
@@ -21,8 +24,10 @@ pub(crate) struct Taylor {
     scratch: Vec<f64>,
     damping: Vec<f64>,
     speed: Vec<f64>,
-    /// Closed contacts.
-    contacts: Vec<AffineContact>,
+    /// Closed contacts, then storeys and links that follow laws.
+    springs: Vec<Spring>,
+    /// How many of them are contacts, and the levels of these.
+    levels: Vec<usize>,
     /// Buildings with tridiagonal matrices, and the sums of those without.
     chain: Option<Chain>,
     /// Large buildings with others.
@@ -46,7 +51,8 @@ impl Taylor {
             scratch: one(),
             damping: one(),
             speed: one(),
-            contacts: Vec::with_capacity(layout.levels),
+            springs: Vec::with_capacity(layout.levels + system.elements().len()),
+            levels: Vec::with_capacity(layout.levels),
             chain: Chain::new(system),
             modal: ModalSeries::new(system),
             sums: Sums::new(layout.dofs),
@@ -60,16 +66,15 @@ impl Taylor {
         self.terms
     }
 
-    /// Whether every closed contact is affine in its phase.
+    /// Whether every closed contact is affine in its phase; laws of storeys and links are
+    /// the caller's business.
     pub(crate) fn applies(context: &Context<'_, '_>) -> bool {
-        let linear = context.dynamics.system.elements().is_empty();
-        linear
-            && context.contacts.closed().iter().all(|&l| {
-                context.contacts.contact(l).is_some_and(|c| {
-                    let model = &context.dynamics.system.levels()[l].model;
-                    !c.is_stuck() && model.is_affine(&c.collision, c.phase)
-                })
+        context.contacts.closed().iter().all(|&l| {
+            context.contacts.contact(l).is_some_and(|c| {
+                let model = &context.dynamics.system.levels()[l].model;
+                !c.is_stuck() && model.is_affine(&c.collision, c.phase)
             })
+        })
     }
 
     /// State after a step of length `h`, with the energy integrals.
@@ -81,22 +86,24 @@ impl Taylor {
         h: f64,
         new: &mut [f64],
     ) {
-        self.laws(context);
+        self.laws(context, state);
         self.series(context, tau, state, h, new);
         new[2 * self.layout.dofs..].copy_from_slice(&state[2 * self.layout.dofs..]);
         self.interpolate_motion(state, new, h);
         self.works(context, tau, state, h, new);
     }
 
-    /// Constants of the closed contacts.
-    fn laws(&mut self, context: &Context<'_, '_>) {
-        self.contacts.clear();
+    /// Constants of the closed contacts, and of the branches that elements hold.
+    fn laws(&mut self, context: &Context<'_, '_>, state: &[f64]) {
+        self.springs.clear();
+        self.levels.clear();
         for &l in context.contacts.closed() {
             let level = &context.dynamics.system.levels()[l];
             if let Some(contact) = context.contacts.contact(l) {
                 let law = contact.force(level, 0.0, 0.0);
                 let at_rest = law.value - law.by_penetration * context.contacts.width(l);
-                self.contacts.push(AffineContact {
+                self.levels.push(l);
+                self.springs.push(Spring {
                     level: l,
                     left: level.left,
                     right: level.right,
@@ -105,6 +112,20 @@ impl Taylor {
                     dashpot: law.by_velocity,
                 });
             }
+        }
+        let (n, elements) = (self.layout.dofs, context.dynamics.system.elements());
+        for (element, history) in elements.iter().zip(&context.contacts.elements.histories) {
+            let motion = element.motion(&state[..n], &state[n..2 * n]);
+            let law = element.law.force(history, motion, &[]);
+            let (stiffness, dashpot) = (law.by_deformation, law.by_velocity);
+            self.springs.push(Spring {
+                level: usize::MAX,
+                left: element.far,
+                right: element.near,
+                at_rest: law.force - stiffness * motion.deformation - dashpot * motion.velocity,
+                stiffness: stiffness - element.carried,
+                dashpot,
+            });
         }
     }
 
@@ -120,10 +141,10 @@ impl Taylor {
         let load = [context.segment.ground(tau), context.segment.slope * h];
         let constants = context.dynamics.system.contact_free();
         self.terms += match (&mut self.chain, self.modal.as_mut().zip(constants)) {
-            (Some(chain), _) => chain.sum(&self.contacts, load, h, (&state[..n], &state[n..2 * n])),
+            (Some(chain), _) => chain.sum(&self.springs, load, h, (&state[..n], &state[n..2 * n])),
             (None, Some((modal, constants))) => {
                 let (start, sums) = (&state[..2 * n], &mut self.sums);
-                modal.sum(constants, &self.contacts, (load, h), start, sums)
+                modal.sum(constants, &self.springs, (load, h), start, sums)
             }
             (None, None) => self.general(context, load, state, h),
         };
@@ -149,10 +170,8 @@ impl Taylor {
         for k in 1..TERMS {
             let (u, v) = self.term.split_at(n);
             system.internal_forces(u, v, &mut self.scratch, &mut self.damping);
-            for contact in &self.contacts {
-                let level = &system.levels()[contact.level];
-                let force = contact.term(k, level.relative(u), level.relative(v));
-                push_apart(level, force, &mut self.scratch);
+            for spring in &self.springs {
+                spring.push((k, 0), (u, v), |_| 1.0, &mut self.scratch);
             }
             let ground = load.get(k - 1).copied().unwrap_or(0.0);
             let scale = h / k as f64;
@@ -227,9 +246,10 @@ impl Taylor {
             self.speed = speed;
         }
         new[layout.viscous()] += h * viscous;
-        for k in 0..self.contacts.len() {
+        for k in 0..self.levels.len() {
             self.contact_work(context, k, state, h, new);
         }
+        self.accounts(context, state, h, new);
         for (place, rate) in [
             (layout.input(), [rates[0].0, rates[1].0]),
             (layout.viscous(), [rates[0].1, rates[1].1]),
@@ -248,7 +268,7 @@ impl Taylor {
         new: &mut [f64],
     ) {
         let (n, layout) = (self.layout.dofs, self.layout);
-        let contact = self.contacts[k];
+        let contact = self.springs[k];
         let l = contact.level;
         let level = &context.dynamics.system.levels()[l];
         let force = |u: f64, v: f64| contact.term(1, u, v);
@@ -281,6 +301,45 @@ impl Taylor {
         }
     }
 
+    /// Internal variables of elements, which are integrals over the motion.
+    fn accounts(&mut self, context: &Context<'_, '_>, state: &[f64], h: f64, new: &mut [f64]) {
+        let (n, elements) = (self.layout.dofs, context.dynamics.system.elements());
+        for (element, history) in elements.iter().zip(&context.contacts.elements.histories) {
+            let range = element.range(self.layout);
+            if range.is_empty() {
+                continue;
+            }
+            let dense = &self.dense;
+            let at = |offset: usize, theta: f64| {
+                let one =
+                    |floor: Option<usize>| floor.map_or(0.0, |i| value(&dense[offset + i], theta));
+                one(element.far) - one(element.near)
+            };
+            let mut rates = [0.0; MAXIMUM_INTERNAL_VARIABLES];
+            let mut at = |theta: f64| {
+                let motion = Motion {
+                    deformation: at(0, theta),
+                    velocity: at(n, theta),
+                };
+                let before = &state[range.clone()];
+                let law = &element.law;
+                law.rates(history, motion, before, &mut rates[..range.len()]);
+                rates
+            };
+            let (start, end) = (at(0.0), at(1.0));
+            let mut change = [0.0; MAXIMUM_INTERNAL_VARIABLES];
+            for (theta, weight) in GAUSS {
+                for (change, rate) in change.iter_mut().zip(at(theta)) {
+                    *change += weight * rate;
+                }
+            }
+            for (k, place) in range.clone().enumerate() {
+                new[place] += h * change[k];
+                self.dense[place] = hermite(h, state[place], new[place], start[k], end[k]);
+            }
+        }
+    }
+
     fn viscous_power(&mut self, context: &Context<'_, '_>, v: &[f64]) -> f64 {
         let system = context.dynamics.system;
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
@@ -298,7 +357,7 @@ impl Taylor {
     /// Keeps the integrals of levels that are open constant in the interpolant.
     pub(crate) fn rest(&mut self, new: &[f64]) {
         for l in 0..self.layout.levels {
-            if self.contacts.iter().all(|c| c.level != l) {
+            if !self.levels.contains(&l) {
                 for place in [self.layout.work(l), self.layout.impulse(l)] {
                     self.dense[place] = [0.0; COEFFICIENTS];
                     self.dense[place][0] = new[place];

@@ -142,6 +142,16 @@ impl System {
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
+
+    /// Index in [`System::elements`] of the first storey or link whose law is not linear
+    /// between changes of branch
+    /// ([`pounding_hysteresis::HysteresisLaw::is_piecewise_linear`]). With one the
+    /// event-driven method has no exact steps.
+    #[must_use]
+    pub fn first_curved_element(&self) -> Option<usize> {
+        let curved = |element: &Element| !element.law.is_piecewise_linear();
+        self.elements.iter().position(curved)
+    }
 }
 
 /// Stiffnesses that store strain energy, and the elements of storeys with laws.

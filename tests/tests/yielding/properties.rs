@@ -8,7 +8,7 @@ use pounding_hysteresis::LawParameters;
 use pounding_time_history::{Floor, GroundAcceleration, LinkedPair, Outcome, System};
 use proptest::prelude::*;
 
-use super::setup::{ADAPTIVE, building, difference, el_centro, go, law};
+use super::setup::{ADAPTIVE, EVENT_DRIVEN, TIGHT, building, difference, el_centro, go, law};
 
 const DURATION: f64 = 5.0;
 const LAWS: [&str; 5] = [
@@ -139,6 +139,20 @@ proptest! {
                 prop_assert!(storey.hysteretic_energy > -1.0e-6 * here.energy.largest_input);
             }
         }
+    }
+
+    /// Series from event to event and the explicit pair have nothing in common but the laws.
+    #[test]
+    fn event_driven_agrees_with_the_pair(pair in pairs()) {
+        let straight = pair.laws.map(|law| [0, 2, 2, 3, 3][law]);
+        let system = Pair { laws: straight, ..pair }.system(false, pair.width, &el_centro());
+        let exact = go(&system, EVENT_DRIVEN, DURATION);
+        let stepped = go(&system, TIGHT, DURATION);
+        prop_assert!(exact.method.title.contains("exact between events"));
+        prop_assert!(exact.energy.residual_ratio < 1.0e-10, "{:?}", exact.energy);
+        prop_assert_eq!(impacts(&exact), impacts(&stepped));
+        let worst = difference(&exact, &stepped);
+        prop_assert!(worst < 1.0e-7, "{worst}");
     }
 
     /// Neighbours that are far apart and not linked know nothing of each other.

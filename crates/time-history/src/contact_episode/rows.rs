@@ -29,8 +29,9 @@ impl ModalRow {
 pub(crate) struct FloorRows {
     pub floors: Vec<ModalRow>,
     pub drifts: Vec<ModalRow>,
-    /// Maximum entry of each mode at any floor.
+    /// Maximum entry of each mode at any floor, and of any difference from floor to floor.
     pub size: Vec<Lane>,
+    pub drift_size: Vec<Lane>,
 }
 
 /// Rows of all levels: left floor less right one.
@@ -234,18 +235,23 @@ impl FloorRows {
             .clone()
             .map(|i| ModalRow::new(&[floor(i, 1.0)]))
             .collect();
-        let mut size = vec![Lane::ZERO; constants.modes.len()];
-        for row in &floors {
-            for (w, s) in row.weights.iter().zip(&mut size[row.first_lane..]) {
-                for l in 0..WIDTH {
-                    s[l] = s[l].max(w[l].abs());
+        let drifts: Vec<_> = rows.map(drift).collect();
+        let largest = |rows: &[ModalRow]| {
+            let mut size = vec![Lane::ZERO; constants.modes.len()];
+            for row in rows {
+                for (w, s) in row.weights.iter().zip(&mut size[row.first_lane..]) {
+                    for l in 0..WIDTH {
+                        s[l] = s[l].max(w[l].abs());
+                    }
                 }
             }
-        }
+            size
+        };
         Self {
-            drifts: rows.map(drift).collect(),
+            size: largest(&floors),
+            drift_size: largest(&drifts),
+            drifts,
             floors,
-            size,
         }
     }
 }

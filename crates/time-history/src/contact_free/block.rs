@@ -3,15 +3,22 @@
 
 use multiversion::multiversion;
 
+use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Ground, Lane, Modal, ModeLanes, WIDTH, acceleration_overshoots, at, overshoots, step_modes,
+    Ground, Lane, Modal, ModeLanes, WIDTH, at, is_low, modal_acceleration_overshoots,
+    modal_overshoots, step_modes,
 };
-
+use super::transform::to_floors;
 use crate::system::System;
 
 /// Samples of a block.
 pub(super) const BLOCK: usize = 8;
+
+/// Lanes of degrees of freedom above which overshoots are first bounded for all floors of a
+/// building together: each floor's own takes a pass over the mode shapes, which are then
+/// larger than the cache.
+const LARGE: usize = 3;
 
 /// Rows of values that are linear in the displacements of the modes, eight to a lane.
 #[derive(Debug, Clone)]
@@ -38,10 +45,12 @@ pub(super) struct Block {
     pub levels: Extremes,
     /// Left and right floor of every level.
     between: Vec<(Option<usize>, Option<usize>)>,
-    /// Absolute floor acceleration, after [`accelerations`].
+    /// Absolute floor acceleration, unless it is low.
     pub accelerations: Extremes,
-    /// Overshoots of displacement, drift and absolute acceleration.
+    /// Bounds of the overshoots of displacement, drift and absolute acceleration, and
+    /// whether they are each floor's own.
     pub over: [Vec<Lane>; 3],
+    own: [bool; 3],
     /// Maximum ground acceleration and slope.
     largest: (f64, f64),
     modal: Vec<Lane>,
@@ -92,14 +101,27 @@ impl Block {
             between: system.levels().iter().map(|l| (l.left, l.right)).collect(),
             accelerations: Extremes::new(lanes),
             over: [zeros(), zeros(), zeros()],
+            own: [false; 3],
             largest: (0.0, 0.0),
             modal: zeros(),
         }
     }
 }
 
+impl Block {
+    /// Values and extremes of one of the floors' functions.
+    pub(super) fn values(&self, quantity: Quantity) -> &Extremes {
+        match quantity {
+            Quantity::Displacement => &self.floors,
+            Quantity::Drift => &self.drifts,
+            Quantity::Acceleration => &self.accelerations,
+        }
+    }
+}
+
 /// Advances a block of samples, whose ground accelerations are `samples` (one more than
-/// steps), and finds the extremes of all rows at the samples.
+/// steps), and finds the extremes of all rows at the samples: those of accelerations only if
+/// these are not all below `peak`, their peaks. Returns whether they are.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -110,8 +132,9 @@ pub(super) fn propagate(
     constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
+    peak: &[Lane],
     block: &mut Block,
-) {
+) -> bool {
     let count = constants.modes.len();
     for (c, m) in constants.modes.iter().enumerate() {
         let state = [
@@ -130,18 +153,73 @@ pub(super) fn propagate(
         (block.end.displacement[c], block.end.velocity[c]) = (q, p);
         (block.end.input[c], block.end.viscous[c]) = (input, viscous);
     }
-    let q = &block.displacement;
-    rows(&constants.floor_rows, q, count, &mut block.floors);
-    drifts(&constants.above, &block.floors, &mut block.drifts);
-    levels(&block.between, &block.floors, &mut block.levels);
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let slope = samples
         .windows(2)
         .fold(0.0_f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
     block.largest = (largest, slope / constants.step);
-    let [displacement, drift, _] = &mut block.over;
-    let over = (displacement.as_mut_slice(), drift.as_mut_slice());
-    overshoots(constants, &block.size, largest, &mut block.modal, over);
+    let large = count > LARGE;
+    bound_overshoots(constants, block, [0, 1], large);
+    let low = is_low(constants, &block.over[0], peak);
+    if !low {
+        bound_overshoots(constants, block, [2], large);
+    }
+    rows(&constants.floor_rows, block, !low);
+    drifts(&constants.above, &block.floors, &mut block.drifts);
+    levels(&block.between, &block.floors, &mut block.levels);
+    low
+}
+
+/// Bounds the overshoot of displacement (0), drift (1) or acceleration (2) at each floor by
+/// itself. Returns false if that was done.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usize) -> bool {
+    let coarse = !block.own[quantity];
+    if coarse {
+        bound_overshoots(constants, block, [quantity], false);
+    }
+    coarse
+}
+
+/// Bounds overshoots over the block, for all floors of a building `together` or for each.
+#[inline(always)]
+fn bound_overshoots<const COUNT: usize>(
+    constants: &ContactFree,
+    block: &mut Block,
+    quantities: [usize; COUNT],
+    together: bool,
+) {
+    let (size, modal) = (&block.size, &mut block.modal);
+    if quantities[0] < 2 {
+        modal_overshoots(constants, size, block.largest.0, modal);
+    } else {
+        modal_acceleration_overshoots(constants, size, block.largest, modal);
+    }
+    for quantity in quantities {
+        let (shapes, entries) = match quantity {
+            1 => (&constants.drift_magnitudes, &constants.rows.drift_size),
+            _ => (&constants.magnitudes, &constants.rows.size),
+        };
+        let over = &mut block.over[quantity];
+        block.own[quantity] = !together;
+        if !together {
+            to_floors(shapes, modal, over);
+            continue;
+        }
+        for building in shapes {
+            let range = building.first_mode..building.first_mode + building.modes;
+            let terms = range.clone().map(|j| at(entries, j) * at(modal, j));
+            let bound = terms.sum::<f64>();
+            for i in range {
+                over[i / WIDTH][i % WIDTH] = bound;
+            }
+        }
+    }
 }
 
 /// Advances the modes alone by some samples.
@@ -200,25 +278,6 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
-/// Extremes of absolute floor acceleration over the block that was advanced last.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-pub(super) fn accelerations(constants: &ContactFree, block: &mut Block) {
-    let (a, count) = (&block.acceleration, constants.modes.len());
-    rows(&constants.floor_rows, a, count, &mut block.accelerations);
-    acceleration_overshoots(
-        constants,
-        &block.size,
-        block.largest,
-        &mut block.modal,
-        &mut block.over[2],
-    );
-}
-
 /// Eight modes over the block. Returns state and works at the end, and the maximum
 /// size at the starts of the steps.
 #[inline(always)]
@@ -255,23 +314,44 @@ fn modes(
     (state, largest)
 }
 
-/// Extremes of the magnitude of rows over the block.
+/// Floor displacements over the block and their extremes, and the same of accelerations if
+/// they are wanted, lane after lane of floors: the columns of one stay in the cache.
 #[inline(always)]
-fn rows(rows: &[Rows], q: &[Lane], stride: usize, out: &mut Extremes) {
-    for ((row, top), values) in rows.iter().zip(&mut out.top).zip(&mut out.values) {
-        let mut sums = [Lane::ZERO; BLOCK];
-        for (j, column) in row.columns.iter().enumerate() {
-            let column = *column;
-            for (s, sum) in sums.iter_mut().enumerate() {
-                let x = at(&q[s * stride..(s + 1) * stride], row.first_mode + j);
+fn rows(rows: &[Rows], block: &mut Block, accelerations: bool) {
+    let count = rows.len();
+    for (c, row) in rows.iter().enumerate() {
+        let sums = products(row, &block.displacement, count);
+        block.floors.top[c] = maximum(&sums);
+        block.floors.values[c] = sums;
+        if accelerations {
+            let sums = products(row, &block.acceleration, count);
+            block.accelerations.top[c] = maximum(&sums);
+            block.accelerations.values[c] = sums;
+        }
+    }
+}
+
+/// A lane of floors at every sample.
+#[inline(always)]
+fn products(row: &Rows, modal: &[Lane], stride: usize) -> [Lane; BLOCK] {
+    let mut sums = [Lane::ZERO; BLOCK];
+    let samples: [&[Lane]; BLOCK] = std::array::from_fn(|s| &modal[s * stride..(s + 1) * stride]);
+    let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
+    let mut columns = row.columns.as_slice();
+    while !columns.is_empty() {
+        let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
+        let at: [&[f64]; BLOCK] = std::array::from_fn(|s| &samples[s][lane].0[place..]);
+        for (j, column) in now.iter().enumerate() {
+            for (sum, at) in sums.iter_mut().zip(&at) {
+                let x = at[j];
                 for l in 0..WIDTH {
                     sum[l] += column[l] * x;
                 }
             }
         }
-        *top = maximum(&sums);
-        *values = sums;
+        (columns, lane, place) = (later, lane + 1, 0);
     }
+    sums
 }
 
 /// Maximum magnitudes of eight lanes.

@@ -3,7 +3,6 @@
 //! The functions are compiled for several instruction sets and chosen at run time
 //! (`multiversion`); without fused operations their bits are the same on all.
 
-use super::transform::to_floors;
 use multiversion::multiversion;
 use std::ops::{Index, IndexMut};
 
@@ -191,15 +190,14 @@ impl Track {
     }
 }
 
-/// Bounds of what displacements and drifts can do between samples beyond their values
+/// Bounds of what the displacements of the modes can do between samples beyond their values
 /// there, for these sizes of the modes and this maximum ground acceleration.
 #[inline(always)]
-pub(crate) fn overshoots(
+pub(crate) fn modal_overshoots(
     constants: &ContactFree,
     size: &[Lane],
     largest: f64,
     modal: &mut [Lane],
-    (displacement, drift): (&mut [Lane], &mut [Lane]),
 ) {
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
@@ -210,18 +208,15 @@ pub(crate) fn overshoots(
         }
         modal[c] = sum;
     }
-    to_floors(&constants.magnitudes, modal, displacement);
-    to_floors(&constants.drift_magnitudes, modal, drift);
 }
 
 /// The same for absolute acceleration, with the maximum slope of the ground's.
 #[inline(always)]
-pub(crate) fn acceleration_overshoots(
+pub(crate) fn modal_acceleration_overshoots(
     constants: &ContactFree,
     size: &[Lane],
     (largest, slope): (f64, f64),
     modal: &mut [Lane],
-    acceleration: &mut [Lane],
 ) {
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
@@ -233,7 +228,6 @@ pub(crate) fn acceleration_overshoots(
         }
         modal[c] = sum;
     }
-    to_floors(&constants.magnitudes, modal, acceleration);
 }
 
 /// Whether the bound of floor acceleration, told by the overshoot of displacement, is

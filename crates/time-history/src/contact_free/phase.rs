@@ -5,9 +5,7 @@ use std::ops::Range;
 use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
 use super::constants::ContactFree;
-use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, balance, drifts, gather, is_low, restoring, spread,
-};
+use super::lanes::{Lane, Modal, Track, WIDTH, at, balance, drifts, gather, restoring, spread};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
@@ -304,8 +302,12 @@ impl ContactFreePhase {
         let ground = &range.system.ground().samples[sample..=sample + count];
         let mut samples = [ground[count]; BLOCK + 1];
         samples[..=count].copy_from_slice(ground);
-        block::propagate(constants, &self.now, &samples, &mut self.block);
-        let clear = clear_samples(range, &self.block, &self.penetration, count);
+        let peak = &self.acceleration.peak;
+        let low = block::propagate(constants, &self.now, &samples, peak, &mut self.block);
+        let mut clear = clear_samples(range, &self.block, &self.penetration, count);
+        if clear < count && block::sharpen(constants, &mut self.block, 0) {
+            clear = clear_samples(range, &self.block, &self.penetration, count);
+        }
         if clear == 0 {
             return 0;
         }
@@ -317,14 +319,10 @@ impl ContactFreePhase {
         ];
         let place = (constants, range.system);
         self.candidates.make_room(place, tracks, wanted);
-        let low = is_low(constants, &self.block.over[0], &self.acceleration.peak);
-        if !low {
-            if !self.acceleration_known {
-                let (q, p) = (&self.now.displacement, &self.now.velocity);
-                restoring(&constants.modes, q, p, &mut self.modal);
-                transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
-            }
-            block::accelerations(constants, &mut self.block);
+        if !low && !self.acceleration_known {
+            let (q, p) = (&self.now.displacement, &self.now.velocity);
+            restoring(&constants.modes, q, p, &mut self.modal);
+            transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
         }
         self.note_peaks(constants, (sample, clear), low);
         self.acceleration_known = !low;
@@ -349,25 +347,26 @@ impl ContactFreePhase {
     /// Takes the peaks at the first samples of the block, and notes where there could be
     /// higher ones between them.
     fn note_peaks(&mut self, constants: &ContactFree, (first, count): (usize, usize), low: bool) {
-        let (block, now) = (&self.block, &self.now);
+        let (block, now) = (&mut self.block, &self.now);
         let all = [
-            (
-                Quantity::Displacement,
-                &block.floors,
-                &mut self.displacement,
-            ),
-            (Quantity::Drift, &block.drifts, &mut self.drift),
-            (
-                Quantity::Acceleration,
-                &block.accelerations,
-                &mut self.acceleration,
-            ),
+            (Quantity::Displacement, &mut self.displacement),
+            (Quantity::Drift, &mut self.drift),
+            (Quantity::Acceleration, &mut self.acceleration),
         ];
-        for (quantity, values, track) in all {
-            let over = &block.over[quantity as usize];
-            if (low && quantity == Quantity::Acceleration) || below(values, track, over) {
+        for (quantity, track) in all {
+            let low = low && quantity == Quantity::Acceleration;
+            let is_below = |block: &Block| {
+                let values = block.values(quantity);
+                below(values, track, &block.over[quantity as usize])
+            };
+            if low || is_below(block) {
                 continue;
             }
+            if block::sharpen(constants, block, quantity as usize) && is_below(block) {
+                continue;
+            }
+            let values = block.values(quantity);
+            let over = &block.over[quantity as usize];
             for floor in 0..constants.building.len() {
                 let (c, l) = (floor / WIDTH, floor % WIDTH);
                 let top = values.top[c][l].max(track.now[c][l].abs());

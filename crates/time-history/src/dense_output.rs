@@ -5,8 +5,8 @@
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
 use crate::contact_free::{
-    ContactFree, Four, Ground, Lane, Modal, ModeLanes, WIDTH, at as lane_at, gather, restoring,
-    step_over, transform_fours,
+    BlockMotion, ContactFree, Four, Ground, Lane, ModeLanes, SampleMotion, WIDTH, at as lane_at,
+    gather, restoring, step_over, transform_fours,
 };
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
@@ -60,6 +60,7 @@ struct Kept {
     modal: [Vec<Lane>; QUANTITIES],
     works: Vec<f64>,
     forces: Vec<f64>,
+    ground: f64,
 }
 
 impl Workspace {
@@ -75,6 +76,7 @@ impl Workspace {
                 modal: std::array::from_fn(|_| zeros()),
                 works: vec![0.0; layout.dimension() - 2 * layout.dofs],
                 forces: vec![0.0; layout.levels],
+                ground: 0.0,
             }),
             floors: std::array::from_fn(|_| std::array::from_fn(|_| zeros())),
             all: vec![true; lanes],
@@ -91,22 +93,12 @@ impl Workspace {
 /// How the modes move within a step.
 #[derive(Clone, Copy)]
 pub(crate) enum Motion<'a> {
-    /// Without contact.
-    Free(ContactFreeStep<'a>),
+    /// Without contact, over some samples.
+    Free(BlockMotion<'a>),
     /// As a series.
     Series(&'a Series),
     /// Between two points of the pair.
     Pair(&'a Scene<'a>, &'a Span<'a>),
-}
-
-/// A sample without contact.
-#[derive(Clone, Copy)]
-pub(crate) struct ContactFreeStep<'a> {
-    /// Motion at both ends; its works count from those of the run's state.
-    pub start: &'a Modal,
-    pub end: &'a Modal,
-    /// What the displacement of every floor may exceed its values at both ends by (m).
-    pub over: &'a [Lane],
 }
 
 /// A step in the coordinates of the modes.
@@ -121,8 +113,6 @@ pub(crate) struct ModalStep<'a> {
     /// Start and length of the step (s).
     pub start: f64,
     pub length: f64,
-    /// Ground acceleration at the start (m/s2) and its slope (m/s3).
-    pub ground: (f64, f64),
     pub motion: Motion<'a>,
 }
 
@@ -149,7 +139,9 @@ impl<'a, 'b> Observers<'a, 'b> {
     pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
         let last = step.start + step.length >= self.end * (1.0 - 1.0e-12);
         if let Some(workspace) = &mut self.workspace {
-            for recorder in self.recorders.iter_mut() {
+            let end = step.start + step.length;
+            let wanting = self.recorders.iter_mut().filter(|r| r.next_time() <= end);
+            for recorder in wanting {
                 recorder.step(&mut StepView::of_modes(step, workspace, last))?;
             }
         }
@@ -170,7 +162,7 @@ impl ModalStep<'_> {
     fn few_samples(&self, times: &[f64], workspace: &mut Workspace, out: &mut [Sample]) {
         let n = Layout::of(self.system).dofs;
         for (k, time) in times.iter().enumerate() {
-            self.move_to(self.offset(*time), workspace);
+            let ground = self.move_to(*time, workspace);
             let kept = &mut workspace.kept[k];
             let [q, p, a] = &mut kept.modal;
             std::mem::swap(q, &mut workspace.displacement);
@@ -178,6 +170,7 @@ impl ModalStep<'_> {
             std::mem::swap(a, &mut workspace.absolute);
             kept.works.copy_from_slice(&workspace.state[2 * n..]);
             kept.forces.copy_from_slice(&workspace.forces);
+            kept.ground = ground;
         }
         self.to_floors(times.len(), workspace);
         for (k, (time, out)) in times.iter().zip(out).enumerate() {
@@ -191,7 +184,7 @@ impl ModalStep<'_> {
             gather(absolute, &mut out.acceleration_absolute);
             let kept = &workspace.kept[k];
             workspace.state[2 * n..].copy_from_slice(&kept.works);
-            let ground = self.ground.0 + self.ground.1 * self.offset(*time);
+            let ground = kept.ground;
             let motion = (workspace.state.as_slice(), kept.forces.as_slice());
             fill(self.system, self.contacts, (*time, ground), motion, out);
         }
@@ -221,19 +214,34 @@ impl ModalStep<'_> {
         transform_fours(&self.constants.shapes, &mut fours[..=last / 4]);
     }
 
-    /// Motion of the modes, works and contact forces `offset` (s) after the start.
-    fn move_to(&self, offset: f64, workspace: &mut Workspace) {
+    /// Motion of the modes, works and contact forces at a time (s). Returns the ground
+    /// acceleration then (m/s2).
+    fn move_to(&self, time: f64, workspace: &mut Workspace) -> f64 {
         let layout = Layout::of(self.system);
         let n = layout.dofs;
         workspace.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
         workspace.forces.fill(0.0);
-        let works = match self.motion {
-            Motion::Free(free_step) => self.free(free_step, offset, workspace),
-            Motion::Series(series) => self.series(series, offset, workspace),
-            Motion::Pair(scene, span) => self.pair(scene, span, offset, workspace),
+        let offset = self.offset(time);
+        let at = |ground: (f64, f64), offset: f64| ground.0 + ground.1 * offset;
+        let (works, ground) = match self.motion {
+            Motion::Free(block) => {
+                let sample = block.sample_at(time);
+                let offset = (time - sample.time).clamp(0.0, self.constants.step);
+                let works = self.free(&sample, offset, workspace);
+                (works, at(sample.ground, offset))
+            }
+            Motion::Series(series) => {
+                let works = self.series(series, offset, workspace);
+                (works, at(series.ground(), offset))
+            }
+            Motion::Pair(scene, span) => {
+                let works = self.pair(scene, span, offset, workspace);
+                (works, at(scene.ground, offset))
+            }
         };
         workspace.state[layout.input()] += works.0;
         workspace.state[layout.viscous()] += works.1;
+        ground
     }
 
     /// Maximum value above `floor` that the displacement of the left floor less that of the
@@ -251,16 +259,25 @@ impl ModalStep<'_> {
                 let found = series.maximum_of_difference((left, right), floor);
                 found.map(|(theta, top)| (self.start + theta * self.length, top))
             }
-            Motion::Free(free_step) => {
+            Motion::Free(block) => {
                 let dot = |row: Option<&ModalRow>, q: &[Lane]| row.map_or(0.0, |r| r.dot(q));
                 let at = |q: &[Lane]| dot(left, q) - dot(right, q);
-                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(free_step.over, i));
-                let ends = [free_step.start, free_step.end].map(|m| at(&m.displacement));
+                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(block.over(), i));
                 let over = over(floors.0) + over(floors.1);
-                if ends[0].max(ends[1]) + over <= floor {
-                    return None;
+                let (mut best, mut floor) = (None, floor);
+                let mut before = at(block.sample(0).ends[0].displacement);
+                for number in 0..block.len() {
+                    let sample = block.sample(number);
+                    let after = at(sample.ends[1].displacement);
+                    if before.max(after) + over > floor
+                        && let Some(found) =
+                            self.approach_of_free(&sample, (left, right), floor, workspace)
+                    {
+                        (best, floor) = (Some(found), found.1);
+                    }
+                    before = after;
                 }
-                self.approach_of_free(free_step.start, (left, right), floor, workspace)
+                best
             }
             Motion::Pair(_, span) => {
                 let of = |row: Option<&ModalRow>| {
@@ -278,23 +295,24 @@ impl ModalStep<'_> {
     /// The same without contact, in series over parts of the step.
     fn approach_of_free(
         &self,
-        start: &Modal,
+        sample: &SampleMotion<'_>,
         rows: (Option<&ModalRow>, Option<&ModalRow>),
         floor: f64,
         workspace: &mut Workspace,
     ) -> Option<(f64, f64)> {
-        let rate = self.constants.fastest;
-        let parts = (self.length / Series::longest(rate)).ceil().max(1.0);
-        let step = self.length / parts;
-        workspace.displacement.copy_from_slice(&start.displacement);
-        workspace.velocity.copy_from_slice(&start.velocity);
+        let (rate, length) = (self.constants.fastest, self.constants.step);
+        let parts = (length / Series::longest(rate)).ceil().max(1.0);
+        let step = length / parts;
+        let [start, _] = sample.ends;
+        workspace.displacement.copy_from_slice(start.displacement);
+        workspace.velocity.copy_from_slice(start.velocity);
         let (mut best, mut above) = (None, floor);
         for part in 0..parts as usize {
             let offset = part as f64 * step;
             let from = SeriesStep {
                 displacement: &workspace.displacement,
                 velocity: &workspace.velocity,
-                ground: (self.ground.0 + self.ground.1 * offset, self.ground.1),
+                ground: (sample.ground.0 + sample.ground.1 * offset, sample.ground.1),
                 step,
                 rate,
                 terms: 0,
@@ -302,7 +320,7 @@ impl ModalStep<'_> {
             workspace.free.expand(self.constants, self.rows, &[], &from);
             if let Some((theta, top)) = workspace.free.maximum_of_difference(rows, above) {
                 above = top;
-                best = Some((self.start + offset + theta * step, top));
+                best = Some((sample.time + offset + theta * step, top));
             }
             let modes = &self.constants.modes;
             let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
@@ -315,7 +333,7 @@ impl ModalStep<'_> {
     /// damping (J) from those of the run's state on.
     fn free(
         &self,
-        free_step: ContactFreeStep<'_>,
+        sample: &SampleMotion<'_>,
         offset: f64,
         workspace: &mut Workspace,
     ) -> (f64, f64) {
@@ -329,24 +347,21 @@ impl ModalStep<'_> {
             ..
         } = workspace;
         // Times this close are one, but for round-off.
-        let close = 8.0 * f64::EPSILON * (self.start + self.length);
-        let at_end = self.length - offset <= close;
-        let from = if at_end {
-            free_step.end
-        } else {
-            free_step.start
-        };
-        displacement.copy_from_slice(&from.displacement);
-        velocity.copy_from_slice(&from.velocity);
-        let works = [&from.input, &from.viscous].map(|w| sum(w));
+        let length = self.constants.step;
+        let close = 8.0 * f64::EPSILON * (sample.time + length);
+        let at_end = length - offset <= close;
+        let from = sample.ends[usize::from(at_end)];
+        displacement.copy_from_slice(from.displacement);
+        velocity.copy_from_slice(from.velocity);
+        let works = [from.input, from.viscous].map(sum);
         let works = if at_end || offset <= close {
             works
         } else {
             let part = self.kept((offset, close), (parts, oldest));
             let ground = Ground {
-                start: self.ground.0,
-                end: self.ground.0 + self.ground.1 * offset,
-                slope: self.ground.1,
+                start: sample.ground.0,
+                end: sample.ground.0 + sample.ground.1 * offset,
+                slope: sample.ground.1,
             };
             let done = step_over(part, ground, displacement, velocity);
             [works[0] + done.0, works[1] + done.1]
@@ -402,7 +417,7 @@ impl ModalStep<'_> {
             let place = node * theta;
             let time = weight * theta * span.clock.span() * span.clock.rate(place);
             self.within(span, place, workspace);
-            let ground = self.ground.0 + self.ground.1 * span.clock.offset(place);
+            let ground = scene.ground.0 + scene.ground.1 * span.clock.offset(place);
             for (c, m) in self.constants.modes.iter().enumerate() {
                 for l in 0..WIDTH {
                     let p = workspace.velocity[c][l];

@@ -259,7 +259,13 @@ pub trait Recorder {
     /// Whatever keeps the recorder from recording; it ends the run.
     fn begin(&mut self, system: &System, start: &Sample) -> Result<(), TimeHistoryError>;
 
-    /// Called for every accepted step, in order of time.
+    /// Time (s) up to which steps need not be shown: those that end before it are left out.
+    fn next_time(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
+
+    /// Called for accepted steps in order of time; what needs no contact may be some samples
+    /// of the ground motion at once.
     ///
     /// # Errors
     /// Whatever keeps the recorder from recording; it ends the run.
@@ -455,6 +461,11 @@ impl<S: SampleSink> Recorder for GridRecorder<S> {
     fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
         self.count = 1;
         self.responses.take(start)
+    }
+
+    fn next_time(&self) -> f64 {
+        // The end of the run is met but for round-off.
+        (self.count as f64 - 1.0e-9) * self.step
     }
 
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {

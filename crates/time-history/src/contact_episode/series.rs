@@ -198,6 +198,11 @@ impl Series {
         self.last
     }
 
+    /// Ground acceleration at the start (m/s2) and its slope (m/s3).
+    pub(crate) fn ground(&self) -> (f64, f64) {
+        self.ground
+    }
+
     /// Length (s).
     pub(crate) fn step(&self) -> f64 {
         self.step

@@ -6,7 +6,7 @@ use multiversion::multiversion;
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Ground, Lane, Modal, ModeLanes, WIDTH, at, is_low, modal_acceleration_overshoots,
+    Ground, Lane, Modal, ModalState, ModeLanes, WIDTH, at, is_low, modal_acceleration_overshoots,
     modal_overshoots, step_modes,
 };
 use super::transform::to_floors;
@@ -37,6 +37,8 @@ pub(super) struct Block {
     /// after sample.
     displacement: Vec<Lane>,
     acceleration: Vec<Lane>,
+    /// Velocities and works of the modes at every sample, if somebody looks at them.
+    watched: Option<[Vec<Lane>; 3]>,
     /// Maximum `|q'| + omega |q|` of every mode over the block.
     size: Vec<Lane>,
     /// Maximum floor displacement and drift, and maximum closing of levels.
@@ -94,6 +96,7 @@ impl Block {
             end: Modal::new(lanes),
             displacement: vec![Lane::ZERO; lanes * BLOCK],
             acceleration: vec![Lane::ZERO; lanes * BLOCK],
+            watched: None,
             size: vec![Lane::ZERO; lanes],
             floors: Extremes::new(lanes),
             drifts: Extremes::new(lanes),
@@ -109,6 +112,27 @@ impl Block {
 }
 
 impl Block {
+    /// Keeps the whole motion at every sample from now on.
+    pub(super) fn watch(&mut self) {
+        if self.watched.is_none() {
+            let zeros = || vec![Lane::ZERO; self.displacement.len()];
+            self.watched = Some([zeros(), zeros(), zeros()]);
+        }
+    }
+
+    /// Motion of the modes after so many samples, at least one, if it was kept.
+    pub(super) fn motion_after(&self, samples: usize) -> Option<ModalState<'_>> {
+        let lanes = self.size.len();
+        let range = (samples - 1) * lanes..samples * lanes;
+        let [velocity, input, viscous] = self.watched.as_ref()?;
+        Some(ModalState {
+            displacement: &self.displacement[range.clone()],
+            velocity: &velocity[range.clone()],
+            input: &input[range.clone()],
+            viscous: &viscous[range],
+        })
+    }
+
     /// Values and extremes of one of the floors' functions.
     pub(super) fn values(&self, quantity: Quantity) -> &Extremes {
         match quantity {
@@ -144,9 +168,16 @@ pub(super) fn propagate(
             now.viscous[c],
         ];
         let (displacements, accelerations) = (&mut block.displacement, &mut block.acceleration);
-        let (end, size) = modes(m, state, samples, constants.step, |s, q, a| {
+        let watched = &mut block.watched;
+        let (end, size) = modes(m, state, samples, constants.step, |s, motion, a| {
+            let [q, p, input, viscous] = motion;
             displacements[s * count + c] = q;
             accelerations[s * count + c] = a;
+            if let Some([velocities, inputs, dampings]) = watched {
+                velocities[s * count + c] = p;
+                inputs[s * count + c] = input;
+                dampings[s * count + c] = viscous;
+            }
         });
         block.size[c] = size;
         let [q, p, input, viscous] = end;
@@ -286,7 +317,7 @@ fn modes(
     start: [Lane; 4],
     samples: &[f64; BLOCK + 1],
     step: f64,
-    mut store: impl FnMut(usize, Lane, Lane),
+    mut store: impl FnMut(usize, [Lane; 4], Lane),
 ) -> ([Lane; 4], Lane) {
     let mut state = start;
     let mut largest = Lane::ZERO;
@@ -309,7 +340,7 @@ fn modes(
                 largest[l]
             };
         }
-        store(s, q, absolute);
+        store(s, state, absolute);
     }
     (state, largest)
 }

@@ -125,6 +125,15 @@ pub(crate) struct Modal {
     pub viscous: Vec<Lane>,
 }
 
+/// The same, looked at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ModalState<'a> {
+    pub displacement: &'a [Lane],
+    pub velocity: &'a [Lane],
+    pub input: &'a [Lane],
+    pub viscous: &'a [Lane],
+}
+
 /// Ground acceleration over a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ground {
@@ -158,6 +167,15 @@ pub(crate) struct Track {
 }
 
 impl Modal {
+    pub(crate) fn view(&self) -> ModalState<'_> {
+        ModalState {
+            displacement: &self.displacement,
+            velocity: &self.velocity,
+            input: &self.input,
+            viscous: &self.viscous,
+        }
+    }
+
     /// Takes over another state of the same system.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.displacement.copy_from_slice(&other.displacement);

@@ -21,8 +21,8 @@ mod transform;
 pub(crate) use block::step_over;
 pub(crate) use constants::ContactFree;
 pub(crate) use lanes::{
-    Ground, Lane, Modal, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
+    Ground, Lane, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
     restoring, scale, spread,
 };
-pub(crate) use phase::{ContactFreePhase, EnergyAccounts, SampleRange};
+pub(crate) use phase::{BlockMotion, ContactFreePhase, EnergyAccounts, SampleMotion, SampleRange};
 pub(crate) use transform::{Four, to_floors, transform, transform_fours};

@@ -5,11 +5,13 @@ use std::ops::Range;
 use super::block::{self, BLOCK, Block, Extremes};
 use super::candidates::{Candidates, Quantity};
 use super::constants::ContactFree;
-use super::lanes::{Lane, Modal, Track, WIDTH, at, balance, drifts, gather, restoring, spread};
+use super::lanes::{
+    Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
+};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
-use crate::dense_output::{ContactFreeStep, ModalStep, Motion, Observers};
+use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
 use crate::outcome::{Peak, StoreyPeaks};
@@ -33,6 +35,63 @@ pub(crate) struct EnergyAccounts<'a> {
     pub residual: f64,
 }
 
+/// The motion over samples without contact, for observers.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockMotion<'a> {
+    /// Number of the first sample, and time from one to the next (s).
+    first: usize,
+    step: f64,
+    /// Ground accelerations (m/s2), one more than steps.
+    ground: &'a [f64],
+    /// Motion at the start; works count from those of the run's state.
+    start: ModalState<'a>,
+    block: &'a Block,
+}
+
+/// One of these samples.
+#[derive(Clone, Copy)]
+pub(crate) struct SampleMotion<'a> {
+    /// Its start (s), and the motion there and at its end.
+    pub time: f64,
+    pub ends: [ModalState<'a>; 2],
+    /// Ground acceleration at the start (m/s2) and its slope (m/s3).
+    pub ground: (f64, f64),
+}
+
+impl<'a> BlockMotion<'a> {
+    /// Number of samples.
+    pub(crate) fn len(&self) -> usize {
+        self.ground.len() - 1
+    }
+
+    /// The sample of this number, from zero.
+    pub(crate) fn sample(&self, number: usize) -> SampleMotion<'a> {
+        let after = |samples: usize| match samples {
+            0 => self.start,
+            _ => self.block.motion_after(samples).unwrap_or(self.start),
+        };
+        let (a, b) = (self.ground[number], self.ground[number + 1]);
+        SampleMotion {
+            time: (self.first + number) as f64 * self.step,
+            ends: [after(number), after(number + 1)],
+            ground: (a, (b - a) / self.step),
+        }
+    }
+
+    /// The sample that holds a time (s).
+    pub(crate) fn sample_at(&self, time: f64) -> SampleMotion<'a> {
+        let end = |number: usize| (self.first + number) as f64 * self.step + self.step;
+        let last = self.len() - 1;
+        let number = (0..last).find(|k| time <= end(*k)).unwrap_or(last);
+        self.sample(number)
+    }
+
+    /// What the displacement of every floor may exceed its values at samples by (m).
+    pub(crate) fn over(&self) -> &'a [Lane] {
+        &self.block.over[0]
+    }
+}
+
 /// The motion in the coordinates of the modes, with its peaks.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactFreePhase {
@@ -53,9 +112,8 @@ pub(crate) struct ContactFreePhase {
     drifted: Vec<Lane>,
     block: Block,
     candidates: Candidates,
-    /// The motion from sample to sample, for observers.
-    sample_start: Modal,
-    sample_end: Modal,
+    /// The motion at the start of the block, for observers.
+    block_start: Modal,
 }
 
 impl ContactFreePhase {
@@ -77,8 +135,7 @@ impl ContactFreePhase {
             drifted: zeros(),
             block: Block::new(system),
             candidates: Candidates::new(lanes, dofs),
-            sample_start: Modal::new(lanes),
-            sample_end: Modal::new(lanes),
+            block_start: Modal::new(lanes),
         }
     }
 
@@ -189,7 +246,8 @@ impl ContactFreePhase {
         while sample < range.to {
             let count = BLOCK.min(range.to - sample);
             if !observers.is_empty() {
-                self.sample_start.copy_from(&self.now);
+                self.block.watch();
+                self.block_start.copy_from(&self.now);
             }
             let advanced = self.propagate_block(constants, range, (sample, count));
             if !observers.is_empty() {
@@ -220,40 +278,34 @@ impl ContactFreePhase {
         Ok(sample - range.from)
     }
 
-    /// Shows samples that were advanced to observers, from the motion before them on.
+    /// Shows samples that were advanced to observers.
     fn show(
-        &mut self,
+        &self,
         constants: &ContactFree,
         range: &SampleRange<'_>,
         samples: Range<usize>,
         (state, rows, observers): (&[f64], &LevelRows, &mut Observers<'_, '_>),
     ) -> Result<(), TimeHistoryError> {
-        let ground = &range.system.ground().samples;
-        for sample in samples {
-            self.sample_end.copy_from(&self.sample_start);
-            let both = &ground[sample..=sample + 1];
-            block::advance(constants, both, &mut self.sample_end);
-            observers.show(&ModalStep {
-                system: range.system,
-                constants,
-                rows,
-                contacts: range.contacts,
-                state,
-                start: sample as f64 * constants.step,
-                length: constants.step,
-                ground: (
-                    ground[sample],
-                    (ground[sample + 1] - ground[sample]) / constants.step,
-                ),
-                motion: Motion::Free(ContactFreeStep {
-                    start: &self.sample_start,
-                    end: &self.sample_end,
-                    over: &self.block.over[0],
-                }),
-            })?;
-            std::mem::swap(&mut self.sample_start, &mut self.sample_end);
+        if samples.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let ground = &range.system.ground().samples[samples.start..=samples.end];
+        observers.show(&ModalStep {
+            system: range.system,
+            constants,
+            rows,
+            contacts: range.contacts,
+            state,
+            start: samples.start as f64 * constants.step,
+            length: samples.len() as f64 * constants.step,
+            motion: Motion::Free(BlockMotion {
+                first: samples.start,
+                step: constants.step,
+                ground,
+                start: self.block_start.view(),
+                block: &self.block,
+            }),
+        })
     }
 
     fn begin(&mut self, constants: &ContactFree) {

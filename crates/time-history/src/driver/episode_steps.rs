@@ -112,7 +112,6 @@ impl Driver<'_> {
                 state: &self.state,
                 start,
                 length: step,
-                ground: (segment.ground(tau), segment.slope),
                 motion: Motion::Series(&e.series),
             })?;
         }
@@ -231,7 +230,6 @@ impl Driver<'_> {
                 state: &self.state,
                 start,
                 length: step,
-                ground: scene.ground,
                 motion: Motion::Pair(&scene, &span),
             })?;
         }

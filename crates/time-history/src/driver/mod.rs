@@ -412,7 +412,8 @@ impl<'a> Driver<'a> {
             &mut self.finder,
             (tau, step),
         );
-        for recorder in recorders.iter_mut() {
+        let end = segment.start + tau + step;
+        for recorder in recorders.iter_mut().filter(|r| r.next_time() <= end) {
             let step = MethodStep {
                 context: &mut context,
                 method: self.method.as_ref(),

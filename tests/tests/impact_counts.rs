@@ -2,7 +2,7 @@
 //! the laws alone, on random systems with gaps of zero and nearly zero width, at rest and
 //! moving, with all separation rules.
 //!
-//! `POUNDING_SYSTEMS=5000 cargo test --release -p verification --test impact_counts -- --nocapture`
+//! `POUNDING_SYSTEMS=5000 cargo test --release -p verification --test integration impact_counts -- --nocapture`
 //! takes more of them.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 

@@ -1,12 +1,13 @@
 //! Which crate may import which: the table of CONTRIBUTING.md, from the bottom up, against
 //! what cargo resolves.
-#![allow(clippy::unwrap_used)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
+
+use super::root;
 
 /// Names and dependencies (normal and build) of the packages that cargo resolves.
 struct Packages(BTreeMap<String, BTreeSet<String>>);
@@ -64,10 +65,6 @@ impl Packages {
         }
         found
     }
-}
-
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// Crates in the order of the table.

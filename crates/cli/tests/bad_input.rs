@@ -1,13 +1,10 @@
 //! Bad input: exit code, place, remedy; and nothing half-written.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/part_files.rs"]
-mod part_files;
-
 use std::path::Path;
 use std::process::{Command, Output};
 
-use part_files::no_part_file;
+use crate::support::part_files::no_part_file;
 
 const CASE: &str = r#"
 title = "pair"

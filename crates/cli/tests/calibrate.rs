@@ -2,10 +2,9 @@
 //! collision beside it.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
 use std::process::Output;
 
+use crate::support;
 use serde_json::Value;
 
 fn run(arguments: &str) -> Output {

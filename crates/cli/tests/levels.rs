@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use crate::support::edit;
 use hdf5::types::VarLenUnicode;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -453,27 +454,27 @@ fn coordinates_of_a_result() {
 fn a_result_of_an_older_version_has_a_page() {
     let bench = Bench::meant();
     bench.text("run case.toml -o run.h5");
-    let file = hdf5::File::open_rw(bench.path("run.h5")).unwrap();
-    for (group, elevations) in [
-        ("gap/a-b", &[12.24, 15.3][..]),
-        ("gap/b-wall", &[6.0]),
-        ("link/a-b", &[3.06]),
-    ] {
-        let group = file.group(group).unwrap();
-        for name in [
-            "left_storey",
-            "right_storey",
-            "left_elevation",
-            "right_elevation",
-            "level",
+    edit(&bench.path("run.h5"), |file| {
+        for (group, elevations) in [
+            ("gap/a-b", &[12.24, 15.3][..]),
+            ("gap/b-wall", &[6.0]),
+            ("link/a-b", &[3.06]),
         ] {
-            group.unlink(name).unwrap();
+            let group = file.group(group).unwrap();
+            for name in [
+                "left_storey",
+                "right_storey",
+                "left_elevation",
+                "right_elevation",
+                "level",
+            ] {
+                group.unlink(name).unwrap();
+            }
+            let data = group.new_dataset::<f64>().shape(elevations.len());
+            data.create("level").unwrap().write_raw(elevations).unwrap();
         }
-        let data = group.new_dataset::<f64>().shape(elevations.len());
-        data.create("level").unwrap().write_raw(elevations).unwrap();
-    }
-    file.delete_attr("checksum").unwrap();
-    file.close().unwrap();
+        file.delete_attr("checksum").unwrap();
+    });
     bench.text("report run.h5 -o run.html");
     let page = std::fs::read_to_string(bench.path("run.html")).unwrap();
     assert!(page.contains("<td>2</td><td>15.30</td><td>\u{2013}</td>"));

@@ -1,16 +1,12 @@
 //! The page of a result says what the run said.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/part_files.rs"]
-mod part_files;
-mod support;
-
 use std::path::{Path, PathBuf};
 
-use part_files::no_part_file;
+use crate::support::part_files::no_part_file;
+use crate::support::{edit, run, text};
 use pounding_files::checksum::append;
 use serde_json::Value;
-use support::{run, text};
 
 fn example(name: &str) -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -137,11 +133,9 @@ fn parts_that_do_not_fit() {
     let case = example("three_storey_pair");
     text("run", &format!("{case} -o {}", whole.display()));
     let path = folder.path().join("a.h5");
-    let refused = |edit: &dyn Fn(&hdf5::File), word: &str| {
+    let refused = |change: &dyn Fn(&hdf5::File), word: &str| {
         std::fs::copy(&whole, &path).unwrap();
-        let file = hdf5::File::open_rw(&path).unwrap();
-        edit(&file);
-        file.close().unwrap();
+        edit(&path, change);
         // HDF5 has cut the checksum off.
         append(&path).unwrap();
         let output = run("report", &path.display().to_string());

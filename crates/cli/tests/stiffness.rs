@@ -1,10 +1,9 @@
 //! `pounding stiffness`: numbers, units, the line for a case file, bad input.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
 use std::process::{Command, Output};
 
+use crate::support;
 use serde_json::Value;
 
 const BALLS: &str = "hertz --radius-left=25mm --radius-right=50mm --elastic-modulus-left=206GPa --poisson-ratio-left=0.28";

@@ -1,10 +1,9 @@
 //! `pounding verify impact`: headline numbers, verdicts, exit codes, bad input.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
 use std::process::{Command, Output};
 
+use crate::support;
 use serde_json::Value;
 
 fn run(arguments: &str) -> Output {

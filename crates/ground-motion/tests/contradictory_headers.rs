@@ -2,9 +2,7 @@
 //! what differs is refused with its line, and the user may say which is right.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Fixture, fixtures};
+use crate::common::{self, Fixture, fixtures};
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
 };

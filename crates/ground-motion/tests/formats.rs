@@ -1,9 +1,7 @@
 //! Every format from a file in its exact layout, and the traps that files set.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{COUNT, Fixture, all};
+use crate::common::{self, COUNT, Fixture, all};
 use pounding_ground_motion::{
     Format, GroundMotionError, ReadOptions, Sampling, read_all_bytes, read_bytes,
 };
@@ -286,7 +284,7 @@ fn filters_and_peaks_in_headers_of_peer() {
 
 #[test]
 fn gaps_and_velocities_of_mini_seed() {
-    use common::binary::{SENSITIVITY, Seed, record};
+    use crate::common::binary::{SENSITIVITY, Seed, record};
     let seed = |channel: &'static [u8; 3], start: u32| {
         record(&Seed {
             channel,

@@ -1,11 +1,9 @@
 //! Random motions against theory over a thousand seeds.
 #![allow(clippy::unwrap_used)]
 
-mod ensemble;
-
 use std::f64::consts::{PI, TAU};
 
-use ensemble::{G, Mean, SEEDS, grid, near, two_sided};
+use crate::ensemble::{G, Mean, SEEDS, grid, near, two_sided};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::generators::{
     Boore2003, CloughPenzien1975, Envelope, FaultMechanism, Generated, KanaiTajimi1960,

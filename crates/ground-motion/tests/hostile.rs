@@ -2,9 +2,7 @@
 //! Every reader of the registry gets the same bounded number of inputs.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Fixture, all, fixtures};
+use crate::common::{self, Fixture, all, fixtures};
 use pounding_ground_motion::{
     AccelerationUnit, Format, GroundMotionError, Offset, ReadOptions, read_all_bytes, read_bytes,
 };

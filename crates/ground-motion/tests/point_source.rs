@@ -1,11 +1,9 @@
 //! Boore's point source: its formulas, and a thousand motions against theory.
 #![allow(clippy::unwrap_used)]
 
-mod ensemble;
-
 use std::f64::consts::{PI, TAU};
 
-use ensemble::{G, Mean, SEEDS, grid, near, two_sided};
+use crate::ensemble::{G, Mean, SEEDS, grid, near, two_sided};
 use pounding_ground_motion::generators::{Boore2003, Diminution};
 use pounding_ground_motion::measures::Husid;
 use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum, response_spectrum};

@@ -2,11 +2,9 @@
 //! one.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
 use std::path::Path;
 
-use common::{Fixture, fixtures};
+use crate::common::{Fixture, fixtures};
 use pounding_ground_motion::{ReadOptions, Sampling, read_all, read_all_bytes};
 
 fn named(format: &'static str, name: &str) -> Fixture {

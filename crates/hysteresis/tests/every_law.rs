@@ -1,11 +1,9 @@
 //! What every law of the registry must satisfy, in one loop each.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::{Explicit, example, motion, times};
+use crate::common::{Explicit, example, motion, times};
 use pounding_hysteresis::{Guard, History, HysteresisLaw, LawDescriptor, Motion, descriptors};
 
 const END: f64 = 40.0;

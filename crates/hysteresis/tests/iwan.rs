@@ -1,9 +1,7 @@
 //! The Iwan family against tabulated values, discrete sliders and limits.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{motion, times};
+use crate::common::{motion, times};
 use pounding_hysteresis::iwan::{IwanDensity, dimensionless_dissipation};
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, dissipation_curve, history};
 use pounding_hysteresis::{HysteresisLaw, LawParameters, build};

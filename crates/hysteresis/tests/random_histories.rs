@@ -1,9 +1,7 @@
 //! Properties of every law on random histories.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::example;
+use crate::common::example;
 use pounding_hysteresis::descriptors;
 use pounding_hysteresis::laboratory::history;
 use proptest::prelude::*;

@@ -1,9 +1,7 @@
 //! Bouc-Wen, Baber-Noori, viscous and Maxwell laws against independent solutions.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{path, times};
+use crate::common::{path, times};
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, drive, history};
 use pounding_hysteresis::{HysteresisLaw, LawParameters, Motion, build};
 use pounding_runge_kutta::Dop853;

@@ -7,9 +7,9 @@ use std::cell::Cell;
 use pounding_gap_element::{ModelParameters, registry};
 use pounding_time_history::{MethodChoice, Outcome, RunOptions, run};
 
-use crate::case::{Case, Chain, Law, METHODS, steady};
-use crate::integrate::integrate;
-use crate::{distance, near};
+use super::case::{Case, Chain, Law, METHODS, steady};
+use super::integrate::integrate;
+use super::{distance, near};
 
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 2.0e7;

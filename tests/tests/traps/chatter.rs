@@ -1,9 +1,9 @@
 //! Trap 2: the located end of a contact has a penetration of plus or minus round-off,
 //! and "open and not negative means closed" closes it again, for ever.
 
-use crate::agrees;
-use crate::case::{Case, Chain, Law, METHODS, restless};
-use crate::exact::{GIVE_UP, Rules, solve};
+use super::agrees;
+use super::case::{Case, Chain, Law, METHODS, restless};
+use super::exact::{GIVE_UP, Rules, solve};
 
 /// Locates events as well as the truth does, stops on their near side, and closes a
 /// gap wherever its penetration is not negative.

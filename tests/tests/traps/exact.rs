@@ -9,8 +9,8 @@
 //! The naive treatments use the same exact motion, so that what they get wrong is the
 //! trap alone.
 
-use crate::case::{Case, Law};
-use crate::plant::{Mode, Plant, Target, Watch};
+use super::case::{Case, Law};
+use super::plant::{Mode, Plant, Target, Watch};
 
 /// How events and peaks are looked for.
 #[derive(Debug, Clone, Copy)]

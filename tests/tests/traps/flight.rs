@@ -1,8 +1,8 @@
 //! Trap 1 in flight: a brief touch between two looks. No impact may be missed.
 
-use crate::case::{Case, Chain, Law, METHODS, restless, steady};
-use crate::exact::{History, Rules, solve};
-use crate::{agrees, near};
+use super::case::{Case, Chain, Law, METHODS, restless, steady};
+use super::exact::{History, Rules, solve};
+use super::{agrees, near};
 
 const SPRING: Law = Law::Spring { k: 2.0e8 };
 

@@ -1,10 +1,10 @@
 //! Traps 5 and 6: peaks of displacement inside a sample; peaks of force inside a step
 //! and on both sides of a jump.
 
-use crate::case::{Case, Chain, Law, METHODS, restless, steady};
-use crate::exact::{History, Rules, Top, solve};
-use crate::plant::{Mode, Plant};
-use crate::{agrees, near};
+use super::case::{Case, Chain, Law, METHODS, restless, steady};
+use super::exact::{History, Rules, Top, solve};
+use super::plant::{Mode, Plant};
+use super::{agrees, near};
 
 /// The maximum displacement, velocity known too, of a cubic through the ends of every
 /// sample, where one Newton step from the larger end takes it.

@@ -1,6 +1,6 @@
 //! The linear systems of a case, one for each mode of its contact.
 
-use crate::case::{Case, Law};
+use super::case::{Case, Law};
 
 /// State of the contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

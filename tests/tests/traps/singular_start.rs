@@ -8,9 +8,9 @@
 use pounding_gap_element::{ModelParameters, registry};
 use pounding_time_history::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice};
 
-use crate::case::{Case, Chain, Law, go, steady};
-use crate::integrate::integrate;
-use crate::near;
+use super::case::{Case, Chain, Law, go, steady};
+use super::integrate::integrate;
+use super::near;
 
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 2.75e9;

@@ -1,9 +1,9 @@
 //! Trap 7: dry friction that stops the floors holds them. Without the state of sticking
 //! the sign of the velocity chatters.
 
-use crate::case::{Case, Chain, Law, METHODS};
-use crate::exact::{GIVE_UP, Rules, solve};
-use crate::{agrees, near};
+use super::case::{Case, Chain, Law, METHODS};
+use super::exact::{GIVE_UP, Rules, solve};
+use super::{agrees, near};
 
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 2.0e7;

@@ -4,9 +4,9 @@
 use pounding_gap_element::{ModelParameters, registry};
 use verification::{ReferenceLink, reference_cases, reference_system_with, synthetic_motion};
 
-use crate::case::{Case, Chain, Law, METHODS, go, steady};
-use crate::exact::{Rules, solve};
-use crate::{agrees, astray, near};
+use super::case::{Case, Chain, Law, METHODS, go, steady};
+use super::exact::{Rules, solve};
+use super::{agrees, astray, near};
 
 /// One look a sample.
 const SAMPLE: f64 = 0.02;

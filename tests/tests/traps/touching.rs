@@ -4,10 +4,10 @@
 use pounding_gap_element::{APPROACH_VELOCITY_FLOOR, ModelParameters, registry};
 use pounding_time_history::MethodChoice;
 
-use crate::case::{Case, Chain, Law, METHODS, go, restless, steady};
-use crate::exact::{Rules, solve};
-use crate::integrate::integrate;
-use crate::{agrees, astray, distance};
+use super::case::{Case, Chain, Law, METHODS, go, restless, steady};
+use super::exact::{Rules, solve};
+use super::integrate::integrate;
+use super::{agrees, astray, distance};
 
 const MASS: f64 = 2.0e4;
 const PUSH: f64 = 2.0;

@@ -1,17 +1,20 @@
 //! Serde's view of a TOML tree, with the places of its values.
+//!
+//! Everything is read from a [`Value`], also a place or a piece of text: each deserializer more
+//! would have every type compiled for it once more, with all types in it. For the same reason
+//! what does not depend on the type stands in functions of its own.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::num::IntErrorKind;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::agreeing;
-use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
+use serde::de::value::StrDeserializer;
 use serde::de::{
-    DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected,
-    IntoDeserializer, MapAccess, SeqAccess, Unexpected, VariantAccess, Visitor,
+    DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
 use toml::Spanned;
@@ -35,7 +38,7 @@ pub(super) fn read<T: DeserializeOwned>(
     root.recorded(PhantomData).ok()
 }
 
-/// A value with the name of its key.
+/// A value with the name of its key, or something else about it.
 #[derive(Clone, Copy)]
 struct Value<'r> {
     reader: Reader<'r>,
@@ -55,6 +58,20 @@ enum Held<'r> {
     Lost,
     /// What the table does not name.
     Free(&'r Keys<'r>),
+    /// One of the keys that the table does not name, with its value, if that was not lost.
+    Entry(&'r Key<'r>, Option<&'r Spanned<DeValue<'r>>>),
+    /// A key with its place.
+    Key(&'r Key<'r>),
+    /// A word, or digits.
+    Text(&'r str),
+    /// Where something begins and ends.
+    Span(usize, usize),
+    /// One of these.
+    Index(usize),
+    /// Whether no errors came to so many.
+    Whole(usize),
+    /// Where the values of the keys of a table stand.
+    Places(&'r Spanned<DeValue<'r>>),
 }
 
 /// What enums of words expect by `#[serde(expecting)]`; others are tables.
@@ -104,11 +121,76 @@ impl<'r> Value<'r> {
         }
     }
 
+    /// What a type that is no table of the file asks for.
+    fn facts(self, name: &str) -> Result<Option<Parts<'r>>, Error> {
+        let facts = match (name, self.held) {
+            (ask::LOCATED, held) => {
+                let (value, span) = match held {
+                    Held::Key(key) => (Held::Text(key.get_ref()), key.span()),
+                    _ => (held, self.given()?.span()),
+                };
+                vec![value, Held::Span(span.start, span.end)]
+            }
+            (ask::TABLE, held) => {
+                let places = match held {
+                    Held::Given(table) => Held::Places(table),
+                    _ => held,
+                };
+                vec![held, Held::Whole(self.reader.errors.count()), places]
+            }
+            (_, Held::Span(start, end)) => vec![Held::Index(start), Held::Index(end)],
+            _ => return Ok(None),
+        };
+        let value = |held| Part::Value(Self { held, ..self });
+        Ok(Some(parts(facts.into_iter().map(value))))
+    }
+
+    /// The entries of a list, or of the keys that a table does not name. Errors of the entries
+    /// are recorded, and the next entry can be read after one.
+    fn entries(self) -> Result<Parts<'r>, Error> {
+        if let Held::Free(keys) = self.held {
+            let entry = |(key, value)| Part::Value(self.with(self.key, Held::Entry(key, value)));
+            return Ok(parts(keys.free().into_iter().map(entry)));
+        }
+        let item = |item| Part::Recorded(self.with(self.key, Held::Given(item)));
+        match self.given()?.get_ref() {
+            DeValue::Array(items) => Ok(parts(items.iter().map(item))),
+            _ => Err(self.wrong_type(self.wanted("a list"))),
+        }
+    }
+
+    /// A key with its place, and its value.
+    fn entry(self) -> Option<Parts<'r>> {
+        let Held::Entry(key, value) = self.held else {
+            return None;
+        };
+        let value = value.map_or(Held::Lost, Held::Given);
+        Some(parts([
+            Part::Value(self.with(self.key, Held::Key(key))),
+            Part::Value(self.with(key.get_ref(), value)),
+        ]))
+    }
+
+    /// A text, or the digits of a number.
+    fn written(self, expecting: &dyn Expected) -> Result<Cow<'r, str>, Error> {
+        Ok(Cow::Owned(match self.given()?.get_ref() {
+            DeValue::String(text) => return Ok(Cow::Borrowed(text)),
+            DeValue::Integer(i) if i.radix() == 10 => i.as_str().to_owned(),
+            DeValue::Integer(i) => {
+                let number = u64::from_str_radix(i.as_str(), i.radix());
+                number.map_or_else(|_| i.as_str().to_owned(), |n| n.to_string())
+            }
+            DeValue::Float(f) => f.as_str().to_owned(),
+            _ => return Err(self.wrong_type(&expecting.to_string())),
+        }))
+    }
+
     fn given(self) -> Result<&'r Spanned<DeValue<'r>>, Error> {
         match self.held {
             Held::Given(value) => Ok(value),
             Held::Absent(keys) => Err(keys.lacks(self.key)),
-            Held::Lost | Held::Free(_) => Err(Error::Recorded),
+            // Of what is more than a value, errors were recorded.
+            _ => Err(Error::Recorded),
         }
     }
 
@@ -157,15 +239,10 @@ impl<'r> Value<'r> {
         Error::invalid_type(found, &wanted)
     }
 
-    /// Reads the value if it is of a type.
-    fn only<'de, V: Visitor<'de>>(
-        self,
-        fits: impl Fn(&DeValue<'r>) -> bool,
-        wanted: &str,
-        visitor: V,
-    ) -> Result<V::Value, Error> {
+    /// Refuses a value that is of another type.
+    fn only(self, fits: fn(&DeValue<'r>) -> bool, wanted: &str) -> Result<Self, Error> {
         match fits(self.given()?.get_ref()) {
-            true => self.deserialize_any(visitor),
+            true => Ok(self),
             false => Err(self.wrong_type(wanted)),
         }
     }
@@ -201,6 +278,79 @@ impl<'r> Value<'r> {
     }
 }
 
+impl<'r> Value<'r> {
+    /// A table with these keys, whose unknown keys are recorded.
+    fn named_table(
+        self,
+        name: &'r str,
+        fields: &'r [&'r str],
+        expecting: &dyn Expected,
+    ) -> Result<Keys<'r>, Error> {
+        let keys = self.table(name, fields, expecting)?;
+        let unknown = keys.all_known();
+        // Keys of tables without a name of their own mean something together.
+        if is_type(name) && !(self.key.is_empty() || keys.is_open()) {
+            unknown?;
+        }
+        Ok(keys)
+    }
+
+    /// The one of several words that is written.
+    fn word(self, name: &str, words: &[&'static str], more: &str) -> Result<&'static str, Error> {
+        let DeValue::String(word) = self.given()?.get_ref() else {
+            return Err(self.wrong_type(WORD));
+        };
+        if let Some(known) = words.iter().find(|known| *known == word) {
+            return Ok(known);
+        }
+        let known: Vec<_> = words.iter().map(|v| format!("\"{v}\"")).collect();
+        Err(Error::New(match is_type(name) {
+            true => Fault::new(
+                format!(" cannot be \"{word}\""),
+                format!("write {}", known.join(" or ")),
+            ),
+            false => Fault::new(
+                format!("unknown {name} \"{word}\""),
+                unknown_word(word, words, more),
+            ),
+        }))
+    }
+
+    /// A table of several kinds with keys of their own, or with one key, and the variant that
+    /// it is.
+    fn variant(
+        self,
+        name: &'r str,
+        variants: &'r [&'static str],
+        keys: &'r [&'r str],
+        kinds: Option<&str>,
+        expecting: &dyn Expected,
+    ) -> Result<(Keys<'r>, &'static str), Error> {
+        let keys = self.table(name, keys, expecting)?;
+        keys.all_known()?;
+        let given: Vec<_> = variants.iter().filter(|v| keys.get(v).is_some()).collect();
+        if let [variant] = given.as_slice() {
+            let variant = **variant;
+            return Ok((keys, variant));
+        }
+        let (name, count) = (quoted(keys.name), given.len());
+        Err(Error::New(match kinds {
+            Some(kinds) => Fault::new(
+                format!("{name} must be of one kind, not {count}"),
+                format!("it needs one of {kinds}, and nothing of the other kinds"),
+            ),
+            None => Fault::new(
+                format!("{name} has one key, not {count}"),
+                expecting
+                    .to_string()
+                    .lines()
+                    .nth(1)
+                    .unwrap_or("write one of them"),
+            ),
+        }))
+    }
+}
+
 impl<'de> Deserializer<'de> for Value<'_> {
     type Error = Error;
 
@@ -210,11 +360,11 @@ impl<'de> Deserializer<'de> for Value<'_> {
             DeValue::Boolean(flag) => visitor.visit_bool(*flag),
             DeValue::Integer(i) => {
                 // What is no such number is as far out of every range as can be.
-                let number = i64::from_str_radix(i.as_str(), i.radix());
-                visitor.visit_i64(number.unwrap_or_else(|e| match e.kind() {
-                    IntErrorKind::PosOverflow => i64::MAX,
-                    _ => i64::MIN,
-                }))
+                visitor.visit_i64(match i64::from_str_radix(i.as_str(), i.radix()) {
+                    Ok(number) => number,
+                    Err(e) if *e.kind() == IntErrorKind::PosOverflow => i64::MAX,
+                    Err(_) => i64::MIN,
+                })
             }
             DeValue::Array(_) => self.deserialize_seq(visitor),
             _ => Err(self.wrong_type(&expected(&visitor))),
@@ -222,15 +372,30 @@ impl<'de> Deserializer<'de> for Value<'_> {
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        self.only(DeValue::is_bool, "true or false", visitor)
+        if let Held::Whole(before) = self.held {
+            return visitor.visit_bool(self.reader.errors.count() == before);
+        }
+        self.only(DeValue::is_bool, "true or false")?
+            .deserialize_any(visitor)
     }
 
     fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        self.only(DeValue::is_integer, self.wanted(WHOLE), visitor)
+        self.only(DeValue::is_integer, self.wanted(WHOLE))?
+            .deserialize_any(visitor)
+    }
+
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.held {
+            Held::Index(index) => visitor.visit_u64(index as u64),
+            _ => self.deserialize_any(visitor),
+        }
     }
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        self.only(DeValue::is_str, WORD, visitor)
+        if let Held::Text(text) = self.held {
+            return visitor.visit_str(text);
+        }
+        self.only(DeValue::is_str, WORD)?.deserialize_any(visitor)
     }
 
     fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
@@ -244,17 +409,8 @@ impl<'de> Deserializer<'de> for Value<'_> {
         }
     }
 
-    /// Errors of the entries are recorded, and the next entry can be read after one.
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        if let Held::Free(keys) = self.held {
-            let entry = |(key, held)| keys.entry(key, self.with(key.get_ref(), held));
-            return visitor.visit_seq(parts(keys.free().into_iter().map(entry)));
-        }
-        let item = |item| Part::Recorded(self.with(self.key, Held::Given(item)));
-        match self.given()?.get_ref() {
-            DeValue::Array(items) => visitor.visit_seq(parts(items.iter().map(item))),
-            _ => Err(self.wrong_type(self.wanted("a list"))),
-        }
+        visitor.visit_seq(self.entries()?)
     }
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
@@ -274,19 +430,13 @@ impl<'de> Deserializer<'de> for Value<'_> {
                 DeValue::Array(_) => self.deserialize_seq(visitor),
                 _ => visitor.visit_newtype_struct(self),
             },
-            ask::WRITTEN => {
-                let digits = match self.given()?.get_ref() {
-                    DeValue::String(text) => return visitor.visit_str(text),
-                    DeValue::Integer(i) if i.radix() == 10 => i.as_str().to_owned(),
-                    DeValue::Integer(i) => {
-                        let number = u64::from_str_radix(i.as_str(), i.radix());
-                        number.map_or_else(|_| i.as_str().to_owned(), |n| n.to_string())
-                    }
-                    DeValue::Float(f) => f.as_str().to_owned(),
-                    _ => return Err(self.wrong_type(&expected(&visitor))),
-                };
-                visitor.visit_newtype_struct(digits.into_deserializer())
-            }
+            ask::WRITTEN => match self.written(&visitor)? {
+                Cow::Borrowed(text) => visitor.visit_str(text),
+                Cow::Owned(digits) => visitor.visit_newtype_struct(Value {
+                    held: Held::Text(&digits),
+                    ..self
+                }),
+            },
             _ => {
                 let wanted = expected(&visitor);
                 let is_derived = wanted.starts_with("tuple struct ");
@@ -304,28 +454,10 @@ impl<'de> Deserializer<'de> for Value<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Error> {
-        match name {
-            ask::LOCATED => {
-                let span = self.given()?.span();
-                return visitor.visit_seq(parts([Part::Value(self), Part::Span(span)]));
-            }
-            ask::TABLE => {
-                let errors = self.reader.errors.count();
-                let facts = [
-                    Part::Value(self),
-                    Part::Whole(self, errors),
-                    Part::Places(self),
-                ];
-                return visitor.visit_seq(parts(facts));
-            }
-            _ => {}
+        if let Some(facts) = self.facts(name)? {
+            return visitor.visit_seq(facts);
         }
-        let keys = self.table(name, fields, &visitor)?;
-        let unknown = keys.all_known();
-        // Keys of tables without a name of their own mean something together.
-        if is_type(name) && !(self.key.is_empty() || keys.is_open()) {
-            unknown?;
-        }
+        let keys = self.named_table(name, fields, &visitor)?;
         visitor.visit_map(Fields {
             table: self,
             keys: &keys,
@@ -350,54 +482,43 @@ impl<'de> Deserializer<'de> for Value<'_> {
         let expecting = expected(&visitor);
         let (expecting, more) = expecting.split_once('\n').unwrap_or((&expecting, ""));
         if expecting == WORD {
-            let DeValue::String(word) = self.given()?.get_ref() else {
-                return Err(self.wrong_type(WORD));
-            };
-            if let Some(variant) = variants.iter().find(|v| *v == word) {
-                return visitor.visit_enum(StrDeserializer::new(variant));
-            }
-            let known: Vec<_> = variants.iter().map(|v| format!("\"{v}\"")).collect();
-            return Err(Error::New(match is_type(name) {
-                true => Fault::new(
-                    format!(" cannot be \"{word}\""),
-                    format!("write {}", known.join(" or ")),
-                ),
-                false => Fault::new(
-                    format!("unknown {name} \"{word}\""),
-                    unknown_word(word, variants, more),
-                ),
-            }));
+            let variant = self.word(name, variants, more)?;
+            return visitor.visit_enum(Kind {
+                variant,
+                value: self.with(self.key, Held::Text(variant)),
+                table: None,
+            });
         }
-        // Of several kinds with keys of their own, or with one key.
         let kinds = self.wanted.split_once('\n');
         let all: Vec<&str> = match kinds {
             Some((keys, _)) => keys.split(", ").collect(),
             None => variants.to_vec(),
         };
-        let keys = self.table(name, &all, &visitor)?;
-        keys.all_known()?;
-        let given: Vec<_> = variants.iter().filter(|v| keys.get(v).is_some()).collect();
-        let [variant] = given.as_slice() else {
-            let (name, count) = (quoted(keys.name), given.len());
-            return Err(Error::New(match kinds {
-                Some((_, kinds)) => Fault::new(
-                    format!("{name} must be of one kind, not {count}"),
-                    format!("it needs one of {kinds}, and nothing of the other kinds"),
-                ),
-                None => Fault::new(
-                    format!("{name} has one key, not {count}"),
-                    expected(&visitor)
-                        .lines()
-                        .nth(1)
-                        .unwrap_or("write one of them"),
-                ),
-            }));
-        };
+        let kinds = kinds.map(|(_, kinds)| kinds);
+        let (keys, variant) = self.variant(name, variants, &all, kinds, &visitor)?;
         visitor.visit_enum(Kind {
             variant,
             value: self.with(variant, keys.held(variant)),
             table: Some((self, &keys)),
         })
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
+        match self.entry() {
+            Some(entry) => visitor.visit_seq(entry),
+            None => self.deserialize_any(visitor),
+        }
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.held {
+            Held::Places(table) => visitor.visit_map(Places {
+                value: self,
+                rest: table.get_ref().as_table().into_iter().flatten().collect(),
+                span: Held::Lost,
+            }),
+            _ => self.deserialize_any(visitor),
+        }
     }
 
     fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
@@ -406,23 +527,16 @@ impl<'de> Deserializer<'de> for Value<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i128 u8 u16 u32 u64 u128 f32 f64 char bytes byte_buf unit unit_struct tuple
-        tuple_struct map identifier
+        i8 i16 i32 i128 u8 u16 u32 u128 f32 f64 char bytes byte_buf unit unit_struct tuple_struct
+        identifier
     }
 }
 
-/// What a value can be asked for.
+/// One of several values.
 enum Part<'r> {
     Value(Value<'r>),
-    /// A value whose errors are recorded.
+    /// One whose errors are recorded.
     Recorded(Value<'r>),
-    /// Whether no errors came to so many.
-    Whole(Value<'r>, usize),
-    /// Where the values of the keys of a table stand.
-    Places(Value<'r>),
-    Text(&'r str),
-    Span(Range<usize>),
-    Parts(Vec<Part<'r>>),
 }
 
 struct Parts<'r>(std::vec::IntoIter<Part<'r>>);
@@ -431,37 +545,48 @@ fn parts<'r>(parts: impl IntoIterator<Item = Part<'r>>) -> Parts<'r> {
     Parts(parts.into_iter().collect::<Vec<_>>().into_iter())
 }
 
-fn ends(span: Range<usize>) -> Vec<usize> {
-    vec![span.start, span.end]
-}
-
 impl<'de> SeqAccess<'de> for Parts<'_> {
     type Error = Error;
     fn next_element_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
     ) -> Result<Option<S::Value>, Error> {
-        let Some(part) = self.0.next() else {
+        let (value, is_recorded) = match self.0.next() {
+            None => return Ok(None),
+            Some(Part::Value(value)) => (value, false),
+            Some(Part::Recorded(value)) => (value, true),
+        };
+        let read = value.read(seed).map(Some);
+        read.map_err(|error| match is_recorded {
+            true => value.record(error),
+            false => error,
+        })
+    }
+}
+
+/// Where the values of the keys of a table stand.
+struct Places<'r> {
+    value: Value<'r>,
+    rest: Vec<(&'r Key<'r>, &'r Spanned<DeValue<'r>>)>,
+    /// That of the key that was read last.
+    span: Held<'r>,
+}
+
+impl<'de> MapAccess<'de> for Places<'_> {
+    type Error = Error;
+    fn next_key_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let Some((key, value)) = self.rest.pop() else {
             return Ok(None);
         };
-        match part {
-            Part::Value(value) => value.read(seed),
-            Part::Recorded(value) => value.recorded(seed),
-            Part::Whole(value, before) => {
-                let whole = value.reader.errors.count() == before;
-                seed.deserialize(whole.into_deserializer())
-            }
-            Part::Places(value) => {
-                let table = value.given()?.get_ref().as_table();
-                let table = table.into_iter().flatten();
-                let places = table.map(|(key, v)| (key.get_ref().to_string(), ends(v.span())));
-                seed.deserialize(places.collect::<BTreeMap<_, _>>().into_deserializer())
-            }
-            Part::Text(text) => seed.deserialize(text.into_deserializer()),
-            Part::Span(span) => seed.deserialize(ends(span).into_deserializer()),
-            Part::Parts(inner) => seed.deserialize(SeqAccessDeserializer::new(parts(inner))),
-        }
-        .map(Some)
+        self.span = Held::Span(value.span().start, value.span().end);
+        let key = self.value.with(self.value.key, Held::Text(key.get_ref()));
+        key.read(seed).map(Some)
+    }
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
+        self.value.with(self.value.key, self.span).read(seed)
     }
 }
 
@@ -574,27 +699,14 @@ impl<'r> Keys<'r> {
 
     /// The keys that the table does not name, in the order of the file; those that are nearly
     /// others without value.
-    fn free(&self) -> Vec<(&'r Key<'r>, Held<'r>)> {
+    fn free(&self) -> Vec<(&'r Key<'r>, Option<&'r Spanned<DeValue<'r>>>)> {
         let held = |(key, value): (&'r Key<'r>, _)| {
             let unknown = self.unknown.iter().any(|(k, _)| k.span() == key.span());
-            (
-                key,
-                if unknown {
-                    Held::Lost
-                } else {
-                    Held::Given(value)
-                },
-            )
+            (key, (!unknown).then_some(value))
         };
         let mut free: Vec<_> = self.others().map(held).collect();
         free.sort_by_key(|(key, _)| key.span().start);
         free
-    }
-
-    /// A key with its place, and its value.
-    fn entry(&self, key: &'r Key<'r>, value: Value<'r>) -> Part<'r> {
-        let located = vec![Part::Text(key.get_ref()), Part::Span(key.span())];
-        Part::Parts(vec![Part::Parts(located), Part::Value(value)])
     }
 }
 
@@ -645,7 +757,10 @@ impl<'de> VariantAccess<'de> for Kind<'_> {
     type Error = Error;
 
     fn unit_variant(self) -> Result<(), Error> {
-        Err(self.value.wrong_type(WORD))
+        match self.value.held {
+            Held::Text(_) => Ok(()),
+            _ => Err(self.value.wrong_type(WORD)),
+        }
     }
 
     fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {

@@ -453,7 +453,7 @@ fn links_as_outputs() {
         "{told}"
     );
     assert!(!fixture.path("new.h5").exists() && !fixture.path("nowhere.svg").exists());
-    super::part_files::no_part_file(&fixture.path("inside"));
+    crate::support::part_files::no_part_file(&fixture.path("inside"));
 }
 
 /// Pages are written into a folder only.

@@ -3,7 +3,7 @@
 use std::process::{Child, Stdio};
 
 use super::fixture::{Fixture, message};
-use super::part_files::no_part_file;
+use crate::support::part_files::no_part_file;
 
 fn begun(fixture: &Fixture, words: &str, locking: &str) -> Child {
     fixture

@@ -5,7 +5,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Stdio};
 
 use super::fixture::{Fixture, message};
-use super::part_files::no_part_file;
+use crate::support::part_files::no_part_file;
 
 /// The whole name of a case file stands in that of its result: gap_0.5 and gap_0.7 are two.
 #[test]

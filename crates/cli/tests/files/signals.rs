@@ -4,7 +4,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use super::fixture::{Fixture, message};
-use super::part_files::no_part_file;
+use crate::support::part_files::no_part_file;
 
 fn send(signal: &str, child: &Child) {
     let id = child.id().to_string();

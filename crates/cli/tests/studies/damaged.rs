@@ -10,6 +10,7 @@ use pounding_files::checksum::{LENGTH, append, check_content};
 use serde_json::Value;
 
 use super::{Bench, MIXED};
+use crate::support::edit;
 
 const SHARDS: &str = "1.h5 2.h5 3.h5";
 
@@ -62,22 +63,10 @@ fn without_checksum(path: &Path) {
     edit(path, |file| file.delete_attr("checksum").unwrap());
 }
 
-/// Changes a file by HDF5, which cuts off what follows the content.
-fn edit(path: &Path, change: impl FnOnce(&hdf5::File)) {
-    let file = hdf5::File::open_rw(path).unwrap();
-    change(&file);
-    file.close().unwrap();
-}
-
 /// The same, with a checksum of what it is now.
 fn edit_with_checksum(path: &Path, change: impl FnOnce(&hdf5::File)) {
     edit(path, change);
     append(path).unwrap();
-    // HDF5's lock lives on in a process that another test is just starting: another file takes
-    // the place of the one that was locked.
-    let bytes = std::fs::read(path).unwrap();
-    std::fs::remove_file(path).unwrap();
-    std::fs::write(path, bytes).unwrap();
 }
 
 /// 2,000 flipped bits and 1,000 runs of other bytes, in a result and in a shard.

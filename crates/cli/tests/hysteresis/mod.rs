@@ -5,6 +5,4 @@ mod documentation;
 mod laboratory;
 mod pages;
 mod refusals;
-#[path = "../support/mod.rs"]
-mod support;
 mod verify;

@@ -8,8 +8,6 @@ mod examples;
 mod failing;
 mod interrupted;
 mod parquet;
-#[path = "../support/part_files.rs"]
-mod part_files;
 mod python;
 mod shards;
 mod shown;
@@ -118,7 +116,7 @@ impl Bench {
 
     /// Nobody's part file stands in the folder.
     fn no_part_file(&self) {
-        part_files::no_part_file(self.folder.path());
+        crate::support::part_files::no_part_file(self.folder.path());
     }
 
     fn bytes(&self, name: &str) -> Vec<u8> {

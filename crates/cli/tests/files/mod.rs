@@ -5,8 +5,6 @@ mod fixture;
 mod inputs;
 #[cfg(unix)]
 mod left_over;
-#[path = "../support/part_files.rs"]
-mod part_files;
 mod progress;
 mod races;
 #[cfg(unix)]

@@ -1,0 +1,8 @@
+//! Case files: what is read, what is refused and in which words.
+
+mod bad_input;
+mod case_file;
+mod document;
+mod ground_motion;
+mod separation;
+mod several_errors;

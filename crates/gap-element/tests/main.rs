@@ -1,0 +1,9 @@
+//! Impact models, by their registry and against published results.
+
+mod calibration;
+mod contact_stiffness;
+mod laboratory;
+mod pressed_collisions;
+mod published;
+mod registry;
+mod single_collisions;

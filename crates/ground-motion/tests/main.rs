@@ -1,0 +1,23 @@
+//! Records: formats, processing, measures, spectra, generators.
+
+mod agency_files;
+mod agency_measures;
+mod column_headers;
+mod common;
+mod contradictory_headers;
+mod design_spectra;
+mod ensemble;
+mod excitation;
+mod formats;
+mod generators;
+mod hostile;
+mod matching;
+mod measures;
+mod point_source;
+mod processing;
+mod pulses;
+mod readers;
+mod spectra;
+mod stated_durations;
+mod time_steps_and_scales;
+mod writers;

@@ -1,0 +1,4 @@
+//! Storeys, damping and modes.
+
+mod properties;
+mod textbook_frame;

@@ -1,0 +1,7 @@
+//! Studies, called as a library.
+
+mod comparison;
+mod gap_check;
+mod interruption;
+mod records;
+mod studies;

@@ -1,0 +1,4 @@
+//! What a run allocates.
+
+mod no_allocation;
+mod streaming;

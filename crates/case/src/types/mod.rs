@@ -333,7 +333,7 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
     let name = path.display().to_string();
     let unread = |reason: String| {
         let message = format!("cannot read the {what} file: {reason}");
-        CaseError::new(&name, "", 0..0, message, Some("check the path".to_owned()))
+        CaseError::unread(&name, message, Some("check the path".to_owned()))
     };
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(|e| unread(e.to_string()))?;

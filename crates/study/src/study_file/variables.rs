@@ -110,6 +110,11 @@ impl VariableTable {
         }
     }
 
+    /// The name that the table states, whether or not it is sound.
+    pub(super) fn stated_name(&self) -> Option<String> {
+        self.name.clone().value()
+    }
+
     /// The name of the variable, by default as given, and how people call it.
     fn names(
         &self,

@@ -109,7 +109,7 @@ fn unknown(
     let mut known: Vec<_> = known.collect();
     known.sort_unstable();
     known.dedup();
-    let nearest = suggestion::nearest(key, &known);
+    let nearest = suggestion::misspelt(key, &known);
     let guess = nearest.map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
     let who = match asked {
         [one] => format!("model {} has no parameter \"{key}\"", one.name),

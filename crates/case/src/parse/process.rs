@@ -1,5 +1,7 @@
 //! What is done to a record before it is scaled.
 
+use std::borrow::Cow;
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use pounding_ground_motion::processing::{
@@ -7,7 +9,7 @@ use pounding_ground_motion::processing::{
     Trim,
 };
 use pounding_ground_motion::{AccelerationUnit, GroundMotionError};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use super::scale::{ScaleValue, scale_of};
@@ -175,21 +177,23 @@ struct ResampleTable {
     /// New time step (s)
     time_step: Positive<Time>,
     /// linear (default) or band_limited
-    #[serde(default)]
-    #[schemars(schema_with = "words_of::<Interpolation>")]
+    #[schemars(with = "Option<Words<Interpolation>>")]
     interpolation: Option<Interpolation>,
 }
 
-/// Schema of a word, without what a library says of each.
-fn words_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
-    let schema = T::json_schema(generator);
-    let words = schema.get("oneOf").and_then(|all| all.as_array());
-    let words: Vec<_> = words
-        .into_iter()
-        .flatten()
-        .map(|one| &one["const"])
-        .collect();
-    schemars::json_schema!({"type": "string", "enum": words})
+/// Looks in a schema as the words of `T`, without what its library says of each.
+struct Words<T>(PhantomData<T>);
+
+impl<T: JsonSchema> JsonSchema for Words<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let schema = T::json_schema(generator);
+        let words = schema.get("oneOf").and_then(|all| all.as_array());
+        let words = words.into_iter().flatten().map(|one| &one["const"]);
+        json_schema!({"type": "string", "enum": words.collect::<Vec<_>>()})
+    }
 }
 
 /// Reads a text `process = [...]`, the same list as in a case file: for programs that

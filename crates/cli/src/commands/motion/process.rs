@@ -6,7 +6,6 @@ use pounding_assembly::read_target;
 use pounding_case::SpectrumFile;
 use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
-use serde_json::json;
 
 use super::words::Words;
 use super::{reading, writing};
@@ -45,7 +44,7 @@ pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), F
             .accelerogram;
     }
     let title = format!("{}, processed", arguments.file.display());
-    writing::finish(&arguments.output, &record, &title, json!({}))
+    writing::finish(&arguments.output, &record, &title, None)
 }
 
 /// The name of a step's option.

@@ -4,6 +4,9 @@ use super::panel;
 use crate::error::ReportError;
 use crate::figure::{Curve, figure};
 
+/// Names of buildings, each with a value by width.
+pub type ByBuilding<'n> = Vec<(&'n str, Vec<Option<f64>>)>;
+
 /// Amplification over the width (m) of a gap, a panel for each quantity with a curve for each
 /// building: its values by width, of which those that are not finite are left out.
 ///
@@ -11,7 +14,7 @@ use crate::figure::{Curve, figure};
 /// [`ReportError::Figure`].
 pub fn amplifications(
     widths: &[f64],
-    quantities: &[(&str, Vec<(&str, Vec<Option<f64>>)>)],
+    quantities: &[(&str, ByBuilding<'_>)],
 ) -> Result<String, ReportError> {
     let curve = |(name, values): &(&str, Vec<Option<f64>>)| {
         let points = widths.iter().zip(values).filter_map(|(width, value)| {

@@ -1,16 +1,12 @@
 //! The record of a case: read, processed and scaled as the case says.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use pounding_case::{BaselineKind, Case, CaseError, Located, ProcessStep, RemovedOffset, Scale};
-use pounding_ground_motion::processing::{
-    Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, SegmentWindow,
-    Trim, process, rotate,
-};
+use pounding_case::{Case, CaseError, Located, SpectrumFile};
+use pounding_ground_motion::processing::{process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
-    AccelerationUnit, Accelerogram, Format, GroundMotionError, Offset, Quantity, ReadOptions,
-    processing,
+    AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions,
 };
 
 use crate::error::AssemblyError;
@@ -43,7 +39,8 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
     }
     for step in &motion.process {
         let refused = |e: GroundMotionError| case.error(step.span.clone(), e.to_string(), e.help());
-        let made = processing_step(&step.value, &|path| case.resolve(path)).map_err(refused)?;
+        let target = |spectrum: &SpectrumFile| read_target(spectrum, |path| case.resolve(path));
+        let made = step.value.with_target(target).map_err(refused)?;
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
     Ok(record)
@@ -54,135 +51,23 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
 /// # Errors
 /// A target spectrum that cannot be read, or a scale that the record does not allow.
 pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, AssemblyError> {
-    let folder = |path: &Path| case.resolve(path);
-    match scale_of(&case.ground_motion.scale, &folder)? {
-        None => Ok(record),
-        Some(scale) => {
-            let factor = scale.factor(&record)?;
-            Ok(record.scaled_by(factor)?)
-        }
-    }
+    let Some(scale) = &case.ground_motion.scale else {
+        return Ok(record);
+    };
+    let scale = scale.with_target(|spectrum| read_target(spectrum, |path| case.resolve(path)))?;
+    let factor = scale.factor(&record)?;
+    Ok(record.scaled_by(factor)?)
 }
 
-/// A step of processing from its words. `resolve` finds files that it names.
+/// Reads the spectrum that a scale or a step of a case names. `resolve` finds its file.
 ///
 /// # Errors
-/// An unknown unit, or a target spectrum that cannot be read.
-pub fn processing_step(
-    step: &ProcessStep,
-    resolve: &dyn Fn(&Path) -> std::path::PathBuf,
-) -> Result<ProcessingStep, GroundMotionError> {
-    Ok(match step {
-        ProcessStep::Unit(unit) => ProcessingStep::Unit(unit.value.parse()?),
-        ProcessStep::ReverseSign => ProcessingStep::Sign,
-        ProcessStep::RemoveOffset(offset) => ProcessingStep::Offset(match offset {
-            RemovedOffset::Mean => OffsetCorrection::Mean,
-            RemovedOffset::PreEventMean(length) => OffsetCorrection::PreEventMean(*length),
-            RemovedOffset::Value(value) => OffsetCorrection::Value(*value),
-        }),
-        ProcessStep::Filter {
-            order,
-            high_pass,
-            low_pass,
-            causal,
-            keep_pads,
-        } => ProcessingStep::Filter(Butterworth {
-            order: *order,
-            high_pass: *high_pass,
-            low_pass: *low_pass,
-            phase: if *causal {
-                Phase::Causal
-            } else {
-                Phase::Zero {
-                    keep_pads: *keep_pads,
-                }
-            },
-        }),
-        ProcessStep::Baseline(kind) => ProcessingStep::Baseline(baseline(*kind)),
-        ProcessStep::TrimTimes { start, end } => ProcessingStep::Trim(Trim::Times {
-            start: *start,
-            end: *end,
-        }),
-        ProcessStep::TrimArias { from, to } => ProcessingStep::Trim(Trim::Arias {
-            from: *from,
-            to: *to,
-        }),
-        ProcessStep::Taper { start, end } => ProcessingStep::Taper {
-            start: *start,
-            end: *end,
-        },
-        ProcessStep::Pad { before, after } => ProcessingStep::Pad {
-            before: *before,
-            after: *after,
-        },
-        ProcessStep::Resample {
-            time_step,
-            band_limited,
-        } => ProcessingStep::Resample {
-            time_step: *time_step,
-            interpolation: if *band_limited {
-                Interpolation::BandLimited
-            } else {
-                Interpolation::Linear
-            },
-        },
-        ProcessStep::Scale(scale) => ProcessingStep::Scale(
-            scale_of(scale, resolve)?.unwrap_or(processing::Scale::Factor(1.0)),
-        ),
-    })
-}
-
-fn baseline(kind: BaselineKind) -> Baseline {
-    match kind {
-        BaselineKind::Acceleration(degree) => Baseline::Acceleration { degree },
-        BaselineKind::Velocity(degree) => Baseline::Velocity { degree },
-        BaselineKind::Segments {
-            start,
-            end,
-            fit_from,
-        } => Baseline::TwoSegments {
-            window: SegmentWindow::Times { start, end },
-            fit_from,
-        },
-        BaselineKind::Threshold {
-            threshold,
-            fit_from,
-        } => Baseline::TwoSegments {
-            window: SegmentWindow::Threshold(threshold),
-            fit_from,
-        },
-    }
-}
-
-fn scale_of(
-    scale: &Scale,
-    resolve: &dyn Fn(&Path) -> std::path::PathBuf,
-) -> Result<Option<processing::Scale>, GroundMotionError> {
-    Ok(Some(match scale {
-        Scale::None => return Ok(None),
-        Scale::Factor(factor) => processing::Scale::Factor(*factor),
-        Scale::PeakGroundAcceleration(peak) => processing::Scale::PeakAcceleration(*peak),
-        Scale::PeakGroundVelocity(peak) => processing::Scale::PeakVelocity(*peak),
-        Scale::SpectralAcceleration {
-            acceleration,
-            period,
-            damping,
-        } => processing::Scale::SpectralAcceleration {
-            period: *period,
-            damping: *damping,
-            target: *acceleration,
-        },
-        Scale::Band {
-            target,
-            from,
-            to,
-            damping,
-        } => processing::Scale::Band {
-            target: TargetSpectrum::read(&resolve(&target.value), *damping)?,
-            from: *from,
-            to: *to,
-        },
-    }))
+/// A file that cannot be read, or is no spectrum.
+pub fn read_target(
+    spectrum: &SpectrumFile,
+    resolve: impl Fn(&Path) -> PathBuf,
+) -> Result<TargetSpectrum, GroundMotionError> {
+    TargetSpectrum::read(&resolve(&spectrum.file.value), spectrum.damping)
 }
 
 fn read_options(case: &Case) -> Result<ReadOptions, CaseError> {
@@ -203,11 +88,7 @@ fn read_options(case: &Case) -> Result<ReadOptions, CaseError> {
         lenient: motion.lenient,
         sensitivity: motion.sensitivity,
         gravity: motion.gravity,
-        offset: match motion.offset {
-            pounding_case::Offset::Automatic => Offset::Automatic,
-            pounding_case::Offset::Keep => Offset::Keep,
-            pounding_case::Offset::Remove => Offset::Remove,
-        },
+        offset: motion.offset,
     })
 }
 

@@ -40,7 +40,7 @@ fn folder() -> tempfile::TempDir {
 
 fn assembled(keys: &str) -> Result<Assembly, AssemblyError> {
     let folder = folder();
-    let case = Case::parse(&format!("{START}{keys}"), &folder.path().join("case.toml")).unwrap();
+    let case = Case::parse(&format!("{START}{keys}"), &folder.path().join("case.toml"))?;
     assemble(&case)
 }
 

@@ -5,13 +5,13 @@ use std::ops::Range;
 
 /// Something wrong in a case file, with its place and a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {message}")]
+#[error("{}: {message}", self.place())]
 pub struct CaseError {
     /// File.
     pub file: String,
-    /// Line, from 1.
+    /// Line, from 1; 0 for a file that could not be read.
     pub line: usize,
-    /// Column in characters, from 1.
+    /// Column in characters, from 1; 0 for a file that could not be read.
     pub column: usize,
     /// Bytes of the source that are wrong.
     pub span: Range<usize>,
@@ -46,6 +46,27 @@ impl CaseError {
             message: message.into(),
             help,
             others: Box::default(),
+        }
+    }
+
+    /// An error of a file that could not be read, and so has no places.
+    #[must_use]
+    pub fn unread(file: &str, message: impl Into<String>, help: Option<String>) -> Self {
+        Self {
+            line: 0,
+            column: 0,
+            ..Self::new(file, "", 0..0, message, help)
+        }
+    }
+
+    /// `file:line:column`, or the file alone.
+    fn place(&self) -> String {
+        let Self {
+            file, line, column, ..
+        } = self;
+        match line {
+            0 => file.clone(),
+            _ => format!("{file}:{line}:{column}"),
         }
     }
 

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::process::ProcessStep;
-use crate::types::{Case, GroundMotion, Scale};
+use crate::types::{Case, GroundMotion};
 
 impl Case {
     /// The files that a run of this case reads beside the case file itself: what each is, and
@@ -17,29 +16,9 @@ impl Case {
             ..
         } = &self.ground_motion;
         let steps = process.iter().filter_map(|step| step.value.target());
-        let targets = steps.chain(scale.target());
+        let targets = steps.chain(scale.as_ref().and_then(|scale| scale.target()));
         let mut files = vec![("record", self.resolve(&file.value))];
-        files.extend(targets.map(|path| ("target spectrum", self.resolve(path))));
+        files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
         files
-    }
-}
-
-impl ProcessStep {
-    /// The file of the spectrum that this step scales to, as written.
-    #[must_use]
-    pub fn target(&self) -> Option<&PathBuf> {
-        match self {
-            Self::Scale(scale) => scale.target(),
-            _ => None,
-        }
-    }
-}
-
-impl Scale {
-    fn target(&self) -> Option<&PathBuf> {
-        match self {
-            Self::Band { target, .. } => Some(&target.value),
-            _ => None,
-        }
     }
 }

@@ -2,19 +2,17 @@
 //!
 //! The crate knows words, not physics: it turns a TOML text into plain SI values
 //! and keeps where each stood, so that an error anywhere above can point at file,
-//! line and column. Which floors are level it asks `pounding-shear-building`, which knows
-//! where floors lie.
+//! line and column. What is done to a record it says by the types of `pounding-ground-motion`;
+//! which floors are level it asks `pounding-shear-building`, which knows where floors lie.
 
 pub mod document;
 mod error;
 mod files;
 mod parse;
-mod process;
 mod types;
 mod units;
 
 pub use error::{CaseError, Errors};
 pub use parse::{ground_motion_schema, process_steps, schema};
-pub use process::{BaselineKind, ProcessStep, RemovedOffset};
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_quantity};

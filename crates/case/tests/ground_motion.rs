@@ -3,9 +3,12 @@
 
 use std::path::Path;
 
-use pounding_case::{
-    BaselineKind, Case, CaseError, Offset, ProcessStep, RemovedOffset, Scale, process_steps, schema,
+use pounding_case::{Case, CaseError, process_steps, schema};
+use pounding_ground_motion::processing::{
+    Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, Scale,
+    SegmentWindow, Trim,
 };
+use pounding_ground_motion::{AccelerationUnit, Offset};
 
 const START: &str = r#"[[building]]
 name = "a"
@@ -26,7 +29,7 @@ fn nothing_is_done_unless_asked_for() {
     let motion = parse("").unwrap().ground_motion;
     assert_eq!(motion.offset, Offset::Automatic);
     assert!(motion.process.is_empty());
-    assert_eq!(motion.scale, Scale::None);
+    assert_eq!(motion.scale, None);
     assert_eq!(
         (
             motion.quantity,
@@ -85,96 +88,96 @@ fn steps() {
         .map(|s| &s.value)
         .collect();
     assert_eq!(steps.len(), 17);
-    assert!(matches!(steps[0], ProcessStep::Unit(unit) if unit.value == "g"));
-    assert_eq!(*steps[1], ProcessStep::ReverseSign);
-    assert_eq!(*steps[2], ProcessStep::RemoveOffset(RemovedOffset::Mean));
-    let pre_event = RemovedOffset::PreEventMean(5.0);
-    assert_eq!(*steps[3], ProcessStep::RemoveOffset(pre_event));
-    let value = RemovedOffset::Value(-0.02);
-    assert_eq!(*steps[4], ProcessStep::RemoveOffset(value));
-    let filter = ProcessStep::Filter {
+    let gravity = AccelerationUnit::StandardGravity;
+    assert_eq!(*steps[0], ProcessingStep::Unit(gravity));
+    assert_eq!(*steps[1], ProcessingStep::Sign);
+    assert_eq!(*steps[2], ProcessingStep::Offset(OffsetCorrection::Mean));
+    let pre_event = OffsetCorrection::PreEventMean(5.0);
+    assert_eq!(*steps[3], ProcessingStep::Offset(pre_event));
+    let value = OffsetCorrection::Value(-0.02);
+    assert_eq!(*steps[4], ProcessingStep::Offset(value));
+    let filter = ProcessingStep::Filter(Butterworth {
         order: 4,
         high_pass: Some(0.1),
         low_pass: Some(25.0),
-        causal: false,
-        keep_pads: true,
-    };
+        phase: Phase::Zero { keep_pads: true },
+    });
     assert_eq!(*steps[5], filter);
     // 20 pi rad/s are 10 Hz.
     assert!(matches!(
         steps[6],
-        ProcessStep::Filter { order: 2, high_pass: None, low_pass: Some(f), causal: true, .. }
-            if (f - 10.0).abs() < 1e-12
+        ProcessingStep::Filter(Butterworth {
+            order: 2, high_pass: None, low_pass: Some(f), phase: Phase::Causal,
+        }) if (f - 10.0).abs() < 1e-12
     ));
-    assert_eq!(
-        *steps[7],
-        ProcessStep::Baseline(BaselineKind::Acceleration(0))
-    );
-    assert_eq!(*steps[8], ProcessStep::Baseline(BaselineKind::Velocity(2)));
-    let segments = BaselineKind::Segments {
-        start: 3.0,
-        end: 10.0,
+    let of_acceleration = Baseline::Acceleration { degree: 0 };
+    assert_eq!(*steps[7], ProcessingStep::Baseline(of_acceleration));
+    let of_velocity = Baseline::Velocity { degree: 2 };
+    assert_eq!(*steps[8], ProcessingStep::Baseline(of_velocity));
+    let segments = Baseline::TwoSegments {
+        window: SegmentWindow::Times {
+            start: 3.0,
+            end: 10.0,
+        },
         fit_from: Some(20.0),
     };
-    assert_eq!(*steps[9], ProcessStep::Baseline(segments));
-    let threshold = BaselineKind::Threshold {
-        threshold: 0.5,
+    assert_eq!(*steps[9], ProcessingStep::Baseline(segments));
+    let threshold = Baseline::TwoSegments {
+        window: SegmentWindow::Threshold(0.5),
         fit_from: None,
     };
-    assert_eq!(*steps[10], ProcessStep::Baseline(threshold));
-    assert_eq!(
-        *steps[11],
-        ProcessStep::TrimTimes {
-            start: 0.0,
-            end: 30.0
-        }
-    );
-    assert_eq!(
-        *steps[12],
-        ProcessStep::TrimArias {
-            from: 0.001,
-            to: 0.999
-        }
-    );
+    assert_eq!(*steps[10], ProcessingStep::Baseline(threshold));
+    let times = Trim::Times {
+        start: 0.0,
+        end: 30.0,
+    };
+    assert_eq!(*steps[11], ProcessingStep::Trim(times));
+    let arias = Trim::Arias {
+        from: 0.001,
+        to: 0.999,
+    };
+    assert_eq!(*steps[12], ProcessingStep::Trim(arias));
     assert_eq!(
         *steps[13],
-        ProcessStep::Taper {
+        ProcessingStep::Taper {
             start: 0.0,
             end: 2.0
         }
     );
     assert_eq!(
         *steps[14],
-        ProcessStep::Pad {
+        ProcessingStep::Pad {
             before: 1.0,
             after: 10.0
         }
     );
-    let resample = ProcessStep::Resample {
+    let resample = ProcessingStep::Resample {
         time_step: 0.005,
-        band_limited: true,
+        interpolation: Interpolation::BandLimited,
     };
     assert_eq!(*steps[15], resample);
     let scale = Scale::SpectralAcceleration {
-        acceleration: 0.8 * 9.80665,
         period: 1.0,
         damping: 0.05,
+        target: 0.8 * 9.80665,
     };
-    assert_eq!(*steps[16], ProcessStep::Scale(scale));
+    assert_eq!(*steps[16], ProcessingStep::Scale(scale));
 }
 
 #[test]
 fn scales() {
-    let scale = |text: &str| parse(&format!("scale = {text}")).map(|c| c.ground_motion.scale);
+    let scale =
+        |text: &str| parse(&format!("scale = {text}")).map(|c| c.ground_motion.scale.unwrap());
     assert_eq!(scale("2").unwrap(), Scale::Factor(2.0));
     assert_eq!(
         scale("{ pgv = \"40 cm/s\" }").unwrap(),
-        Scale::PeakGroundVelocity(0.4)
+        Scale::PeakVelocity(0.4)
     );
     let band = scale("{ target = \"s.csv\", from = \"0.2 s\", to = \"2 s\", damping = \"2 %\" }");
     assert!(matches!(
         band.unwrap(),
-        Scale::Band { target, from: 0.2, to: 2.0, damping: 0.02 } if target.value == Path::new("s.csv")
+        Scale::Band { target, from: 0.2, to: 2.0 }
+            if target.file.value == Path::new("s.csv") && target.damping == 0.02
     ));
 }
 
@@ -199,6 +202,11 @@ const WRONG: &[(&str, usize, &str)] = &[
         "process = [{ sign = \"reversed\", taper = { end = 1 } }]",
         12,
         "has one key, not 2",
+    ),
+    (
+        "process = [{ true_unit = \"m/s\" }]",
+        12,
+        "it is one of velocity",
     ),
     ("process = [{ filtr = { } }]", 14, "did you mean `filter`?"),
     (
@@ -306,7 +314,7 @@ fn a_list_by_itself() {
     let steps = process_steps("process = [{ pad = { after = \"10 s\" } }]", "--pad").unwrap();
     assert_eq!(
         steps[0].value,
-        ProcessStep::Pad {
+        ProcessingStep::Pad {
             before: 0.0,
             after: 10.0
         }

@@ -13,8 +13,10 @@ pub enum DefinitionError {
         kind: &'static str,
         /// The name asked for.
         name: String,
-        /// The nearest known name; empty if none is known.
+        /// The known name that is meant; empty if it is like none.
         nearest: &'static str,
+        /// All known names.
+        known: Vec<&'static str>,
     },
     /// There is no such parameter.
     #[error("{noun} {owner} has no parameter \"{parameter}\"")]
@@ -61,6 +63,9 @@ impl DefinitionError {
     #[must_use]
     pub fn help(&self) -> String {
         match self {
+            Self::UnknownName {
+                nearest: "", known, ..
+            } => format!("known are {}", known.join(", ")),
             Self::UnknownName { nearest, .. } => format!("did you mean \"{nearest}\"?"),
             Self::UnknownParameter { known, .. } if known.is_empty() => {
                 "it has no parameters".to_owned()

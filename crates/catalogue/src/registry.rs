@@ -46,20 +46,24 @@ impl<D: Descriptor> Registry<D> {
                 kind: D::KIND,
                 name: name.to_owned(),
                 nearest: self.nearest(name),
+                known: self.names().collect(),
             })
     }
 
-    /// The nearest known name: one that is misspelt, else one by a word that means it, else one
-    /// of which this is a part. Empty if nothing is known.
+    /// The known name that is meant: one that is nearly so spelt, else one by a word that means
+    /// it, else one of which this is a part, else one that is spelt somehow so. Empty if it is
+    /// like none.
     #[must_use]
     pub fn nearest(&self, name: &str) -> &'static str {
         let known = || self.all.iter().flat_map(|d| names(*d));
-        let spelt = suggestion::nearest(name, known()).unwrap_or_default();
-        if suggestion::is_within(name, spelt, 1 + name.chars().count() / 4) {
-            return spelt;
-        }
+        let nearly = suggestion::nearest(name, known())
+            .filter(|k| suggestion::is_within(name, k, 1 + name.chars().count() / 4));
         let by_part = || known().find(|k| !name.is_empty() && k.contains(name));
-        self.by_word(name).or_else(by_part).unwrap_or(spelt)
+        nearly
+            .or_else(|| self.by_word(name))
+            .or_else(by_part)
+            .or_else(|| suggestion::misspelt(name, known()))
+            .unwrap_or_default()
     }
 
     /// What a known word within the name means.
@@ -126,8 +130,13 @@ mod tests {
             ("cubic_sprng", "cubic_spring"),
             ("Hooke-law", "linear_spring"),
             ("an elastic part", "linear_spring"),
-            ("inelastic_part", "linear_spring"),
+            // A part of a word means nothing, and no name is spelt so.
+            ("inelastic_part", ""),
             ("bic", "cubic_spring"),
+            ("cub_spr", "cubic_spring"),
+            ("cobic_sprngs", "cubic_spring"),
+            // Like none.
+            ("peer_at2", ""),
         ] {
             let Err(DefinitionError::UnknownName { nearest: found, .. }) = ALL.find(name) else {
                 panic!("{name} was found");
@@ -138,6 +147,10 @@ mod tests {
         assert_eq!(found, Ok("coulomb_friction"));
         let empty: Registry<Law> = Registry::new(&[], &[]);
         assert_eq!(empty.nearest("coulomb"), "");
+        let help = |name| ALL.find(name).map_err(|e| e.help()).err();
+        assert_eq!(help("coulom").as_deref(), Some("did you mean \"coulomb\"?"));
+        let all = "known are coulomb_friction, linear_spring, cubic_spring";
+        assert_eq!(help("peer_at2").as_deref(), Some(all));
         let names: Vec<_> = ALL.names().collect();
         assert_eq!(names, ["coulomb_friction", "linear_spring", "cubic_spring"]);
     }

@@ -6,11 +6,33 @@ pub fn nearest<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) ->
     known.into_iter().min_by_key(distance)
 }
 
-/// The known name with the fewest letters to change, if they are no more than one and a third
-/// of those of `name`.
+/// The known name of which `name` is an abbreviation; else the one with the fewest letters to
+/// change, if they are no more than one and a third of those of `name`.
 pub fn misspelt<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
     let letters = name.chars().count();
-    nearest(name, known).filter(|known| is_within(name, known.as_ref(), 1 + letters / 3))
+    let change = |known: &T| {
+        let change = letters_to_change(name, known.as_ref());
+        let is_short = is_abbreviation(name, known.as_ref());
+        (is_short || change <= 1 + letters / 3).then_some((!is_short, change))
+    };
+    let near = known
+        .into_iter()
+        .filter_map(|known| Some((change(&known)?, known)));
+    near.min_by_key(|(change, _)| *change)
+        .map(|(_, known)| known)
+}
+
+/// Letters below which a name abbreviates nothing: too many names begin with them.
+const SHORTEST_ABBREVIATION: usize = 3;
+
+/// Whether each word of a name, of three letters or more, begins one of the known name in
+/// their order, as `mid_freq` does of `middle_frequency`.
+fn is_abbreviation(name: &str, known: &str) -> bool {
+    let (words, of) = (name.split('_'), known.split('_'));
+    words.clone().count() <= of.clone().count()
+        && words
+            .zip(of)
+            .all(|(word, of)| word.len() >= SHORTEST_ABBREVIATION && of.starts_with(word))
 }
 
 /// Whether at most this many letters have to be changed.
@@ -28,6 +50,31 @@ pub fn letters_to_change(name: &str, known: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_abbreviation_is_meant_before_a_slip() {
+        let keys = ["middle_time", "middle_frequency", "magnitude", "factor"];
+        for (name, meant) in [
+            // Four letters from `middle_time`, five from `middle_frequency`.
+            ("middle_freq", Some("middle_frequency")),
+            ("mid_freq", Some("middle_frequency")),
+            ("mag", Some("magnitude")),
+            ("fact", Some("factor")),
+            // Of two that begin so, the nearer.
+            ("middle", Some("middle_time")),
+            // One letter, which is a slip.
+            ("middle_tme", Some("middle_time")),
+            // Too short for one, and like none.
+            ("fa", None),
+            ("freq", None),
+        ] {
+            assert_eq!(misspelt(name, keys), meant, "{name}");
+        }
+        assert_eq!(
+            misspelt("rate", ["ratio", "rate_of_decay"]),
+            Some("rate_of_decay")
+        );
+    }
 
     #[test]
     fn the_first_of_the_nearest_is_meant() {

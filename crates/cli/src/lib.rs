@@ -6,11 +6,11 @@
 mod arguments;
 mod columns;
 mod commands;
+mod descriptor;
 mod failure;
 mod faults;
 mod files;
 mod interruption;
-mod json;
 mod output;
 mod plot;
 mod progress;

@@ -29,9 +29,11 @@ pub fn print_as_it_is(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// JSON for machines and people; numbers at full precision.
-pub fn pretty(value: &serde_json::Value) -> String {
-    format!("{value:#}")
+/// JSON for machines and people; numbers at full precision, keys in alphabetical order.
+pub fn pretty(value: &impl Serialize) -> Result<String, Failure> {
+    let value = serde_json::to_value(value)
+        .map_err(|e| Failure::output(&std::io::Error::other(e), "the result as JSON"))?;
+    Ok(format!("{value:#}"))
 }
 
 /// Says which of these files were written.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_report::ReportError;
 use pounding_report::documentation::DocumentationFile;
 pub use pounding_report::{Curve, Panel, Reference};
 use pounding_time_history::{Sample, SampleSink, System, TimeHistoryError};
@@ -19,6 +20,15 @@ pub fn figure_with_references(
     references: &[Reference],
 ) -> Result<String, Failure> {
     pounding_report::figure_with_references(panels, references).map_err(|e| not_drawn(&e))
+}
+
+/// A picture of a library, written as a file.
+pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<(), Failure> {
+    let picture = picture.map_err(|e| match e {
+        ReportError::Motion(error) => error.into(),
+        error => not_drawn(&error),
+    })?;
+    write(path, &picture)
 }
 
 /// A picture that could not be drawn.

@@ -11,7 +11,7 @@ use pounding_study::{
     Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions, SweepReport,
     parts_folder, sweep as make, writable,
 };
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::arguments::{RunningArguments, value};
 use crate::failure::Failure;
@@ -136,29 +136,68 @@ pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
 }
 
 /// The object that `--json` prints.
-pub fn as_json(report: &SweepReport, options: &SweepOptions) -> Value {
-    let listed_json = |first: &[(usize, String)]| -> Vec<Value> {
-        let entries = first.iter();
-        entries
-            .map(|(run, reason)| json!({"run": run, "diagnosis": reason}))
+#[derive(Serialize)]
+pub struct Finished<'s> {
+    status: &'static str,
+    runs: usize,
+    made: usize,
+    failed: usize,
+    first_failures: Vec<Diagnosed<'s>>,
+    collapsed: usize,
+    first_collapses: Vec<Diagnosed<'s>>,
+    study_sha256: &'s str,
+    warnings: &'s [String],
+    records: Vec<Motion<'s>>,
+    output: String,
+    csv: Option<String>,
+}
+
+/// A run by its number, and what is to be said of it.
+#[derive(Serialize)]
+struct Diagnosed<'s> {
+    run: usize,
+    diagnosis: &'s str,
+}
+
+/// A record of a study.
+#[derive(Serialize)]
+struct Motion<'s> {
+    name: &'s str,
+    sha256: &'s str,
+    intensity_as_recorded: Option<f64>,
+}
+
+impl<'s> Finished<'s> {
+    /// A finished study, with its files.
+    pub fn of(report: &'s SweepReport, options: &SweepOptions) -> Self {
+        let diagnosed = |first: &'s [(usize, String)]| {
+            let runs = first.iter();
+            runs.map(|(run, diagnosis)| Diagnosed {
+                run: *run,
+                diagnosis,
+            })
             .collect()
-    };
-    let records = report
-        .records
-        .iter()
-        .map(|r| json!({"name": r.name, "sha256": r.sha256, "intensity_as_recorded": r.intensity}));
-    json!({
-        "status": "complete",
-        "runs": report.runs, "made": report.made, "failed": report.failed,
-        "first_failures": listed_json(&report.failures),
-        "collapsed": report.collapsed,
-        "first_collapses": listed_json(&report.collapses),
-        "study_sha256": report.study_sha256,
-        "warnings": report.warnings,
-        "records": records.collect::<Vec<_>>(),
-        "output": options.output.display().to_string(),
-        "csv": options.csv.as_ref().map(|p| p.display().to_string()),
-    })
+        };
+        let records = report.records.iter().map(|r| Motion {
+            name: &r.name,
+            sha256: &r.sha256,
+            intensity_as_recorded: r.intensity,
+        });
+        Self {
+            status: "complete",
+            runs: report.runs,
+            made: report.made,
+            failed: report.failed,
+            first_failures: diagnosed(&report.failures),
+            collapsed: report.collapsed,
+            first_collapses: diagnosed(&report.collapses),
+            study_sha256: &report.study_sha256,
+            warnings: &report.warnings,
+            records: records.collect(),
+            output: options.output.display().to_string(),
+            csv: options.csv.as_ref().map(|p| p.display().to_string()),
+        }
+    }
 }
 
 /// What a sweep prints at its end.

@@ -51,6 +51,10 @@ impl GapElementError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         Some(match self {
+            // Too many for a list.
+            Self::Definition(DefinitionError::UnknownName { nearest: "", .. }) => {
+                "`pounding models` lists all".to_owned()
+            }
             Self::Definition(error @ DefinitionError::UnknownName { .. }) => {
                 format!("{} `pounding models` lists all", error.help())
             }

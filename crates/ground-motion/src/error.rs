@@ -239,7 +239,11 @@ impl GroundMotionError {
                 )
             }
             Self::UnknownFormatName(error) => {
-                format!("{} known formats are {}", error.help(), Format::names())
+                let guess = match error {
+                    DefinitionError::UnknownName { nearest: "", .. } => String::new(),
+                    error => error.help() + " ",
+                };
+                format!("{guess}known formats are {}", Format::names())
             }
             Self::MissingUnit { .. } => {
                 "give the unit: `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion` (or m/s2, cm/s2, ...); for --records, which takes files that state theirs, write them anew with `pounding motion convert FILE --unit g -o FILE.csv`; units are never guessed".to_owned()

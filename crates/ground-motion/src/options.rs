@@ -1,19 +1,24 @@
 //! What the user says about a record.
 
+use serde::Deserialize;
+
 use crate::formats::Format;
 use crate::quantity::Quantity;
 use crate::unit::AccelerationUnit;
 
-/// What becomes of the mean of a series that is used as excitation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// What becomes of the mean of a series that is used as excitation. By itself, raw series
+/// lose it, for it is the instrument's offset, and corrected ones keep it; the record's
+/// warnings say how much was taken off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub enum Offset {
-    /// Raw series lose their mean, which is the instrument's offset; corrected
-    /// ones keep it. The record's warnings say how much was taken off.
+    /// Taken off raw records, kept in corrected ones.
     #[default]
     Automatic,
-    /// Every series keeps it.
+    /// Kept.
     Keep,
-    /// Every series loses it.
+    /// Taken off.
     Remove,
 }
 

@@ -61,6 +61,11 @@ fn every_format_is_found_by_its_name() {
     assert_eq!(error.to_string(), "unknown record format \"peer_at\"");
     let help = error.help().unwrap();
     assert!(help.starts_with("did you mean \"peer_at2\"? known formats are mini_seed_2, sac, "));
+    let unlike = Format::find("spreadsheet").unwrap_err().help().unwrap();
+    assert!(
+        unlike.starts_with("known formats are mini_seed_2"),
+        "{unlike}"
+    );
 }
 
 /// The ends of lines and of the file do not matter, nor does a byte order mark.

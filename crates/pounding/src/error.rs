@@ -116,7 +116,7 @@ pub enum Error {
         of: String,
         /// The name asked for.
         building: String,
-        /// The nearest name that there is.
+        /// The name that is meant, if it is like one.
         nearest: Option<String>,
     },
     /// A storey of the number zero.
@@ -200,8 +200,10 @@ impl Error {
             }
             Self::InitialState { .. } => Some("give one value per floor, the lowest first".to_owned()),
             Self::UnknownBuilding { nearest, .. } => {
-                let name = nearest.as_ref()?;
-                Some(format!("did you mean \"{name}\"? A rigid wall is \"wall\""))
+                let guess = nearest
+                    .as_ref()
+                    .map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
+                Some(format!("{guess}A rigid wall is \"wall\""))
             }
             Self::StoreyZero { .. } => Some("storeys are numbered from 1".to_owned()),
             Self::NotNeighbours { .. } => Some(

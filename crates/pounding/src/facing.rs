@@ -98,7 +98,7 @@ impl Facing {
             None => Err(Error::UnknownBuilding {
                 of: self.of(),
                 building: name.to_owned(),
-                nearest: suggestion::nearest(name, buildings.iter().map(Building::name))
+                nearest: suggestion::misspelt(name, buildings.iter().map(Building::name))
                     .map(str::to_owned),
             }),
             found => Ok(found),

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use pounding_ground_motion::GroundMotionError;
 use pounding_results::OpenError;
 use thiserror::Error;
 
@@ -34,6 +35,9 @@ pub enum ReportError {
         /// What HDF5 says.
         reason: String,
     },
+    /// A motion or spectrum that cannot be drawn.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
     /// A figure could not be drawn.
     #[error("a figure could not be drawn: {reason}")]
     Figure {
@@ -57,6 +61,7 @@ impl ReportError {
             Self::Damaged { .. } => Some(
                 "run the case again: its text stands in the file as the attribute `case`".to_owned(),
             ),
+            Self::Motion(error) => error.help(),
             Self::Figure { .. } => None,
         }
     }

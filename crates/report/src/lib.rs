@@ -4,9 +4,11 @@
 //! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves as SVG for the command line as well. Values are SI as in the result
 //! file; the page shows them in the units that engineers write. [`documentation`] has the
-//! reference pages of impact models and laws.
+//! reference pages of impact models and laws, and [`pictures`] draws what the laboratories, the
+//! motions and the gap check find.
 
 pub mod documentation;
+pub mod pictures;
 
 mod decimation;
 mod error;

@@ -1,6 +1,7 @@
 //! One run of a study as a case of its own.
 
-use pounding_case::{Case, Scale};
+use pounding_case::Case;
+use pounding_ground_motion::processing::Scale;
 
 use crate::case_text::{Path, apply, entry, options_of_motion};
 use crate::error::StudyError;
@@ -50,7 +51,7 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
     // Replaced tables with headers of their own would leave their entries behind.
     let case = Case::parse(&text, &study.base.file).map_err(|e| not_shown(e.to_string()))?;
     match scale {
-        Some(scale) if case.ground_motion.scale != Scale::Factor(scale) => {
+        Some(scale) if case.ground_motion.scale != Some(Scale::Factor(scale)) => {
             Err(not_shown("its `scale` cannot be replaced".to_owned()))
         }
         _ => Ok(text),

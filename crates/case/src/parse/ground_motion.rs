@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
+use pounding_ground_motion::Offset;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::process::Process;
-use super::scale::{FilePath, ScaleValue};
+use super::scale::{FilePath, ScaleValue, scale_of};
 use crate::document::{
     Acceleration, Count, Dimensioned, Entry, Field, Optional, Positive, Reader, Time,
 };
-use crate::types::{GroundMotion, Located, Offset, Rotation, Scale};
+use crate::types::{GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
 
 /// The recorded motion
@@ -104,7 +105,7 @@ impl MotionTable {
                 .value()
                 .and_then(|steps| steps.read(reader))
                 .unwrap_or_default(),
-            scale: self.scale.value().map_or(Scale::None, Scale::from),
+            scale: self.scale.value().map(scale_of),
         }
     }
 }

@@ -1,18 +1,24 @@
 //! What is done to a record before it is scaled.
 
+use std::borrow::Cow;
+use std::marker::PhantomData;
 use std::ops::Range;
 
-use schemars::JsonSchema;
+use pounding_ground_motion::processing::{
+    Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, SegmentWindow,
+    Trim,
+};
+use pounding_ground_motion::{AccelerationUnit, GroundMotionError};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::scale::ScaleValue;
+use super::scale::{ScaleValue, scale_of};
 use crate::document::{
     Acceleration, Count, Cycles, Entry, Field, Kinds, NotNegative, Number, Positive, Reader,
     Signed, TableOr, Time,
 };
 use crate::error::{CaseError, Errors};
-use crate::process::{BaselineKind, ProcessStep, RemovedOffset};
-use crate::types::Located;
+use crate::types::{Located, SpectrumFile};
 
 /// A text that holds nothing but steps.
 #[derive(Deserialize)]
@@ -91,14 +97,14 @@ struct FilterTable {
     /// Order of each pass and side, by default 4
     order: Option<Count<1>>,
     /// zero (default: forward and backward) or causal (forward)
-    phase: Option<Phase>,
+    phase: Option<PhaseWord>,
     /// Zero phase: whether the zeros put at both ends stay, by default true
     keep_pads: Option<bool>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
-enum Phase {
+enum PhaseWord {
     Zero,
     Causal,
 }
@@ -171,14 +177,23 @@ struct ResampleTable {
     /// New time step (s)
     time_step: Positive<Time>,
     /// linear (default) or band_limited
+    #[schemars(with = "Option<Words<Interpolation>>")]
     interpolation: Option<Interpolation>,
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
-enum Interpolation {
-    Linear,
-    BandLimited,
+/// Looks in a schema as the words of `T`, without what its library says of each.
+struct Words<T>(PhantomData<T>);
+
+impl<T: JsonSchema> JsonSchema for Words<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let schema = T::json_schema(generator);
+        let words = schema.get("oneOf").and_then(|all| all.as_array());
+        let words = words.into_iter().flatten().map(|one| &one["const"]);
+        json_schema!({"type": "string", "enum": words.collect::<Vec<_>>()})
+    }
 }
 
 /// Reads a text `process = [...]`, the same list as in a case file: for programs that
@@ -186,7 +201,10 @@ enum Interpolation {
 ///
 /// # Errors
 /// All that is wrong in the text, with its places.
-pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep>>, CaseError> {
+pub fn process_steps(
+    source: &str,
+    name: &str,
+) -> Result<Vec<Located<ProcessingStep<SpectrumFile>>>, CaseError> {
     let errors = Errors::default();
     let reader = Reader {
         file: name,
@@ -199,11 +217,14 @@ pub fn process_steps(source: &str, name: &str) -> Result<Vec<Located<ProcessStep
 }
 
 impl Process {
-    pub(super) fn read(self, reader: &Reader<'_>) -> Option<Vec<Located<ProcessStep>>> {
+    pub(super) fn read(
+        self,
+        reader: &Reader<'_>,
+    ) -> Option<Vec<Located<ProcessingStep<SpectrumFile>>>> {
         let made = |step: Field<Step>| {
             let step = step.located()?;
             Some(Located {
-                value: step.value.read(reader)?,
+                value: step.value.read(reader, &step.span)?,
                 span: step.span,
             })
         };
@@ -219,18 +240,29 @@ fn nothing<T>(reader: &Reader<'_>, place: Range<usize>, needed: &str) -> Option<
 }
 
 impl Step {
-    fn read(self, reader: &Reader<'_>) -> Option<ProcessStep> {
+    /// The step, which stands at `place`.
+    fn read(
+        self,
+        reader: &Reader<'_>,
+        place: &Range<usize>,
+    ) -> Option<ProcessingStep<SpectrumFile>> {
         let or_zero = |time: Option<NotNegative<Time>>| time.map_or(0.0, f64::from);
         Some(match self {
-            Self::TrueUnit(unit) => ProcessStep::Unit(unit),
-            Self::Sign(Sign::Reversed) => ProcessStep::ReverseSign,
-            Self::RemoveOffset(offset) => ProcessStep::RemoveOffset(match offset {
-                TableOr::Value(OfAll::Mean) => RemovedOffset::Mean,
+            Self::TrueUnit(unit) => {
+                let unit = unit.value.parse::<AccelerationUnit>();
+                let error = |e: GroundMotionError| {
+                    reader.error(place.clone(), e.to_string(), e.help().unwrap_or_default())
+                };
+                ProcessingStep::Unit(reader.errors.keep(unit.map_err(error))?)
+            }
+            Self::Sign(Sign::Reversed) => ProcessingStep::Sign,
+            Self::RemoveOffset(offset) => ProcessingStep::Offset(match offset {
+                TableOr::Value(OfAll::Mean) => OffsetCorrection::Mean,
                 TableOr::Table(Kinds(RemoveTable::PreEvent { pre_event })) => {
-                    RemovedOffset::PreEventMean(pre_event.into())
+                    OffsetCorrection::PreEventMean(pre_event.into())
                 }
                 TableOr::Table(Kinds(RemoveTable::Value { value })) => {
-                    RemovedOffset::Value(value.into())
+                    OffsetCorrection::Value(value.into())
                 }
             }),
             Self::Filter(Located { value, span }) => {
@@ -238,70 +270,82 @@ impl Step {
                     let needed = "`filter` needs `high_pass`, `low_pass` or both";
                     return nothing(reader, span, needed);
                 }
-                ProcessStep::Filter {
+                ProcessingStep::Filter(Butterworth {
                     order: value.order.map_or(4, |order| order.0),
                     high_pass: value.high_pass.map(f64::from),
                     low_pass: value.low_pass.map(f64::from),
-                    causal: matches!(value.phase, Some(Phase::Causal)),
-                    keep_pads: value.keep_pads.unwrap_or(true),
-                }
+                    phase: match value.phase {
+                        Some(PhaseWord::Causal) => Phase::Causal,
+                        Some(PhaseWord::Zero) | None => Phase::Zero {
+                            keep_pads: value.keep_pads.unwrap_or(true),
+                        },
+                    },
+                })
             }
-            Self::Baseline(Kinds(table)) => ProcessStep::Baseline(table.into()),
-            Self::Trim(Kinds(TrimTable::End { start, end })) => ProcessStep::TrimTimes {
-                start: or_zero(start),
-                end: end.into(),
-            },
-            Self::Trim(Kinds(TrimTable::AriasFrom {
-                arias_from,
-                arias_to,
-            })) => ProcessStep::TrimArias {
-                from: arias_from.into(),
-                to: arias_to.into(),
-            },
+            Self::Baseline(Kinds(table)) => ProcessingStep::Baseline(table.into()),
+            Self::Trim(Kinds(table)) => ProcessingStep::Trim(match table {
+                TrimTable::End { start, end } => Trim::Times {
+                    start: or_zero(start),
+                    end: end.into(),
+                },
+                TrimTable::AriasFrom {
+                    arias_from,
+                    arias_to,
+                } => Trim::Arias {
+                    from: arias_from.into(),
+                    to: arias_to.into(),
+                },
+            }),
             Self::Taper(Located { value, span }) => {
                 let (start, end) = (or_zero(value.start), or_zero(value.end));
                 if start == 0.0 && end == 0.0 {
                     return nothing(reader, span, "`taper` needs `start`, `end` or both");
                 }
-                ProcessStep::Taper { start, end }
+                ProcessingStep::Taper { start, end }
             }
             Self::Pad(Located { value, span }) => {
                 let (before, after) = (or_zero(value.before), or_zero(value.after));
                 if before == 0.0 && after == 0.0 {
                     return nothing(reader, span, "`pad` needs `before`, `after` or both");
                 }
-                ProcessStep::Pad { before, after }
+                ProcessingStep::Pad { before, after }
             }
-            Self::Resample(table) => ProcessStep::Resample {
+            Self::Resample(table) => ProcessingStep::Resample {
                 time_step: table.time_step.into(),
-                band_limited: matches!(table.interpolation, Some(Interpolation::BandLimited)),
+                interpolation: table.interpolation.unwrap_or(Interpolation::Linear),
             },
-            Self::Scale(scale) => ProcessStep::Scale(scale.into()),
+            Self::Scale(scale) => ProcessingStep::Scale(scale_of(scale)),
         })
     }
 }
 
-impl From<BaselineTable> for BaselineKind {
+impl From<BaselineTable> for Baseline {
     fn from(table: BaselineTable) -> Self {
-        match table {
-            BaselineTable::Acceleration { acceleration } => Self::Acceleration(acceleration.0),
-            BaselineTable::Velocity { velocity } => Self::Velocity(velocity.0),
+        let (window, fit_from) = match table {
+            BaselineTable::Acceleration { acceleration } => {
+                return Self::Acceleration {
+                    degree: acceleration.0,
+                };
+            }
+            BaselineTable::Velocity { velocity } => {
+                return Self::Velocity { degree: velocity.0 };
+            }
             BaselineTable::Start {
                 start,
                 end,
                 fit_from,
-            } => Self::Segments {
-                start: start.into(),
-                end: end.into(),
-                fit_from: fit_from.map(f64::from),
-            },
+            } => {
+                let (start, end) = (start.into(), end.into());
+                (SegmentWindow::Times { start, end }, fit_from)
+            }
             BaselineTable::Threshold {
                 threshold,
                 fit_from,
-            } => Self::Threshold {
-                threshold: threshold.into(),
-                fit_from: fit_from.map(f64::from),
-            },
+            } => (SegmentWindow::Threshold(threshold.into()), fit_from),
+        };
+        Self::TwoSegments {
+            window,
+            fit_from: fit_from.map(f64::from),
         }
     }
 }

@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
+use pounding_ground_motion::processing::Scale;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::document::{
     Acceleration, Fault, Kinds, NotNegative, Number, Positive, TableOr, Time, Velocity,
 };
-use crate::types::{Located, Scale};
+use crate::types::{Located, SpectrumFile};
 
 /// Damping ratio where none is given.
 const DAMPING: f64 = 0.05;
@@ -80,37 +81,38 @@ impl From<Located<FilePath>> for Located<PathBuf> {
     }
 }
 
-impl From<ScaleValue> for Scale {
-    fn from(value: ScaleValue) -> Self {
-        let table = match value {
-            TableOr::Value(factor) => return Self::Factor(factor.into()),
-            TableOr::Table(Kinds(table)) => table,
-        };
-        let or_default = |damping: Option<NotNegative<_>>| damping.map_or(DAMPING, f64::from);
-        match table {
-            ScaleTable::Factor { factor } => Self::Factor(factor.into()),
-            ScaleTable::Pga { pga } => Self::PeakGroundAcceleration(pga.into()),
-            ScaleTable::Pgv { pgv } => Self::PeakGroundVelocity(pgv.into()),
-            ScaleTable::Psa {
-                psa,
-                period,
-                damping,
-            } => Self::SpectralAcceleration {
-                acceleration: psa.into(),
-                period: period.into(),
+/// The scale that a value says.
+pub(super) fn scale_of(value: ScaleValue) -> Scale<SpectrumFile> {
+    let table = match value {
+        TableOr::Value(factor) => return Scale::Factor(factor.into()),
+        TableOr::Table(Kinds(table)) => table,
+    };
+    let or_default = |damping: Option<NotNegative<_>>| damping.map_or(DAMPING, f64::from);
+    match table {
+        ScaleTable::Factor { factor } => Scale::Factor(factor.into()),
+        ScaleTable::Pga { pga } => Scale::PeakAcceleration(pga.into()),
+        ScaleTable::Pgv { pgv } => Scale::PeakVelocity(pgv.into()),
+        ScaleTable::Psa {
+            psa,
+            period,
+            damping,
+        } => Scale::SpectralAcceleration {
+            period: period.into(),
+            damping: or_default(damping),
+            target: psa.into(),
+        },
+        ScaleTable::Target {
+            target,
+            from,
+            to,
+            damping,
+        } => Scale::Band {
+            target: SpectrumFile {
+                file: target.into(),
                 damping: or_default(damping),
             },
-            ScaleTable::Target {
-                target,
-                from,
-                to,
-                damping,
-            } => Self::Band {
-                target: target.into(),
-                from: from.into(),
-                to: to.into(),
-                damping: or_default(damping),
-            },
-        }
+            from: from.into(),
+            to: to.into(),
+        },
     }
 }

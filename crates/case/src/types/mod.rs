@@ -7,11 +7,11 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
+use pounding_ground_motion::Offset;
+use pounding_ground_motion::processing::{ProcessingStep, Scale};
 use serde::Deserialize;
 
 use crate::error::CaseError;
-use crate::process::ProcessStep;
 use crate::units::Quantity;
 
 pub use laws::{LawParameter, Link, StoreyLaw};
@@ -192,9 +192,9 @@ pub struct GroundMotion {
     /// What becomes of the mean.
     pub offset: Offset,
     /// What is done to the record, in this order.
-    pub process: Vec<Located<ProcessStep>>,
-    /// Scale, after that.
-    pub scale: Scale,
+    pub process: Vec<Located<ProcessingStep<SpectrumFile>>>,
+    /// Scale, after that; `None`: as recorded.
+    pub scale: Option<Scale<SpectrumFile>>,
 }
 
 /// A turn of two components at right angles.
@@ -206,50 +206,13 @@ pub struct Rotation {
     pub angle: f64,
 }
 
-/// What becomes of the mean of a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
-pub enum Offset {
-    /// Taken off raw records, kept in corrected ones.
-    #[default]
-    Automatic,
-    /// Kept.
-    Keep,
-    /// Taken off.
-    Remove,
-}
-
-/// Scale of a record.
+/// The file of a spectrum to which a record is scaled.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Scale {
-    /// As recorded.
-    None,
-    /// Times a factor.
-    Factor(f64),
-    /// To a peak ground acceleration (m/s2).
-    PeakGroundAcceleration(f64),
-    /// To a peak ground velocity (m/s).
-    PeakGroundVelocity(f64),
-    /// To a pseudo-acceleration at one period.
-    SpectralAcceleration {
-        /// Pseudo-acceleration (m/s2).
-        acceleration: f64,
-        /// Period (s).
-        period: f64,
-        /// Damping ratio.
-        damping: f64,
-    },
-    /// To a spectrum over a band of periods.
-    Band {
-        /// File of periods and pseudo-accelerations, as written.
-        target: Located<PathBuf>,
-        /// First period (s).
-        from: f64,
-        /// Last period (s).
-        to: f64,
-        /// Damping ratio.
-        damping: f64,
-    },
+pub struct SpectrumFile {
+    /// File of periods and pseudo-accelerations, as written.
+    pub file: Located<PathBuf>,
+    /// Damping ratio.
+    pub damping: f64,
 }
 
 /// The analysis. Times in s.
@@ -370,7 +333,7 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
     let name = path.display().to_string();
     let unread = |reason: String| {
         let message = format!("cannot read the {what} file: {reason}");
-        CaseError::new(&name, "", 0..0, message, Some("check the path".to_owned()))
+        CaseError::unread(&name, message, Some("check the path".to_owned()))
     };
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(|e| unread(e.to_string()))?;

@@ -6,7 +6,7 @@ use pounding_gap_element::calibration::{
     AlphaChoice, Calibration, CalibrationError, DropTest, calibrate as search,
 };
 use pounding_gap_element::published::papi_toopchi_2022::DROP_TEST;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::arguments::CalibrateArguments;
 use crate::arguments::value;
@@ -33,7 +33,7 @@ pub fn calibrate(arguments: &CalibrateArguments) -> Result<(), Failure> {
         let requested = value(text, "restitution", Dimension::NUMBER)?;
         let found = search(&test, requested, tolerance)?;
         return print(&match arguments.json {
-            true => pretty(&document(&test, is_papers, json!(found))),
+            true => pretty(&document(&test, is_papers, &found))?,
             false => one_text(&test, is_papers, &found),
         });
     }
@@ -48,15 +48,8 @@ pub fn calibrate(arguments: &CalibrateArguments) -> Result<(), Failure> {
         return Err(error.clone().into());
     }
     if arguments.json {
-        let rows: Vec<_> = rows
-            .iter()
-            .map(|(e, result)| row_json(*e, result))
-            .collect();
-        return print(&pretty(&document(
-            &test,
-            is_papers,
-            json!({ "rows": rows }),
-        )));
+        let rows: Vec<_> = rows.iter().map(|(e, result)| row(*e, result)).collect();
+        return print(&pretty(&document(&test, is_papers, Rows { rows }))?);
     }
     print(&table_text(&test, is_papers, &rows))
 }
@@ -191,16 +184,54 @@ fn one_text(test: &DropTest, is_papers: bool, found: &Calibration) -> String {
     )
 }
 
-fn document(test: &DropTest, is_papers: bool, mut found: Value) -> Value {
-    found["drop_test"] = json!(test);
-    found["drop_test"]["conditions_are_a_hypothesis"] = json!(is_papers);
-    found["advice"] = json!(ADVICE);
-    found
+/// What `--json` prints: what was found, beside the test.
+#[derive(Serialize)]
+struct Document<'t, T> {
+    #[serde(flatten)]
+    found: T,
+    drop_test: Test<'t>,
+    advice: &'static str,
 }
 
-fn row_json(requested: f64, result: &Result<Calibration, CalibrationError>) -> Value {
+/// The drop test.
+#[derive(Serialize)]
+struct Test<'t> {
+    #[serde(flatten)]
+    test: &'t DropTest,
+    conditions_are_a_hypothesis: bool,
+}
+
+/// A search for each restitution.
+#[derive(Serialize)]
+struct Rows<'r> {
+    rows: Vec<Row<'r>>,
+}
+
+/// A search that found something, or why not.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Row<'r> {
+    Found(&'r Calibration),
+    Refused { requested: f64, error: String },
+}
+
+fn document<T>(test: &DropTest, conditions_are_a_hypothesis: bool, found: T) -> Document<'_, T> {
+    Document {
+        found,
+        drop_test: Test {
+            test,
+            conditions_are_a_hypothesis,
+        },
+        advice: ADVICE,
+    }
+}
+
+fn row(requested: f64, result: &Result<Calibration, CalibrationError>) -> Row<'_> {
     match result {
-        Ok(found) => json!(found),
-        Err(error) => json!({"requested": requested, "error": error.to_string()}),
+        Ok(found) => Row::Found(found),
+        Err(error) => Row::Refused {
+            requested,
+            error: error.to_string(),
+        },
     }
 }

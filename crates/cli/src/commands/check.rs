@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use pounding_assembly::Assembly;
 use pounding_catalogue::wording::counted;
-use serde_json::json;
+use pounding_time_history::LevelPlace;
+use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case, responses_fit};
-use crate::json::add_place;
 use crate::output::{pretty, print};
 use crate::progress::Progress;
 use crate::tables;
@@ -27,64 +28,140 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         drop(progress);
         return print(&text);
     }
-    let system = &assembly.system;
-    let buildings: Vec<_> = system
-        .buildings()
-        .iter()
-        .map(|b| {
-            json!({
-                "name": b.name(), "mass": b.mass(), "stiffness": b.stiffness(), "height": b.height(),
-                "elevation": b.elevations(), "period": b.modes().period,
-                "geometric_stiffness": b.geometric_stiffness(),
-                "laws": b.laws().iter().map(|l| l.as_ref().map(|l| l.law.descriptor().name)).collect::<Vec<_>>(),
-                "damping_ratio": b.modes().damping_ratio, "effective_mass": b.modes().effective_mass,
-            })
-        })
-        .collect();
-    let gaps: Vec<_> = system
-        .gaps()
-        .iter()
-        .map(|g| {
-            let levels = system.levels_of(g).iter().map(|l| {
-                let mut value = json!({
-                    "width": l.width, "effective_mass": l.effective_mass,
-                    "model": l.model.descriptor().name,
-                });
-                add_place(&mut value, &l.place);
-                value
-            });
-            let levels: Vec<_> = levels.collect();
-            json!({"name": g.name, "between": g.between, "levels": levels})
-        })
-        .collect();
-    let links: Vec<_> = system
-        .links()
-        .iter()
-        .enumerate()
-        .map(|(index, l)| {
-            let places = system.link_levels(index);
-            let levels = places.iter().map(|place| {
-                let mut value = json!({});
-                add_place(&mut value, place);
-                value
-            });
-            let levels: Vec<_> = levels.collect();
-            let laws: Vec<_> = system.elements()[l.first_element..l.first_element + l.levels]
-                .iter()
-                .map(|e| e.law.descriptor().name)
-                .collect();
-            json!({"name": l.name, "between": l.between, "levels": levels, "laws": laws})
-        })
-        .collect();
-    let record = &assembly.accelerogram;
+    let understood = Understood::of(&assembly);
     drop(progress);
-    print(&pretty(&json!({
-        "buildings": buildings, "gaps": gaps, "links": links,
-        "ground_motion": {
-            "samples": record.samples().len(), "time_step": record.time_step(),
-            "peak": record.peak().value, "scale": record.scale(), "echo": record.echo(),
-        },
-        "warnings": assembly.warnings(),
-        "analysis": {"output_step": assembly.output_step, "duration": assembly.options.duration.unwrap_or(record.duration())},
-    })))
+    print(&pretty(&understood)?)
+}
+
+/// What `check --json` prints.
+#[derive(Serialize)]
+struct Understood<'a> {
+    buildings: Vec<Building<'a>>,
+    gaps: Vec<Gap<'a>>,
+    links: Vec<Link<'a>>,
+    ground_motion: Motion,
+    warnings: Vec<String>,
+    analysis: Analysis,
+}
+
+/// A building with its modes.
+#[derive(Serialize)]
+struct Building<'a> {
+    name: &'a str,
+    mass: &'a [f64],
+    stiffness: &'a [f64],
+    height: &'a [f64],
+    elevation: &'a [f64],
+    period: &'a [f64],
+    geometric_stiffness: &'a [f64],
+    laws: Vec<Option<&'static str>>,
+    damping_ratio: &'a [f64],
+    effective_mass: &'a [f64],
+}
+
+/// A gap with its contact levels.
+#[derive(Serialize)]
+struct Gap<'a> {
+    name: &'a str,
+    between: &'a [String; 2],
+    levels: Vec<ContactLevel<'a>>,
+}
+
+/// A contact level.
+#[derive(Serialize)]
+struct ContactLevel<'a> {
+    width: f64,
+    effective_mass: f64,
+    model: &'static str,
+    #[serde(flatten)]
+    place: &'a LevelPlace,
+}
+
+/// A link with its levels and laws.
+#[derive(Serialize)]
+struct Link<'a> {
+    name: &'a str,
+    between: &'a [String; 2],
+    levels: Vec<LevelPlace>,
+    laws: Vec<&'static str>,
+}
+
+/// The record as it is used.
+#[derive(Serialize)]
+struct Motion {
+    samples: usize,
+    time_step: f64,
+    peak: f64,
+    scale: f64,
+    echo: Vec<String>,
+}
+
+/// Times of the analysis.
+#[derive(Serialize)]
+struct Analysis {
+    output_step: f64,
+    duration: f64,
+}
+
+impl<'a> Understood<'a> {
+    fn of(assembly: &'a Assembly) -> Self {
+        let system = &assembly.system;
+        let buildings = system.buildings().iter().map(|b| Building {
+            name: b.name(),
+            mass: b.mass(),
+            stiffness: b.stiffness(),
+            height: b.height(),
+            elevation: b.elevations(),
+            period: &b.modes().period,
+            geometric_stiffness: b.geometric_stiffness(),
+            laws: b
+                .laws()
+                .iter()
+                .map(|l| l.as_ref().map(|l| l.law.descriptor().name))
+                .collect(),
+            damping_ratio: &b.modes().damping_ratio,
+            effective_mass: &b.modes().effective_mass,
+        });
+        let gaps = system.gaps().iter().map(|g| {
+            let levels = system.levels_of(g).iter().map(|l| ContactLevel {
+                width: l.width,
+                effective_mass: l.effective_mass,
+                model: l.model.descriptor().name,
+                place: &l.place,
+            });
+            Gap {
+                name: &g.name,
+                between: &g.between,
+                levels: levels.collect(),
+            }
+        });
+        let links = system.links().iter().enumerate().map(|(index, l)| {
+            let elements = &system.elements()[l.first_element..l.first_element + l.levels];
+            Link {
+                name: &l.name,
+                between: &l.between,
+                levels: system.link_levels(index),
+                laws: elements.iter().map(|e| e.law.descriptor().name).collect(),
+            }
+        });
+        let record = &assembly.accelerogram;
+        let duration = assembly.options.duration;
+        Self {
+            buildings: buildings.collect(),
+            gaps: gaps.collect(),
+            links: links.collect(),
+            ground_motion: Motion {
+                samples: record.samples().len(),
+                time_step: record.time_step(),
+                peak: record.peak().value,
+                scale: record.scale(),
+                echo: record.echo(),
+            },
+            warnings: assembly.warnings(),
+            analysis: Analysis {
+                output_step: assembly.output_step,
+                duration: duration.unwrap_or(record.duration()),
+            },
+        }
+    }
 }

@@ -58,7 +58,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             SchemaOf::Case => pounding_case::schema(),
             SchemaOf::Study => pounding_study::study_schema(),
             SchemaOf::Hazard => pounding_study::hazard_schema(),
-        })),
+        })?),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "pounding", &mut bytes);

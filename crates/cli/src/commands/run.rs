@@ -10,7 +10,6 @@ use pounding_results::{RunEnding, RunHead, RunWriter};
 use pounding_time_history::{
     GridRecorder, Outcome, Recorder, SampleSink, Summary, TimeHistoryError, run as integrate,
 };
-use serde_json::json;
 
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
@@ -82,7 +81,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     }
     if arguments.json {
         let summary = Summary::of(&assembly.system, (&outcome, &isolated), &warnings);
-        return print(&pretty(&json!(summary)));
+        return print(&pretty(&summary)?);
     }
     let mut text = tables::report(&tables::Run {
         case: &case,

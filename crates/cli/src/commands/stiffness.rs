@@ -2,9 +2,10 @@
 
 use pounding_case::Dimension;
 use pounding_gap_element::contact_stiffness::{
-    Approach, ContactStiffness, Slab, Sphere, duration, hertz, multiple, penetration, slab,
+    Approach, ContactStiffness, Intermediate, Slab, Sphere, duration, hertz, multiple, penetration,
+    slab,
 };
-use serde_json::json;
+use serde::Serialize;
 
 use crate::arguments::{
     ApproachArguments, DurationArguments, HertzArguments, MultipleArguments, PenetrationArguments,
@@ -34,7 +35,7 @@ pub fn stiffness(arguments: &StiffnessArguments) -> Result<(), Failure> {
         StiffnessMethod::Multiple(a) => ("multiple", by_multiple(a)?),
     };
     if arguments.json {
-        return print(&pretty(&as_json(name, &result)));
+        return print(&pretty(&Stiffness::of(name, &result))?);
     }
     print(&as_text(&result))
 }
@@ -225,15 +226,32 @@ fn as_text(result: &ContactStiffness) -> String {
     text
 }
 
-fn as_json(method: &str, result: &ContactStiffness) -> serde_json::Value {
-    let intermediate: Vec<_> = result
-        .intermediate
-        .iter()
-        .map(|i| json!({"name": i.name, "value": i.value, "unit": i.unit}))
-        .collect();
-    json!({
-        "method": method, "stiffness": result.value, "exponent": result.exponent,
-        "unit": result.unit(), "case_line": result.case_line(), "source": result.source,
-        "status": result.status.to_string(), "intermediate": intermediate, "warnings": result.warnings,
-    })
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Stiffness<'s> {
+    method: &'static str,
+    stiffness: f64,
+    exponent: f64,
+    unit: String,
+    case_line: String,
+    source: &'static str,
+    status: String,
+    intermediate: &'s [Intermediate],
+    warnings: &'s [String],
+}
+
+impl<'s> Stiffness<'s> {
+    fn of(method: &'static str, result: &'s ContactStiffness) -> Self {
+        Self {
+            method,
+            stiffness: result.value,
+            exponent: result.exponent,
+            unit: result.unit(),
+            case_line: result.case_line(),
+            source: result.source,
+            status: result.status.to_string(),
+            intermediate: &result.intermediate,
+            warnings: &result.warnings,
+        }
+    }
 }

@@ -80,7 +80,19 @@ fn errors_point_at_their_place() {
             "name = \"model\"",
             vec!["two variables have the name \"model\""],
         ),
-        ("case.toml", "nowhere.toml", vec!["cannot read the case"]),
+        (
+            "name = \"gap\"",
+            "name = \"model\"\nspacing = \"log\"",
+            vec![
+                "\"linear\" or \"logarithmic\"",
+                "two variables have the name \"model\"",
+            ],
+        ),
+        (
+            "case.toml",
+            "nowhere.toml",
+            vec!["nowhere.toml: cannot read the case"],
+        ),
         (
             "from = \"5 mm\"",
             "from = \"5 mm\"\nspacing = \"log\"",
@@ -101,7 +113,8 @@ fn errors_point_at_their_place() {
     }
     let told = bench.complaint("sweep nowhere.toml", 2);
     assert!(
-        told.contains("nowhere.toml") && told.contains("give the path of a study file"),
+        told.contains("nowhere.toml: cannot read")
+            && told.contains("give the path of a study file"),
         "{told}"
     );
     bench.study(MIXED);

@@ -26,6 +26,7 @@ pub(crate) fn unbuilt(_: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapEl
         kind: ModelDescriptor::KIND,
         name: "a class without a model".to_owned(),
         nearest: "exact_hunt_crossley",
+        known: Vec::new(),
     }))
 }
 

@@ -32,6 +32,7 @@ pub struct ContactStiffness {
 
 /// A quantity computed on the way to a stiffness.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Intermediate {
     /// Name, spelled out.
     pub name: &'static str,

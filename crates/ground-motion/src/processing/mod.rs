@@ -11,6 +11,7 @@ mod window;
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, within};
 use crate::measures::GroundMotion;
+use crate::spectra::TargetSpectrum;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
@@ -33,9 +34,9 @@ pub enum OffsetCorrection {
     Value(f64),
 }
 
-/// One step of processing.
+/// One step of processing. `T` is the spectrum of a band, as in [`Scale`].
 #[derive(Debug, Clone, PartialEq)]
-pub enum ProcessingStep {
+pub enum ProcessingStep<T = TargetSpectrum> {
     /// The values, taken as m/s2, are in truth in this unit.
     Unit(AccelerationUnit),
     /// Turns the sign.
@@ -70,7 +71,7 @@ pub enum ProcessingStep {
         interpolation: Interpolation,
     },
     /// Scales.
-    Scale(Scale),
+    Scale(Scale<T>),
 }
 
 /// A record and what was done to it.
@@ -80,6 +81,46 @@ pub struct Processed {
     pub accelerogram: Accelerogram,
     /// What was done, in order.
     pub steps: Vec<StepRecord>,
+}
+
+impl<T> ProcessingStep<T> {
+    /// The same step with the spectrum that it scales to in another form: see
+    /// [`Scale::with_target`].
+    ///
+    /// # Errors
+    /// What `made` refuses.
+    pub fn with_target<U, E>(
+        &self,
+        made: impl FnOnce(&T) -> Result<U, E>,
+    ) -> Result<ProcessingStep<U>, E> {
+        Ok(match *self {
+            Self::Unit(unit) => ProcessingStep::Unit(unit),
+            Self::Sign => ProcessingStep::Sign,
+            Self::Offset(offset) => ProcessingStep::Offset(offset),
+            Self::Filter(filter) => ProcessingStep::Filter(filter),
+            Self::Baseline(baseline) => ProcessingStep::Baseline(baseline),
+            Self::Trim(trim) => ProcessingStep::Trim(trim),
+            Self::Taper { start, end } => ProcessingStep::Taper { start, end },
+            Self::Pad { before, after } => ProcessingStep::Pad { before, after },
+            Self::Resample {
+                time_step,
+                interpolation,
+            } => ProcessingStep::Resample {
+                time_step,
+                interpolation,
+            },
+            Self::Scale(ref scale) => ProcessingStep::Scale(scale.with_target(made)?),
+        })
+    }
+
+    /// The spectrum that this step scales to.
+    #[must_use]
+    pub fn target(&self) -> Option<&T> {
+        match self {
+            Self::Scale(scale) => scale.target(),
+            _ => None,
+        }
+    }
 }
 
 impl ProcessingStep {

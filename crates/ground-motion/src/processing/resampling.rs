@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Deserialize;
+
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, positive};
 use crate::recording::{Sampling, Series};
@@ -22,7 +24,9 @@ const PASS: f64 = 0.4;
 const STOP: f64 = 0.5;
 
 /// What lies between samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub enum Interpolation {
     /// Straight lines, as the time history takes them. Only to steps that are not
     /// longer.

@@ -12,9 +12,9 @@ const STEP: &str = "scale";
 /// Periods of a band, evenly spaced in their logarithm.
 const BAND_PERIODS: usize = 100;
 
-/// What a record is scaled to.
+/// What a record is scaled to. `T` is the spectrum of a band: as read, or what names it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub enum Scale {
+pub enum Scale<T = TargetSpectrum> {
     /// By this factor.
     Factor(f64),
     /// To a peak ground acceleration (m/s2).
@@ -33,12 +33,54 @@ pub enum Scale {
     /// To a spectrum over a band of periods: see [`band_factor`].
     Band {
         /// The spectrum, with its damping ratio.
-        target: TargetSpectrum,
+        target: T,
         /// First period (s).
         from: f64,
         /// Last period (s).
         to: f64,
     },
+}
+
+impl<T> Scale<T> {
+    /// The same scale with its spectrum made into another form, such as the one read from
+    /// the file that `T` names.
+    ///
+    /// # Errors
+    /// What `made` refuses.
+    pub fn with_target<U, E>(&self, made: impl FnOnce(&T) -> Result<U, E>) -> Result<Scale<U>, E> {
+        Ok(match *self {
+            Self::Factor(factor) => Scale::Factor(factor),
+            Self::PeakAcceleration(peak) => Scale::PeakAcceleration(peak),
+            Self::PeakVelocity(peak) => Scale::PeakVelocity(peak),
+            Self::SpectralAcceleration {
+                period,
+                damping,
+                target,
+            } => Scale::SpectralAcceleration {
+                period,
+                damping,
+                target,
+            },
+            Self::Band {
+                ref target,
+                from,
+                to,
+            } => Scale::Band {
+                target: made(target)?,
+                from,
+                to,
+            },
+        })
+    }
+
+    /// The spectrum of a band.
+    #[must_use]
+    pub fn target(&self) -> Option<&T> {
+        match self {
+            Self::Band { target, .. } => Some(target),
+            _ => None,
+        }
+    }
 }
 
 impl Scale {

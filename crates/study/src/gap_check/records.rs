@@ -4,7 +4,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
-use pounding_case::{Case, GroundMotion, Located, Offset};
+use pounding_case::{Case, GroundMotion, Located};
+use pounding_ground_motion::Offset;
 
 use super::error::CheckError;
 

@@ -94,6 +94,19 @@ pub struct GapSweep {
 }
 
 impl GapSweep {
+    /// Maximum over records of what [`of_building`](Self::of_building) finds, at one width.
+    #[must_use]
+    pub fn over_records(
+        &self,
+        width: usize,
+        building: usize,
+        quantity: fn(&Amplification) -> f64,
+    ) -> Option<f64> {
+        let runs = self.runs.get(width)?.iter().flatten();
+        let values = runs.filter_map(|run| Self::of_building(run, building, quantity));
+        values.map(|(_, x)| x).reduce(f64::max)
+    }
+
     /// Maximum amplification of a quantity over the storeys of a building, at one width
     /// under one record, with its storey (from zero).
     #[must_use]

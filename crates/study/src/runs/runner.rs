@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use pounding_assembly::{AssemblyError, assemble_with_record, regap, scale_record};
-use pounding_case::{Case, Scale};
+use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
     GroundAcceleration, RunOptions, System, TimeHistoryError, isolated_demand, run,
@@ -305,7 +305,7 @@ fn scaled(case: &Case, motion: &Motion, factor: Option<f64>) -> Result<Arc<Accel
     let record = &motion.record;
     let scaled = match (factor, &case.ground_motion.scale) {
         (Some(factor), _) => record.scaled_by(factor).map_err(|e| e.to_string()),
-        (None, Scale::None) => return Ok(Arc::clone(record)),
+        (None, None) => return Ok(Arc::clone(record)),
         (None, _) => scale_record(case, Accelerogram::clone(record)).map_err(|e| e.to_string()),
     };
     scaled.map(Arc::new)

@@ -252,32 +252,52 @@ fn variables(
         whole: true,
         records: None,
     };
+    // Stated names of variables in which something else is wrong.
+    let mut names: Vec<String> = Vec::new();
     for table in tables {
-        let sound = table.located().and_then(|Located { value, span }| {
-            let (variable, named) = value.read(reader, &span, context)?;
+        let Some(Located { value, span }) = table.located() else {
+            read.whole = false;
+            continue;
+        };
+        let twice = |names: &[String], known: &[Variable], name: &String| {
+            let is_known = names.contains(name) || known.iter().any(|v| v.name == *name);
+            is_known.then(|| {
+                let message = format!("two variables have the name \"{name}\"");
+                reader.refuse::<()>(span.clone(), message, "give each its own `name`");
+            })
+        };
+        let stated = value.stated_name();
+        let Some((variable, named)) = value.read(reader, &span, context) else {
+            read.whole = false;
+            if let Some(name) = stated {
+                twice(&names, &read.variables, &name);
+                names.push(name);
+            }
+            continue;
+        };
+        let compared = || {
             if named.is_some() && read.records.is_some() {
-                return reader.refuse(span, "records are given twice", "put them into one list");
+                let help = "put them into one list";
+                return reader.refuse(span.clone(), "records are given twice", help);
             }
             if let Some(other) = read.variables.iter().find(|v| collide(v, &variable)) {
                 let both = format!(
                     "\"{}\" and \"{}\" vary the same entry",
                     other.name, variable.name
                 );
-                return reader.refuse(span, both, "remove one of them");
+                return reader.refuse(span.clone(), both, "remove one of them");
             }
-            if read.variables.iter().any(|v| v.name == variable.name) {
-                let message = format!("two variables have the name \"{}\"", variable.name);
-                return reader.refuse(span, message, "give each its own `name`");
+            match twice(&names, &read.variables, &variable.name) {
+                Some(()) => None,
+                None => Some(()),
             }
-            Some((variable, named))
-        });
-        match sound {
-            Some((variable, named)) => {
-                read.variables.push(variable);
-                read.records = read.records.or(named);
-            }
-            None => read.whole = false,
+        };
+        if compared().is_none() {
+            read.whole = false;
+            continue;
         }
+        read.variables.push(variable);
+        read.records = read.records.or(named);
     }
     read
 }

@@ -118,20 +118,43 @@ impl<const LEAST: i64> JsonSchema for Whole<LEAST> {
     }
 }
 
-/// Numbers: a list, or a range
-#[derive(Debug, serde::Deserialize, JsonSchema)]
-#[serde(rename = "gaps")]
-pub(super) struct Numbers {
-    /// The numbers
-    pub values: Optional<List<Written>>,
-    /// First number of a range
-    pub from: Optional<Written>,
-    /// Last number of a range
-    pub to: Optional<Written>,
-    /// How many numbers, both ends included
-    pub count: Optional<Whole<2>>,
-    /// linear (default) or logarithmic
-    pub spacing: Optional<Spacing>,
+/// A table with the keys of a range behind its own, and what makes other keys of them. Serde
+/// flattens a struct into another only without the places of its values.
+macro_rules! table_with_range {
+    ($(#[$of_table:meta])* $table:ident { $($own:tt)* } $(=> $into:ident)?) => {
+        $(#[$of_table])*
+        pub(super) struct $table {
+            $($own)*
+            /// First number of a range
+            pub from: Optional<Written>,
+            /// Last number of a range
+            pub to: Optional<Written>,
+            /// How many numbers of a range, both ends included, for a grid or a list
+            pub count: Optional<Whole<2>>,
+            /// linear (default) or logarithmic
+            pub spacing: Optional<Spacing>,
+        }
+        $(
+            impl $table {
+                /// The same range, or these values.
+                fn range_or(self, values: Optional<List<Written>>) -> $into {
+                    let Self { from, to, count, spacing, .. } = self;
+                    $into { values, from, to, count, spacing }
+                }
+            }
+        )?
+    };
+}
+pub(super) use table_with_range;
+
+table_with_range! {
+    /// Numbers: a list, or a range
+    #[derive(Debug, serde::Deserialize, JsonSchema)]
+    #[serde(rename = "gaps")]
+    Numbers {
+        /// The numbers
+        pub values: Optional<List<Written>>,
+    }
 }
 
 impl Numbers {

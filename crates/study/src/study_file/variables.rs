@@ -16,43 +16,37 @@ use serde::de::IgnoredAny;
 use super::context::Context;
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
-use super::values::{Numbers, Spacing, Values, Whole, all, unit_of};
+use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
 use crate::case_text::{Edits, Entry as CaseEntry, Lost, Path, apply, entry, options_of_gap};
 use crate::runs::written;
 
-/// Something that varies: an entry of the case, the records, or their intensity
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename = "[[variable]]")]
-pub(super) struct VariableTable {
-    /// Name of the coordinate in the results
-    name: Optional<String>,
-    /// Entry of the case that varies, such as gap.0.width
-    path: Optional<String>,
-    /// Values: numbers, texts, or models with all their options
-    values: Optional<List<TableOr<ModelTable, Scalar>>>,
-    /// First number of a range
-    from: Optional<Written>,
-    /// Last number of a range
-    to: Optional<Written>,
-    /// How many numbers of a range, both ends included, for a grid or a list
-    count: Optional<Whole<2>>,
-    /// linear (default) or logarithmic
-    spacing: Optional<Spacing>,
-    /// Motions from files, relative to the folder of the study
-    pub records: Optional<List<Record>>,
-    /// Synthetic motions
-    pub synthetic: Optional<SyntheticTable>,
-    /// Measure of the intensity to which the records are scaled
-    intensity: Optional<Measure>,
-    /// Buildings whose first periods a spectral acceleration is taken at, by default all
-    building: Optional<OneOrEach<Located<String>>>,
-    /// Periods (s) that a spectral acceleration is taken at
-    period: Optional<OneOrEach<Positive<Time>>>,
-    /// Damping ratio of a spectral acceleration, by default 0.05
-    damping: Optional<Amount<Number, BelowOne>>,
-    /// What it is, for people
-    long_name: Optional<String>,
+table_with_range! {
+    /// Something that varies: an entry of the case, the records, or their intensity
+    #[derive(Debug, Deserialize, JsonSchema)]
+    #[serde(rename = "[[variable]]")]
+    VariableTable {
+        /// Name of the coordinate in the results
+        name: Optional<String>,
+        /// Entry of the case that varies, such as gap.0.width
+        path: Optional<String>,
+        /// Values: numbers, texts, or models with all their options
+        values: Optional<List<TableOr<ModelTable, Scalar>>>,
+        /// Motions from files, relative to the folder of the study
+        pub records: Optional<List<Record>>,
+        /// Synthetic motions
+        pub synthetic: Optional<SyntheticTable>,
+        /// Measure of the intensity to which the records are scaled
+        intensity: Optional<Measure>,
+        /// Buildings whose first periods a spectral acceleration is taken at, by default all
+        building: Optional<OneOrEach<Located<String>>>,
+        /// Periods (s) that a spectral acceleration is taken at
+        period: Optional<OneOrEach<Positive<Time>>>,
+        /// Damping ratio of a spectral acceleration, by default 0.05
+        damping: Optional<Amount<Number, BelowOne>>,
+        /// What it is, for people
+        long_name: Optional<String>,
+    } => Numbers
 }
 
 /// Impact model of a gap with all its options
@@ -114,6 +108,11 @@ impl VariableTable {
                 reader.refuse(span.clone(), message, "for example path = \"gap.0.width\"")
             }
         }
+    }
+
+    /// The name that the table states, whether or not it is sound.
+    pub(super) fn stated_name(&self) -> Option<String> {
+        self.name.clone().value()
     }
 
     /// The name of the variable, by default as given, and how people call it.
@@ -195,7 +194,7 @@ impl VariableTable {
     }
 
     /// What says which numbers it takes.
-    fn numbers(self, reader: &Reader<'_>) -> Numbers {
+    fn numbers(mut self, reader: &Reader<'_>) -> Numbers {
         let number = |item: Field<_>| match item {
             Field::Given(Located { value, span }) => match value {
                 TableOr::Value(Scalar::Written(value)) => Field::Given(Located { value, span }),
@@ -217,13 +216,8 @@ impl VariableTable {
             }),
             Field::Wrong => Field::Wrong,
         };
-        Numbers {
-            values: self.values.map(numbers),
-            from: self.from,
-            to: self.to,
-            count: self.count,
-            spacing: self.spacing,
-        }
+        let values = self.values.take().map(numbers);
+        self.range_or(values)
     }
 
     fn of_path(

@@ -47,7 +47,7 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         plot::write(path, &files::figure(&comparison)?)?;
     }
     if arguments.json {
-        print(&pretty(&numbers::comparison(&comparison)))?;
+        print(&pretty(&numbers::Compared::of(&comparison))?)?;
     } else {
         print(&text::report(&case, &comparison))?;
     }

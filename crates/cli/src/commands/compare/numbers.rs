@@ -1,51 +1,99 @@
 //! The comparison for machines: SI units, full precision.
 
-use pounding_study::comparison::{
-    ComparedModel, Comparison, Judgement, LevelDifference, Quantity, QuantityKind, StoreyDifference,
-};
-use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
-use crate::json::add_place;
+use pounding_study::comparison::{
+    self, Comparison, LevelDifference, QuantityKind, ReferenceCollision, StoreyDifference,
+};
+use pounding_time_history::LevelPlace;
+use serde::Serialize;
 
 /// The object that `compare --json` prints.
-pub fn comparison(c: &Comparison) -> Value {
-    let references = c.references.iter().map(|r| {
-        json!({
-            "approach_velocity": r.approach_velocity, "effective_mass": r.effective_mass,
-            "stiffness": r.stiffness, "exponent": r.exponent, "restitution": r.restitution,
-        })
-    });
-    json!({
-        "stiffness_rule": c.options.stiffness_rule.name(),
-        "restitution_rule": c.options.restitution_rule.name(),
-        "references": references.collect::<Vec<_>>(),
-        "records": c.records,
-        "warnings": c.warnings,
-        "models": c.models.iter().map(|m| model(c, m)).collect::<Vec<_>>(),
-        "quantities": (0..c.quantities.len()).map(|q| quantity(c, q)).collect::<Vec<_>>(),
-        "gaps": (0..c.levels.len()).map(|g| gap(c, g)).collect::<Vec<_>>(),
-        "conclusions": conclusions(c),
-        "differences_from_gap": {
-            "storeys": c.storey_differences.iter().map(|d| storey(c, d)).collect::<Vec<_>>(),
-            "levels": c.level_differences.iter().map(|d| level(c, d)).collect::<Vec<_>>(),
-        },
-    })
+#[derive(Serialize)]
+pub struct Compared<'c> {
+    stiffness_rule: &'static str,
+    restitution_rule: &'static str,
+    references: Vec<Reference>,
+    records: &'c [String],
+    warnings: &'c [String],
+    models: Vec<Model<'c>>,
+    quantities: Vec<Quantity<'c>>,
+    gaps: Vec<Gap<'c>>,
+    conclusions: Vec<Conclusion<'c>>,
+    differences_from_gap: Differences<'c>,
+}
+
+impl<'c> Compared<'c> {
+    /// All of a comparison.
+    pub fn of(c: &'c Comparison) -> Self {
+        let storeys = c.storey_differences.iter();
+        let levels = c.level_differences.iter();
+        Self {
+            stiffness_rule: c.options.stiffness_rule.name(),
+            restitution_rule: c.options.restitution_rule.name(),
+            references: c.references.iter().map(Reference::of).collect(),
+            records: &c.records,
+            warnings: &c.warnings,
+            models: c.models.iter().map(|m| Model::of(c, m)).collect(),
+            quantities: (0..c.quantities.len())
+                .map(|q| Quantity::of(c, q))
+                .collect(),
+            gaps: (0..c.levels.len()).map(|g| Gap::of(c, g)).collect(),
+            conclusions: c.conclusions.iter().map(|x| Conclusion::of(c, x)).collect(),
+            differences_from_gap: Differences {
+                storeys: storeys.map(|d| Storey::of(c, d)).collect(),
+                levels: levels.map(|d| Level::of(c, d)).collect(),
+            },
+        }
+    }
+}
+
+/// The collision at which models are made to agree.
+#[derive(Serialize)]
+struct Reference {
+    approach_velocity: f64,
+    effective_mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    restitution: f64,
+}
+
+impl Reference {
+    fn of(r: &ReferenceCollision) -> Self {
+        Self {
+            approach_velocity: r.approach_velocity,
+            effective_mass: r.effective_mass,
+            stiffness: r.stiffness,
+            exponent: r.exponent,
+            restitution: r.restitution,
+        }
+    }
 }
 
 /// Under which records the models close a gap.
-fn gap(c: &Comparison, index: usize) -> Value {
-    let records = 0..c.records.len();
-    let models: Vec<_> = records.map(|r| c.models_in_contact(index, r)).collect();
-    let without = c.records_without_contact(index);
-    let without: Vec<_> = without.iter().map(|r| &c.records[*r]).collect();
-    json!({
-        "name": gap_name(c, index), "models": c.complete().len(),
-        "models_in_contact": models, "records_without_contact": without,
-    })
+#[derive(Serialize)]
+struct Gap<'c> {
+    name: Option<&'c str>,
+    models: usize,
+    models_in_contact: Vec<usize>,
+    records_without_contact: Vec<&'c str>,
+}
+
+impl<'c> Gap<'c> {
+    fn of(c: &'c Comparison, index: usize) -> Self {
+        let records = 0..c.records.len();
+        let without = c.records_without_contact(index);
+        Self {
+            name: gap_name(c, index),
+            models: c.complete().len(),
+            models_in_contact: records.map(|r| c.models_in_contact(index, r)).collect(),
+            records_without_contact: without.iter().map(|r| c.records[*r].as_str()).collect(),
+        }
+    }
 }
 
 fn gap_name(c: &Comparison, index: usize) -> Option<&str> {
-    let impacts = |q: &&Quantity| q.kind == QuantityKind::Impacts && q.index == index;
+    let impacts = |q: &&comparison::Quantity| q.kind == QuantityKind::Impacts && q.index == index;
     c.quantities.iter().find(impacts).map(|q| q.of.as_str())
 }
 
@@ -53,103 +101,227 @@ fn names_by_record(c: &Comparison, models: &[Vec<usize>]) -> Vec<Vec<&'static st
     models.iter().map(|m| names(c, m)).collect()
 }
 
-fn range((low, high): (f64, f64)) -> [f64; 2] {
-    [low, high]
-}
-
-fn storey(c: &Comparison, d: &StoreyDifference) -> Value {
-    let own: Vec<_> = (0..c.records.len()).map(|r| d.own_differs(r)).collect();
-    json!({
-        "building": c.own.first().map(|r| &r.isolated[d.building].name),
-        "storey": d.storey + 1, "quantity": d.kind.name(),
-        "models": names_by_record(c, &d.models), "models_that_say": d.models_that_say,
-        "amplification_at_storey": range(d.at_storey),
-        "ratio_of_maxima": range(d.of_maxima),
-        "own_law": {
-            "amplification_at_storey": d.own_at_storey,
-            "ratio_of_maxima": d.own_of_maxima, "differs": own,
-        },
-    })
-}
-
-fn level(c: &Comparison, d: &LevelDifference) -> Value {
-    let place = &c.levels[d.gap][d.level];
-    let mut value = json!({
-        "gap": gap_name(c, d.gap), "width": place.width,
-        "demand": d.demand, "demand_closes": d.demand_closes,
-        "models_in_contact": names_by_record(c, &d.models), "models": c.complete().len(),
-        "own_law_impacts": d.own_impacts,
-    });
-    add_place(&mut value, &place.place);
-    value
-}
-
 fn names(c: &Comparison, models: &[usize]) -> Vec<&'static str> {
     let names = models.iter().map(|m| c.models[*m].descriptor.name);
     names.collect()
 }
 
-fn model(c: &Comparison, m: &ComparedModel) -> Value {
-    let gaps: Vec<_> = m
-        .calibrated
-        .iter()
-        .flatten()
-        .map(|g| {
-            json!({
-                "parameters": g.parameters.values, "free_restitution": g.free_restitution,
-                "notes": g.notes,
-            })
-        })
-        .collect();
-    let failures: Vec<_> = c
-        .records
-        .iter()
-        .zip(&m.records)
-        .filter_map(|(record, r)| {
-            let diagnosis = r.as_ref().err()?;
-            Some(json!({"record": record, "diagnosis": diagnosis}))
-        })
-        .collect();
-    json!({"name": m.descriptor.name, "gaps": gaps, "failures": failures})
+/// Where models differ from the case's own.
+#[derive(Serialize)]
+struct Differences<'c> {
+    storeys: Vec<Storey<'c>>,
+    levels: Vec<Level<'c>>,
 }
 
-fn quantity(c: &Comparison, q: usize) -> Value {
-    let (quantity, spread, ranking) = (&c.quantities[q], &c.spreads[q], &c.rankings[q]);
-    let records = 0..c.records.len();
-    let of_model = |m: usize| -> Vec<f64> { records.clone().map(|r| c.value(m, r, q)).collect() };
-    let isolated: Vec<f64> = c.isolated.iter().map(|r| r[q]).collect();
-    json!({
-        "name": quantity.kind.name(), "of": quantity.of, "unit": quantity.kind.unit(),
-        "statistic": quantity.kind.statistic(),
-        "isolated": isolated,
-        "values": (0..c.models.len()).map(of_model).collect::<Vec<_>>(),
-        "spread": {
-            "between_models": spread.between_models,
-            "between_records": spread.between_records,
-            "greatest_ratio": spread.greatest_ratio,
-            "records": spread.records,
-            "records_left_out": c.records.len() - spread.records,
-        },
-        "ranking": {
-            "models": names(c, &ranking.order), "relative": ranking.relative,
-            "concordance": ranking.concordance,
-        },
-    })
+/// A storey of which models say something else.
+#[derive(Serialize)]
+struct Storey<'c> {
+    building: Option<&'c str>,
+    storey: usize,
+    quantity: &'static str,
+    models: Vec<Vec<&'static str>>,
+    models_that_say: &'c [usize],
+    amplification_at_storey: (f64, f64),
+    ratio_of_maxima: (f64, f64),
+    own_law: OwnLaw<'c>,
 }
 
-fn conclusions(c: &Comparison) -> Vec<Value> {
-    let answer = |j: &Judgement| {
-        json!({
-            "holds": j.holds.name(), "counts": j.counts,
-            "minority": names_by_record(c, &j.dissenters),
-        })
-    };
-    let one = |x: &pounding_study::comparison::Conclusion| {
-        let mut value = answer(&x.judgement);
-        value["statement"] = json!(x.statement);
-        value["statistic"] = json!(x.statistic);
-        value["by_storey"] = json!(x.by_storey.as_ref().map(answer));
-        value
-    };
-    c.conclusions.iter().map(one).collect()
+/// What the model of the case says of a storey, by record.
+#[derive(Serialize)]
+struct OwnLaw<'c> {
+    amplification_at_storey: &'c [f64],
+    ratio_of_maxima: &'c [f64],
+    differs: Vec<bool>,
+}
+
+impl<'c> Storey<'c> {
+    fn of(c: &'c Comparison, d: &'c StoreyDifference) -> Self {
+        let records = 0..c.records.len();
+        let first = c.own.first();
+        Self {
+            building: first.map(|r| r.isolated[d.building].name.as_str()),
+            storey: d.storey + 1,
+            quantity: d.kind.name(),
+            models: names_by_record(c, &d.models),
+            models_that_say: &d.models_that_say,
+            amplification_at_storey: d.at_storey,
+            ratio_of_maxima: d.of_maxima,
+            own_law: OwnLaw {
+                amplification_at_storey: &d.own_at_storey,
+                ratio_of_maxima: &d.own_of_maxima,
+                differs: records.map(|r| d.own_differs(r)).collect(),
+            },
+        }
+    }
+}
+
+/// A level at which models touch and the demand says otherwise, or the reverse.
+#[derive(Serialize)]
+struct Level<'c> {
+    gap: Option<&'c str>,
+    width: f64,
+    demand: &'c [f64],
+    demand_closes: &'c [bool],
+    models_in_contact: Vec<Vec<&'static str>>,
+    models: usize,
+    own_law_impacts: &'c [usize],
+    #[serde(flatten)]
+    place: &'c LevelPlace,
+}
+
+impl<'c> Level<'c> {
+    fn of(c: &'c Comparison, d: &'c LevelDifference) -> Self {
+        let level = &c.levels[d.gap][d.level];
+        Self {
+            gap: gap_name(c, d.gap),
+            width: level.width,
+            demand: &d.demand,
+            demand_closes: &d.demand_closes,
+            models_in_contact: names_by_record(c, &d.models),
+            models: c.complete().len(),
+            own_law_impacts: &d.own_impacts,
+            place: &level.place,
+        }
+    }
+}
+
+/// A model as it was calibrated, and where it failed.
+#[derive(Serialize)]
+struct Model<'c> {
+    name: &'static str,
+    gaps: Vec<Calibrated<'c>>,
+    failures: Vec<Failed<'c>>,
+}
+
+/// A model in one gap.
+#[derive(Serialize)]
+struct Calibrated<'c> {
+    parameters: &'c BTreeMap<String, f64>,
+    free_restitution: f64,
+    notes: &'c [String],
+}
+
+/// A record under which a model failed.
+#[derive(Serialize)]
+struct Failed<'c> {
+    record: &'c str,
+    diagnosis: &'c str,
+}
+
+impl<'c> Model<'c> {
+    fn of(c: &'c Comparison, m: &'c comparison::ComparedModel) -> Self {
+        let gaps = m.calibrated.iter().flatten().map(|g| Calibrated {
+            parameters: &g.parameters.values,
+            free_restitution: g.free_restitution,
+            notes: &g.notes,
+        });
+        let runs = c.records.iter().zip(&m.records);
+        let failures = runs.filter_map(|(record, run)| {
+            let diagnosis = run.as_ref().err()?;
+            Some(Failed { record, diagnosis })
+        });
+        Self {
+            name: m.descriptor.name,
+            gaps: gaps.collect(),
+            failures: failures.collect(),
+        }
+    }
+}
+
+/// A number of every model under every record, and how far they lie apart.
+#[derive(Serialize)]
+struct Quantity<'c> {
+    name: &'static str,
+    of: &'c str,
+    unit: &'static str,
+    statistic: &'static str,
+    isolated: Vec<f64>,
+    values: Vec<Vec<f64>>,
+    spread: Spread,
+    ranking: Ranking<'c>,
+}
+
+/// How much models differ, and how much records do.
+#[derive(Serialize)]
+struct Spread {
+    between_models: f64,
+    between_records: f64,
+    greatest_ratio: f64,
+    records: usize,
+    records_left_out: usize,
+}
+
+/// The models in their order.
+#[derive(Serialize)]
+struct Ranking<'c> {
+    models: Vec<&'static str>,
+    relative: &'c [f64],
+    concordance: f64,
+}
+
+impl<'c> Quantity<'c> {
+    fn of(c: &'c Comparison, q: usize) -> Self {
+        let (quantity, spread, ranking) = (&c.quantities[q], &c.spreads[q], &c.rankings[q]);
+        let records = 0..c.records.len();
+        let of_model = |m: usize| records.clone().map(|r| c.value(m, r, q)).collect();
+        Self {
+            name: quantity.kind.name(),
+            of: &quantity.of,
+            unit: quantity.kind.unit(),
+            statistic: quantity.kind.statistic(),
+            isolated: c.isolated.iter().map(|r| r[q]).collect(),
+            values: (0..c.models.len()).map(of_model).collect(),
+            spread: Spread {
+                between_models: spread.between_models,
+                between_records: spread.between_records,
+                greatest_ratio: spread.greatest_ratio,
+                records: spread.records,
+                records_left_out: c.records.len() - spread.records,
+            },
+            ranking: Ranking {
+                models: names(c, &ranking.order),
+                relative: &ranking.relative,
+                concordance: ranking.concordance,
+            },
+        }
+    }
+}
+
+/// A statement, and whether the models agree in it.
+#[derive(Serialize)]
+struct Conclusion<'c> {
+    statement: &'c str,
+    statistic: &'static str,
+    #[serde(flatten)]
+    judgement: Judgement<'c>,
+    by_storey: Option<Judgement<'c>>,
+}
+
+/// Whether a statement holds, and who says otherwise.
+#[derive(Serialize)]
+struct Judgement<'c> {
+    holds: &'static str,
+    counts: &'c [(usize, usize)],
+    minority: Vec<Vec<&'static str>>,
+}
+
+impl<'c> Judgement<'c> {
+    fn of(c: &Comparison, j: &'c comparison::Judgement) -> Self {
+        Self {
+            holds: j.holds.name(),
+            counts: &j.counts,
+            minority: names_by_record(c, &j.dissenters),
+        }
+    }
+}
+
+impl<'c> Conclusion<'c> {
+    fn of(c: &Comparison, x: &'c comparison::Conclusion) -> Self {
+        Self {
+            statement: &x.statement,
+            statistic: x.statistic,
+            judgement: Judgement::of(c, &x.judgement),
+            by_storey: x.by_storey.as_ref().map(|j| Judgement::of(c, j)),
+        }
+    }
 }

@@ -1,11 +1,12 @@
 //! Tables and pictures of the gap check.
 
+use pounding_report::ReportError;
+use pounding_report::pictures::gap::amplifications;
 use pounding_study::gap_check::GapCheck;
 
-use super::text::{QUANTITIES, over_records};
+use super::text::QUANTITIES;
 use crate::failure::Failure;
 use crate::output::comma_separated;
-use crate::plot::{Curve, Panel, figure as draw};
 
 /// Every width, record, building and storey of the sweep.
 pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
@@ -136,28 +137,17 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
     comma_separated(&header, rows)
 }
 
-/// Maximum amplification over storeys and records, over the width.
-pub fn figure(check: &GapCheck) -> Result<String, Failure> {
-    let (Some(sweep), Some(first)) = (&check.sweep, check.records.first()) else {
-        return Ok(String::new());
-    };
-    let panels = QUANTITIES.map(|(quantity, of)| {
-        let curve = |(building, name): (usize, &String)| {
-            let points = sweep.widths.iter().enumerate().filter_map(|(i, width)| {
-                let x = over_records(sweep, i, building, of).filter(|x| x.is_finite())?;
-                Some((width * 1e3, x))
-            });
-            Curve {
-                name: name.clone(),
-                points: points.collect(),
-            }
-        };
-        let names = first.isolated.iter().map(|b| &b.name).enumerate();
-        Panel {
-            caption: format!("Amplification of {quantity} (-), maximum over storeys and records"),
-            horizontal: "width of the gap (mm)".to_owned(),
-            curves: names.map(curve).collect(),
-        }
+/// Maximum amplification over storeys and records, over the width, as a picture; nothing
+/// without a sweep.
+pub fn figure(check: &GapCheck) -> Option<Result<String, ReportError>> {
+    let (sweep, first) = (check.sweep.as_ref()?, check.records.first()?);
+    let quantities = QUANTITIES.map(|(quantity, of)| {
+        let buildings = first.isolated.iter().enumerate().map(|(building, b)| {
+            let widths = 0..sweep.widths.len();
+            let values = widths.map(|width| sweep.over_records(width, building, of));
+            (b.name.as_str(), values.collect())
+        });
+        (quantity, buildings.collect())
     });
-    draw(&panels)
+    Some(amplifications(&sweep.widths, &quantities))
 }

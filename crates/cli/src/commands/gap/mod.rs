@@ -40,7 +40,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     drop(progress);
     write_files(arguments, &check)?;
     if arguments.json {
-        print(&pretty(&numbers::check(&check)))?;
+        print(&pretty(&numbers::Check::of(&check))?)?;
     } else {
         print(&text::report(&case, &check, arguments.all))?;
     }
@@ -99,5 +99,9 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
         return Err(Failure::input(message, Some(help)));
     }
     write(&arguments.csv, &|| files::sweep(check))?;
-    write(&arguments.plot, &|| files::figure(check))
+    match (arguments.plot.as_deref(), files::figure(check)) {
+        (Some(path), Some(picture)) => plot::write_drawn(path, picture),
+        (Some(path), None) => plot::write(path, ""),
+        (None, _) => Ok(()),
+    }
 }

@@ -1,168 +1,372 @@
 //! The gap check for machines: SI units, full precision.
 
 use pounding_study::gap_check::{
-    Amplification, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, RecordDemand,
+    self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
-use pounding_time_history::Peak;
-use serde_json::{Value, json};
-
-use crate::json::add_place;
+use pounding_time_history::{BuildingOutcome, LevelPlace};
+use serde::Serialize;
 
 /// The object that `gap --json` prints.
-pub fn check(check: &GapCheck) -> Value {
-    let gaps = 0..check.gaps.len();
-    json!({
-        "adequate": check.adequate(),
-        "target_probability": check.options.target_probability,
-        "confidence": check.options.confidence,
-        "warnings": check.warnings,
-        "records": check.records.iter().map(record).collect::<Vec<_>>(),
-        "gaps": gaps.map(|i| gap(check, i)).collect::<Vec<_>>(),
-        "sweep": check.sweep.as_ref().map(sweep),
-    })
+#[derive(Serialize)]
+pub struct Check<'c> {
+    adequate: bool,
+    target_probability: f64,
+    confidence: f64,
+    warnings: &'c [String],
+    records: Vec<Record<'c>>,
+    gaps: Vec<Gap<'c>>,
+    sweep: Option<Sweep<'c>>,
 }
 
-fn peak(p: &Peak) -> Value {
-    json!({"peak": p.value, "time": p.time})
+impl<'c> Check<'c> {
+    /// All of a check.
+    pub fn of(check: &'c GapCheck) -> Self {
+        Self {
+            adequate: check.adequate(),
+            target_probability: check.options.target_probability,
+            confidence: check.options.confidence,
+            warnings: &check.warnings,
+            records: check.records.iter().map(Record::of).collect(),
+            gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
+            sweep: check.sweep.as_ref().map(Sweep::of),
+        }
+    }
 }
 
-fn amplification(buildings: &[Vec<Amplification>]) -> Value {
-    let storey = |a: &Amplification| {
-        json!({
-            "displacement": a.displacement,
-            "storey_shear": a.storey_shear,
-            "acceleration_absolute": a.acceleration_absolute,
-        })
-    };
-    let building = |b: &Vec<Amplification>| b.iter().map(storey).collect::<Vec<_>>();
-    json!(buildings.iter().map(building).collect::<Vec<_>>())
+/// A maximum and when it occurs.
+#[derive(Serialize)]
+struct Peak {
+    peak: f64,
+    time: f64,
 }
 
-fn record(r: &RecordDemand) -> Value {
-    let isolated: Vec<_> = r
-        .isolated
-        .iter()
-        .map(|b| {
-            let peaks: Vec<_> = b.storeys.iter().map(|s| peak(&s.displacement)).collect();
-            let inelastic = b.inelastic_storeys().into_iter();
-            let inelastic: Vec<_> = inelastic
-                .map(|(s, ductility)| json!({"storey": s + 1, "ductility": ductility}))
-                .collect();
-            json!({"name": b.name, "displacement": peaks, "inelastic_storeys": inelastic})
-        })
-        .collect();
-    let impacts = r.pounding.as_ref().ok().map(|(_, gaps)| {
-        let levels = gaps.iter().map(|g| g.levels.iter().map(|l| l.impacts));
-        levels.map(Iterator::collect).collect::<Vec<Vec<usize>>>()
-    });
-    json!({
-        "name": r.name,
-        "peak_ground_acceleration": r.peak_ground_acceleration,
-        "isolated": isolated,
-        "amplification": r.amplification().map(|a| amplification(&a)),
-        "impacts": impacts,
-        "failure": r.pounding.as_ref().err(),
-    })
+impl Peak {
+    fn of(peak: &pounding_time_history::Peak) -> Self {
+        Self {
+            peak: peak.value,
+            time: peak.time,
+        }
+    }
 }
 
-fn gap(check: &GapCheck, index: usize) -> Value {
-    let gap = &check.gaps[index];
-    let levels: Vec<_> = gap
-        .levels
-        .iter()
-        .enumerate()
-        .map(|(l, level)| {
-            let demand = check.records.iter().map(|r| peak(&r.demand[index][l]));
-            let mut value = json!({"width": level.width, "demand": demand.collect::<Vec<_>>()});
-            add_place(&mut value, &level.place);
-            value
-        })
-        .collect();
-    let fit = gap.required.lognormal.as_ref();
-    json!({
-        "name": gap.name,
-        "between": gap.between,
-        "adequate": gap.adequate,
-        "records_in_contact": gap.records_in_contact,
-        "records_driven_by_neighbours": gap.records_driven,
-        "contact_probability_bounds": [gap.contact_bounds.0, gap.contact_bounds.1],
-        "governing_level": gap.governing_level + 1,
-        "demand": gap.demand,
-        "levels": levels,
-        "required": {
-            "by_count": gap.required.by_count,
-            "allowed_contacts": gap.required.allowed_contacts,
-            "lognormal": fit.ok().map(|f| json!({
-                "median": f.median, "dispersion": f.dispersion, "width": f.width,
-                "bounds": [f.bounds.0, f.bounds.1],
-            })),
-            "no_lognormal": fit.err(),
-        },
-        "combinations": gap.combinations.iter().map(|c| combination(gap, c)).collect::<Vec<_>>(),
-        "provisions": gap.codes.iter().map(|c| provision(gap, c)).collect::<Vec<_>>(),
-    })
+/// What pounding does to the maxima of a storey.
+#[derive(Serialize)]
+struct Amplification {
+    displacement: f64,
+    storey_shear: f64,
+    acceleration_absolute: f64,
 }
 
-fn combination(gap: &GapReport, c: &CombinationGap) -> Value {
-    let records: Vec<Vec<f64>> = c
-        .records
-        .iter()
-        .map(|levels| levels.iter().map(|l| l.width).collect())
-        .collect();
-    json!({
-        "rule": c.rule.name(), "effective_properties": c.effective.map(|e| e.name()),
-        "status": c.status.name(), "correlation": c.correlation, "width": records,
-        "satisfied": c.satisfied_by(&gap.levels),
-    })
+impl Amplification {
+    fn of_all(buildings: &[Vec<gap_check::Amplification>]) -> Vec<Vec<Self>> {
+        let storey = |a: &gap_check::Amplification| Self {
+            displacement: a.displacement,
+            storey_shear: a.storey_shear,
+            acceleration_absolute: a.acceleration_absolute,
+        };
+        let buildings = buildings.iter();
+        buildings
+            .map(|storeys| storeys.iter().map(storey).collect())
+            .collect()
+    }
 }
 
-fn provision(gap: &GapReport, c: &CodeGap) -> Value {
-    let level = |result: &Result<pounding_separation::Requirement, _>| match result {
-        Ok(r) => json!({
-            "width": r.width, "explanation": r.explanation, "caution": r.caution,
-        }),
-        Err(e) => json!({"refusal": ToString::to_string(e)}),
-    };
-    let records: Vec<_> = c
-        .records
-        .iter()
-        .enumerate()
-        .map(|(r, levels)| {
+/// A building without its neighbours under one record.
+#[derive(Serialize)]
+struct Isolated<'c> {
+    name: &'c str,
+    displacement: Vec<Peak>,
+    inelastic_storeys: Vec<Inelastic>,
+}
+
+/// A storey that left its elastic range.
+#[derive(Serialize)]
+struct Inelastic {
+    storey: usize,
+    ductility: Option<f64>,
+}
+
+impl<'c> Isolated<'c> {
+    fn of(building: &'c BuildingOutcome) -> Self {
+        let storeys = building.storeys.iter();
+        let inelastic = building.inelastic_storeys().into_iter();
+        let inelastic = inelastic.map(|(storey, ductility)| Inelastic {
+            storey: storey + 1,
+            ductility,
+        });
+        Self {
+            name: &building.name,
+            displacement: storeys.map(|s| Peak::of(&s.displacement)).collect(),
+            inelastic_storeys: inelastic.collect(),
+        }
+    }
+}
+
+/// What one record does.
+#[derive(Serialize)]
+struct Record<'c> {
+    name: &'c str,
+    peak_ground_acceleration: f64,
+    isolated: Vec<Isolated<'c>>,
+    amplification: Option<Vec<Vec<Amplification>>>,
+    /// By gap and level.
+    impacts: Option<Vec<Vec<usize>>>,
+    failure: Option<&'c str>,
+}
+
+impl<'c> Record<'c> {
+    fn of(record: &'c RecordDemand) -> Self {
+        let impacts = record.pounding.as_ref().ok().map(|(_, gaps)| {
+            let levels = gaps.iter().map(|g| g.levels.iter().map(|l| l.impacts));
+            levels.map(Iterator::collect).collect()
+        });
+        Self {
+            name: &record.name,
+            peak_ground_acceleration: record.peak_ground_acceleration,
+            isolated: record.isolated.iter().map(Isolated::of).collect(),
+            amplification: record.amplification().map(|a| Amplification::of_all(&a)),
+            impacts,
+            failure: record.pounding.as_ref().err().map(String::as_str),
+        }
+    }
+}
+
+/// A gap under all records.
+#[derive(Serialize)]
+struct Gap<'c> {
+    name: &'c str,
+    between: &'c [String; 2],
+    adequate: bool,
+    records_in_contact: usize,
+    records_driven_by_neighbours: usize,
+    contact_probability_bounds: (f64, f64),
+    governing_level: usize,
+    demand: &'c [f64],
+    levels: Vec<Level<'c>>,
+    required: Required,
+    combinations: Vec<Combination>,
+    provisions: Vec<Provision<'c>>,
+}
+
+/// A contact level with its demand under each record.
+#[derive(Serialize)]
+struct Level<'c> {
+    width: f64,
+    demand: Vec<Peak>,
+    #[serde(flatten)]
+    place: &'c LevelPlace,
+}
+
+/// The width that the target probability asks for.
+#[derive(Serialize)]
+struct Required {
+    by_count: f64,
+    allowed_contacts: usize,
+    lognormal: Option<Lognormal>,
+    no_lognormal: Option<&'static str>,
+}
+
+/// A lognormal distribution of the demand.
+#[derive(Serialize)]
+struct Lognormal {
+    median: f64,
+    dispersion: f64,
+    width: f64,
+    bounds: (f64, f64),
+}
+
+impl<'c> Gap<'c> {
+    fn of(check: &'c GapCheck, index: usize) -> Self {
+        let gap = &check.gaps[index];
+        let level = |(l, level): (usize, &'c gap_check::GapLevel)| Level {
+            width: level.width,
+            demand: check
+                .records
+                .iter()
+                .map(|r| Peak::of(&r.demand[index][l]))
+                .collect(),
+            place: &level.place,
+        };
+        let fit = gap.required.lognormal.as_ref();
+        Self {
+            name: &gap.name,
+            between: &gap.between,
+            adequate: gap.adequate,
+            records_in_contact: gap.records_in_contact,
+            records_driven_by_neighbours: gap.records_driven,
+            contact_probability_bounds: gap.contact_bounds,
+            governing_level: gap.governing_level + 1,
+            demand: &gap.demand,
+            levels: gap.levels.iter().enumerate().map(level).collect(),
+            required: Required {
+                by_count: gap.required.by_count,
+                allowed_contacts: gap.required.allowed_contacts,
+                lognormal: fit.ok().map(|f| Lognormal {
+                    median: f.median,
+                    dispersion: f.dispersion,
+                    width: f.width,
+                    bounds: f.bounds,
+                }),
+                no_lognormal: fit.err().copied(),
+            },
+            combinations: gap
+                .combinations
+                .iter()
+                .map(|c| Combination::of(gap, c))
+                .collect(),
+            provisions: gap.codes.iter().map(|c| Provision::of(gap, c)).collect(),
+        }
+    }
+}
+
+/// A combination rule, with its widths by record and level.
+#[derive(Serialize)]
+struct Combination {
+    rule: &'static str,
+    effective_properties: Option<&'static str>,
+    status: &'static str,
+    correlation: Option<f64>,
+    width: Vec<Vec<f64>>,
+    satisfied: Option<bool>,
+}
+
+impl Combination {
+    fn of(gap: &GapReport, c: &CombinationGap) -> Self {
+        let widths = c.records.iter();
+        let widths = widths.map(|levels| levels.iter().map(|l| l.width).collect());
+        Self {
+            rule: c.rule.name(),
+            effective_properties: c.effective.map(|e| e.name()),
+            status: c.status.name(),
+            correlation: c.correlation,
+            width: widths.collect(),
+            satisfied: c.satisfied_by(&gap.levels),
+        }
+    }
+}
+
+/// A provision, with what it asks for under each record.
+#[derive(Serialize)]
+struct Provision<'c> {
+    name: &'static str,
+    region: &'static str,
+    edition: &'static str,
+    clause: &'static str,
+    place: &'static str,
+    basis: &'static str,
+    formula: &'static str,
+    status: &'static str,
+    status_remark: &'static str,
+    elastic_displacement_factor: Option<&'static str>,
+    refusal: Option<String>,
+    caution: Option<&'c str>,
+    satisfied: Option<bool>,
+    records: Vec<OfRecord<'c>>,
+}
+
+/// What a provision asks for under one record.
+#[derive(Serialize)]
+struct OfRecord<'c> {
+    width: Option<f64>,
+    ratio_to_demand: Option<f64>,
+    levels: Vec<OfLevel<'c>>,
+}
+
+/// What a provision asks for at one level.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum OfLevel<'c> {
+    Required {
+        width: f64,
+        explanation: &'c str,
+        caution: Option<&'c str>,
+    },
+    Refused {
+        refusal: String,
+    },
+}
+
+impl<'c> Provision<'c> {
+    fn of(gap: &GapReport, c: &'c CodeGap) -> Self {
+        let level = |result: &'c Result<pounding_separation::Requirement, _>| match result {
+            Ok(r) => OfLevel::Required {
+                width: r.width,
+                explanation: &r.explanation,
+                caution: r.caution.as_deref(),
+            },
+            Err(e) => OfLevel::Refused {
+                refusal: ToString::to_string(e),
+            },
+        };
+        let records = c.records.iter().enumerate().map(|(r, levels)| {
             let width = c.width(r);
-            json!({
-                "width": width,
-                "ratio_to_demand": width.map(|w| w / gap.demand[r]),
-                "levels": levels.iter().map(level).collect::<Vec<_>>(),
-            })
-        })
-        .collect();
-    let p = c.provision;
-    json!({
-        "name": p.name, "region": p.region, "edition": p.edition, "clause": p.clause,
-        "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
-        "status": p.status.name(), "status_remark": p.status.remark(),
-        "elastic_displacement_factor": p.elastic_displacement_factor,
-        "refusal": c.refusal().map(ToString::to_string),
-        "caution": c.caution(),
-        "satisfied": c.satisfied_by(&gap.levels),
-        "records": records,
-    })
+            OfRecord {
+                width,
+                ratio_to_demand: width.map(|w| w / gap.demand[r]),
+                levels: levels.iter().map(level).collect(),
+            }
+        });
+        let p = c.provision;
+        Self {
+            name: p.name,
+            region: p.region,
+            edition: p.edition,
+            clause: p.clause,
+            place: p.place().name(),
+            basis: p.basis.name(),
+            formula: p.formula,
+            status: p.status.name(),
+            status_remark: p.status.remark(),
+            elastic_displacement_factor: p.elastic_displacement_factor,
+            refusal: c.refusal().map(ToString::to_string),
+            caution: c.caution(),
+            satisfied: c.satisfied_by(&gap.levels),
+            records: records.collect(),
+        }
+    }
 }
 
-fn sweep(sweep: &GapSweep) -> Value {
-    let run = |run: &Result<pounding_study::gap_check::SweepRun, String>| match run {
-        Ok(run) => json!({
-            "amplification": amplification(&run.amplification),
-            "impacts": run.impacts,
-            "peak_force": run.peak_force,
-            "impact_energy": run.impact_energy,
-        }),
-        Err(failure) => json!({"failure": failure}),
-    };
-    let runs: Vec<Vec<Value>> = sweep
-        .runs
-        .iter()
-        .map(|records| records.iter().map(run).collect())
-        .collect();
-    json!({"gap": sweep.gap, "widths": sweep.widths, "runs": runs})
+/// Runs of a sweep of widths, by width and record.
+#[derive(Serialize)]
+struct Sweep<'c> {
+    gap: Option<&'c str>,
+    widths: &'c [f64],
+    runs: Vec<Vec<Run<'c>>>,
+}
+
+/// One run of a sweep.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Run<'c> {
+    Made {
+        amplification: Vec<Vec<Amplification>>,
+        impacts: usize,
+        peak_force: f64,
+        impact_energy: f64,
+    },
+    Failed {
+        failure: &'c str,
+    },
+}
+
+impl<'c> Sweep<'c> {
+    fn of(sweep: &'c GapSweep) -> Self {
+        let run = |run: &'c Result<gap_check::SweepRun, String>| match run {
+            Ok(run) => Run::Made {
+                amplification: Amplification::of_all(&run.amplification),
+                impacts: run.impacts,
+                peak_force: run.peak_force,
+                impact_energy: run.impact_energy,
+            },
+            Err(failure) => Run::Failed { failure },
+        };
+        let runs = sweep.runs.iter();
+        Self {
+            gap: sweep.gap.as_deref(),
+            widths: &sweep.widths,
+            runs: runs
+                .map(|records| records.iter().map(run).collect())
+                .collect(),
+        }
+    }
 }

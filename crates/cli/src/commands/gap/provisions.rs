@@ -1,7 +1,7 @@
 //! The list of provisions.
 
 use pounding_separation::{CombinationRule, EffectiveProperties, descriptors, unavailable};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::output::{pretty, print};
@@ -10,7 +10,7 @@ use crate::tables::new_table;
 /// Prints all provisions with status and inputs.
 pub fn list(as_json: bool) -> Result<(), Failure> {
     if as_json {
-        return print(&pretty(&numbers()));
+        return print(&pretty(&Provisions::all())?);
     }
     let mut table = new_table([
         "provision",
@@ -71,18 +71,62 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
     print(&text)
 }
 
-fn numbers() -> Value {
-    let descriptors = descriptors().iter().map(|p| {
-        json!({
-            "name": p.name, "region": p.region, "edition": p.edition, "clause": p.clause,
-            "place": p.place().name(), "basis": p.basis.name(), "formula": p.formula,
-            "status": p.status.name(), "status_remark": p.status.remark(), "remarks": p.remarks,
-            "elastic_displacement_factor": p.elastic_displacement_factor,
-            "inputs": p.inputs.iter().map(|i| i.key()).collect::<Vec<_>>(),
-        })
-    });
-    let missing = unavailable()
-        .iter()
-        .map(|u| json!({"region": u.region, "edition": u.edition, "reason": u.reason}));
-    json!({"provisions": descriptors.collect::<Vec<_>>(), "unavailable": missing.collect::<Vec<_>>()})
+/// What `gap --list-provisions --json` prints.
+#[derive(Serialize)]
+struct Provisions {
+    provisions: Vec<Provision>,
+    unavailable: Vec<Missing>,
+}
+
+/// A provision with what it needs to know.
+#[derive(Serialize)]
+struct Provision {
+    name: &'static str,
+    region: &'static str,
+    edition: &'static str,
+    clause: &'static str,
+    place: &'static str,
+    basis: &'static str,
+    formula: &'static str,
+    status: &'static str,
+    status_remark: &'static str,
+    remarks: &'static [&'static str],
+    elastic_displacement_factor: Option<&'static str>,
+    inputs: Vec<&'static str>,
+}
+
+/// A code that is not here, and why.
+#[derive(Serialize)]
+struct Missing {
+    region: &'static str,
+    edition: &'static str,
+    reason: &'static str,
+}
+
+impl Provisions {
+    fn all() -> Self {
+        let provisions = descriptors().iter().map(|p| Provision {
+            name: p.name,
+            region: p.region,
+            edition: p.edition,
+            clause: p.clause,
+            place: p.place().name(),
+            basis: p.basis.name(),
+            formula: p.formula,
+            status: p.status.name(),
+            status_remark: p.status.remark(),
+            remarks: p.remarks,
+            elastic_displacement_factor: p.elastic_displacement_factor,
+            inputs: p.inputs.iter().map(|i| i.key()).collect(),
+        });
+        let unavailable = unavailable().iter().map(|u| Missing {
+            region: u.region,
+            edition: u.edition,
+            reason: u.reason,
+        });
+        Self {
+            provisions: provisions.collect(),
+            unavailable: unavailable.collect(),
+        }
+    }
 }

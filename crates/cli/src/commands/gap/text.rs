@@ -366,18 +366,6 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
     buildings.iter().enumerate().map(row).collect()
 }
 
-/// Maximum over records of what `of_building` finds, at one width.
-pub fn over_records(
-    sweep: &GapSweep,
-    width: usize,
-    building: usize,
-    quantity: fn(&Amplification) -> f64,
-) -> Option<f64> {
-    let runs = sweep.runs.get(width)?.iter().flatten();
-    let values = runs.filter_map(|run| GapSweep::of_building(run, building, quantity));
-    values.map(|(_, x)| x).reduce(f64::max)
-}
-
 fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     let Some(first) = check.records.first() else {
         return String::new();
@@ -398,7 +386,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
         let mut row = vec![format!("{:.2}", width * 1e3)];
         for building in 0..buildings.len() {
             let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| decimal(x, 3));
-            row.extend(QUANTITIES.map(|(_, q)| cell(over_records(sweep, i, building, q))));
+            row.extend(QUANTITIES.map(|(_, q)| cell(sweep.over_records(i, building, q))));
         }
         let impacts = sweep.runs[i].iter().flatten().map(|r| r.impacts).max();
         row.push(impacts.map_or("-".to_owned(), |n| n.to_string()));

@@ -1,11 +1,13 @@
 //! A law with its parameters.
 
+use std::collections::BTreeMap;
+
 use pounding_assembly::parameter_dimension;
 use pounding_case::parse_quantity;
 use pounding_catalogue::Descriptor;
 use pounding_hysteresis::laboratory::{Specimen, exponent_of_example};
 use pounding_hysteresis::{HysteresisError, LawDescriptor, LawParameters, ParameterDescriptor};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 
 use crate::failure::Failure;
 
@@ -106,18 +108,29 @@ pub fn pairs(specimen: &Specimen) -> String {
 }
 
 /// The law and its parameters for machines.
-pub fn json(specimen: &Specimen) -> Map<String, Value> {
-    let descriptor = specimen.descriptor;
-    Map::from_iter(
-        [
-            ("law", json!(descriptor.name)),
-            ("title", json!(descriptor.title)),
-            ("parameters", json!(specimen.parameters.values)),
-            ("filled_from_example", json!(specimen.filled)),
-            ("rate_dependent", json!(descriptor.rate_dependent)),
-            ("initial_stiffness", json!(specimen.law.initial_stiffness())),
-            ("verification", json!(descriptor.verification.to_string())),
-        ]
-        .map(|(key, value)| (key.to_owned(), value)),
-    )
+#[derive(Serialize)]
+pub struct Chosen<'s> {
+    law: &'static str,
+    title: &'static str,
+    parameters: &'s BTreeMap<String, f64>,
+    filled_from_example: &'s [String],
+    rate_dependent: bool,
+    initial_stiffness: f64,
+    verification: String,
+}
+
+impl<'s> Chosen<'s> {
+    /// A specimen.
+    pub fn of(specimen: &'s Specimen) -> Self {
+        let descriptor = specimen.descriptor;
+        Self {
+            law: descriptor.name,
+            title: descriptor.title,
+            parameters: &specimen.parameters.values,
+            filled_from_example: &specimen.filled,
+            rate_dependent: descriptor.rate_dependent,
+            initial_stiffness: specimen.law.initial_stiffness(),
+            verification: descriptor.verification.to_string(),
+        }
+    }
 }

@@ -5,7 +5,7 @@ use pounding_catalogue::numbers::significant;
 use pounding_hysteresis::laboratory::{
     Cycling, Specimen, checked_dissipation_curve, local_slope, log_slope,
 };
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::motion::period;
 use crate::arguments::{HysteresisArguments, positive};
@@ -94,10 +94,21 @@ impl DissipationCurve {
     }
 
     /// For machines, SI.
-    pub fn json(&self) -> Value {
-        json!({
-            "columns": ["amplitude", "dissipated"], "curve": self.pairs,
-            "log_log_slope": self.slope(), "period": self.period,
-        })
+    pub fn shown(&self) -> ShownCurve<'_> {
+        ShownCurve {
+            columns: ["amplitude", "dissipated"],
+            curve: &self.pairs,
+            log_log_slope: self.slope(),
+            period: self.period,
+        }
     }
+}
+
+/// A dissipation curve for machines.
+#[derive(Serialize)]
+pub struct ShownCurve<'c> {
+    columns: [&'static str; 2],
+    curve: &'c [(f64, f64)],
+    log_log_slope: Option<f64>,
+    period: Option<f64>,
 }

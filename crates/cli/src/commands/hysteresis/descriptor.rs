@@ -1,10 +1,13 @@
 //! The descriptors of the laws, for people and for machines.
 
+use std::collections::BTreeMap;
+
 use pounding_catalogue::numbers::all_digits;
 use pounding_hysteresis::LawDescriptor;
 use pounding_report::documentation::laws::dependence;
-use serde_json::{Value, json};
+use serde::Serialize;
 
+use crate::descriptor::{DescribedParameter, OtherName};
 use crate::tables::Table;
 
 /// One line per law.
@@ -78,27 +81,40 @@ pub fn text(d: &LawDescriptor) -> String {
     text
 }
 
-/// The descriptor as JSON.
-pub fn json(d: &LawDescriptor) -> Value {
-    let parameters: Vec<_> = d
-        .parameters
-        .iter()
-        .map(|p| json!({"name": p.name, "unit": p.unit.symbol(), "range": p.range(), "default": p.default, "required": p.default.is_none(), "explanation": p.explanation}))
-        .collect();
-    let aliases: Vec<_> = d
-        .aliases
-        .iter()
-        .map(|a| json!({"name": a.name, "citation": a.citation}))
-        .collect();
-    let example: serde_json::Map<String, Value> = d
-        .example
-        .iter()
-        .map(|(name, value)| ((*name).to_owned(), json!(value)))
-        .collect();
-    json!({
-        "name": d.name, "aliases": aliases, "title": d.title, "formula": d.formula,
-        "citation": d.citation, "rate_dependent": d.rate_dependent, "parameters": parameters,
-        "example": example, "example_amplitude": d.example_amplitude,
-        "verification": d.verification.to_string(), "traps": d.traps,
-    })
+/// The descriptor for machines.
+#[derive(Serialize)]
+pub struct Described {
+    name: &'static str,
+    aliases: Vec<OtherName>,
+    title: &'static str,
+    formula: &'static str,
+    citation: &'static str,
+    rate_dependent: bool,
+    parameters: Vec<DescribedParameter>,
+    example: BTreeMap<&'static str, f64>,
+    example_amplitude: f64,
+    verification: String,
+    traps: &'static [&'static str],
+}
+
+impl Described {
+    /// All of it.
+    pub fn of(d: &LawDescriptor) -> Self {
+        let parameters = d.parameters.iter();
+        let parameters = parameters
+            .map(|p| DescribedParameter::of(p, p.unit.symbol().to_string(), p.default.is_none()));
+        Self {
+            name: d.name,
+            aliases: OtherName::of_all(d.aliases),
+            title: d.title,
+            formula: d.formula,
+            citation: d.citation,
+            rate_dependent: d.rate_dependent,
+            parameters: parameters.collect(),
+            example: d.example.iter().copied().collect(),
+            example_amplitude: d.example_amplitude,
+            verification: d.verification.to_string(),
+            traps: d.traps,
+        }
+    }
 }

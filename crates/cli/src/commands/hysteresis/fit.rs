@@ -7,7 +7,7 @@ use pounding_catalogue::numbers::significant;
 use pounding_catalogue::wording::counted;
 use pounding_hysteresis::LawDescriptor;
 use pounding_hysteresis::iwan::{DissipationFit, FitOptions, fit_from_many, unknowns_of_fit};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::chosen::given;
 use crate::columns::{Column, Source};
@@ -104,15 +104,23 @@ impl Fitted {
     }
 
     /// For machines, SI.
-    pub fn json(&self) -> Value {
-        let pairs: Vec<_> = self
-            .measured
-            .iter()
-            .map(|(a, d)| json!([a, d, self.fit.density.cycle_dissipation(*a)]))
-            .collect();
-        json!({
-            "columns": ["amplitude", "measured", "fitted"], "curve": pairs,
-            "relative_error": self.fit.relative_error, "iterations": self.fit.iterations,
-        })
+    pub fn shown(&self) -> ShownFit {
+        let fitted = |a: f64| self.fit.density.cycle_dissipation(a);
+        let measured = self.measured.iter();
+        ShownFit {
+            columns: ["amplitude", "measured", "fitted"],
+            curve: measured.map(|(a, d)| (*a, *d, fitted(*a))).collect(),
+            relative_error: self.fit.relative_error,
+            iterations: self.fit.iterations,
+        }
     }
+}
+
+/// A fit for machines.
+#[derive(Serialize)]
+pub struct ShownFit {
+    columns: [&'static str; 3],
+    curve: Vec<(f64, f64, f64)>,
+    relative_error: f64,
+    iterations: usize,
 }

@@ -11,7 +11,7 @@ mod output;
 use pounding_hysteresis::laboratory::{Loop, Specimen};
 use pounding_hysteresis::{LawDescriptor, descriptors, find};
 use pounding_report::documentation::laws as documentation;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::arguments::HysteresisArguments;
 use crate::failure::Failure;
@@ -64,15 +64,16 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
         ));
     }
     if arguments.json {
-        return print(&pretty(&descriptor::json(law)));
+        return print(&pretty(&descriptor::Described::of(law))?);
     }
     print(&descriptor::text(law))
 }
 
 fn list(as_json: bool) -> Result<(), Failure> {
     if as_json {
-        let descriptors: Vec<_> = descriptors().iter().map(|d| descriptor::json(d)).collect();
-        return print(&pretty(&json!(descriptors)));
+        let all = descriptors().iter();
+        let described: Vec<_> = all.map(|d| descriptor::Described::of(d)).collect();
+        return print(&pretty(&described)?);
     }
     print(&descriptor::list(descriptors()))
 }
@@ -103,7 +104,7 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
         output::write_svg(path, &results)?;
     }
     if arguments.json {
-        return print(&pretty(&results.json()));
+        return print(&pretty(&results.shown())?);
     }
     print(&format!(
         "{}{}",
@@ -127,24 +128,25 @@ impl Results {
         text
     }
 
-    fn json(&self) -> Value {
-        let mut object = chosen::json(&self.specimen);
-        let parts = [
-            ("fit", self.fitted.as_ref().map(Fitted::json)),
-            (
-                "loop",
-                self.driven.as_ref().map(|(driven, _)| json!(driven)),
-            ),
-            (
-                "dissipation",
-                self.curve.as_ref().map(DissipationCurve::json),
-            ),
-        ];
-        for (key, value) in parts {
-            if let Some(value) = value {
-                object.insert(key.to_owned(), value);
-            }
+    fn shown(&self) -> Shown<'_> {
+        Shown {
+            chosen: chosen::Chosen::of(&self.specimen),
+            fit: self.fitted.as_ref().map(Fitted::shown),
+            driven: self.driven.as_ref().map(|(driven, _)| driven),
+            dissipation: self.curve.as_ref().map(DissipationCurve::shown),
         }
-        Value::Object(object)
     }
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Shown<'r> {
+    #[serde(flatten)]
+    chosen: chosen::Chosen<'r>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fit: Option<fit::ShownFit>,
+    #[serde(rename = "loop", skip_serializing_if = "Option::is_none")]
+    driven: Option<&'r Loop>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dissipation: Option<curve::ShownCurve<'r>>,
 }

@@ -1,5 +1,6 @@
 //! `pounding ida`: incremental dynamic analysis, fragility, and the gap for a frequency.
 
+mod numbers;
 mod picture;
 mod tables;
 
@@ -7,17 +8,14 @@ use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_study::{
-    FragilityFit, IdaReport, LimitResult, ResultReader, Shard, Study, StudyError, evaluate,
-};
-use serde_json::{Value, json};
+use pounding_study::{IdaReport, ResultReader, Shard, Study, StudyError, evaluate};
 
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
 use crate::files::have_a_place;
 use crate::output::{comma_separated, pretty, print};
 use crate::plot;
-use crate::study::{all_failed, as_json, options, run, summary};
+use crate::study::{Finished, all_failed, options, run, summary};
 
 /// Runs all records at all intensities and evaluates them.
 pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -41,9 +39,9 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         write_table(path, &report)?;
     }
     if arguments.json {
-        let mut value = ida_json(&report, settings.confidence);
-        value["sweep"] = as_json(&sweep, &options);
-        return print(&pretty(&value));
+        let analysis = numbers::Analysis::of(&report, settings.confidence);
+        let sweep = Finished::of(&sweep, &options);
+        return print(&pretty(&numbers::Answer { analysis, sweep })?);
     }
     let mut text = summary(&study, &sweep, &options);
     text.push_str(&tables::report(&report, settings));
@@ -71,56 +69,4 @@ fn write_table(path: &Path, report: &IdaReport) -> Result<(), Failure> {
         })
     });
     plot::write(path, &comma_separated(&header, rows)?)
-}
-
-fn ida_json(report: &IdaReport, confidence: f64) -> Value {
-    let levels = report.levels.iter().map(|l| {
-        let demands = report.demands.iter().zip(&l.fractiles);
-        let demands: Vec<_> = demands
-            .map(|((name, unit), f)| json!({"name": name, "unit": unit, "p16": f[0], "p50": f[1], "p84": f[2]}))
-            .collect();
-        json!({"intensity": l.intensity, "runs": l.runs, "failed": l.failed, "collapsed": l.collapsed, "demands": demands})
-    });
-    let limits = report.limits.iter().map(|l| limit_json(l, confidence));
-    let gaps = report.gaps.iter().map(|g| {
-        let widths = g.widths.iter().map(|w| {
-            let mut value = limit_json(&w.result, confidence);
-            value["width"] = json!(w.width);
-            value
-        });
-        json!({
-            "gap": g.gap,
-            "widths": widths.collect::<Vec<_>>(),
-            "minimum": g.minimum.map(|m| json!({"width": m.width, "mean_annual_frequency": m.frequency})),
-        })
-    });
-    json!({
-        "measure": report.measure, "unit": report.unit, "records": report.records,
-        "levels": levels.collect::<Vec<_>>(),
-        "limits": limits.collect::<Vec<_>>(),
-        "gaps": gaps.collect::<Vec<_>>(),
-    })
-}
-
-fn limit_json(limit: &LimitResult, confidence: f64) -> Value {
-    let counts: Vec<_> = limit
-        .counts
-        .iter()
-        .map(|c| json!({"intensity": c.intensity, "runs": c.runs, "reached": c.reached}))
-        .collect();
-    let fit = match limit.fit {
-        FragilityFit::Lognormal(f) => json!({
-            "kind": "lognormal", "median": f.median, "dispersion": f.dispersion,
-            "confidence": confidence, "median_bounds": f.median_bounds(confidence),
-            "dispersion_bounds": f.dispersion_bounds(confidence),
-            "log_likelihood": f.log_likelihood,
-        }),
-        FragilityFit::Step { lower, upper } => json!({
-            "kind": "step", "lower": lower, "upper": upper.is_finite().then_some(upper),
-        }),
-        FragilityFit::Never { up_to } => json!({"kind": "never", "up_to": up_to}),
-        FragilityFit::Always { from } => json!({"kind": "always", "from": from}),
-        FragilityFit::None => json!({"kind": "none"}),
-    };
-    json!({"name": limit.name, "counts": counts, "fit": fit, "mean_annual_frequency": limit.frequency})
 }

@@ -9,7 +9,6 @@ use super::collisions::{Collided, right_aligned};
 use super::measured;
 use crate::arguments::{ImpactArguments, optional, value};
 use crate::failure::Failure;
-use crate::plot::Curve;
 use crate::tables::Table;
 
 /// Reads and aligns the measured history, if one is asked for.
@@ -37,17 +36,6 @@ fn threshold(arguments: &ImpactArguments) -> Result<f64, Failure> {
         format!("--{error}"),
         Some(error.help().to_owned()),
     ))
-}
-
-/// The history in ms and kN until the contact is over, for a picture that shows
-/// computed contacts of up to this length (s).
-pub fn curve(measured: &MeasuredForce, longest: f64) -> Curve {
-    let end = measured.contact_time.max(longest);
-    let shown = measured.samples.iter().filter(|(t, _)| *t <= end);
-    Curve {
-        name: "measured".to_owned(),
-        points: shown.map(|(t, f)| (t * 1e3, f * 1e-3)).collect(),
-    }
 }
 
 /// The comparison for people.

@@ -1,5 +1,7 @@
 //! Which models, with which parameters.
 
+use std::collections::BTreeMap;
+
 use pounding_assembly::parameter_dimension;
 use pounding_case::{Quantity, parse_quantity};
 use pounding_catalogue::{Parameters, suggestion};
@@ -7,7 +9,7 @@ use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
     GapElementError, ModelDescriptor, ParameterDescriptor, SeparationRule, registry,
 };
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
@@ -109,7 +111,7 @@ fn unknown(
     let mut known: Vec<_> = known.collect();
     known.sort_unstable();
     known.dedup();
-    let nearest = suggestion::nearest(key, &known);
+    let nearest = suggestion::misspelt(key, &known);
     let guess = nearest.map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
     let who = match asked {
         [one] => format!("model {} has no parameter \"{key}\"", one.name),
@@ -126,8 +128,8 @@ fn values(
     descriptor: &'static ModelDescriptor,
     given: &[Given],
     used: &mut [bool],
-) -> Result<std::collections::BTreeMap<String, f64>, Failure> {
-    let mut values = std::collections::BTreeMap::new();
+) -> Result<BTreeMap<String, f64>, Failure> {
+    let mut values = BTreeMap::new();
     let mut take = |parameter: &ParameterDescriptor, exponent| {
         if let Some(at) = pick(descriptor, parameter, given, exponent)? {
             used[at] = true;
@@ -271,19 +273,26 @@ pub fn pairs(specimen: &Specimen) -> String {
 }
 
 /// The model and its parameters for machines.
-pub fn json(specimen: &Specimen) -> Map<String, Value> {
-    Map::from_iter(
-        [
-            ("model", json!(specimen.descriptor.name)),
-            ("title", json!(specimen.descriptor.title)),
-            ("parameters", json!(specimen.parameters.values)),
-            ("filled_from_example", json!(specimen.filled)),
-            ("separation", json!(specimen.separation().name())),
-            (
-                "verification",
-                json!(specimen.descriptor.verification.to_string()),
-            ),
-        ]
-        .map(|(key, value)| (key.to_owned(), value)),
-    )
+#[derive(Serialize)]
+pub struct Shown<'s> {
+    model: &'static str,
+    title: &'static str,
+    parameters: &'s BTreeMap<String, f64>,
+    filled_from_example: &'s [String],
+    separation: &'static str,
+    verification: String,
+}
+
+impl<'s> Shown<'s> {
+    /// A specimen.
+    pub fn of(specimen: &'s Specimen) -> Self {
+        Self {
+            model: specimen.descriptor.name,
+            title: specimen.descriptor.title,
+            parameters: &specimen.parameters.values,
+            filled_from_example: &specimen.filled,
+            separation: specimen.separation().name(),
+            verification: specimen.descriptor.verification.to_string(),
+        }
+    }
 }

@@ -4,9 +4,7 @@ use comfy_table::{CellAlignment, presets};
 use pounding_catalogue::numbers::{scientific, significant};
 use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{CollisionOutcome, CollisionSample, collide_with};
-use serde_json::{Map, Value, json};
 
-use super::chosen;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
 use crate::failure::Failure;
@@ -37,17 +35,6 @@ pub fn collide_all<'a>(
             })
         })
         .collect()
-}
-
-impl Collided<'_> {
-    /// The result for machines.
-    pub fn json(&self) -> Map<String, Value> {
-        let mut object = chosen::json(self.chosen);
-        if let Value::Object(results) = json!(self.outcome) {
-            object.extend(results);
-        }
-        object
-    }
 }
 
 /// One model in full, or a table of several, with what is to be known of them.

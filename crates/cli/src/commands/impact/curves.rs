@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use pounding_gap_element::CollisionSample;
+use pounding_gap_element::laboratory::MeasuredForce;
+use pounding_report::pictures::collision::histories;
 
 use super::chosen;
 use super::collisions::Collided;
 use super::setting::Setting;
 use crate::failure::Failure;
 use crate::output::comma_separated;
-use crate::plot::{self, Curve, Panel, Reference};
+use crate::plot;
 
 /// Writes the histories of all models that have one, in SI units and full
 /// precision.
@@ -32,51 +34,19 @@ pub fn write_csv(path: &Path, collided: &[Collided<'_>], setting: &Setting) -> R
     plot::write(path, &format!("{head}{}", comma_separated(&columns, rows)?))
 }
 
-/// Draws force against time, force against penetration, penetration against time;
-/// a measured force history, if there is one, beside the first.
+/// Draws the histories of all models that have one; a measured force history, if there is
+/// one, beside them.
 pub fn write_svg(
     path: &Path,
     collided: &[Collided<'_>],
-    measured: Option<Curve>,
+    measured: Option<&MeasuredForce>,
 ) -> Result<(), Failure> {
     let with = with_history(collided)?;
-    type Axis = fn(&CollisionSample) -> f64;
-    let curves = |horizontal: Axis, vertical: Axis| -> Vec<Curve> {
-        with.iter()
-            .map(|one| Curve {
-                name: one.chosen.descriptor.name.to_owned(),
-                points: one
-                    .outcome
-                    .history
-                    .iter()
-                    .map(|s| (horizontal(s), vertical(s)))
-                    .collect(),
-            })
-            .collect()
-    };
-    let time: Axis = |s| s.time * 1e3;
-    let penetration: Axis = |s| s.penetration * 1e3;
-    let force: Axis = |s| s.force * 1e-3;
-    let panel = |caption: &str, horizontal: &str, curves| Panel {
-        caption: caption.to_owned(),
-        horizontal: horizontal.to_owned(),
-        curves,
-    };
-    let after = "time after first contact (ms)";
-    let panels = [
-        panel("Contact force (kN)", after, curves(time, force)),
-        panel(
-            "Contact force (kN)",
-            "penetration (mm)",
-            curves(penetration, force),
-        ),
-        panel("Penetration (mm)", after, curves(time, penetration)),
-    ];
-    let references: Vec<_> = measured
-        .map(|curve| Reference { panel: 0, curve })
-        .into_iter()
+    let models: Vec<_> = with
+        .iter()
+        .map(|one| (one.chosen.descriptor.name, &one.outcome))
         .collect();
-    plot::write(path, &plot::figure_with_references(&panels, &references)?)
+    plot::write_drawn(path, histories(&models, measured))
 }
 
 fn with_history<'a, 'b>(collided: &'a [Collided<'b>]) -> Result<Vec<&'a Collided<'b>>, Failure> {

@@ -9,8 +9,9 @@ mod remarks;
 mod setting;
 mod table;
 
-use pounding_gap_element::laboratory::{Difference, Specimen};
-use serde_json::{Value, json};
+use pounding_gap_element::CollisionOutcome;
+use pounding_gap_element::laboratory::{Difference, MeasuredForce, Specimen};
+use serde::Serialize;
 
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
@@ -53,21 +54,17 @@ fn collisions(
         curves::write_csv(path, &collided, setting)?;
     }
     if let Some(path) = &arguments.svg {
-        let longest = collided.iter().map(|c| c.outcome.duration);
-        let longest = longest.fold(0.0, f64::max);
-        let curve = history.as_ref().map(|m| against::curve(m, longest));
-        curves::write_svg(path, &collided, curve)?;
+        curves::write_svg(path, &collided, history.as_ref())?;
     }
     if arguments.json {
-        let mut objects: Vec<_> = collided.iter().map(|c| c.json()).collect();
-        for (object, one) in objects.iter_mut().zip(compared.iter().flatten()) {
-            object.insert("against".into(), json!(one));
-        }
-        let mut shared = setting.json();
-        if let Some(measured) = &history {
-            shared.insert("measured".into(), json!(measured));
-        }
-        return print(&pretty(&one_or_several(objects, shared)));
+        let models = collided.iter().enumerate().map(|(i, one)| {
+            let against = compared.as_ref().map(|compared| &compared[i]);
+            let outcome = &one.outcome;
+            (one.chosen, Compared { outcome, against })
+        });
+        let measured = history.as_ref();
+        let shown = Models::new(models, Measured { measured }, setting);
+        return print(&pretty(&shown)?);
     }
     let mut text = collisions::text(&collided, setting);
     if let (Some(measured), Some(compared)) = (&history, &compared) {
@@ -80,18 +77,73 @@ fn collisions(
     print(&text)
 }
 
-/// One model is an object of its own; several are a list, and what they share
-/// stands beside it.
-fn one_or_several(
-    mut objects: Vec<serde_json::Map<String, Value>>,
-    mut shared: serde_json::Map<String, Value>,
-) -> Value {
-    if objects.len() == 1
-        && let Some(mut one) = objects.pop()
-    {
-        one.extend(shared);
-        return Value::Object(one);
+/// What `--json` prints of models: one is an object of its own; several are a list, and what
+/// they share stands beside it.
+#[derive(Serialize)]
+struct Models<'s, R, S> {
+    #[serde(flatten)]
+    results: OneOrSeveral<'s, R>,
+    #[serde(flatten)]
+    shared: S,
+    bodies: setting::Shown,
+}
+
+/// The results of models.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum OneOrSeveral<'s, R> {
+    One(OfModel<'s, R>),
+    Several { models: Vec<OfModel<'s, R>> },
+}
+
+/// A model and what it did.
+#[derive(Serialize)]
+struct OfModel<'s, R> {
+    #[serde(flatten)]
+    chosen: chosen::Shown<'s>,
+    #[serde(flatten)]
+    results: R,
+}
+
+impl<'s, R, S> Models<'s, R, S> {
+    /// Models with their results, and what they share.
+    fn new(
+        models: impl IntoIterator<Item = (&'s Specimen, R)>,
+        shared: S,
+        setting: &Setting,
+    ) -> Self {
+        let models = models.into_iter().map(|(specimen, results)| OfModel {
+            chosen: chosen::Shown::of(specimen),
+            results,
+        });
+        let mut models: Vec<_> = models.collect();
+        let results = match models.pop() {
+            Some(only) if models.is_empty() => OneOrSeveral::One(only),
+            last => {
+                models.extend(last);
+                OneOrSeveral::Several { models }
+            }
+        };
+        Self {
+            results,
+            shared,
+            bodies: setting.shown(),
+        }
     }
-    shared.insert("models".into(), json!(objects));
-    Value::Object(shared)
+}
+
+/// A collision, beside a measured one.
+#[derive(Serialize)]
+struct Compared<'c> {
+    #[serde(flatten)]
+    outcome: &'c CollisionOutcome,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against: Option<&'c Difference>,
+}
+
+/// What all models are compared with.
+#[derive(Serialize)]
+struct Measured<'m> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measured: Option<&'m MeasuredForce>,
 }

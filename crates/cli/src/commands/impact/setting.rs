@@ -4,7 +4,7 @@ use pounding_case::Dimension;
 use pounding_catalogue::DefinitionError;
 use pounding_catalogue::numbers::significant;
 use pounding_gap_element::{Bodies, CollisionOptions, GapElementError};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 
 use crate::arguments::{ImpactArguments, positive, value};
 use crate::failure::Failure;
@@ -17,6 +17,16 @@ pub struct Setting {
     pub options: CollisionOptions,
     /// In words.
     pub description: String,
+}
+
+/// What collides, for machines.
+#[derive(Serialize)]
+pub struct Shown {
+    mass_left: f64,
+    mass_right: Option<f64>,
+    velocity_left: f64,
+    velocity_right: f64,
+    pressing_acceleration: f64,
 }
 
 /// Reads the setting off the arguments.
@@ -132,14 +142,15 @@ fn describe(bodies: &Bodies, arguments: &ImpactArguments, gravity: f64) -> Strin
 }
 
 impl Setting {
-    /// An object with the setting, for machines.
-    pub fn json(&self) -> Map<String, Value> {
-        let bodies = json!({
-            "mass_left": self.bodies.mass_left, "mass_right": self.bodies.mass_right,
-            "velocity_left": self.bodies.velocity_left, "velocity_right": self.bodies.velocity_right,
-            "pressing_acceleration": self.options.pressing_acceleration,
-        });
-        Map::from_iter([("bodies".to_owned(), bodies)])
+    /// The setting for machines.
+    pub fn shown(&self) -> Shown {
+        Shown {
+            mass_left: self.bodies.mass_left,
+            mass_right: self.bodies.mass_right,
+            velocity_left: self.bodies.velocity_left,
+            velocity_right: self.bodies.velocity_right,
+            pressing_acceleration: self.options.pressing_acceleration,
+        }
     }
 
     /// The setting as `key=value` pairs for the head of a file.

@@ -4,17 +4,18 @@ use std::path::Path;
 
 use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{AchievedRestitution, RestitutionTable, restitution_table};
-use serde_json::{Value, json};
+use pounding_report::pictures::collision::restitutions;
+use serde::Serialize;
 
+use super::Models;
 use super::chosen;
 use super::collisions::right_aligned;
-use super::one_or_several;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
 use crate::arguments::ImpactArguments;
 use crate::failure::Failure;
 use crate::output::{comma_separated, pretty, print, written};
-use crate::plot::{self, Curve, Panel, Reference};
+use crate::plot;
 
 /// One model's rows.
 struct Tabulated<'a> {
@@ -56,7 +57,13 @@ pub fn table(
         write_svg(path, &tables)?;
     }
     if arguments.json {
-        return print(&pretty(&as_json(&tables, &left_out, setting)));
+        let left_out = left_out.iter();
+        let left_out = left_out.map(|(model, reason)| Reason { model, reason });
+        let left_out = LeftOut {
+            left_out: left_out.collect(),
+        };
+        let models = tables.iter().map(|one| (one.chosen, &one.table));
+        return print(&pretty(&Models::new(models, left_out, setting))?);
     }
     let mut text = format!("{}\n", setting.description);
     text.push_str(&match tables.as_slice() {
@@ -148,24 +155,17 @@ fn matrix(tables: &[Tabulated<'_>]) -> String {
     format!("{table}\n")
 }
 
-fn as_json(tables: &[Tabulated<'_>], left_out: &[(&str, &str)], setting: &Setting) -> Value {
-    let objects = tables
-        .iter()
-        .map(|one| {
-            let mut object = chosen::json(one.chosen);
-            if let Value::Object(table) = json!(one.table) {
-                object.extend(table);
-            }
-            object
-        })
-        .collect();
-    let mut shared = setting.json();
-    let list: Vec<_> = left_out
-        .iter()
-        .map(|(name, why)| json!({"model": name, "reason": why}))
-        .collect();
-    shared.insert("left_out".into(), json!(list));
-    one_or_several(objects, shared)
+/// What all models of a table share.
+#[derive(Serialize)]
+struct LeftOut<'l> {
+    left_out: Vec<Reason<'l>>,
+}
+
+/// Why a model is not in the table.
+#[derive(Serialize)]
+struct Reason<'l> {
+    model: &'l str,
+    reason: &'l str,
 }
 
 fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result<(), Failure> {
@@ -199,29 +199,9 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
 }
 
 fn write_svg(path: &Path, tables: &[Tabulated<'_>]) -> Result<(), Failure> {
-    let curves = tables
-        .iter()
-        .map(|one| Curve {
-            name: one.chosen.descriptor.name.to_owned(),
-            points: one
-                .table
-                .rows
-                .iter()
-                .map(|r| (r.requested, r.outcome.restitution))
-                .collect(),
-        })
+    let models = tables.iter();
+    let models: Vec<_> = models
+        .map(|one| (one.chosen.descriptor.name, &one.table))
         .collect();
-    let panel = Panel {
-        caption: "Achieved restitution".to_owned(),
-        horizontal: "requested restitution".to_owned(),
-        curves,
-    };
-    let diagonal = Reference {
-        panel: 0,
-        curve: Curve {
-            name: "as requested".to_owned(),
-            points: vec![(0.0, 0.0), (1.0, 1.0)],
-        },
-    };
-    plot::write(path, &plot::figure_with_references(&[panel], &[diagonal])?)
+    plot::write_drawn(path, restitutions(&models))
 }

@@ -1,7 +1,9 @@
 //! The descriptor of one model, for people and for machines.
 
 use pounding_gap_element::ModelDescriptor;
-use serde_json::json;
+use serde::Serialize;
+
+use crate::descriptor::{DescribedParameter, OtherName};
 
 /// The descriptor as text.
 pub fn text(d: &ModelDescriptor) -> String {
@@ -49,18 +51,40 @@ pub fn text(d: &ModelDescriptor) -> String {
     text
 }
 
-/// The descriptor as JSON.
-pub fn json(d: &ModelDescriptor) -> serde_json::Value {
-    let parameters: Vec<_> = d
-        .parameters
-        .iter()
-        .map(|p| json!({"name": p.name, "unit": d.unit_symbol(p.unit), "range": p.range(), "default": p.default, "required": p.required, "explanation": p.explanation}))
-        .collect();
-    json!({
-        "name": d.name, "recommended": d.recommended,
-        "aliases": d.aliases.iter().map(|a| json!({"name": a.name, "citation": a.citation})).collect::<Vec<_>>(), "title": d.title, "formula": d.formula,
-        "citation": d.citation, "class": d.class, "parameters": parameters,
-        "separation_rules": d.separation_rules.iter().map(|r| r.name()).collect::<Vec<_>>(),
-        "verification": d.verification.to_string(), "traps": d.traps,
-    })
+/// The descriptor for machines.
+#[derive(Serialize)]
+pub struct Described {
+    name: &'static str,
+    recommended: bool,
+    aliases: Vec<OtherName>,
+    title: &'static str,
+    formula: &'static str,
+    citation: &'static str,
+    class: &'static str,
+    parameters: Vec<DescribedParameter>,
+    separation_rules: Vec<&'static str>,
+    verification: String,
+    traps: &'static [&'static str],
+}
+
+impl Described {
+    /// All of it.
+    pub fn of(d: &ModelDescriptor) -> Self {
+        let parameters = d.parameters.iter();
+        let parameters = parameters
+            .map(|p| DescribedParameter::of(p, d.unit_symbol(p.unit).to_string(), p.required));
+        Self {
+            name: d.name,
+            recommended: d.recommended,
+            aliases: OtherName::of_all(d.aliases),
+            title: d.title,
+            formula: d.formula,
+            citation: d.citation,
+            class: d.class,
+            parameters: parameters.collect(),
+            separation_rules: d.separation_rules.iter().map(|r| r.name()).collect(),
+            verification: d.verification.to_string(),
+            traps: d.traps,
+        }
+    }
 }

@@ -6,7 +6,6 @@ use std::path::Path;
 
 use pounding_gap_element::{ModelDescriptor, registry};
 use pounding_report::documentation::models as documentation;
-use serde_json::json;
 
 use crate::failure::Failure;
 use crate::output::{pretty, print};
@@ -28,8 +27,9 @@ pub fn models(name: Option<&str>, as_json: bool, folder: Option<&Path>) -> Resul
         None => registry::descriptors().to_vec(),
     };
     if as_json {
-        let descriptors: Vec<_> = chosen.iter().map(|d| descriptor::json(d)).collect();
-        return print(&pretty(&json!(descriptors)));
+        let chosen = chosen.iter();
+        let described: Vec<_> = chosen.map(|d| descriptor::Described::of(d)).collect();
+        return print(&pretty(&described)?);
     }
     if name.is_some() {
         return print(

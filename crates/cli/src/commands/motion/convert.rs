@@ -1,11 +1,13 @@
 //! `pounding motion convert`: a series in another format.
 
+use std::path::Path;
+
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
 };
 use pounding_ground_motion::{AccelerationUnit, Offset, Quantity, read_all};
-use serde_json::json;
+use serde::Serialize;
 
 use super::reading;
 use crate::arguments::{ConvertArguments, Layout};
@@ -49,12 +51,15 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     };
     plot::write(&arguments.output, &text)?;
     if arguments.json {
-        return print(&pretty(&json!({
-            "output": arguments.output, "quantity": written.quantity.name(),
-            "component": written.component, "unit": symbol,
-            "samples": written.samples.len(), "time_step": written.time_step,
-            "remarks": written.remarks,
-        })));
+        return print(&pretty(&Converted {
+            output: &arguments.output,
+            quantity: written.quantity.name(),
+            component: &written.component,
+            unit: symbol,
+            samples: written.samples.len(),
+            time_step: written.time_step,
+            remarks: &written.remarks,
+        })?);
     }
     let mut text = format!(
         "{}: {}, {} at {} s\n",
@@ -90,4 +95,16 @@ fn columns(text: &str) -> Result<Vec<Column>, Failure> {
                 Some("t is the time, a the values".to_owned()),
             )
         })
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Converted<'w> {
+    output: &'w Path,
+    quantity: &'static str,
+    component: &'w str,
+    unit: &'w str,
+    samples: usize,
+    time_step: f64,
+    remarks: &'w [String],
 }

@@ -8,9 +8,10 @@ use pounding_ground_motion::spectra::Evaluation;
 use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
+use pounding_report::pictures::motion::{Named, histories};
 
-use super::info_output::{as_json, as_text, comma_separated};
-use super::{plots, reading};
+use super::info_output::{Files, as_text, comma_separated};
+use super::reading;
 use crate::arguments::InfoArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
@@ -77,7 +78,7 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         picture(path, &files)?;
     }
     print(&if arguments.json {
-        pretty(&as_json(&files))
+        pretty(&Files::of(&files))?
     } else {
         as_text(&files)
     })?;
@@ -162,7 +163,7 @@ fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
                     1 => one.series.component.clone(),
                     _ => format!("{} {}", file.file, one.series.component),
                 };
-                named.push(plots::Named {
+                named.push(Named {
                     name,
                     record,
                     initial: one.series.initial.unwrap_or_default(),
@@ -176,5 +177,5 @@ fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
             Some("give a file with an acceleration that is not zero".to_owned()),
         ));
     }
-    plots::histories(path, &named)
+    plot::write_drawn(path, histories(&named))
 }

@@ -3,8 +3,11 @@
 use std::fmt::Write as _;
 
 use pounding_catalogue::numbers::six_digits;
-use pounding_ground_motion::{HeaderPeak, Origin, Processing, Sampling, Series};
-use serde_json::{Value, json};
+use pounding_ground_motion::measures::IntensityMeasures;
+use pounding_ground_motion::{
+    Accelerogram, HeaderPeak, Origin, Peak, Processing, Sampling, Series,
+};
+use serde::Serialize;
 
 use super::info::{Shown, ShownFile};
 use super::measures::rows;
@@ -224,44 +227,114 @@ fn measures_table(file: &ShownFile) -> String {
     format!("{table}\n")
 }
 
-/// One object with a list of files.
-pub fn as_json(files: &[ShownFile]) -> Value {
-    let files: Vec<_> = files
-        .iter()
-        .map(|f| {
-            let origin = f.series.first().map(|s| &s.series.origin);
-            json!({
-                "file": f.file,
-                "format": origin.map(|o| o.format),
-                "sha256": origin.map(|o| &o.sha256),
-                "series": f.series.iter().map(one_json).collect::<Vec<_>>(),
-            })
-        })
-        .collect();
-    json!({"files": files})
+/// What `--json` prints.
+#[derive(Serialize)]
+pub struct Files<'f> {
+    files: Vec<File<'f>>,
 }
 
-fn one_json(one: &Shown) -> Value {
-    let s = &one.series;
-    let origin = &s.origin;
-    let (even, uneven) = match &s.sampling {
-        Sampling::Even { time_step } => (Some(*time_step), false),
-        Sampling::Uneven { .. } => (None, true),
-    };
-    json!({
-        "channel": s.channel, "component": s.component, "quantity": s.quantity.name(),
-        "unit_in_file": s.unit, "samples": s.samples.len(), "time_step": even, "uneven": uneven,
-        "measured_time_step": one.record.as_ref().map(pounding_ground_motion::Accelerogram::time_step),
-        "mean": s.mean(), "peak": s.peak(), "signed_peak": s.signed_peak().0,
-        "header_peak": s.header_peak.map(|p| json!({
-            "value": p.value, "time": p.time, "opposite_sign": p.opposite_sign,
-        })),
-        "header_samples": origin.header_count,
-        "initial_velocity": s.initial.map(|i| i.0), "initial_displacement": s.initial.map(|i| i.1),
-        "title": origin.title, "processing": processing_word(origin),
-        "start_time": origin.start_time, "low_corner": origin.low_corner,
-        "high_corner": origin.high_corner, "history": origin.history, "warnings": warnings(one), "measures": one.measures,
-    })
+/// A file with its series.
+#[derive(Serialize)]
+struct File<'f> {
+    file: &'f str,
+    format: Option<&'static str>,
+    sha256: Option<&'f str>,
+    series: Vec<OneSeries<'f>>,
+}
+
+/// A series as it is read, and the measures of an acceleration.
+#[derive(Serialize)]
+struct OneSeries<'f> {
+    channel: usize,
+    component: &'f str,
+    quantity: &'static str,
+    unit_in_file: &'static str,
+    samples: usize,
+    /// Of even sampling.
+    time_step: Option<f64>,
+    uneven: bool,
+    measured_time_step: Option<f64>,
+    mean: f64,
+    peak: Peak,
+    signed_peak: f64,
+    header_peak: Option<PeakOfHeader>,
+    header_samples: Option<usize>,
+    initial_velocity: Option<f64>,
+    initial_displacement: Option<f64>,
+    title: &'f str,
+    processing: &'static str,
+    start_time: &'f str,
+    low_corner: Option<f64>,
+    high_corner: Option<f64>,
+    history: &'f [String],
+    warnings: &'f [String],
+    measures: Option<&'f IntensityMeasures>,
+}
+
+/// The maximum that a header states.
+#[derive(Serialize)]
+struct PeakOfHeader {
+    value: f64,
+    time: Option<f64>,
+    opposite_sign: bool,
+}
+
+impl<'f> Files<'f> {
+    /// All files of the command.
+    pub fn of(files: &'f [ShownFile]) -> Self {
+        let files = files.iter().map(|f| {
+            let origin = f.series.first().map(|s| &s.series.origin);
+            File {
+                file: &f.file,
+                format: origin.map(|o| o.format),
+                sha256: origin.map(|o| o.sha256.as_str()),
+                series: f.series.iter().map(OneSeries::of).collect(),
+            }
+        });
+        Self {
+            files: files.collect(),
+        }
+    }
+}
+
+impl<'f> OneSeries<'f> {
+    fn of(one: &'f Shown) -> Self {
+        let s = &one.series;
+        let origin = &s.origin;
+        let (time_step, uneven) = match &s.sampling {
+            Sampling::Even { time_step } => (Some(*time_step), false),
+            Sampling::Uneven { .. } => (None, true),
+        };
+        Self {
+            channel: s.channel,
+            component: &s.component,
+            quantity: s.quantity.name(),
+            unit_in_file: s.unit,
+            samples: s.samples.len(),
+            time_step,
+            uneven,
+            measured_time_step: one.record.as_ref().map(Accelerogram::time_step),
+            mean: s.mean(),
+            peak: s.peak(),
+            signed_peak: s.signed_peak().0,
+            header_peak: s.header_peak.map(|p| PeakOfHeader {
+                value: p.value,
+                time: p.time,
+                opposite_sign: p.opposite_sign,
+            }),
+            header_samples: origin.header_count,
+            initial_velocity: s.initial.map(|i| i.0),
+            initial_displacement: s.initial.map(|i| i.1),
+            title: &origin.title,
+            processing: processing_word(origin),
+            start_time: &origin.start_time,
+            low_corner: origin.low_corner,
+            high_corner: origin.high_corner,
+            history: &origin.history,
+            warnings: warnings(one),
+            measures: one.measures.as_ref(),
+        }
+    }
 }
 
 fn processing_word(origin: &Origin) -> &'static str {

@@ -1,26 +1,21 @@
 //! `pounding motion match`: a motion brought to a design spectrum.
 
 use pounding_case::Dimension;
-use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::matching::{
     MatchOptions, match_by_fourier_amplitudes, match_by_wavelets,
 };
+use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::spectra::design::{
     Asce7Of2016, Eurocode8Of2004, GroundType, SpectrumType,
 };
-use pounding_ground_motion::spectra::{
-    Evaluation, TargetSpectrum, logarithmic_periods, response_spectrum,
-};
-use serde_json::json;
+use pounding_report::pictures::motion::matched as picture;
 
-use super::plots::{over, panel};
 use super::words::Words;
-use super::{plots, reading, words, writing};
+use super::{reading, words, writing};
 use crate::arguments::value;
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
 use crate::failure::Failure;
-use crate::plot::{self, Curve, Reference};
-use crate::tables::G;
+use crate::plot;
 
 /// Matches, writes, and says how near the result is.
 pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
@@ -40,18 +35,21 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
     };
     let motion = &matched.accelerogram;
     if let Some(path) = &arguments.output.svg {
-        picture(path, &record, motion, &target, options)?;
+        let band = (options.from, options.to);
+        plot::write_drawn(path, picture(&record, motion, &target, band))?;
     }
     let title = format!("{}, matched to a spectrum", arguments.file.display());
     let without_picture = OutputArguments {
         svg: None,
         ..arguments.output.clone()
     };
-    let more = json!({
-        "misfit": matched.misfit, "method": matched.steps.first().map(|s| s.step),
-        "damping": target.damping(), "svg": arguments.output.svg,
-    });
-    writing::finish(&without_picture, motion, &title, more)
+    let more = writing::Matched {
+        misfit: matched.misfit,
+        method: matched.steps.first().map(|s| s.step),
+        damping: target.damping(),
+        svg: arguments.output.svg.as_deref(),
+    };
+    writing::finish(&without_picture, motion, &title, Some(more))
 }
 
 /// The spectrum of a file or of a code.
@@ -111,41 +109,4 @@ fn unknown(what: &str, word: &str, known: &str) -> Failure {
         format!("--code: {what} cannot be \"{word}\""),
         Some(format!("write {known}")),
     )
-}
-
-/// Spectra before and after with the target, and the motions below.
-fn picture(
-    path: &std::path::Path,
-    before: &Accelerogram,
-    after: &Accelerogram,
-    target: &TargetSpectrum,
-    options: MatchOptions,
-) -> Result<(), Failure> {
-    let periods = logarithmic_periods(options.from, options.to, 300)?;
-    let mut spectra = panel("Pseudo-acceleration PSA (g)", "period (s)");
-    for (name, record) in [("as read", before), ("matched", after)] {
-        let linear = Evaluation::PiecewiseLinear;
-        let s = response_spectrum(record, &periods, target.damping(), linear)?;
-        spectra
-            .curves
-            .push(over(name, &periods, &s.pseudo_acceleration, 1.0 / G));
-    }
-    let wanted = periods
-        .iter()
-        .map(|t| Ok((*t, target.at(*t)? / G)))
-        .collect::<Result<Vec<_>, Failure>>()?;
-    let reference = Reference {
-        panel: 0,
-        curve: Curve {
-            name: "target".to_owned(),
-            points: wanted,
-        },
-    };
-    let mut panels = vec![spectra];
-    let named = [
-        plots::Named::at_rest("as read", before),
-        plots::Named::at_rest("matched", after),
-    ];
-    panels.extend(plots::history_panels(&named)?);
-    plot::write(path, &plot::figure_with_references(&panels, &[reference])?)
 }

@@ -6,7 +6,6 @@ mod info;
 mod info_output;
 mod matching;
 mod measures;
-mod plots;
 mod process;
 mod reading;
 mod spectrum;

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_assembly::processing_step;
+use pounding_assembly::read_target;
+use pounding_case::SpectrumFile;
 use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
-use serde_json::json;
 
 use super::words::Words;
 use super::{reading, writing};
@@ -44,7 +44,7 @@ pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), F
             .accelerogram;
     }
     let title = format!("{}, processed", arguments.file.display());
-    writing::finish(&arguments.output, &record, &title, json!({}))
+    writing::finish(&arguments.output, &record, &title, None)
 }
 
 /// The name of a step's option.
@@ -66,8 +66,14 @@ fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Fail
             None,
         ));
     };
-    let path = |path: &Path| path.to_owned();
-    let made = processing_step(&step.value, &path)
+    let target = |spectrum: &SpectrumFile| read_target(spectrum, Path::to_owned);
+    let made = step
+        .value
+        .with_target(target)
         .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))?;
-    Ok((made, step.value.target().cloned()))
+    let file = step
+        .value
+        .target()
+        .map(|spectrum| spectrum.file.value.clone());
+    Ok((made, file))
 }

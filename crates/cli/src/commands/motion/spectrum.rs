@@ -3,13 +3,14 @@
 use pounding_case::Dimension;
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::spectra::{
-    Evaluation, RotatedSpectrum, fourier_spectrum, logarithmic_periods, response_spectra,
-    rotated_spectrum,
+    Evaluation, ResponseSpectrum, RotatedSpectrum, fourier_spectrum, logarithmic_periods,
+    response_spectra, rotated_spectrum,
 };
-use serde_json::json;
+use pounding_report::pictures::motion;
+use serde::Serialize;
 
 use super::spectrum_tables as tables;
-use super::{plots, reading, words};
+use super::{reading, words};
 use crate::arguments::SpectrumArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
@@ -19,6 +20,36 @@ use crate::plot;
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
 const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
 const FREQUENCIES: (f64, f64, usize) = (0.1, 25.0, 30);
+
+/// What `--json` prints of one record.
+#[derive(Serialize)]
+struct OfRecord<T> {
+    #[serde(flatten)]
+    results: T,
+    record: Vec<String>,
+}
+
+/// Response spectra, by damping ratio.
+#[derive(Serialize)]
+struct Spectra {
+    spectra: Vec<ResponseSpectrum>,
+}
+
+/// A spectrum of Fourier amplitudes.
+#[derive(Serialize)]
+struct Fourier {
+    frequencies: Vec<f64>,
+    amplitudes: Vec<f64>,
+    smoothing: String,
+    length: f64,
+}
+
+/// What `--json` prints of two components.
+#[derive(Serialize)]
+struct OfTwo {
+    spectra: Vec<RotatedSpectrum>,
+    records: [Vec<String>; 2],
+}
 
 /// One kind of spectrum.
 pub fn spectrum(arguments: &SpectrumArguments) -> Result<(), Failure> {
@@ -93,14 +124,13 @@ fn responses(arguments: &SpectrumArguments) -> Result<(), Failure> {
         plot::write(path, &tables::response_csv(&spectra))?;
     }
     if let Some(path) = &arguments.svg {
-        let named: Vec<_> = spectra
-            .iter()
-            .map(|s| (tables::percent(s.damping), s))
-            .collect();
-        plots::responses(path, &named)?;
+        plot::write_drawn(path, motion::responses(&spectra))?;
     }
     print(&if arguments.json {
-        pretty(&json!({"spectra": spectra, "record": record.echo()}))
+        pretty(&OfRecord {
+            results: Spectra { spectra },
+            record: record.echo(),
+        })?
     } else {
         format!(
             "{}{}",
@@ -133,10 +163,13 @@ fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
         plot::write(path, &tables::rotated_csv(&spectra))?;
     }
     if let Some(path) = &arguments.svg {
-        plot::write(path, &plot::figure(&[tables::rotated_panel(&spectra)])?)?;
+        plot::write_drawn(path, motion::rotated(&spectra))?;
     }
     print(&if arguments.json {
-        pretty(&json!({"spectra": spectra, "records": [first.echo(), second.echo()]}))
+        pretty(&OfTwo {
+            spectra,
+            records: [first.echo(), second.echo()],
+        })?
     } else {
         format!(
             "{}{}{}",
@@ -171,17 +204,19 @@ fn fourier(arguments: &SpectrumArguments) -> Result<(), Failure> {
         plot::write(path, &tables::fourier_csv(&frequencies, &amplitudes))?;
     }
     if let Some(path) = &arguments.svg {
-        let mut panel = plots::panel("Fourier amplitude of acceleration (m/s)", "frequency (Hz)");
-        panel
-            .curves
-            .push(plots::over(&how, &frequencies, &amplitudes, 1.0));
-        plot::write(path, &plot::figure(&[panel])?)?;
+        let picture = motion::fourier(&how, &frequencies, &amplitudes);
+        plot::write_drawn(path, picture)?;
     }
     print(&if arguments.json {
-        pretty(&json!({
-            "frequencies": frequencies, "amplitudes": amplitudes, "smoothing": how,
-            "length": whole.length, "record": record.echo(),
-        }))
+        pretty(&OfRecord {
+            results: Fourier {
+                frequencies,
+                amplitudes,
+                smoothing: how,
+                length: whole.length,
+            },
+            record: record.echo(),
+        })?
     } else {
         let table = tables::fourier_text(&frequencies, &amplitudes, &how);
         format!("{}{table}", reading::reported(&record))

@@ -4,14 +4,9 @@ use std::fmt::Write as _;
 
 use pounding_ground_motion::spectra::{ResponseSpectrum, RotatedSpectrum};
 
-use super::plots::{over, panel};
-use crate::plot::Panel;
-use crate::tables::{G, new_long_table};
+use pounding_report::pictures::motion::percent;
 
-/// `5 % damping`.
-pub fn percent(damping: f64) -> String {
-    format!("{} % damping", (damping * 1.0e8).round() / 1.0e6)
-}
+use crate::tables::{G, new_long_table};
 
 /// A table a damping ratio.
 pub fn response_text(spectra: &[ResponseSpectrum]) -> String {
@@ -103,18 +98,6 @@ pub fn rotated_csv(spectra: &[RotatedSpectrum]) -> String {
         }
     }
     text
-}
-
-/// Both spectra of every damping ratio.
-pub fn rotated_panel(spectra: &[RotatedSpectrum]) -> Panel {
-    let mut panel = panel("Pseudo-acceleration over all directions (g)", "period (s)");
-    for s in spectra {
-        for (name, values) in [("RotD50", &s.median), ("RotD100", &s.maximum)] {
-            let name = format!("{name}, {}", percent(s.damping));
-            panel.curves.push(over(&name, &s.periods, values, 1.0 / G));
-        }
-    }
-    panel
 }
 
 /// A row a frequency.

@@ -2,7 +2,6 @@
 
 use pounding_case::Dimension;
 use pounding_ground_motion::generators::{Envelope, Generated, TimeGrid};
-use serde_json::json;
 
 use super::words::Words;
 use super::{generators, writing};
@@ -28,7 +27,7 @@ pub fn synth(arguments: &SynthArguments) -> Result<(), Failure> {
 fn finish(made: &Generated, grid: &GridArguments) -> Result<(), Failure> {
     let name = made.steps.first().map_or("motion", |s| s.step);
     let title = format!("Synthetic motion, {name}");
-    writing::finish(&grid.output, &made.accelerogram, &title, json!({}))
+    writing::finish(&grid.output, &made.accelerogram, &title, None)
 }
 
 /// Time step and duration.

@@ -4,11 +4,12 @@ use std::path::Path;
 
 use pounding_catalogue::numbers::six_digits;
 use pounding_catalogue::wording::counted;
+use pounding_ground_motion::matching::Misfit;
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
-use pounding_ground_motion::{Accelerogram, StepRecord};
-use serde_json::{Value, json};
+use pounding_ground_motion::{Accelerogram, Peak, StepRecord};
+use pounding_report::pictures::motion::{Named, histories};
+use serde::Serialize;
 
-use super::plots;
 use crate::arguments::OutputArguments;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
@@ -24,28 +25,55 @@ pub fn write(path: &Path, motion: &Accelerogram, title: &str) -> Result<(), Fail
     plot::write(path, &write_pounding_csv(&written)?)
 }
 
+/// What `--json` prints of a motion that was made.
+#[derive(Serialize)]
+struct Made<'m> {
+    output: &'m Path,
+    samples: usize,
+    time_step: f64,
+    peak_acceleration: Peak,
+    scale: f64,
+    steps: &'m [StepRecord],
+    warnings: &'m [String],
+    #[serde(flatten)]
+    matched: Option<Matched<'m>>,
+}
+
+/// How near a motion came to a spectrum.
+#[derive(Serialize)]
+pub struct Matched<'m> {
+    /// Largest misfit.
+    pub misfit: Misfit,
+    /// What made it.
+    pub method: Option<&'m str>,
+    /// Damping ratio of the spectrum.
+    pub damping: f64,
+    /// Picture.
+    pub svg: Option<&'m Path>,
+}
+
 /// Writes file and picture of a motion and says what was done.
 pub fn finish(
     output: &OutputArguments,
     motion: &Accelerogram,
     title: &str,
-    more: Value,
+    more: Option<Matched<'_>>,
 ) -> Result<(), Failure> {
     write(&output.output, motion, title)?;
     if let Some(path) = &output.svg {
-        plots::histories(path, &[plots::Named::at_rest(title, motion)])?;
+        plot::write_drawn(path, histories(&[Named::at_rest(title, motion)]))?;
     }
     if output.json {
-        let mut object = json!({
-            "output": output.output, "samples": motion.samples().len(),
-            "time_step": motion.time_step(), "peak_acceleration": motion.peak(),
-            "scale": motion.scale(), "steps": motion.steps(),
-            "warnings": motion.origin().map_or(&[][..], |o| &o.warnings),
-        });
-        if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
-            object.extend(more);
-        }
-        return print(&pretty(&object));
+        return print(&pretty(&Made {
+            output: &output.output,
+            samples: motion.samples().len(),
+            time_step: motion.time_step(),
+            peak_acceleration: motion.peak(),
+            scale: motion.scale(),
+            steps: motion.steps(),
+            warnings: motion.origin().map_or(&[], |o| &o.warnings),
+            matched: more,
+        })?);
     }
     let mut text = format!("{title}\n");
     if let Some(origin) = motion.origin() {

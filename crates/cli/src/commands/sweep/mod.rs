@@ -5,13 +5,13 @@ mod plan;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_study::{MergeOptions, Shard, Study, case_of_run, writable};
-use serde_json::json;
+use serde::Serialize;
 
 use crate::arguments::{MergeArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::output::{pretty, print, print_as_it_is, warn};
 use crate::separate::{Reading, reading, warnings};
-use crate::study::{all_failed, as_json, options, run, summary};
+use crate::study::{Finished, all_failed, options, run, summary};
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -29,7 +29,7 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
     let options = options(&study, &arguments.running, shard, &mut files)?;
     let report = run(&study, &options)?;
     if arguments.json {
-        print(&pretty(&as_json(&report, &options)))?;
+        print(&pretty(&Finished::of(&report, &options))?)?;
     } else {
         print(&summary(&study, &report, &options))?;
     }
@@ -64,11 +64,13 @@ pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
         warn(text);
     }
     if arguments.json {
-        let output = arguments.output.display().to_string();
-        return print(&pretty(&json!({
-            "runs": merged.runs, "failed": merged.failed, "collapsed": merged.collapsed,
-            "output": output, "warnings": reported,
-        })));
+        return print(&pretty(&MergedShards {
+            runs: merged.runs,
+            failed: merged.failed,
+            collapsed: merged.collapsed,
+            output: arguments.output.display().to_string(),
+            warnings: reported,
+        })?);
     }
     print(&format!(
         "{}, {} of them failed and {} collapsed, merged from {} into {}",
@@ -78,4 +80,14 @@ pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
         counted(arguments.shards.len(), "shard"),
         arguments.output.display()
     ))
+}
+
+/// What `merge --json` prints.
+#[derive(Serialize)]
+struct MergedShards {
+    runs: usize,
+    failed: usize,
+    collapsed: usize,
+    output: String,
+    warnings: Vec<String>,
 }

@@ -2,12 +2,22 @@
 
 use pounding_catalogue::wording::counted;
 use pounding_study::{Study, Value};
-use serde_json::json;
+use serde::Serialize;
 
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
 use crate::interruption::quoted;
 use crate::output::{pretty, print};
+
+/// What `sweep --plan --json` prints.
+#[derive(Serialize)]
+struct Plan {
+    runs: usize,
+    chunk: usize,
+    shards: usize,
+    hyper_queue: String,
+    slurm: String,
+}
 
 /// Prints the number of runs, and lines for HyperQueue and Slurm.
 pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {
@@ -25,10 +35,13 @@ pub fn plan(study: &Study, arguments: &SweepArguments) -> Result<(), Failure> {
         shard("$SLURM_ARRAY_TASK_ID")
     );
     if arguments.json {
-        return print(&pretty(&json!({
-            "runs": runs, "chunk": study.chunk, "shards": shards,
-            "hyper_queue": hyper_queue, "slurm": slurm,
-        })));
+        return print(&pretty(&Plan {
+            runs,
+            chunk: study.chunk,
+            shards,
+            hyper_queue,
+            slurm,
+        })?);
     }
     let mut text = String::new();
     for (i, variable) in study.variables.iter().enumerate() {

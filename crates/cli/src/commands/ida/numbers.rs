@@ -1,0 +1,191 @@
+//! The analysis for machines: SI units, full precision.
+
+use pounding_study::{FragilityFit, IdaReport, LimitResult};
+use serde::Serialize;
+
+use crate::study::Finished;
+
+/// The object that `ida --json` prints.
+#[derive(Serialize)]
+pub struct Answer<'a> {
+    /// What the runs say.
+    #[serde(flatten)]
+    pub analysis: Analysis<'a>,
+    /// The runs themselves.
+    pub sweep: Finished<'a>,
+}
+
+/// What the runs say.
+#[derive(Serialize)]
+pub struct Analysis<'a> {
+    measure: &'a str,
+    unit: &'a str,
+    records: usize,
+    levels: Vec<Level<'a>>,
+    limits: Vec<Limit<'a>>,
+    gaps: Vec<Gap<'a>>,
+}
+
+/// Demands at one intensity.
+#[derive(Serialize)]
+struct Level<'a> {
+    intensity: f64,
+    runs: usize,
+    failed: usize,
+    collapsed: usize,
+    demands: Vec<Demand<'a>>,
+}
+
+/// Fractiles of a demand over the records.
+#[derive(Serialize)]
+struct Demand<'a> {
+    name: &'a str,
+    unit: &'a str,
+    p16: f64,
+    p50: f64,
+    p84: f64,
+}
+
+/// A state, how often it was reached, and its fragility.
+#[derive(Serialize)]
+struct Limit<'a> {
+    name: &'a str,
+    counts: Vec<Counts>,
+    fit: Fit,
+    mean_annual_frequency: Option<f64>,
+}
+
+/// How often a state was reached at one intensity.
+#[derive(Serialize)]
+struct Counts {
+    intensity: f64,
+    runs: usize,
+    reached: usize,
+}
+
+/// What counts say of a fragility.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+enum Fit {
+    Lognormal {
+        median: f64,
+        dispersion: f64,
+        confidence: f64,
+        median_bounds: [f64; 2],
+        dispersion_bounds: [f64; 2],
+        log_likelihood: f64,
+    },
+    Step {
+        lower: f64,
+        upper: Option<f64>,
+    },
+    Never {
+        up_to: f64,
+    },
+    Always {
+        from: f64,
+    },
+    None,
+}
+
+/// Pounding of neighbours by width of their gap.
+#[derive(Serialize)]
+struct Gap<'a> {
+    gap: &'a str,
+    widths: Vec<Width<'a>>,
+    minimum: Option<Minimum>,
+}
+
+/// Pounding at one width.
+#[derive(Serialize)]
+struct Width<'a> {
+    #[serde(flatten)]
+    limit: Limit<'a>,
+    width: f64,
+}
+
+/// The least width for the frequency asked for.
+#[derive(Serialize)]
+struct Minimum {
+    width: Option<f64>,
+    mean_annual_frequency: f64,
+}
+
+impl<'a> Analysis<'a> {
+    /// The evaluation, with bounds at this confidence.
+    pub fn of(report: &'a IdaReport, confidence: f64) -> Self {
+        let levels = report.levels.iter().map(|l| {
+            let demands = report.demands.iter().zip(&l.fractiles);
+            let demands = demands.map(|((name, unit), &[p16, p50, p84])| Demand {
+                name,
+                unit,
+                p16,
+                p50,
+                p84,
+            });
+            Level {
+                intensity: l.intensity,
+                runs: l.runs,
+                failed: l.failed,
+                collapsed: l.collapsed,
+                demands: demands.collect(),
+            }
+        });
+        let limits = report.limits.iter().map(|l| Limit::of(l, confidence));
+        let gaps = report.gaps.iter().map(|g| {
+            let widths = g.widths.iter().map(|w| Width {
+                limit: Limit::of(&w.result, confidence),
+                width: w.width,
+            });
+            Gap {
+                gap: &g.gap,
+                widths: widths.collect(),
+                minimum: g.minimum.map(|m| Minimum {
+                    width: m.width,
+                    mean_annual_frequency: m.frequency,
+                }),
+            }
+        });
+        Self {
+            measure: &report.measure,
+            unit: &report.unit,
+            records: report.records,
+            levels: levels.collect(),
+            limits: limits.collect(),
+            gaps: gaps.collect(),
+        }
+    }
+}
+
+impl<'a> Limit<'a> {
+    fn of(limit: &'a LimitResult, confidence: f64) -> Self {
+        let counts = limit.counts.iter().map(|c| Counts {
+            intensity: c.intensity,
+            runs: c.runs,
+            reached: c.reached,
+        });
+        let fit = match limit.fit {
+            FragilityFit::Lognormal(f) => Fit::Lognormal {
+                median: f.median,
+                dispersion: f.dispersion,
+                confidence,
+                median_bounds: f.median_bounds(confidence),
+                dispersion_bounds: f.dispersion_bounds(confidence),
+                log_likelihood: f.log_likelihood,
+            },
+            FragilityFit::Step { lower, upper } => Fit::Step {
+                lower,
+                upper: upper.is_finite().then_some(upper),
+            },
+            FragilityFit::Never { up_to } => Fit::Never { up_to },
+            FragilityFit::Always { from } => Fit::Always { from },
+            FragilityFit::None => Fit::None,
+        };
+        Self {
+            name: &limit.name,
+            counts: counts.collect(),
+            fit,
+            mean_annual_frequency: limit.frequency,
+        }
+    }
+}

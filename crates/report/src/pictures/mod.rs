@@ -1,0 +1,24 @@
+//! Pictures of what the laboratories, the motions and the gap check find.
+
+pub mod collision;
+pub mod gap;
+pub mod motion;
+
+use crate::figure::{Curve, Panel};
+
+/// Axes with these curves.
+fn panel(caption: &str, horizontal: &str, curves: Vec<Curve>) -> Panel {
+    Panel {
+        caption: caption.to_owned(),
+        horizontal: horizontal.to_owned(),
+        curves,
+    }
+}
+
+/// A curve over given places, its values times a factor.
+fn over(name: &str, x: &[f64], y: &[f64], factor: f64) -> Curve {
+    Curve {
+        name: name.to_owned(),
+        points: x.iter().zip(y).map(|(x, y)| (*x, y * factor)).collect(),
+    }
+}

@@ -1,0 +1,199 @@
+//! Ground motions and their spectra.
+
+use pounding_catalogue::STANDARD_GRAVITY as G;
+use pounding_ground_motion::Accelerogram;
+use pounding_ground_motion::measures::{GroundMotion, Husid};
+use pounding_ground_motion::spectra::{
+    Evaluation, ResponseSpectrum, RotatedSpectrum, TargetSpectrum, logarithmic_periods,
+    response_spectrum,
+};
+
+use super::{over, panel};
+use crate::error::ReportError;
+use crate::figure::{Curve, Panel, Reference, figure, figure_with_references};
+
+/// Points of a curve: as many as a picture can show; peaks of each stretch are kept.
+const POINTS: usize = 4000;
+/// Periods at which spectra are drawn.
+const PERIODS: usize = 300;
+
+/// A motion with its name in the picture.
+#[derive(Debug, Clone)]
+pub struct Named<'a> {
+    /// Name.
+    pub name: String,
+    /// Motion.
+    pub record: &'a Accelerogram,
+    /// Velocity (m/s) and displacement (m) at the first sample.
+    pub initial: (f64, f64),
+}
+
+impl<'a> Named<'a> {
+    /// A motion that starts at rest.
+    #[must_use]
+    pub fn at_rest(name: &str, record: &'a Accelerogram) -> Self {
+        Self {
+            name: name.to_owned(),
+            record,
+            initial: (0.0, 0.0),
+        }
+    }
+}
+
+/// Acceleration, velocity, displacement and Husid curve of motions over time.
+///
+/// # Errors
+/// A record of zeros, which has no Husid curve; [`ReportError::Figure`].
+pub fn histories(motions: &[Named<'_>]) -> Result<String, ReportError> {
+    figure(&history_panels(motions)?)
+}
+
+fn history_panels(motions: &[Named<'_>]) -> Result<[Panel; 4], ReportError> {
+    let mut panels = [
+        "Ground acceleration (g)",
+        "Ground velocity (m/s)",
+        "Ground displacement (mm)",
+        "Husid curve: part of the Arias intensity (-)",
+    ]
+    .map(|caption| panel(caption, "time (s)", Vec::new()));
+    for Named {
+        name,
+        record,
+        initial,
+    } in motions
+    {
+        let motion = GroundMotion::of(record, initial.0, initial.1);
+        let husid = Husid::of(record, Evaluation::PiecewiseLinear)?;
+        let step = record.time_step();
+        let whole = husid.arias_intensity();
+        let curves = [
+            thinned(name, &motion.acceleration, step, 1.0 / G),
+            thinned(name, &motion.velocity, step, 1.0),
+            thinned(name, &motion.displacement, step, 1.0e3),
+            thinned(name, husid.intensity(), step, 1.0 / whole),
+        ];
+        for (panel, curve) in panels.iter_mut().zip(curves) {
+            panel.curves.push(curve);
+        }
+    }
+    Ok(panels)
+}
+
+/// Samples at even steps; of long records the minimum and maximum of each stretch.
+fn thinned(name: &str, samples: &[f64], step: f64, factor: f64) -> Curve {
+    let point = |i: usize| (i as f64 * step, samples[i] * factor);
+    let stretch = samples.len().div_ceil(POINTS / 2);
+    let points = if stretch <= 2 {
+        (0..samples.len()).map(point).collect()
+    } else {
+        let starts = (0..samples.len()).step_by(stretch);
+        starts
+            .flat_map(|start| {
+                let all = start..(start + stretch).min(samples.len());
+                let by = |a: &usize, b: &usize| samples[*a].total_cmp(&samples[*b]);
+                let least = all.clone().min_by(by).unwrap_or(start);
+                let most = all.max_by(by).unwrap_or(start);
+                [least.min(most), least.max(most)]
+            })
+            .map(point)
+            .collect()
+    };
+    Curve {
+        name: name.to_owned(),
+        points,
+    }
+}
+
+/// `5 % damping`.
+#[must_use]
+pub fn percent(damping: f64) -> String {
+    format!("{} % damping", (damping * 1.0e8).round() / 1.0e6)
+}
+
+/// Pseudo-acceleration, pseudo-velocity and displacement over the period, a curve for each
+/// damping ratio.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn responses(spectra: &[ResponseSpectrum]) -> Result<String, ReportError> {
+    type Values = for<'s> fn(&'s ResponseSpectrum) -> &'s [f64];
+    let drawn = |caption: &str, values: Values, factor: f64| {
+        let curves = spectra.iter();
+        let curves = curves.map(|s| over(&percent(s.damping), &s.periods, values(s), factor));
+        panel(caption, "period (s)", curves.collect())
+    };
+    figure(&[
+        drawn(
+            "Pseudo-acceleration PSA (g)",
+            |s| &s.pseudo_acceleration,
+            1.0 / G,
+        ),
+        drawn("Pseudo-velocity PSV (m/s)", |s| &s.pseudo_velocity, 1.0),
+        drawn("Displacement SD (mm)", |s| &s.displacement, 1.0e3),
+    ])
+}
+
+/// Median and maximum over all directions, for each damping ratio.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn rotated(spectra: &[RotatedSpectrum]) -> Result<String, ReportError> {
+    let mut curves = Vec::new();
+    for s in spectra {
+        for (name, values) in [("RotD50", &s.median), ("RotD100", &s.maximum)] {
+            let name = format!("{name}, {}", percent(s.damping));
+            curves.push(over(&name, &s.periods, values, 1.0 / G));
+        }
+    }
+    let caption = "Pseudo-acceleration over all directions (g)";
+    figure(&[panel(caption, "period (s)", curves)])
+}
+
+/// Fourier amplitudes (m/s) over the frequency (Hz); `name` says how they are smoothed.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn fourier(name: &str, frequencies: &[f64], amplitudes: &[f64]) -> Result<String, ReportError> {
+    let caption = "Fourier amplitude of acceleration (m/s)";
+    let curve = over(name, frequencies, amplitudes, 1.0);
+    figure(&[panel(caption, "frequency (Hz)", vec![curve])])
+}
+
+/// Spectra from one period (s) to another before and after a motion was brought to a target,
+/// with the target, and the motions below.
+///
+/// # Errors
+/// Periods that the target or the records do not cover; [`ReportError::Figure`].
+pub fn matched(
+    before: &Accelerogram,
+    after: &Accelerogram,
+    target: &TargetSpectrum,
+    (from, to): (f64, f64),
+) -> Result<String, ReportError> {
+    let periods = logarithmic_periods(from, to, PERIODS)?;
+    let mut spectra = panel("Pseudo-acceleration PSA (g)", "period (s)", Vec::new());
+    for (name, record) in [("as read", before), ("matched", after)] {
+        let linear = Evaluation::PiecewiseLinear;
+        let s = response_spectrum(record, &periods, target.damping(), linear)?;
+        let curve = over(name, &periods, &s.pseudo_acceleration, 1.0 / G);
+        spectra.curves.push(curve);
+    }
+    let mut wanted = Vec::with_capacity(periods.len());
+    for period in &periods {
+        wanted.push((*period, target.at(*period)? / G));
+    }
+    let reference = Reference {
+        panel: 0,
+        curve: Curve {
+            name: "target".to_owned(),
+            points: wanted,
+        },
+    };
+    let mut panels = vec![spectra];
+    let named = [
+        Named::at_rest("as read", before),
+        Named::at_rest("matched", after),
+    ];
+    panels.extend(history_panels(&named)?);
+    figure_with_references(&panels, &[reference])
+}

@@ -160,29 +160,10 @@ pub(super) fn propagate(
     block: &mut Block,
 ) -> bool {
     let count = constants.modes.len();
-    for (c, m) in constants.modes.iter().enumerate() {
-        let state = [
-            now.displacement[c],
-            now.velocity[c],
-            now.input[c],
-            now.viscous[c],
-        ];
-        let (displacements, accelerations) = (&mut block.displacement, &mut block.acceleration);
-        let watched = &mut block.watched;
-        let (end, size) = modes(m, state, samples, constants.step, |s, motion, a| {
-            let [q, p, input, viscous] = motion;
-            displacements[s * count + c] = q;
-            accelerations[s * count + c] = a;
-            if let Some([velocities, inputs, dampings]) = watched {
-                velocities[s * count + c] = p;
-                inputs[s * count + c] = input;
-                dampings[s * count + c] = viscous;
-            }
-        });
-        block.size[c] = size;
-        let [q, p, input, viscous] = end;
-        (block.end.displacement[c], block.end.velocity[c]) = (q, p);
-        (block.end.input[c], block.end.viscous[c]) = (input, viscous);
+    if block.watched.is_some() {
+        advance_all::<true>(constants, now, samples, block);
+    } else {
+        advance_all::<false>(constants, now, samples, block);
     }
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let slope = samples
@@ -309,6 +290,41 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
+/// All modes over the block; if they are watched, the whole motion at every sample is kept.
+#[inline(always)]
+fn advance_all<const WATCHED: bool>(
+    constants: &ContactFree,
+    now: &Modal,
+    samples: &[f64; BLOCK + 1],
+    block: &mut Block,
+) {
+    let count = constants.modes.len();
+    let (displacements, accelerations) = (&mut block.displacement, &mut block.acceleration);
+    for (c, m) in constants.modes.iter().enumerate() {
+        let state = [
+            now.displacement[c],
+            now.velocity[c],
+            now.input[c],
+            now.viscous[c],
+        ];
+        let watched = &mut block.watched;
+        let (end, size) = modes(m, state, samples, constants.step, |s, motion, a| {
+            let [q, p, input, viscous] = motion;
+            displacements[s * count + c] = q;
+            accelerations[s * count + c] = a;
+            if WATCHED && let Some([velocities, inputs, dampings]) = watched {
+                velocities[s * count + c] = p;
+                inputs[s * count + c] = input;
+                dampings[s * count + c] = viscous;
+            }
+        });
+        block.size[c] = size;
+        let [q, p, input, viscous] = end;
+        (block.end.displacement[c], block.end.velocity[c]) = (q, p);
+        (block.end.input[c], block.end.viscous[c]) = (input, viscous);
+    }
+}
+
 /// Eight modes over the block. Returns state and works at the end, and the maximum
 /// size at the starts of the steps.
 #[inline(always)]
@@ -366,17 +382,16 @@ fn rows(rows: &[Rows], block: &mut Block, accelerations: bool) {
 #[inline(always)]
 fn products(row: &Rows, modal: &[Lane], stride: usize) -> [Lane; BLOCK] {
     let mut sums = [Lane::ZERO; BLOCK];
-    let samples: [&[Lane]; BLOCK] = std::array::from_fn(|s| &modal[s * stride..(s + 1) * stride]);
     let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
     let mut columns = row.columns.as_slice();
     while !columns.is_empty() {
         let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
-        let at: [&[f64]; BLOCK] = std::array::from_fn(|s| &samples[s][lane].0[place..]);
-        for (j, column) in now.iter().enumerate() {
-            for (sum, at) in sums.iter_mut().zip(&at) {
-                let x = at[j];
+        let modes: [&Lane; BLOCK] = std::array::from_fn(|s| &modal[s * stride + lane]);
+        for (place, column) in (place..WIDTH).zip(now) {
+            for s in 0..BLOCK {
+                let x = modes[s][place];
                 for l in 0..WIDTH {
-                    sum[l] += column[l] * x;
+                    sums[s][l] += column[l] * x;
                 }
             }
         }

@@ -11,7 +11,8 @@ use pounding_shear_building::{Damping, ShearBuilding};
 use pounding_time_history::{Floor, Outcome, System};
 
 use super::setup::{
-    EVENT_DRIVEN, TIGHT, difference, el_centro, go, law, with_gaps, with_links, yielding_pair,
+    EVENT_DRIVEN, TIGHT, difference, el_centro, go, law, with_gaps, with_gaps_of, with_links,
+    yielding_pair,
 };
 
 const DURATION: f64 = 12.0;
@@ -86,19 +87,9 @@ fn linked_pair_by_springs_dampers_and_sliders() {
 /// Contacts in powers of the penetration take the pair while they last, the rest is exact.
 #[test]
 fn yielding_pair_with_contacts_of_a_power_law() {
-    let mut system = yielding_pair("elastic_perfectly_plastic", el_centro());
-    let parameters = ModelParameters::from_pairs(&[("stiffness", 2.75e9), ("restitution", 0.65)]);
-    let model: Arc<dyn ImpactModel> = registry::build("jankowski_2005", &parameters)
-        .unwrap()
-        .into();
-    let pairs = (0..3)
-        .map(|s| {
-            let (left, right) = (Floor::Storey(0, s), Floor::Storey(1, s));
-            (left, right, 0.02, Arc::clone(&model))
-        })
-        .collect();
-    let names = ["light".to_owned(), "heavy".to_owned()];
-    system.add_gap("light-heavy", names, pairs).unwrap();
+    let pair = yielding_pair("elastic_perfectly_plastic", el_centro());
+    let parameters = [("stiffness", 2.75e9), ("restitution", 0.65)];
+    let system = with_gaps_of(pair, "jankowski_2005", &parameters);
     let outcome = agree("jankowski_2005", &system, 1.0e-8);
     assert!(outcome.impacts.len() > 3);
 }

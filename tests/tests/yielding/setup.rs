@@ -66,10 +66,16 @@ pub fn yielding_pair(name: &str, ground: GroundAcceleration) -> System {
 }
 
 /// Gaps of 20 mm with Kelvin-Voigt contacts between all floors.
-pub fn with_gaps(mut system: System) -> System {
-    let parameters = ModelParameters::from_pairs(&[("stiffness", 9.35e7), ("restitution", 0.65)]);
+pub fn with_gaps(system: System) -> System {
+    let parameters = [("stiffness", 9.35e7), ("restitution", 0.65)];
+    with_gaps_of(system, "kelvin_voigt", &parameters)
+}
+
+/// Gaps of 20 mm with contacts of this model between all floors.
+pub fn with_gaps_of(mut system: System, model: &str, parameters: &[(&str, f64)]) -> System {
+    let parameters = ModelParameters::from_pairs(parameters);
     let model: Arc<dyn pounding_gap_element::ImpactModel> =
-        registry::build("kelvin_voigt", &parameters).unwrap().into();
+        registry::build(model, &parameters).unwrap().into();
     let pairs = (0..3)
         .map(|s| {
             let (left, right) = (Floor::Storey(0, s), Floor::Storey(1, s));

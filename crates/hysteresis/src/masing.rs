@@ -109,9 +109,6 @@ impl<B: Backbone> PathLaw for Masing<B> {
         self.settle(&mut history, 1.0, 0.0);
         history
     }
-    fn straight(&self) -> bool {
-        false
-    }
     fn on_branch(&self, history: &History, deformation: f64) -> (f64, f64) {
         let (from, stretch) = origin(history);
         let reach = reach(history, deformation);

@@ -20,9 +20,10 @@ pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
 
     fn begin(&self) -> History;
 
-    /// Whether all branches are straight.
+    /// Whether all branches are straight: the event-driven method then follows them
+    /// exactly.
     fn straight(&self) -> bool {
-        true
+        false
     }
 
     /// Force and its slope on the held branch; straight unless the law says more.

@@ -131,6 +131,51 @@ fn tangents_of_held_branches_agree_with_finite_differences_inside_and_past_the_e
     }
 }
 
+/// Laws that say so, and no others, are affine in deformation and velocity on every branch
+/// that they hold: the event-driven method takes them at their word.
+#[test]
+fn piecewise_linear_laws_are_affine_on_their_branches() {
+    let (mut straight, mut curved) = (0, 0);
+    for descriptor in descriptors() {
+        let law = example(descriptor);
+        let amplitude = descriptor.example_amplitude;
+        let (mut history, mut candidate) = (law.virgin(), law.virgin());
+        let (mut bend, mut branches) = (0.0_f64, BTreeSet::new());
+        for pair in times(END, 0.05).windows(2) {
+            let (end, step) = (motion(amplitude, pair[1]), pair[1] - pair[0]);
+            law.trial(&history, &mut candidate, end, step);
+            history.commit(&mut candidate);
+            branches.insert(history.branch());
+            let variables = history.variables().to_vec();
+            let force = |x: f64, v: f64| {
+                let motion = Motion {
+                    deformation: end.deformation + x * amplitude,
+                    velocity: end.velocity + v * amplitude,
+                };
+                law.force(&history, motion, &variables).force
+            };
+            let size = force(0.0, 0.0).abs().max(force(0.01, 0.01).abs()).max(1.0);
+            for (x, v) in [(1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3)] {
+                let second = force(x, v) - 2.0 * force(0.0, 0.0) + force(-x, -v);
+                bend = bend.max(second.abs() / size);
+            }
+        }
+        let name = descriptor.name;
+        if law.is_piecewise_linear() {
+            assert!(bend < 1e-12, "{name} bends by {bend:e} on {branches:?}");
+            straight += 1;
+        } else {
+            // A law with internal variables may be straight at fixed ones.
+            assert!(
+                bend > 1e-12 || law.internal_variables() > 0,
+                "{name} is straight on {branches:?}"
+            );
+            curved += 1;
+        }
+    }
+    assert!(straight > 10 && curved > 5, "{straight} {curved}");
+}
+
 #[test]
 fn a_trial_without_commit_leaves_no_trace() {
     for descriptor in descriptors() {

@@ -20,6 +20,8 @@ pub(crate) struct Rates {
     /// Stiffness (1/s2) and damping (1/s) that contacts and elements add at every degree
     /// of freedom, over its mass.
     added: Vec<(f64, f64)>,
+    /// Whether elements count with their stiffness on the branch that they hold alone.
+    held: bool,
     scratch: Option<History>,
 }
 
@@ -43,7 +45,17 @@ impl Rates {
             stiffness: omega.fold(0.0, f64::max).powi(2),
             damping: damping.fold(0.0, f64::max),
             added: vec![(0.0, 0.0); system.degrees_of_freedom()],
+            held: false,
             scratch: system.elements().first().map(|e| e.law.virgin()),
+        }
+    }
+
+    /// The same for steps that end where a branch does: what an element was before, or will
+    /// be, does not matter.
+    pub(crate) fn of_branches(system: &System) -> Self {
+        Self {
+            held: true,
+            ..Self::new(system)
         }
     }
 
@@ -83,10 +95,12 @@ impl Rates {
             };
             let at = (element.motion(u, v), &state[element.range(layout)]);
             let tangent = element.response(history, scratch, at, None);
-            let stiffness = element
-                .law
-                .initial_stiffness()
-                .max(tangent.by_deformation.abs());
+            let tangent_stiffness = tangent.by_deformation.abs();
+            let stiffness = if self.held {
+                tangent_stiffness
+            } else {
+                tangent_stiffness.max(element.law.initial_stiffness())
+            };
             let ends = [element.far, element.near];
             add(ends, stiffness - element.carried, tangent.by_velocity);
         }

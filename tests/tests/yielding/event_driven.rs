@@ -8,11 +8,11 @@ use std::sync::Arc;
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
 use pounding_hysteresis::LawParameters;
 use pounding_shear_building::{Damping, ShearBuilding};
-use pounding_time_history::{Floor, Outcome, System};
+use pounding_time_history::{Floor, GridRecorder, Outcome, Recorder, RunOptions, System, run};
 
 use super::setup::{
-    EVENT_DRIVEN, TIGHT, difference, el_centro, go, law, with_gaps, with_gaps_of, with_links,
-    yielding_pair,
+    EVENT_DRIVEN, TIGHT, building, difference, el_centro, go, law, with_gaps, with_gaps_of,
+    with_links, yielding_pair,
 };
 
 const DURATION: f64 = 12.0;
@@ -65,6 +65,47 @@ fn yielding_pair_with_gaps_of_every_straight_law() {
         assert!(outcome.method.title.contains("exact"), "{name}");
         let yielded = outcome.buildings[0].yielding[0].unwrap();
         assert!(yielded.hysteretic_energy > 1.0, "{name}");
+    }
+}
+
+/// What recorders read between the ends of steps closes the ledger as these do.
+#[test]
+fn ledger_closes_at_every_output_time() {
+    let damper = LawParameters::from_pairs(&[("damping", 2.0e5), ("exponent", 1.0)]);
+    let slider = LawParameters::from_pairs(&[("stiffness", 4.0e6), ("yield_force", 2.0e4)]);
+    let pair = || yielding_pair("bilinear", el_centro());
+    let soft = {
+        let parameters = LawParameters::from_pairs(&[("stiffness", 1.0e6), ("yield_force", 3.0e4)]);
+        let law = law("elastic_perfectly_plastic", &parameters);
+        let soft = building("soft", (1, 25.0e3, 1.0e6), Some(law));
+        System::new(vec![Arc::new(soft)], el_centro())
+    };
+    for (name, system) in [
+        ("one soft storey", soft),
+        ("pair", with_gaps(pair())),
+        (
+            "dampers",
+            with_links(with_gaps(pair()), "viscous_damper", &damper),
+        ),
+        (
+            "sliders",
+            with_links(with_gaps(pair()), "elastic_perfectly_plastic", &slider),
+        ),
+    ] {
+        let mut recorder = GridRecorder::new(1.0e-3).unwrap();
+        let options = RunOptions {
+            method: EVENT_DRIVEN,
+            duration: Some(DURATION),
+            energy_tolerance: None,
+        };
+        let recorders: &mut [&mut dyn Recorder] = &mut [&mut recorder];
+        let outcome = run(&system, &options, recorders, &mut |_| {}).unwrap();
+        let history = recorder.responses;
+        assert_eq!(history.len(), 12_001, "{name}");
+        let residuals = history.energy.iter().map(|e| e.residual.abs());
+        let worst = residuals.fold(0.0, f64::max) / outcome.energy.largest_input;
+        println!("{name}: worst residual of an output time {worst:.1e}");
+        assert!(worst < 1.0e-9, "{name}: {worst:e}");
     }
 }
 

@@ -256,6 +256,9 @@ impl PathLaw for Deteriorating {
     fn law_descriptor(&self) -> &'static LawDescriptor {
         self.descriptor
     }
+    fn straight(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness
     }

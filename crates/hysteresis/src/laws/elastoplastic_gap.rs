@@ -101,6 +101,9 @@ impl PathLaw for ElastoplasticGap {
     fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
+    fn straight(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         if self.gap == 0.0 { self.stiffness } else { 0.0 }
     }

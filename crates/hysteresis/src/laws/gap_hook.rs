@@ -113,6 +113,9 @@ impl PathLaw for GapHook {
     fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
+    fn straight(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         if self.compression_gap == 0.0 {
             return self.compression_stiffness;

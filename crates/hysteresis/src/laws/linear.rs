@@ -43,6 +43,9 @@ impl PathLaw for Linear {
     fn linear(&self) -> bool {
         true
     }
+    fn straight(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness
     }

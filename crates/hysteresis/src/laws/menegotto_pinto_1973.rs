@@ -84,8 +84,8 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
     }))
 }
 
-/// `R ln s` from which the binomial series serves: there each of its terms is below a
-/// twentieth of the one before, times a factor that tends to 1.
+/// `R ln s` from which the binomial series serves at the least: there each of its terms is
+/// below a twentieth of the one before, times a factor that tends to 1.
 const SERIES_FROM: f64 = 3.0;
 
 /// Terms of a series at most.
@@ -157,7 +157,9 @@ impl Curve {
         }
         let behind = self.area_before_the_knee(1.0);
         let log = s.ln();
-        let near = log.min(SERIES_FROM / exponent);
+        // Its coefficients grow like powers of 1 / R.
+        let from = SERIES_FROM.max(1.0 - exponent.ln());
+        let near = log.min(from / exponent);
         let mut area = behind + self.area_at_the_knee(near);
         if log > near {
             area += self.area_beyond(near, log);
@@ -181,13 +183,19 @@ impl Curve {
                 break;
             }
         }
-        0.5 * s * s * (1.0 + power).powf(-2.0 * inverse) * sum
+        let factor = (1.0 + power).powf(-2.0 * inverse);
+        if factor == 0.0 {
+            // An exponent so small leaves nothing of the curve.
+            return 0.0;
+        }
+        0.5 * s * s * factor * sum
     }
 
     /// From a share of 1 to one whose logarithm is at most `SERIES_FROM / R`: Gauss's rule
-    /// in `R ln s`, where the nearest singularity is pi away.
+    /// in `R ln s`, where the nearest singularity is pi away, and in `ln s`, by whose
+    /// exponential the curve grows.
     fn area_at_the_knee(&self, log: f64) -> f64 {
-        let panels = (self.exponent * log).ceil().max(1.0);
+        let panels = (self.exponent.max(1.0) * log).ceil().max(1.0);
         let half = 0.5 * log / panels;
         let mut area = 0.0;
         for panel in 0..panels as usize {
@@ -243,9 +251,6 @@ impl PathLaw for MenegottoPinto {
         }; 2];
         history
     }
-    fn straight(&self) -> bool {
-        false
-    }
     fn on_branch(&self, history: &History, deformation: f64) -> (f64, f64) {
         let curve = self.curve(history);
         let (k, r) = (self.stiffness, self.hardening_ratio);
@@ -295,7 +300,7 @@ mod tests {
     #[test]
     fn the_area_under_the_curve() {
         let exponents = [
-            0.3, 0.5, 0.99, 1.0, 1.01, 1.5, 2.0, 3.7, 15.0, 20.0, 60.0, 100.0,
+            5.0e-4, 0.01, 0.04, 0.3, 0.5, 0.99, 1.0, 1.01, 1.5, 2.0, 3.7, 15.0, 20.0, 60.0, 100.0,
         ];
         for exponent in exponents {
             let curve = Curve {

@@ -72,6 +72,9 @@ impl PathLaw for OriginOriented {
     fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
+    fn straight(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness
     }

@@ -44,7 +44,7 @@ impl EventDriven {
             by_series: false,
             linear: system.elements().is_empty(),
             piecewise_linear: system.first_curved_element().is_none(),
-            rates: Rates::new(system),
+            rates: Rates::of_branches(system),
             affine: true,
         }
     }

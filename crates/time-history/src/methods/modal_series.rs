@@ -7,7 +7,7 @@ use crate::contact_episode::LevelRows;
 use crate::contact_free::{
     ContactFree, Four, Lane, WIDTH, gather, spread, transform, transform_fours,
 };
-use crate::polynomial::{Polynomial, septic, value};
+use crate::polynomial::{Polynomial, derivative, septic, value};
 use crate::system::System;
 
 /// Floors (all buildings together) above which terms are computed in the modes.
@@ -231,6 +231,20 @@ impl ModalSeries {
                 [at(&self.sums[1], i), end[0], end[1], end[2]],
             );
         }
+    }
+
+    /// The same with two derivatives by theta.
+    pub(crate) fn viscous_powers(&self, theta: f64) -> [f64; 3] {
+        let mut powers = [0.0; 3];
+        for (damping, p) in self.damping.iter().zip(&self.speed) {
+            let first = derivative(p);
+            let (v, v1) = (value(p, theta), value(&first, theta));
+            let v2 = value(&derivative(&first), theta);
+            powers[0] += damping * v * v;
+            powers[1] += 2.0 * damping * v * v1;
+            powers[2] += 2.0 * damping * (v1 * v1 + v * v2);
+        }
+        powers
     }
 
     /// Power of the damping (W) at a part of the last step.

@@ -7,7 +7,7 @@ use super::modal_series::ModalSeries;
 use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 
 use crate::dynamics::Layout;
-use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, hermite, septic, value};
+use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, fit, fit_nodes, septic, value};
 use crate::system::System;
 
 /// Work space of the series.
@@ -221,16 +221,25 @@ impl Taylor {
             let moved = new[i] * b - state[i] * a - segment.slope * self.integral[i];
             new[layout.input()] -= m * moved;
         }
-        let mut rates = [(0.0, 0.0); 2];
+        let mut powers = [[[0.0; 3]; 2]; 2];
         for (end, y) in [(0, state), (1, &*new)] {
-            let (power, input) = (
-                match &self.modal {
-                    Some(modal) => modal.viscous_power(end as f64),
-                    None => self.viscous_power(context, &y[n..2 * n]),
-                },
-                input_power(system.mass(), &y[n..2 * n], [a, b][end]),
-            );
-            rates[end] = (input, power);
+            let v = &y[n..2 * n];
+            let [first, second, _] = [&self.start, &self.end][end];
+            let momentum = [v, first, second].map(|v| {
+                let products = system.mass().iter().zip(v).map(|(m, v)| m * v);
+                products.sum::<f64>()
+            });
+            let (ground, change) = ([a, b][end], segment.slope * h);
+            let input = [
+                -ground * momentum[0],
+                -ground * momentum[1] - change * momentum[0],
+                -ground * momentum[2] - 2.0 * change * momentum[1],
+            ];
+            let viscous = match &self.modal {
+                Some(modal) => modal.viscous_powers(end as f64),
+                None => self.viscous_powers(context, v, end),
+            };
+            powers[end] = [input, viscous];
         }
         let mut viscous = 0.0;
         for (theta, weight) in GAUSS {
@@ -250,11 +259,9 @@ impl Taylor {
             self.contact_work(context, k, state, h, new);
         }
         self.accounts(context, state, h, new);
-        for (place, rate) in [
-            (layout.input(), [rates[0].0, rates[1].0]),
-            (layout.viscous(), [rates[0].1, rates[1].1]),
-        ] {
-            self.dense[place] = hermite(h, state[place], new[place], rate[0], rate[1]);
+        for (which, place) in [layout.input(), layout.viscous()].into_iter().enumerate() {
+            let powers = [powers[0][which], powers[1][which]];
+            self.dense[place] = integral(h, [state[place], new[place]], powers);
         }
     }
 
@@ -272,9 +279,15 @@ impl Taylor {
         let l = contact.level;
         let level = &context.dynamics.system.levels()[l];
         let force = |u: f64, v: f64| contact.term(1, u, v);
-        let ends = [state, &*new].map(|y| {
+        // Force, and product of force and velocity, with two derivatives by theta.
+        let ends = [(state, &self.start), (&*new, &self.end)].map(|(y, [first, second, _])| {
             let (u, v) = (level.relative(&y[..n]), level.relative(&y[n..2 * n]));
-            (force(u, v), v)
+            let [v1, v2] = [first, second].map(|v| level.relative(v));
+            let f = force(u, v);
+            let f1 = contact.stiffness * h * v + contact.dashpot * v1;
+            let f2 = contact.stiffness * h * v1 + contact.dashpot * v2;
+            let power = [f * v, f1 * v + f * v1, f2 * v + 2.0 * f1 * v1 + f * v2];
+            ([f, f1, f2], power)
         });
         let (mut impulse, mut work) = (0.0, 0.0);
         for (theta, weight) in GAUSS {
@@ -290,14 +303,11 @@ impl Taylor {
         }
         new[layout.work(l)] += h * work;
         new[layout.impulse(l)] += h * impulse;
-        for (place, rate) in [
-            (
-                layout.work(l),
-                [ends[0].0 * ends[0].1, ends[1].0 * ends[1].1],
-            ),
+        for (place, rates) in [
+            (layout.work(l), [ends[0].1, ends[1].1]),
             (layout.impulse(l), [ends[0].0, ends[1].0]),
         ] {
-            self.dense[place] = hermite(h, state[place], new[place], rate[0], rate[1]);
+            self.dense[place] = integral(h, [state[place], new[place]], rates);
         }
     }
 
@@ -326,7 +336,7 @@ impl Taylor {
                 law.rates(history, motion, before, &mut rates[..range.len()]);
                 rates
             };
-            let (start, end) = (at(0.0), at(1.0));
+            let nodes = fit_nodes().map(&mut at);
             let mut change = [0.0; MAXIMUM_INTERNAL_VARIABLES];
             for (theta, weight) in GAUSS {
                 for (change, rate) in change.iter_mut().zip(at(theta)) {
@@ -335,18 +345,37 @@ impl Taylor {
             }
             for (k, place) in range.clone().enumerate() {
                 new[place] += h * change[k];
-                self.dense[place] = hermite(h, state[place], new[place], start[k], end[k]);
+                let rates = fit(&nodes.map(|rates| rates[k]));
+                self.dense[place] = primitive(h, [state[place], new[place]], &rates);
             }
         }
     }
 
     fn viscous_power(&mut self, context: &Context<'_, '_>, v: &[f64]) -> f64 {
+        self.damp(context, v);
+        dot(v, &self.scratch)
+    }
+
+    /// Damping forces of these velocities, into the scratch.
+    fn damp(&mut self, context: &Context<'_, '_>, v: &[f64]) {
         let system = context.dynamics.system;
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             let (a, b) = (range[0], range[1]);
             building.apply_damping(&v[a..b], &mut self.scratch[a..b]);
         }
-        v.iter().zip(&self.scratch).map(|(v, f)| v * f).sum()
+    }
+
+    /// Power of the damping at an end of the step, with two derivatives by theta.
+    fn viscous_powers(&mut self, context: &Context<'_, '_>, v: &[f64], end: usize) -> [f64; 3] {
+        self.damp(context, v);
+        let [first, second, _] = [&self.start, &self.end][end];
+        let (power, slope) = (dot(v, &self.scratch), 2.0 * dot(first, &self.scratch));
+        let bend = 2.0 * dot(second, &self.scratch);
+        let first = std::mem::take(&mut [&mut self.start, &mut self.end][end][0]);
+        self.damp(context, &first);
+        let bend = bend + 2.0 * dot(&first, &self.scratch);
+        [&mut self.start, &mut self.end][end][0] = first;
+        [power, slope, bend]
     }
 
     /// Component `i` of the state over the last step.
@@ -367,6 +396,28 @@ impl Taylor {
     }
 }
 
-fn input_power(mass: &[f64], v: &[f64], ground: f64) -> f64 {
-    -ground * mass.iter().zip(v).map(|(m, v)| m * v).sum::<f64>()
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// An integral over the step from its values at both ends, and its rate there with two
+/// derivatives by theta.
+fn integral(h: f64, [start, end]: [f64; 2], [a, b]: [[f64; 3]; 2]) -> Polynomial {
+    let derivatives = |value: f64, rates: [f64; 3]| {
+        let [first, second, third] = rates.map(|x| h * x);
+        [value, first, second, third]
+    };
+    septic(derivatives(start, a), derivatives(end, b))
+}
+
+/// The same from a polynomial for its rate.
+fn primitive(h: f64, [start, end]: [f64; 2], rate: &Polynomial) -> Polynomial {
+    let mut p = [0.0; COEFFICIENTS];
+    p[0] = start;
+    for k in 1..COEFFICIENTS {
+        p[k] = h * rate[k - 1] / k as f64;
+    }
+    // What a power more would hold.
+    p[COEFFICIENTS - 1] += end - p.iter().sum::<f64>();
+    p
 }

@@ -151,7 +151,7 @@ pub enum TimeHistoryError {
         time: f64,
         /// Events counted.
         count: usize,
-        /// Gap and level of the last one.
+        /// Gap and level, storey or link of the last one.
         place: String,
     },
     /// The energy ledger did not close.
@@ -205,7 +205,7 @@ impl TimeHistoryError {
                 "correct `initial_displacement` and `initial_velocity` of the buildings"
             }
             Self::Chatter { .. } => {
-                "try another method, or another separation rule for that gap, and report the case"
+                "try another method, another separation rule for that gap, or a small gap in place of none for that link, and report the case"
             }
             Self::EnergyResidual { .. } => {
                 "use a smaller `step` or `relative_tolerance`; a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::root;
+use super::{metadata, root};
 
 /// Names and dependencies (normal and build) of the packages that cargo resolves.
 struct Packages(BTreeMap<String, BTreeSet<String>>);
@@ -19,14 +19,7 @@ impl Packages {
         let rustc = String::from_utf8(rustc.stdout).unwrap();
         let host = rustc.lines().find_map(|l| l.strip_prefix("host: "));
         let platform = format!("--filter-platform={}", host.unwrap());
-        let output = Command::new(env!("CARGO"))
-            .args(["metadata", "--format-version=1", "--locked", "--offline"])
-            .arg(platform)
-            .current_dir(root())
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{output:?}");
-        let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let metadata = metadata(&["--locked", &platform]);
         let text = |value: &Value| value.as_str().unwrap().to_owned();
         let packages = metadata["packages"].as_array().unwrap();
         let name: BTreeMap<String, String> = packages
@@ -242,13 +235,7 @@ fn the_solver_needs_no_files() {
 /// the study's build text would not name the sources of the crates it is built of.
 #[test]
 fn libraries_can_be_packaged() {
-    let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version=1", "--no-deps", "--offline"])
-        .current_dir(root())
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let metadata = metadata(&["--no-deps"]);
     let mut libraries = 0;
     for package in metadata["packages"].as_array().unwrap() {
         let name = package["name"].as_str().unwrap();

@@ -3,11 +3,8 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use serde_json::Value;
-
-use super::root;
+use super::metadata;
 
 /// All sources in a folder and those inside it.
 fn sources(folder: &Path) -> Vec<PathBuf> {
@@ -65,13 +62,7 @@ fn every_test_is_run() {
     assert!(tested("x\n    #[test]\n") && !tested("// #[test]"));
     assert!(has_example("/// ```\n") && !has_example("// ```\n"));
 
-    let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version=1", "--no-deps", "--offline"])
-        .current_dir(root())
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let metadata = metadata(&["--no-deps"]);
     let (mut files, mut without) = (0, 0);
     for package in metadata["packages"].as_array().unwrap() {
         let manifest = PathBuf::from(package["manifest_path"].as_str().unwrap());

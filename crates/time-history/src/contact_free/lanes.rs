@@ -196,12 +196,18 @@ impl Modal {
 }
 
 impl Track {
-    pub(crate) fn new(lanes: usize) -> Self {
+    /// For so many values: places beyond them never have a peak.
+    pub(crate) fn new(count: usize) -> Self {
+        let lanes = count.div_ceil(WIDTH);
         let zeros = || vec![Lane::ZERO; lanes];
+        let mut peak = zeros();
+        for i in count..lanes * WIDTH {
+            peak[i / WIDTH][i % WIDTH] = f64::INFINITY;
+        }
         Self {
             now: zeros(),
             next: zeros(),
-            peak: zeros(),
+            peak,
             time: zeros(),
             overshoot: zeros(),
         }

@@ -123,9 +123,9 @@ impl ContactFreePhase {
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
-            displacement: Track::new(lanes),
-            drift: Track::new(lanes),
-            acceleration: Track::new(lanes),
+            displacement: Track::new(dofs),
+            drift: Track::new(dofs),
+            acceleration: Track::new(dofs),
             acceleration_known: false,
             penetration: vec![0.0; system.levels().len()],
             holds_state: false,

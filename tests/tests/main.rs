@@ -18,5 +18,6 @@ mod rigid_accumulation;
 mod rigid_impacts;
 mod separation_rules;
 mod sine_case;
+mod structures;
 mod traps;
 mod yielding;

@@ -2,12 +2,15 @@
 
 use std::sync::Arc;
 
+use nalgebra::DMatrix;
 use pounding_hysteresis::HysteresisLaw;
 
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
-use crate::modes::{Modes, undamped};
+use crate::lateral::LateralStiffness;
+use crate::modes::{Modes, Undamped, undamped, undamped_dense};
+use crate::stiffness::StiffnessMatrix;
 use crate::tridiagonal::SymmetricTridiagonal;
 
 /// A force-deformation law in the place of a storey's stiffness.
@@ -30,12 +33,14 @@ pub struct ShearBuilding {
     name: String,
     mass: Vec<f64>,
     stiffness: Vec<f64>,
+    /// The matrix of a building that is no chain, without what gravity takes off.
+    elastic: Option<DMatrix<f64>>,
     height: Vec<f64>,
     laws: Vec<Option<StoreyLaw>>,
     geometric: Vec<f64>,
     elevations: Vec<f64>,
     damping: Damping,
-    stiffness_matrix: SymmetricTridiagonal,
+    stiffness_matrix: StiffnessMatrix,
     damping_matrix: DampingMatrix,
     modes: Modes,
 }
@@ -75,36 +80,101 @@ impl ShearBuilding {
         damping: Damping,
         gravity: f64,
     ) -> Result<Self, ShearBuildingError> {
-        if mass.is_empty() {
-            return Err(ShearBuildingError::NoStoreys { building: name });
+        check_storeys(&name, &mass, &height)?;
+        check(&name, "stiffness", &stiffness, mass.len())?;
+        let geometric = geometric(&mass, &height, gravity);
+        for (i, geometric) in geometric.iter().enumerate() {
+            if !(*geometric < stiffness[i]) {
+                return Err(ShearBuildingError::Unstable {
+                    building: name,
+                    storey: i + 1,
+                    load: geometric * height[i],
+                    height: height[i],
+                    geometric: *geometric,
+                    stiffness: stiffness[i],
+                });
+            }
         }
-        if mass.len() > MAXIMUM_STOREYS {
-            return Err(ShearBuildingError::TooManyStoreys {
-                building: name,
-                storeys: mass.len(),
-                largest: MAXIMUM_STOREYS,
-            });
-        }
-        for (quantity, values) in [
-            ("mass", &mass),
-            ("stiffness", &stiffness),
-            ("height", &height),
-        ] {
-            check(&name, quantity, values, mass.len())?;
-        }
-        let geometric = geometric(&name, &mass, &stiffness, &height, gravity)?;
         let lateral: Vec<f64> = stiffness
             .iter()
             .zip(&geometric)
             .map(|(k, g)| k - g)
             .collect();
-        let stiffness_matrix = SymmetricTridiagonal::chain(&lateral);
-        let undamped = undamped(&mass, &lateral, &stiffness_matrix);
-        if let Some(j) = undamped
-            .circular_frequency
-            .iter()
-            .position(|w| !(w.is_finite() && *w > 0.0))
-        {
+        let chain = SymmetricTridiagonal::chain(&lateral);
+        let undamped = undamped(&mass, &lateral, &chain);
+        Self::finish(
+            Parts {
+                name,
+                mass,
+                height,
+                damping,
+                geometric,
+            },
+            stiffness,
+            (StiffnessMatrix::Tridiagonal(chain), None),
+            undamped,
+        )
+    }
+
+    /// A building whose floors all act on one another: a frame or a wall, condensed to the
+    /// displacements of its floors. Gravity enters as in [`ShearBuilding::under_gravity`].
+    ///
+    /// # Errors
+    /// As [`ShearBuilding::under_gravity`], a matrix of another size, dashpots as
+    /// damping, and a matrix that is not positive definite, with what gravity takes off
+    /// it.
+    pub fn with_stiffness_matrix(
+        name: String,
+        mass: Vec<f64>,
+        stiffness: LateralStiffness,
+        height: Vec<f64>,
+        damping: Damping,
+        gravity: f64,
+    ) -> Result<Self, ShearBuildingError> {
+        check_storeys(&name, &mass, &height)?;
+        let elastic = stiffness.into_matrix();
+        let n = mass.len();
+        if elastic.nrows() != n {
+            return Err(ShearBuildingError::Length {
+                building: name,
+                quantity: "stiffness matrix",
+                found: elastic.nrows(),
+                expected: n,
+            });
+        }
+        let geometric = geometric(&mass, &height, gravity);
+        let off = SymmetricTridiagonal::chain(&geometric);
+        let matrix = DMatrix::from_fn(n, n, |i, j| elastic[(i, j)] - off.entry(i, j));
+        let undamped = undamped_dense(&mass, &matrix);
+        Self::finish(
+            Parts {
+                name,
+                mass,
+                height,
+                damping,
+                geometric,
+            },
+            Vec::new(),
+            (StiffnessMatrix::Dense(matrix), Some(elastic)),
+            undamped,
+        )
+    }
+
+    fn finish(
+        parts: Parts,
+        stiffness: Vec<f64>,
+        (stiffness_matrix, elastic): (StiffnessMatrix, Option<DMatrix<f64>>),
+        undamped: Undamped,
+    ) -> Result<Self, ShearBuildingError> {
+        let Parts {
+            name,
+            mass,
+            height,
+            damping,
+            geometric,
+        } = parts;
+        let wrong = |w: &f64| !(w.is_finite() && *w > 0.0);
+        if let Some(j) = undamped.circular_frequency.iter().position(wrong) {
             return Err(ShearBuildingError::Modes {
                 building: name,
                 mode: j + 1,
@@ -125,6 +195,7 @@ impl ShearBuilding {
             name,
             mass,
             stiffness,
+            elastic,
             height,
             elevations,
             damping,
@@ -161,7 +232,15 @@ impl ShearBuilding {
                     reason: "its force depends on the speed, so that it carries no lasting load: make it a link, beside a storey that stands".to_owned(),
                 });
             }
-            let (initial, elastic) = (law.initial_stiffness(), self.stiffness[i]);
+            let Some(elastic) = self.stiffness.get(i).copied() else {
+                return Err(ShearBuildingError::Law {
+                    building: self.name,
+                    storey: i + 1,
+                    law: law.descriptor().name,
+                    reason: "a law takes the place of one storey's stiffness, and a stiffness matrix has no storeys".to_owned(),
+                });
+            };
+            let initial = law.initial_stiffness();
             if !((initial - elastic).abs() <= SAME_STIFFNESS * elastic) {
                 return Err(ShearBuildingError::Law {
                     building: self.name,
@@ -208,7 +287,8 @@ impl ShearBuilding {
     }
 
     /// Elastic storey stiffnesses (N/m), bottom first: of the columns, without what
-    /// gravity takes off.
+    /// gravity takes off. None where the building has a matrix
+    /// ([`ShearBuilding::section_forces`]).
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {
         &self.stiffness
@@ -232,9 +312,28 @@ impl ShearBuilding {
         &self.damping
     }
 
+    /// Storey shears (N), bottom first, then the overturning moment at the base (N m), as
+    /// rows on the floor displacements: `V_i = sum (K u)_j` over the floors from `i` on,
+    /// `M = sum (K u)_j z_j`, with `K` without what gravity takes off (Chopra, Dynamics of
+    /// Structures, section 9.4). `None` for a chain of storeys, whose shears are stiffness
+    /// times drift.
+    #[must_use]
+    pub fn section_forces(&self) -> Option<Vec<Vec<f64>>> {
+        let elastic = self.elastic.as_ref()?;
+        let n = self.storeys();
+        let row = |weight: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let column = |j: usize| (0..n).map(|i| weight(i) * elastic[(i, j)]).sum();
+            (0..n).map(column).collect()
+        };
+        let shear = |storey: usize| row(&|i: usize| f64::from(u8::from(i >= storey)));
+        let mut rows: Vec<_> = (0..n).map(shear).collect();
+        rows.push(row(&|i: usize| self.elevations[i]));
+        Some(rows)
+    }
+
     /// Stiffness matrix (N/m), with what gravity takes off where P-Delta is on.
     #[must_use]
-    pub fn stiffness_matrix(&self) -> &SymmetricTridiagonal {
+    pub fn stiffness_matrix(&self) -> &StiffnessMatrix {
         &self.stiffness_matrix
     }
 
@@ -259,33 +358,43 @@ impl ShearBuilding {
 /// Relative difference of two stiffnesses that are meant to be equal.
 const SAME_STIFFNESS: f64 = 1.0e-6;
 
+/// What buildings of all kinds are made of.
+struct Parts {
+    name: String,
+    mass: Vec<f64>,
+    height: Vec<f64>,
+    damping: Damping,
+    geometric: Vec<f64>,
+}
+
 /// Weight above over height of every storey (N/m).
-fn geometric(
-    building: &str,
-    mass: &[f64],
-    stiffness: &[f64],
-    height: &[f64],
-    gravity: f64,
-) -> Result<Vec<f64>, ShearBuildingError> {
+fn geometric(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
     let mut above: f64 = mass.iter().sum();
-    let mut all = Vec::with_capacity(mass.len());
-    for i in 0..mass.len() {
-        let load = gravity * above;
-        let geometric = load / height[i];
-        if !(geometric < stiffness[i]) {
-            return Err(ShearBuildingError::Unstable {
-                building: building.to_owned(),
-                storey: i + 1,
-                load,
-                height: height[i],
-                geometric,
-                stiffness: stiffness[i],
-            });
-        }
-        all.push(geometric);
-        above -= mass[i];
+    let storeys = mass.iter().zip(height);
+    storeys
+        .map(|(mass, height)| {
+            let load = gravity * above;
+            above -= mass;
+            load / height
+        })
+        .collect()
+}
+
+fn check_storeys(name: &str, mass: &[f64], height: &[f64]) -> Result<(), ShearBuildingError> {
+    if mass.is_empty() {
+        return Err(ShearBuildingError::NoStoreys {
+            building: name.to_owned(),
+        });
     }
-    Ok(all)
+    if mass.len() > MAXIMUM_STOREYS {
+        return Err(ShearBuildingError::TooManyStoreys {
+            building: name.to_owned(),
+            storeys: mass.len(),
+            largest: MAXIMUM_STOREYS,
+        });
+    }
+    check(name, "mass", mass, mass.len())?;
+    check(name, "height", height, mass.len())
 }
 
 fn check(

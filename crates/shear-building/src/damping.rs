@@ -3,7 +3,9 @@
 use multiversion::multiversion;
 use nalgebra::DMatrix;
 
+use crate::dense::multiply;
 use crate::modes::{LARGE, Undamped};
+use crate::stiffness::StiffnessMatrix;
 use crate::tridiagonal::SymmetricTridiagonal;
 
 /// How a building is damped.
@@ -49,9 +51,10 @@ pub enum Damping {
 /// The damping matrix of a building (N s/m).
 #[derive(Debug, Clone, PartialEq)]
 pub enum DampingMatrix {
-    /// All kinds but modal damping.
+    /// All kinds but modal damping of a chain of storeys.
     Tridiagonal(SymmetricTridiagonal),
-    /// Modal damping couples every floor with every other.
+    /// Modal damping, and damping in proportion to a full stiffness matrix, couple every
+    /// floor with every other.
     Dense(DMatrix<f64>),
 }
 
@@ -60,24 +63,18 @@ impl DampingMatrix {
     pub fn multiply(&self, v: &[f64], out: &mut [f64]) {
         match self {
             Self::Tridiagonal(c) => c.multiply(v, out),
-            Self::Dense(c) => {
-                // Column by column, as they stand in memory, a few in one go.
-                for out in out.iter_mut() {
-                    *out = -0.0;
-                }
-                let n = out.len();
-                for (columns, v) in c.as_slice().chunks(COLUMNS * n).zip(v.chunks(COLUMNS)) {
-                    if let (Ok(v), true) = (<&[f64; COLUMNS]>::try_from(v), n > 0) {
-                        add_columns(columns, v, out);
-                        continue;
-                    }
-                    for (column, x) in columns.chunks(n).zip(v) {
-                        for (o, c) in out.iter_mut().zip(column) {
-                            *o += c * x;
-                        }
-                    }
-                }
-            }
+            Self::Dense(c) => multiply(c, v, out),
+        }
+    }
+}
+
+impl DampingMatrix {
+    /// Entry in a row and a column, both from zero (N s/m).
+    #[must_use]
+    pub fn entry(&self, row: usize, column: usize) -> f64 {
+        match self {
+            Self::Tridiagonal(c) => c.entry(row, column),
+            Self::Dense(c) => c[(row, column)],
         }
     }
 }
@@ -87,18 +84,22 @@ impl Damping {
     pub(crate) fn matrix(
         &self,
         mass: &[f64],
-        stiffness: &SymmetricTridiagonal,
+        stiffness: &StiffnessMatrix,
         modes: &Undamped,
     ) -> Result<DampingMatrix, String> {
         let n = mass.len();
         let omega = &modes.circular_frequency;
-        let proportional = |alpha: f64, beta: f64| {
-            DampingMatrix::Tridiagonal(SymmetricTridiagonal {
+        let proportional = |alpha: f64, beta: f64| match stiffness {
+            StiffnessMatrix::Tridiagonal(k) => DampingMatrix::Tridiagonal(SymmetricTridiagonal {
                 diagonal: (0..n)
-                    .map(|i| alpha * mass[i] + beta * stiffness.diagonal[i])
+                    .map(|i| alpha * mass[i] + beta * k.diagonal[i])
                     .collect(),
-                off_diagonal: stiffness.off_diagonal.iter().map(|k| beta * k).collect(),
-            })
+                off_diagonal: k.off_diagonal.iter().map(|k| beta * k).collect(),
+            }),
+            StiffnessMatrix::Dense(k) => DampingMatrix::Dense(DMatrix::from_fn(n, n, |i, j| {
+                let inertia = if i == j { alpha * mass[i] } else { 0.0 };
+                inertia + beta * k[(i, j)]
+            })),
         };
         match self {
             Self::Rayleigh { alpha, beta } => {
@@ -129,6 +130,10 @@ impl Damping {
                 Ok(proportional(2.0 * ratio * omega[0], 0.0))
             }
             Self::Modal { ratios } => modal(ratios, mass, modes),
+            Self::Dashpots { .. } if matches!(stiffness, StiffnessMatrix::Dense(_)) => Err(
+                "dashpots stand in the storeys of a shear building; with a stiffness matrix give ratios"
+                    .to_owned(),
+            ),
             Self::Dashpots { coefficients } => {
                 if coefficients.len() != n {
                     return Err(format!(
@@ -176,25 +181,6 @@ fn modal(ratios: &[f64], mass: &[f64], modes: &Undamped) -> Result<DampingMatrix
             })
             .sum()
     })))
-}
-
-/// Columns that [`DampingMatrix::multiply`] takes in one go.
-const COLUMNS: usize = 4;
-
-/// Adds multiples of a few columns, one after another in every place.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn add_columns(columns: &[f64], x: &[f64; COLUMNS], out: &mut [f64]) {
-    let n = out.len();
-    let [a, b, c, d] = std::array::from_fn(|k| &columns[k * n..(k + 1) * n]);
-    for i in 0..n {
-        let sum = out[i] + a[i] * x[0];
-        out[i] = ((sum + b[i] * x[1]) + c[i] * x[2]) + d[i] * x[3];
-    }
 }
 
 /// Rows side by side in [`outer_product`].

@@ -2,14 +2,18 @@
 //!
 //! A building is a chain of storeys, bottom first. Storey `i` has a floor mass
 //! and a stiffness that connects the floor to the one below (the ground for the
-//! first), so that the stiffness matrix is tridiagonal.
+//! first), so that the stiffness matrix is tridiagonal. A frame or a wall, whose floors all
+//! act on one another, is a building with a full matrix instead ([`LateralStiffness`]).
 
 mod building;
 mod damping;
+mod dense;
 mod elevation;
 mod error;
+mod lateral;
 mod modes;
 mod names;
+mod stiffness;
 mod tridiagonal;
 mod tridiagonal_eigen;
 
@@ -19,6 +23,8 @@ pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
 };
 pub use error::ShearBuildingError;
+pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, is_name};
+pub use stiffness::StiffnessMatrix;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

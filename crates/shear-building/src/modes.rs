@@ -16,6 +16,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::damping::{Damping, DampingMatrix};
+use crate::dense::multiply;
 use crate::tridiagonal::SymmetricTridiagonal;
 use crate::tridiagonal_eigen::eigen;
 
@@ -84,16 +85,34 @@ pub(crate) fn undamped(
     }
 }
 
+/// The same for a full stiffness matrix; frequencies are NaN where it is not positive
+/// definite.
+pub(crate) fn undamped_dense(mass: &[f64], stiffness: &DMatrix<f64>) -> Undamped {
+    let n = mass.len();
+    let scale: Vec<f64> = mass.iter().map(|m| 1.0 / m.sqrt()).collect();
+    let scaled = DMatrix::from_fn(n, n, |i, j| stiffness[(i, j)] * (scale[i] * scale[j]));
+    let shape = shapes_of(scaled, &scale);
+    let mut force = vec![0.0; n];
+    let frequency = |phi: &[f64]| {
+        multiply(stiffness, phi, &mut force);
+        let elastic: f64 = phi.iter().zip(&force).map(|(x, f)| x * f).sum();
+        let kinetic: f64 = phi.iter().zip(mass).map(|(x, m)| m * x * x).sum();
+        (elastic / kinetic).sqrt()
+    };
+    Undamped {
+        circular_frequency: shape.as_slice().chunks(n).map(frequency).collect(),
+        shape,
+    }
+}
+
 fn dense_shapes(scaled: &SymmetricTridiagonal, scale: &[f64]) -> DMatrix<f64> {
     let n = scale.len();
-    let mut matrix = DMatrix::zeros(n, n);
-    for i in 0..n {
-        matrix[(i, i)] = scaled.diagonal[i];
-        if i + 1 < n {
-            matrix[(i, i + 1)] = scaled.off_diagonal[i];
-            matrix[(i + 1, i)] = scaled.off_diagonal[i];
-        }
-    }
+    shapes_of(DMatrix::from_fn(n, n, |i, j| scaled.entry(i, j)), scale)
+}
+
+/// Eigenvectors in the order of their eigenvalues, scaled, the roof positive.
+fn shapes_of(matrix: DMatrix<f64>, scale: &[f64]) -> DMatrix<f64> {
+    let n = scale.len();
     let eigen = SymmetricEigen::new(matrix);
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));

@@ -25,6 +25,16 @@ impl SymmetricTridiagonal {
         }
     }
 
+    /// Entry in a row and a column, both from zero.
+    #[must_use]
+    pub fn entry(&self, row: usize, column: usize) -> f64 {
+        match row.abs_diff(column) {
+            0 => self.diagonal[row],
+            1 => self.off_diagonal[row.min(column)],
+            _ => 0.0,
+        }
+    }
+
     /// `out = A x`; all of length n.
     pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
         let n = self.diagonal.len();

@@ -1,7 +1,7 @@
 //! Stiffness and damping of all buildings as two bands of three.
 
 use multiversion::multiversion;
-use pounding_shear_building::{DampingMatrix, ShearBuilding};
+use pounding_shear_building::{DampingMatrix, ShearBuilding, StiffnessMatrix};
 use std::sync::Arc;
 
 /// Tridiagonal stiffness and damping of all buildings, without links between them.
@@ -62,14 +62,16 @@ fn inner(bands: &Bands, u: &[f64], v: &[f64], out: &mut [f64], damping: &mut [f6
 }
 
 impl Bands {
-    /// `None` if a building's damping matrix is not tridiagonal.
+    /// `None` if a matrix of a building is not tridiagonal.
     pub(crate) fn of(buildings: &[Arc<ShearBuilding>]) -> Option<Self> {
         let mut this = Self::default();
         for building in buildings {
             let DampingMatrix::Tridiagonal(c) = building.damping_matrix() else {
                 return None;
             };
-            let k = building.stiffness_matrix();
+            let StiffnessMatrix::Tridiagonal(k) = building.stiffness_matrix() else {
+                return None;
+            };
             this.stiffness.push(&k.diagonal, &k.off_diagonal);
             this.damping.push(&c.diagonal, &c.off_diagonal);
         }

@@ -31,7 +31,8 @@ pub struct StoreyPeaks {
     pub displacement: Peak,
     /// Storey drift over storey height (-).
     pub drift_ratio: Peak,
-    /// Storey shear (N): stiffness times drift, or the force of the storey's law.
+    /// Storey shear (N): stiffness times drift, or the force of the storey's law; with a
+    /// stiffness matrix the sum of the restoring forces of the floors above.
     pub storey_shear: Peak,
     /// Absolute floor acceleration (m/s2).
     pub acceleration_absolute: Peak,
@@ -46,6 +47,10 @@ pub struct BuildingOutcome {
     pub name: String,
     /// Storeys from the bottom.
     pub storeys: Vec<StoreyPeaks>,
+    /// Overturning moment at the base (N m), from the restoring forces of the floors; `None`
+    /// for a chain of storeys.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub base_moment: Option<Peak>,
     /// What storeys with a law went through, from the bottom; `None` for the others.
     pub yielding: Vec<Option<YieldingStorey>>,
 }

@@ -12,11 +12,14 @@ use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
     value,
 };
+use crate::system::SectionPlace;
 
 /// Peaks of all storeys, and of the levels in contact.
 #[derive(Debug)]
 pub(crate) struct Peaks {
     pub storeys: Vec<StoreyPeaks>,
+    /// Overturning moment at the base of every building (N m), where it is followed.
+    pub base_moment: Vec<Peak>,
     /// Maximum force of each level during its present impact (N).
     pub force: Vec<Peak>,
     /// Maximum penetration of each level during its present impact (m).
@@ -43,9 +46,10 @@ pub(crate) struct ElementPeaks {
 const NEAR: f64 = 1.0 - 1.0e-6;
 
 impl Peaks {
-    pub(crate) fn new(layout: Layout, elements: usize) -> Self {
+    pub(crate) fn new(layout: Layout, buildings: usize, elements: usize) -> Self {
         Self {
             storeys: vec![StoreyPeaks::default(); layout.dofs],
+            base_moment: vec![Peak::default(); buildings],
             force: vec![Peak::default(); layout.levels],
             penetration: vec![Peak::default(); layout.levels],
             elements: vec![ElementPeaks::default(); elements],
@@ -68,18 +72,22 @@ impl Peaks {
             let mut below = 0.0;
             for (storey, i) in (range[0]..range[1]).enumerate() {
                 let (drift, peaks) = ((u[i] - below).abs(), &mut self.storeys[i]);
-                let shear = building.stiffness()[storey] * drift;
                 let acceleration = (self.acceleration[0][i] + ground).abs();
                 peaks.displacement.raise(u[i].abs(), 0.0);
                 peaks
                     .drift_ratio
                     .raise(drift / building.height()[storey], 0.0);
-                if building.laws()[storey].is_none() {
-                    peaks.storey_shear.raise(shear, 0.0);
+                if let (None, Some(stiffness)) =
+                    (&building.laws()[storey], building.stiffness().get(storey))
+                {
+                    peaks.storey_shear.raise(stiffness * drift, 0.0);
                 }
                 peaks.acceleration_absolute.raise(acceleration, 0.0);
                 below = u[i];
             }
+        }
+        for section in system.sections() {
+            self.section(section.place).raise(section.at(u).abs(), 0.0);
         }
         for (index, element) in system.elements().iter().enumerate() {
             let force = context
@@ -89,6 +97,22 @@ impl Peaks {
                 .deformation
                 .raise(element.relative(u).abs(), 0.0);
             self.raise_force(element, index, force.abs(), 0.0);
+        }
+    }
+
+    /// Peak of a force in a section.
+    pub(crate) fn section(&mut self, place: SectionPlace) -> &mut Peak {
+        match place {
+            SectionPlace::StoreyShear(floor) => &mut self.storeys[floor].storey_shear,
+            SectionPlace::BaseMoment(building) => &mut self.base_moment[building],
+        }
+    }
+
+    /// The same, to be read.
+    pub(crate) fn of_section(&self, place: SectionPlace) -> Peak {
+        match place {
+            SectionPlace::StoreyShear(floor) => self.storeys[floor].storey_shear,
+            SectionPlace::BaseMoment(building) => self.base_moment[building],
         }
     }
 
@@ -111,6 +135,18 @@ impl Peaks {
         self.at = [f64::NAN; 3];
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             self.building(context, method, building, range[0], place);
+        }
+        for section in system.sections() {
+            let mut force = Polynomial::default();
+            for (i, weight) in section.terms() {
+                for (sum, c) in force.iter_mut().zip(method.polynomial(i)) {
+                    *sum += weight * c;
+                }
+            }
+            let peak = self.section(section.place);
+            if let Some((theta, top)) = absolute_maximum(&force, peak.value) {
+                peak.raise(top, context.segment.start + place.0 + theta * place.1);
+            }
         }
         for k in 0..context.contacts.closed().len() {
             let level = context.contacts.closed()[k];
@@ -196,10 +232,10 @@ impl Peaks {
             {
                 let time = start + theta * step;
                 peaks.drift_ratio.raise(top / height, time);
-                if building.laws()[storey].is_none() {
-                    peaks
-                        .storey_shear
-                        .raise(building.stiffness()[storey] * top, time);
+                if let (None, Some(stiffness)) =
+                    (&building.laws()[storey], building.stiffness().get(storey))
+                {
+                    peaks.storey_shear.raise(stiffness * top, time);
                 }
             }
             below = Some(u);

@@ -1,7 +1,7 @@
 //! How fast buildings, contacts and elements can move by themselves.
 
 use pounding_hysteresis::History;
-use pounding_shear_building::{Damping, DampingMatrix, ShearBuilding};
+use pounding_shear_building::{Damping, ShearBuilding};
 use std::sync::Arc;
 
 use crate::dynamics::Layout;
@@ -156,13 +156,7 @@ fn coupled(building: &ShearBuilding) -> f64 {
 /// Bound of the eigenvalues of `M^-1/2 C M^-1/2` by Gershgorin's discs.
 fn damping_rate(building: &ShearBuilding) -> f64 {
     let (n, mass) = (building.storeys(), building.mass());
-    let entry = |i: usize, j: usize| -> f64 {
-        match building.damping_matrix() {
-            DampingMatrix::Dense(c) => c[(i, j)],
-            DampingMatrix::Tridiagonal(c) if i == j => c.diagonal[i],
-            DampingMatrix::Tridiagonal(c) => c.off_diagonal[i.min(j)],
-        }
-    };
+    let entry = |i: usize, j: usize| building.damping_matrix().entry(i, j);
     let row = |i: usize| -> f64 {
         (i.saturating_sub(1)..n.min(i + 2))
             .map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())

@@ -218,8 +218,16 @@ pub(crate) fn fill(
         out.force[l] = forces[l];
     }
     out.storey_shear.clear();
+    let mut sections = system.sections().iter();
     for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
         let mut below = 0.0;
+        if building.stiffness().is_empty() {
+            let shears = sections.by_ref().take(building.storeys());
+            out.storey_shear.extend(shears.map(|s| s.at(u)));
+            // The base moment.
+            sections.next();
+            continue;
+        }
         for (k, u) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
             out.storey_shear.push(k * (u - below));
             below = *u;

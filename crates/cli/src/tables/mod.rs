@@ -278,7 +278,9 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
                 (i + 1).to_string(),
                 format!("{}", b.elevations()[i]),
                 format!("{}", b.mass()[i]),
-                format!("{:e}", b.stiffness()[i]),
+                b.stiffness()
+                    .get(i)
+                    .map_or_else(|| "matrix".to_owned(), |k| format!("{k:e}")),
                 (i + 1).to_string(),
                 decimal(modes.period[i], 5),
                 format!("{:.3}", 100.0 * modes.damping_ratio[i]),

@@ -27,6 +27,7 @@ pub(crate) use clock::Clock;
 pub(crate) use pair::{Pair, Scene};
 pub(crate) use peaks::{
     Rates, Tracks, begin_acceleration, note_floors_of_series, note_floors_of_span,
+    note_sections_of_series, note_sections_of_span,
 };
 pub(crate) use reach::NEAR;
 pub(crate) use rows::{FloorRows, LevelRows, ModalRow, closings, stored};

@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 
 use super::pair::Scene;
-use super::rows::FloorRows;
+use super::rows::{FloorRows, ModalRow};
 use super::series::Series;
 use super::span::Span;
 use crate::contact_free::{
@@ -64,6 +64,51 @@ pub(crate) fn note_floors_of_series(
         }
         inside_series(rows, series, which, track, start);
         raise(track, end);
+    }
+}
+
+/// Takes the peaks of the forces in sections within a series, that ends at these modal
+/// displacements; `track` holds the values at its start.
+pub(crate) fn note_sections_of_series(
+    rows: &[ModalRow],
+    series: &Series,
+    displacement: &[Lane],
+    track: &mut Track,
+    start: f64,
+) {
+    for (i, row) in rows.iter().enumerate() {
+        let (c, l) = (i / WIDTH, i % WIDTH);
+        let ends = (track.now[c][l], row.dot(displacement));
+        track.now[c][l] = ends.1;
+        take(track, i, ends.1.abs(), start + series.step());
+        let over = 0.125 * row.dot_magnitudes(&series.bend);
+        if !could_turn(ends, over, track.peak[c][l]) {
+            continue;
+        }
+        let terms = series.row(row);
+        let fitted = fit(&series.at_nodes(&terms));
+        if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
+            let value = series.at(&terms, theta).0.abs();
+            take(track, i, value, start + theta * series.step());
+        }
+    }
+}
+
+/// The same within a step of the pair.
+pub(crate) fn note_sections_of_span(
+    rows: &[ModalRow],
+    span: &Span<'_>,
+    track: &mut Track,
+    start: f64,
+) {
+    for (i, row) in rows.iter().enumerate() {
+        let (a, b) = span.row(row, 0.0);
+        let (c, l) = (i / WIDTH, i % WIDTH);
+        track.now[c][l] = b[0];
+        let force = span.displacement(a, b);
+        if let Some((theta, top)) = absolute_maximum(&force, track.peak[c][l]) {
+            take(track, i, top, start + span.clock.offset(theta));
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 
 use crate::contact_free::{ContactFree, Lane, WIDTH};
-use crate::system::{ContactLevel, System};
+use crate::system::{ContactLevel, SectionForce, System};
 
 /// One linear function of the modal displacements, over the lanes where it is not zero.
 #[derive(Debug, Clone)]
@@ -13,6 +13,13 @@ pub(crate) struct ModalRow {
 }
 
 impl ModalRow {
+    /// Its weight on a mode.
+    pub(crate) fn weight(&self, mode: usize) -> f64 {
+        let lane = (mode / WIDTH).checked_sub(self.first_lane);
+        let lane = lane.and_then(|c| self.weights.get(c));
+        lane.map_or(0.0, |lane| lane[mode % WIDTH])
+    }
+
     /// Its weights on all of the first `LANES` lanes.
     #[inline(always)]
     pub(super) fn spread<const LANES: usize>(&self) -> [Lane; LANES] {
@@ -29,6 +36,8 @@ impl ModalRow {
 pub(crate) struct FloorRows {
     pub floors: Vec<ModalRow>,
     pub drifts: Vec<ModalRow>,
+    /// Forces in sections, as [`System::sections`] has them.
+    pub sections: Vec<ModalRow>,
     /// Maximum entry of each mode at any floor, and of any difference from floor to floor.
     pub size: Vec<Lane>,
     pub drift_size: Vec<Lane>,
@@ -216,7 +225,8 @@ impl FloorRows {
         total(&sum)
     }
 
-    pub(crate) fn new(constants: &ContactFree, mass: &[f64]) -> Self {
+    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
+        let mass = system.mass();
         // Columns of Phi' M over the masses are the floors' rows of Phi.
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
             let inverse = &constants.inverse[constants.building[i]];
@@ -236,6 +246,10 @@ impl FloorRows {
             .map(|i| ModalRow::new(&[floor(i, 1.0)]))
             .collect();
         let drifts: Vec<_> = rows.map(drift).collect();
+        let section = |force: &SectionForce| {
+            let parts = force.terms().map(|(i, weight)| floor(i, weight));
+            ModalRow::new(&parts.collect::<Vec<_>>())
+        };
         let largest = |rows: &[ModalRow]| {
             let mut size = vec![Lane::ZERO; constants.modes.len()];
             for row in rows {
@@ -250,6 +264,7 @@ impl FloorRows {
         Self {
             size: largest(&floors),
             drift_size: largest(&drifts),
+            sections: system.sections().iter().map(section).collect(),
             drifts,
             floors,
         }

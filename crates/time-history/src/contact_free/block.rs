@@ -49,10 +49,12 @@ pub(super) struct Block {
     between: Vec<(Option<usize>, Option<usize>)>,
     /// Absolute floor acceleration, unless it is low.
     pub accelerations: Extremes,
-    /// Bounds of the overshoots of displacement, drift and absolute acceleration, and
-    /// whether they are each floor's own.
-    pub over: [Vec<Lane>; 3],
-    own: [bool; 3],
+    /// Forces in sections.
+    pub sections: Extremes,
+    /// Bounds of the overshoots of displacement, drift, absolute acceleration and force in
+    /// sections, and whether they are each floor's own.
+    pub over: [Vec<Lane>; 4],
+    own: [bool; 4],
     /// Maximum ground acceleration and slope.
     largest: (f64, f64),
     modal: Vec<Lane>,
@@ -91,6 +93,7 @@ impl Block {
     pub(super) fn new(system: &System) -> Self {
         let lanes = system.degrees_of_freedom().div_ceil(WIDTH);
         let levels = system.levels().len();
+        let sections = system.sections().len().div_ceil(WIDTH);
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             end: Modal::new(lanes),
@@ -103,8 +106,9 @@ impl Block {
             levels: Extremes::new(levels.div_ceil(WIDTH)),
             between: system.levels().iter().map(|l| (l.left, l.right)).collect(),
             accelerations: Extremes::new(lanes),
-            over: [zeros(), zeros(), zeros()],
-            own: [false; 3],
+            sections: Extremes::new(sections),
+            over: [zeros(), zeros(), zeros(), vec![Lane::ZERO; sections]],
+            own: [false; 4],
             largest: (0.0, 0.0),
             modal: zeros(),
         }
@@ -139,6 +143,7 @@ impl Block {
             Quantity::Displacement => &self.floors,
             Quantity::Drift => &self.drifts,
             Quantity::Acceleration => &self.accelerations,
+            Quantity::SectionForce => &self.sections,
         }
     }
 }
@@ -177,6 +182,14 @@ pub(super) fn propagate(
         bound_overshoots(constants, block, [2], large);
     }
     rows(&constants.floor_rows, block, !low);
+    if !constants.section_rows.is_empty() {
+        bound_sections(constants, block);
+        for (c, row) in constants.section_rows.iter().enumerate() {
+            let sums = products(row, &block.displacement, count);
+            block.sections.top[c] = maximum(&sums);
+            block.sections.values[c] = sums;
+        }
+    }
     drifts(&constants.above, &block.floors, &mut block.drifts);
     levels(&block.between, &block.floors, &mut block.levels);
     low
@@ -231,6 +244,25 @@ fn bound_overshoots<const COUNT: usize>(
                 over[i / WIDTH][i % WIDTH] = bound;
             }
         }
+    }
+}
+
+/// Bounds overshoots of the forces in sections over the block.
+#[inline(always)]
+fn bound_sections(constants: &ContactFree, block: &mut Block) {
+    let modal = &mut block.modal;
+    modal_overshoots(constants, &block.size, block.largest.0, modal);
+    block.own[Quantity::SectionForce as usize] = true;
+    let over = &mut block.over[Quantity::SectionForce as usize];
+    for (over, rows) in over.iter_mut().zip(&constants.section_rows) {
+        let mut sum = Lane::ZERO;
+        for (j, column) in rows.columns.iter().enumerate() {
+            let x = at(modal, rows.first_mode + j);
+            for l in 0..WIDTH {
+                sum[l] += column[l].abs() * x;
+            }
+        }
+        *over = sum;
     }
 }
 

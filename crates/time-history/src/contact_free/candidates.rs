@@ -18,12 +18,14 @@ pub(super) enum Quantity {
     Displacement,
     Drift,
     Acceleration,
+    SectionForce,
 }
 
 /// A sample in which a floor's function could turn above its peak.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     quantity: Quantity,
+    /// Number of the floor, or of the section.
     floor: usize,
     /// Number of the sample at its start.
     sample: usize,
@@ -52,12 +54,13 @@ pub(super) struct Candidates {
 const CANDIDATES: usize = 512;
 const SNAPSHOTS: usize = 64;
 
-/// Tracks of displacement, drift and acceleration.
-pub(super) type Three<'a> = [&'a mut Track; 3];
+/// Tracks of displacement, drift, acceleration and forces in sections.
+pub(super) type AllTracks<'a> = [&'a mut Track; 4];
 
 impl Candidates {
-    pub(super) fn new(lanes: usize, dofs: usize) -> Self {
-        let capacity = CANDIDATES.max(2 * 3 * BLOCK * dofs);
+    /// For so many functions.
+    pub(super) fn new(lanes: usize, functions: usize) -> Self {
+        let capacity = CANDIDATES.max(2 * BLOCK * functions);
         Self {
             list: Vec::with_capacity(capacity),
             capacity,
@@ -73,7 +76,7 @@ impl Candidates {
     pub(super) fn make_room(
         &mut self,
         (constants, system): (&ContactFree, &System),
-        tracks: &mut Three<'_>,
+        tracks: &mut AllTracks<'_>,
         wanted: usize,
     ) {
         if self.list.len() + wanted <= self.capacity && self.used < SNAPSHOTS {
@@ -115,7 +118,7 @@ impl Candidates {
     }
 
     /// Drops what lies below the peaks by now.
-    fn prune(&mut self, tracks: &Three<'_>) {
+    fn prune(&mut self, tracks: &AllTracks<'_>) {
         self.list.retain(|c| is_above(c, tracks));
         // Candidates are in order of their snapshots: close the gaps between those.
         let (mut kept, mut last) = (0, usize::MAX);
@@ -138,7 +141,7 @@ impl Candidates {
     pub(super) fn settle(
         &mut self,
         (constants, system): (&ContactFree, &System),
-        tracks: &mut Three<'_>,
+        tracks: &mut AllTracks<'_>,
     ) {
         let mut list = std::mem::take(&mut self.list);
         list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
@@ -157,7 +160,7 @@ impl Candidates {
         &mut self,
         (constants, system): (&ContactFree, &System),
         group: &[Candidate],
-        tracks: &mut Three<'_>,
+        tracks: &mut AllTracks<'_>,
     ) {
         let first = group[0];
         let (sample, samples) = (first.sample, &system.ground().samples);
@@ -199,7 +202,7 @@ impl Candidates {
 }
 
 /// Whether a candidate could still be above its peak.
-fn is_above(candidate: &Candidate, tracks: &Three<'_>) -> bool {
+fn is_above(candidate: &Candidate, tracks: &AllTracks<'_>) -> bool {
     let (c, l) = (candidate.floor / WIDTH, candidate.floor % WIDTH);
     candidate.upper > tracks[candidate.quantity as usize].peak[c][l]
 }

@@ -116,6 +116,8 @@ impl CloserLook {
                     floors[floor.saturating_sub(1) / WIDTH] = true;
                 }
                 Quantity::Acceleration => absolute[floor / WIDTH] = true,
+                // A row on the modes.
+                Quantity::SectionForce => {}
             }
         }
         self.end.modes[0].copy_from_slice(&modal.displacement);
@@ -190,7 +192,7 @@ impl CloserLook {
     }
 
     /// A floor's function over the fine step: displacement, drift or absolute
-    /// acceleration.
+    /// acceleration; or the force in a section.
     pub(super) fn function(
         &mut self,
         constants: &ContactFree,
@@ -209,6 +211,18 @@ impl CloserLook {
             Quantity::Acceleration => {
                 self.derive_absolute(constants);
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
+                septic(at(&self.start), at(&self.end))
+            }
+            Quantity::SectionForce => {
+                let row = &constants.rows.sections[floor];
+                let at = |point: &Point| {
+                    let mut factor = 1.0;
+                    std::array::from_fn(|k| {
+                        let value = factor * row.dot(&point.modes[k]);
+                        factor *= self.step;
+                        value
+                    })
+                };
                 septic(at(&self.start), at(&self.end))
             }
         }

@@ -30,6 +30,8 @@ pub(crate) struct ContactFree {
     pub building: Vec<usize>,
     /// Floors from modes, for blocks.
     pub floor_rows: Vec<Rows>,
+    /// Forces in sections from modes, for blocks.
+    pub section_rows: Vec<Rows>,
     /// One where a floor has another one below it.
     pub above: Vec<Lane>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
@@ -59,7 +61,8 @@ impl ContactFree {
         let mut this = Self::with_step(system, step);
         this.add_rows();
         this.fastest = fastest_rate(system.buildings());
-        this.rows = FloorRows::new(&this, system.mass());
+        this.rows = FloorRows::new(&this, system);
+        this.add_sections();
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {
             parts: parts as usize,
@@ -106,6 +109,7 @@ impl ContactFree {
             drift_magnitudes: Vec::new(),
             building: Vec::new(),
             floor_rows: Vec::new(),
+            section_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             fine: Fine::default(),
         }
@@ -179,6 +183,18 @@ impl ContactFree {
             let same = self.building[i] == self.building[i - 1];
             self.above[i / WIDTH][i % WIDTH] = f64::from(u8::from(same));
         }
+    }
+
+    /// The same of the forces in sections.
+    fn add_sections(&mut self) {
+        let (modes, sections) = (self.building.len(), &self.rows.sections);
+        let lanes = sections.chunks(WIDTH).map(|sections| Rows {
+            first_mode: 0,
+            columns: (0..modes)
+                .map(|mode| Lane::from_fn(|l| sections.get(l).map_or(0.0, |s| s.weight(mode))))
+                .collect(),
+        });
+        self.section_rows = lanes.collect();
     }
 
     /// Bounds, with `e = |q'| + omega |q|` and `e* = e + |gamma| h A` for the sample:

@@ -14,7 +14,8 @@ use crate::contact_episode::{LevelRows, Tracks};
 use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
-use crate::outcome::{Peak, StoreyPeaks};
+use crate::outcome::Peak;
+use crate::peaks::Peaks;
 use crate::system::System;
 
 /// What is to be advanced.
@@ -99,6 +100,7 @@ pub(crate) struct ContactFreePhase {
     displacement: Track,
     drift: Track,
     acceleration: Track,
+    sections: Track,
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
     /// Present penetrations.
@@ -120,12 +122,14 @@ impl ContactFreePhase {
     pub(crate) fn new(system: &System) -> Self {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
+        let sections = system.sections().len();
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
             displacement: Track::new(dofs),
             drift: Track::new(dofs),
             acceleration: Track::new(dofs),
+            sections: Track::new(sections),
             acceleration_known: false,
             penetration: vec![0.0; system.levels().len()],
             holds_state: false,
@@ -134,7 +138,7 @@ impl ContactFreePhase {
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
-            candidates: Candidates::new(lanes, dofs),
+            candidates: Candidates::new(lanes, 3 * dofs + sections),
             block_start: Modal::new(lanes),
         }
     }
@@ -144,7 +148,7 @@ impl ContactFreePhase {
         &mut self,
         constants: &ContactFree,
         (system, contacts): (&System, &Contacts),
-        peaks: &[StoreyPeaks],
+        peaks: &Peaks,
         state: &[f64],
     ) {
         if self.holds_state {
@@ -163,6 +167,9 @@ impl ContactFreePhase {
         spread(&state[..n], &mut self.displacement.now);
         let u = &self.displacement.now;
         drifts(&constants.shapes, u, &mut self.drift.now);
+        for (i, section) in system.sections().iter().enumerate() {
+            self.sections.now[i / WIDTH][i % WIDTH] = section.at(&state[..n]);
+        }
         self.acceleration_known = false;
         for (l, penetration) in self.penetration.iter_mut().enumerate() {
             *penetration = contacts.penetration(system, l, &state[..n]);
@@ -176,7 +183,7 @@ impl ContactFreePhase {
         &mut self,
         constants: &ContactFree,
         system: &System,
-        peaks: &mut [StoreyPeaks],
+        peaks: &mut Peaks,
         state: &mut [f64],
     ) {
         if self.holds_state {
@@ -193,17 +200,13 @@ impl ContactFreePhase {
     }
 
     /// Settles what could still be a peak.
-    pub(crate) fn finish(
-        &mut self,
-        constants: &ContactFree,
-        system: &System,
-        peaks: &mut [StoreyPeaks],
-    ) {
+    pub(crate) fn finish(&mut self, constants: &ContactFree, system: &System, peaks: &mut Peaks) {
         self.read_peaks(system, peaks);
         let tracks = &mut [
             &mut self.displacement,
             &mut self.drift,
             &mut self.acceleration,
+            &mut self.sections,
         ];
         self.candidates.settle((constants, system), tracks);
         self.write_peaks(system, peaks);
@@ -221,6 +224,11 @@ impl ContactFreePhase {
             transform(&constants.shapes, modal, &mut self.modal);
             gather(&self.modal, &mut state[place..place + n]);
         }
+    }
+
+    /// Forces in sections.
+    pub(crate) fn sections(&mut self) -> &mut Track {
+        &mut self.sections
     }
 
     /// The floors' functions that have peaks.
@@ -327,16 +335,28 @@ impl ContactFreePhase {
         }
     }
 
-    fn read_peaks(&mut self, system: &System, peaks: &[StoreyPeaks]) {
+    fn read_peaks(&mut self, system: &System, peaks: &Peaks) {
+        for (i, section) in system.sections().iter().enumerate() {
+            let peak = peaks.of_section(section.place);
+            let (c, l) = (i / WIDTH, i % WIDTH);
+            self.sections.peak[c][l] = peak.value;
+            self.sections.time[c][l] = peak.time;
+        }
         for (range, building) in system.offsets().windows(2).zip(system.buildings()) {
             for i in range[0]..range[1] {
                 let (c, l) = (i / WIDTH, i % WIDTH);
                 let storey = i - range[0];
-                let p = &peaks[i];
+                let p = &peaks.storeys[i];
                 self.displacement.peak[c][l] = p.displacement.value;
                 self.displacement.time[c][l] = p.displacement.time;
-                self.drift.peak[c][l] = p.storey_shear.value / building.stiffness()[storey];
-                self.drift.time[c][l] = p.storey_shear.time;
+                let drift = match building.stiffness().get(storey) {
+                    Some(stiffness) => (p.storey_shear.value / stiffness, p.storey_shear.time),
+                    None => {
+                        let height = building.height()[storey];
+                        (p.drift_ratio.value * height, p.drift_ratio.time)
+                    }
+                };
+                (self.drift.peak[c][l], self.drift.time[c][l]) = drift;
                 self.acceleration.peak[c][l] = p.acceleration_absolute.value;
                 self.acceleration.time[c][l] = p.acceleration_absolute.time;
             }
@@ -363,11 +383,13 @@ impl ContactFreePhase {
         if clear == 0 {
             return 0;
         }
-        let wanted = 3 * BLOCK * range.system.degrees_of_freedom();
+        let functions = 3 * range.system.degrees_of_freedom() + range.system.sections().len();
+        let wanted = BLOCK * functions;
         let tracks = &mut [
             &mut self.displacement,
             &mut self.drift,
             &mut self.acceleration,
+            &mut self.sections,
         ];
         let place = (constants, range.system);
         self.candidates.make_room(place, tracks, wanted);
@@ -386,6 +408,7 @@ impl ContactFreePhase {
         let block = &self.block;
         block.floors.copy_after(clear, &mut self.displacement.now);
         block.drifts.copy_after(clear, &mut self.drift.now);
+        block.sections.copy_after(clear, &mut self.sections.now);
         if !low {
             let now = &mut self.acceleration.now;
             block.accelerations.copy_after(clear, now);
@@ -404,6 +427,7 @@ impl ContactFreePhase {
             (Quantity::Displacement, &mut self.displacement),
             (Quantity::Drift, &mut self.drift),
             (Quantity::Acceleration, &mut self.acceleration),
+            (Quantity::SectionForce, &mut self.sections),
         ];
         for (quantity, track) in all {
             let low = low && quantity == Quantity::Acceleration;
@@ -419,7 +443,11 @@ impl ContactFreePhase {
             }
             let values = block.values(quantity);
             let over = &block.over[quantity as usize];
-            for floor in 0..constants.building.len() {
+            let count_of = match quantity {
+                Quantity::SectionForce => constants.rows.sections.len(),
+                _ => constants.building.len(),
+            };
+            for floor in 0..count_of {
                 let (c, l) = (floor / WIDTH, floor % WIDTH);
                 let top = values.top[c][l].max(track.now[c][l].abs());
                 let over = over[c][l];
@@ -447,21 +475,27 @@ impl ContactFreePhase {
         }
     }
 
-    fn write_peaks(&self, system: &System, peaks: &mut [StoreyPeaks]) {
+    fn write_peaks(&self, system: &System, peaks: &mut Peaks) {
         let raise = |track: &Track, i: usize, factor: f64, peak: &mut Peak| {
             let (c, l) = (i / WIDTH, i % WIDTH);
             peak.raise(track.peak[c][l] * factor, track.time[c][l]);
         };
+        for (i, section) in system.sections().iter().enumerate() {
+            raise(&self.sections, i, 1.0, peaks.section(section.place));
+        }
         for (range, building) in system.offsets().windows(2).zip(system.buildings()) {
             for i in range[0]..range[1] {
                 let storey = i - range[0];
-                let p = &mut peaks[i];
+                let p = &mut peaks.storeys[i];
                 raise(&self.displacement, i, 1.0, &mut p.displacement);
-                let stiffness = building.stiffness()[storey];
-                let before = p.storey_shear.value;
-                raise(&self.drift, i, stiffness, &mut p.storey_shear);
-                if p.storey_shear.value > before {
-                    let height = building.height()[storey];
+                let height = building.height()[storey];
+                if let Some(stiffness) = building.stiffness().get(storey) {
+                    let before = p.storey_shear.value;
+                    raise(&self.drift, i, *stiffness, &mut p.storey_shear);
+                    if p.storey_shear.value > before {
+                        raise(&self.drift, i, 1.0 / height, &mut p.drift_ratio);
+                    }
+                } else {
                     raise(&self.drift, i, 1.0 / height, &mut p.drift_ratio);
                 }
                 raise(&self.acceleration, i, 1.0, &mut p.acceleration_absolute);

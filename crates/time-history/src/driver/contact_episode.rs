@@ -126,7 +126,7 @@ impl Driver<'_> {
             phase,
             contact_episode,
         } = &mut *open;
-        let (system, peaks) = ((self.system, &self.contacts), &self.peaks.storeys);
+        let (system, peaks) = ((self.system, &self.contacts), &self.peaks);
         phase.take_state(constants, system, peaks, &self.state);
         let [q, p, ..] = &mut contact_episode.pair.start.motion;
         contact_episode.listed = false;
@@ -158,7 +158,7 @@ impl Driver<'_> {
 
     /// Leaves the coordinates of the modes.
     fn leave(&mut self, open: &mut Open<'_>, time: f64) -> Result<(), TimeHistoryError> {
-        let peaks = &mut self.peaks.storeys;
+        let peaks = &mut self.peaks;
         open.phase
             .return_state(open.constants, self.system, peaks, &mut self.state);
         self.method.restart(true);
@@ -169,7 +169,7 @@ impl Driver<'_> {
     pub(super) fn leave_for_good(&mut self, time: f64) -> Result<(), TimeHistoryError> {
         if let Some(mut open) = self.open.take() {
             self.leave(&mut open, time)?;
-            let peaks = &mut self.peaks.storeys;
+            let peaks = &mut self.peaks;
             open.phase.finish(open.constants, self.system, peaks);
             self.open = Some(open);
         }

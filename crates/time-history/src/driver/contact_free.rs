@@ -57,7 +57,7 @@ impl Driver<'_> {
         phase.take_state(
             constants,
             (self.system, &self.contacts),
-            &self.peaks.storeys,
+            &self.peaks,
             &self.state,
         );
         let mut accounts = EnergyAccounts {

@@ -4,7 +4,8 @@ use super::contact_episode::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
 use crate::contact_episode::{
     Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
-    closings, in_series, in_span, note_floors_of_series, note_floors_of_span, soon_after,
+    closings, in_series, in_span, note_floors_of_series, note_floors_of_span,
+    note_sections_of_series, note_sections_of_span, soon_after,
 };
 use crate::contact_free::{ContactFreePhase, Lane, add, scale};
 use crate::dense_output::{ModalStep, Motion, Observers};
@@ -143,6 +144,9 @@ impl Driver<'_> {
             &mut phase.tracks(),
             start,
         );
+        let sections = &constants.rows.sections;
+        let end = &e.pair.end.motion[0];
+        note_sections_of_series(sections, &e.series, end, phase.sections(), start);
         phase.acceleration_known = true;
         e.series.contact_works();
         for touch in &e.series.touches {
@@ -234,6 +238,7 @@ impl Driver<'_> {
             })?;
         }
         note_floors_of_span(&scene, &span, &mut e.rates, &mut phase.tracks(), start);
+        note_sections_of_span(&constants.rows.sections, &span, phase.sections(), start);
         self.note_contacts(&scene, &span, &e.pair, start);
         closings(&e.rows, &e.pair.end.motion[0], &mut e.closings);
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);

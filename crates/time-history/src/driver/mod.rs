@@ -202,7 +202,7 @@ impl<'a> Driver<'a> {
             method: options.build_method(system),
             contacts,
             finder: Finder::new(layout),
-            peaks: Peaks::new(layout, system.elements().len()),
+            peaks: Peaks::new(layout, system.buildings().len(), system.elements().len()),
             log: ImpactLog::new(system),
             ledger: Ledger {
                 largest_input: state[layout.input()],

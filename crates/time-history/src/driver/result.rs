@@ -46,9 +46,11 @@ impl Driver<'_> {
             .buildings()
             .iter()
             .zip(self.system.offsets().windows(2))
-            .map(|(b, range)| BuildingOutcome {
+            .zip(&self.peaks.base_moment)
+            .map(|((b, range), base_moment)| BuildingOutcome {
                 name: b.name().to_owned(),
                 storeys: self.peaks.storeys[range[0]..range[1]].to_vec(),
+                base_moment: b.stiffness().is_empty().then_some(*base_moment),
                 yielding: vec![None; b.storeys()],
             })
             .collect();

@@ -1,7 +1,7 @@
 //! The matrix of implicit steps, `M + c C + k K`, factored building by building.
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
-use pounding_shear_building::{DampingMatrix, ShearBuilding, TridiagonalFactor};
+use pounding_shear_building::{DampingMatrix, ShearBuilding, StiffnessMatrix, TridiagonalFactor};
 
 use crate::system::System;
 
@@ -26,11 +26,11 @@ impl EffectiveMass {
         let factors = system
             .buildings()
             .iter()
-            .map(|b| match b.damping_matrix() {
-                DampingMatrix::Tridiagonal(_) => {
+            .map(|b| match (b.damping_matrix(), b.stiffness_matrix()) {
+                (DampingMatrix::Tridiagonal(_), StiffnessMatrix::Tridiagonal(_)) => {
                     Factor::Tridiagonal(TridiagonalFactor::new(b.storeys()))
                 }
-                DampingMatrix::Dense(_) => Factor::Dense(None),
+                _ => Factor::Dense(None),
             })
             .collect();
         let dofs = system.degrees_of_freedom();
@@ -64,11 +64,14 @@ impl EffectiveMass {
         building: &ShearBuilding,
         (c, k): (f64, f64),
     ) -> bool {
-        let stiffness = building.stiffness_matrix();
         let mass = building.mass();
         let n = mass.len();
-        match (building.damping_matrix(), &mut self.factors[index]) {
-            (DampingMatrix::Tridiagonal(damping), Factor::Tridiagonal(f)) => {
+        let matrices = (building.damping_matrix(), building.stiffness_matrix());
+        match (matrices, &mut self.factors[index]) {
+            (
+                (DampingMatrix::Tridiagonal(damping), StiffnessMatrix::Tridiagonal(stiffness)),
+                Factor::Tridiagonal(f),
+            ) => {
                 for i in 0..n {
                     self.diagonal[i] =
                         mass[i] + c * damping.diagonal[i] + k * stiffness.diagonal[i];
@@ -80,15 +83,10 @@ impl EffectiveMass {
                 f.factor(&self.diagonal[..n], &self.off_diagonal[..n - 1])
                     .is_ok()
             }
-            (DampingMatrix::Dense(damping), Factor::Dense(f)) => {
+            ((damping, stiffness), Factor::Dense(f)) => {
                 let a = DMatrix::from_fn(n, n, |i, j| {
-                    let spring = match i.abs_diff(j) {
-                        0 => stiffness.diagonal[i],
-                        1 => stiffness.off_diagonal[i.min(j)],
-                        _ => 0.0,
-                    };
                     let inertia = if i == j { mass[i] } else { 0.0 };
-                    inertia + c * damping[(i, j)] + k * spring
+                    inertia + c * damping.entry(i, j) + k * stiffness.entry(i, j)
                 });
                 *f = a.cholesky();
                 f.is_some()

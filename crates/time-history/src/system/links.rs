@@ -162,7 +162,11 @@ pub(super) fn storeys(
     let (mut spring, mut elements) = (Vec::new(), Vec::new());
     for (b, building) in buildings.iter().enumerate() {
         for (storey, law) in building.laws().iter().enumerate() {
-            let elastic = building.stiffness()[storey];
+            let Some(elastic) = building.stiffness().get(storey).copied() else {
+                // The energy of the matrix is that of the whole building.
+                spring.push(0.0);
+                continue;
+            };
             let geometric = building.geometric_stiffness()[storey];
             let dof = offsets[b] + storey;
             let Some(StoreyLaw { law, yield_drift }) = law else {

@@ -2,18 +2,22 @@
 
 mod level_place;
 mod links;
+mod sections;
 mod under;
 mod unequal_floors;
 
+use nalgebra::{DMatrix, DVectorView};
 use pounding_gap_element::ImpactModel;
 use pounding_shear_building::{
-    DampingMatrix, ELEVATION_TOLERANCE, ShearBuilding, SymmetricTridiagonal,
+    DampingMatrix, ELEVATION_TOLERANCE, ShearBuilding, StiffnessMatrix, SymmetricTridiagonal,
 };
 use std::sync::{Arc, OnceLock};
 
 pub use level_place::LevelPlace;
 use links::storeys;
 pub use links::{Link, LinkedPair};
+use sections::section_forces;
+pub(crate) use sections::{SectionForce, SectionPlace};
 pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
@@ -92,6 +96,7 @@ pub struct System {
     /// Stiffness of every storey that stores strain energy (N/m): what its law does not.
     spring: Vec<f64>,
     elements: Vec<Element>,
+    sections: Vec<SectionForce>,
     links: Vec<Link>,
     bands: Option<Bands>,
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with
@@ -110,12 +115,14 @@ impl System {
             offsets.push(mass.len());
         }
         let (spring, elements) = storeys(&buildings, &offsets);
+        let sections = section_forces(&buildings, &offsets);
         Self {
             offsets,
             gaps: Vec::new(),
             levels: Vec::new(),
             spring,
             elements,
+            sections,
             links: Vec::new(),
             ground,
             initial: vec![0.0; 2 * mass.len()],
@@ -353,6 +360,11 @@ impl System {
         self.mass.len()
     }
 
+    /// Shears and moments that are rows on the floors.
+    pub(crate) fn sections(&self) -> &[SectionForce] {
+        &self.sections
+    }
+
     /// Matrices of all buildings, if they are all tridiagonal.
     pub(crate) fn bands(&self) -> Option<&Bands> {
         self.bands.as_ref()
@@ -405,6 +417,12 @@ impl System {
     ) -> f64 {
         let index = self.offsets.partition_point(|first| *first <= i) - 1;
         let (building, first) = (&self.buildings[index], self.offsets[index]);
+        // The matrices are symmetric, and their columns stand together in memory.
+        let dense = |matrix: &DMatrix<f64>, x: &dyn Fn(usize) -> f64| -> f64 {
+            let column = matrix.column(i - first);
+            let entries = column.iter().enumerate();
+            entries.map(|(j, c)| c * x(first + j)).sum()
+        };
         let band = |matrix: &SymmetricTridiagonal, x: &dyn Fn(usize) -> f64| {
             let row = i - first;
             let mut sum = matrix.diagonal[row] * x(i);
@@ -418,25 +436,26 @@ impl System {
         };
         let damping = match building.damping_matrix() {
             DampingMatrix::Tridiagonal(c) => band(c, v),
-            // The matrix is symmetric, and its columns stand together in memory.
-            DampingMatrix::Dense(c) => {
-                let column = c.column(i - first);
-                column
-                    .iter()
-                    .enumerate()
-                    .map(|(j, c)| c * v(first + j))
-                    .sum()
-            }
+            DampingMatrix::Dense(c) => dense(c, v),
         };
-        band(building.stiffness_matrix(), u) + damping
+        let restoring = match building.stiffness_matrix() {
+            StiffnessMatrix::Tridiagonal(k) => band(k, u),
+            StiffnessMatrix::Dense(k) => dense(k, u),
+        };
+        restoring + damping
     }
 
     /// Recoverable energy in the linear storeys, and of gravity through P-Delta (J).
     pub(crate) fn strain_energy(&self, u: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for range in self.offsets.windows(2) {
+        for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
             let mut below = 0.0;
             let range = range[0]..range[1];
+            if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
+                let u = DVectorView::from_slice(&u[range.clone()], range.len());
+                sum += 0.5 * u.dot(&(k * u));
+                continue;
+            }
             for (k, x) in self.spring[range.clone()].iter().zip(&u[range]) {
                 let drift = x - below;
                 sum += 0.5 * k * drift * drift;

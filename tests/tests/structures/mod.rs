@@ -1,0 +1,5 @@
+//! Structures beyond shear buildings, held against converged references of independent
+//! codes and against their limits.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod condensed_stiffness;

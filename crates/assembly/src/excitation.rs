@@ -39,8 +39,7 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
     }
     for step in &motion.process {
         let refused = |e: GroundMotionError| case.error(step.span.clone(), e.to_string(), e.help());
-        let target = |spectrum: &SpectrumFile| read_target(spectrum, |path| case.resolve(path));
-        let made = step.value.with_target(target).map_err(refused)?;
+        let made = step.value.with_target(|spectrum| target(case, spectrum))?;
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
     Ok(record)
@@ -54,9 +53,23 @@ pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, A
     let Some(scale) = &case.ground_motion.scale else {
         return Ok(record);
     };
-    let scale = scale.with_target(|spectrum| read_target(spectrum, |path| case.resolve(path)))?;
-    let factor = scale.factor(&record)?;
+    let made = scale.value.with_target(|spectrum| target(case, spectrum))?;
+    let factor = made.factor(&record).map_err(|e| match e {
+        // What the scale asks for, not what the record is.
+        GroundMotionError::OutOfRange { .. } => {
+            let place = scale.span.clone();
+            AssemblyError::Case(case.error(place, e.to_string(), e.help()))
+        }
+        error => error.into(),
+    })?;
     Ok(record.scaled_by(factor)?)
+}
+
+/// The spectrum that a scale of the case names.
+fn target(case: &Case, spectrum: &SpectrumFile) -> Result<TargetSpectrum, CaseError> {
+    let place = || spectrum.file.span.clone();
+    read_target(spectrum, |path| case.resolve(path))
+        .map_err(|e| case.error(place(), e.to_string(), e.help()))
 }
 
 /// Reads the spectrum that a scale or a step of a case names. `resolve` finds its file.

@@ -160,7 +160,7 @@ fn refused_steps_point_at_themselves() {
         ("{ true_unit = \"cm/s\" }", 12, "velocity"),
         (
             "{ scale = { target = \"none.csv\", from = 1, to = 2 } }",
-            12,
+            33,
             "none.csv",
         ),
         (
@@ -178,4 +178,28 @@ fn refused_steps_point_at_themselves() {
     let case = Case::parse(&format!("{START}file = \"record.at2\""), path).unwrap();
     let text = assemble(&case).unwrap_err().to_string();
     assert!(text.contains("cannot read"), "{text}");
+}
+
+/// A scale that cannot be reached points at what asks for it, not at the record.
+#[test]
+fn refused_scales_point_at_themselves() {
+    for (scale, column, part) in [
+        (
+            "{ target = \"none.csv\", from = 1, to = 2 }",
+            20,
+            "none.csv",
+        ),
+        (
+            "{ target = \"two.txt\", from = 1, to = 2 }",
+            20,
+            "two columns",
+        ),
+        ("{ target = \"s.csv\", from = 1, to = 4 }", 9, "period = "),
+        ("{ psa = 1, period = 1e-9 }", 9, "period = 1e-9"),
+    ] {
+        let error = refused(&format!("scale = {scale}"));
+        assert_eq!((error.line, error.column), (12, column), "{error}");
+        assert!(error.message.contains(part), "{error}");
+        assert!(error.help.is_some());
+    }
 }

@@ -16,7 +16,7 @@ impl Case {
             ..
         } = &self.ground_motion;
         let steps = process.iter().filter_map(|step| step.value.target());
-        let targets = steps.chain(scale.as_ref().and_then(|scale| scale.target()));
+        let targets = steps.chain(scale.as_ref().and_then(|scale| scale.value.target()));
         let mut files = vec![("record", self.resolve(&file.value))];
         files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
         files

@@ -166,8 +166,9 @@ fn steps() {
 
 #[test]
 fn scales() {
-    let scale =
-        |text: &str| parse(&format!("scale = {text}")).map(|c| c.ground_motion.scale.unwrap());
+    let scale = |text: &str| {
+        parse(&format!("scale = {text}")).map(|c| c.ground_motion.scale.unwrap().value)
+    };
     assert_eq!(scale("2").unwrap(), Scale::Factor(2.0));
     assert_eq!(
         scale("{ pgv = \"40 cm/s\" }").unwrap(),
@@ -184,6 +185,14 @@ fn scales() {
 /// What is wrong, its column in line 9, and a part of message or remedy.
 const WRONG: &[(&str, usize, &str)] = &[
     ("rotate = 30", 10, "belong together"),
+    ("rotate = \"30 mm\"", 10, "a plain number of degrees"),
+    (
+        "rotate = \"30 deg\"\nsecond_component = \"90\"",
+        10,
+        "a plain number of degrees for example component = \"360\", second_component = \"90\", rotate = 30, in degrees",
+    ),
+    ("rotate = \"30°\"", 10, "a plain number of degrees"),
+    ("rotate = inf", 10, "not a finite number"),
     ("second_component = \"90\"", 20, "belong together"),
     ("gravity = \"9.81 m\"", 11, "must be an acceleration"),
     ("sensitivity = 0", 15, "greater than zero"),
@@ -220,6 +229,11 @@ const WRONG: &[(&str, usize, &str)] = &[
         "`high_pass`, `low_pass` or both",
     ),
     (
+        "process = [{ filter = { } }]",
+        23,
+        "`filter` needs `high_pass`, `low_pass` or both for example filter = { high_pass = \"0.1 Hz\", low_pass = \"25 Hz\" }; known keys: high_pass, low_pass, order, phase, keep_pads",
+    ),
+    (
         "process = [{ filter = { low_pass = 5, order = 0 } }]",
         47,
         "whole number from 1",
@@ -228,6 +242,16 @@ const WRONG: &[(&str, usize, &str)] = &[
         "process = [{ filter = { low_pass = 5, phase = \"minimum\" } }]",
         47,
         "write \"zero\" or \"causal\"",
+    ),
+    (
+        "process = [{ remove_offset = 0.1 }]",
+        30,
+        "must be a text in quotes, or a table, not a number write \"mean\", { pre_event = \"10 s\" } or { value = \"0.1 m/s2\" }",
+    ),
+    (
+        "process = [{ remove_offset = \"median\" }]",
+        30,
+        "cannot be \"median\" write \"mean\", { pre_event =",
     ),
     (
         "process = [{ remove_offset = { } }]",
@@ -259,7 +283,16 @@ const WRONG: &[(&str, usize, &str)] = &[
         29,
         "zero or more",
     ),
-    ("process = [{ taper = { } }]", 22, "`start`, `end` or both"),
+    (
+        "process = [{ taper = { } }]",
+        22,
+        "`start`, `end` or both for example taper = {",
+    ),
+    (
+        "process = [{ pad = { } }]",
+        20,
+        "`before`, `after` or both for example pad = {",
+    ),
     ("process = [{ resample = { } }]", 25, "time_step"),
     (
         "process = [{ scale = { pga = \"1 g\", pgv = 1 } }]",
@@ -267,6 +300,16 @@ const WRONG: &[(&str, usize, &str)] = &[
         "needs one of",
     ),
     ("scale = { psa = \"1 g\" }", 9, "period"),
+    (
+        "scale = { psa = \"1 g\", period = 1, damping = 1 }",
+        46,
+        "damping ratio 1 is not in 0..1",
+    ),
+    (
+        "scale = { target = \"a\", from = 1, to = 2, damping = \"120 %\" }",
+        53,
+        "damping ratio 1.2 is not in 0..1",
+    ),
     (
         "scale = { pga = \"1 g\", damping = 0.05 }",
         24,

@@ -4,8 +4,8 @@
 //! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves as SVG for the command line as well. Values are SI as in the result
 //! file; the page shows them in the units that engineers write. [`documentation`] has the
-//! reference pages of impact models and laws, and [`pictures`] draws what the laboratories, the
-//! motions and the gap check find.
+//! reference pages of impact models and laws, and [`pictures`] draws what runs, studies,
+//! laboratories and motions show.
 
 pub mod documentation;
 pub mod pictures;
@@ -20,7 +20,7 @@ mod result;
 
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
-pub use loops::{cycle_cells, deformation_panel};
+pub use loops::cycle_cells;
 pub use page::page;
 pub use result::{
     BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,

@@ -13,8 +13,7 @@ const TOLERANCE: f64 = 0.25;
 const EXTENT: Point = (850.0, 230.0);
 
 /// Force (kN) over deformation (mm) of named loops.
-#[must_use]
-pub fn deformation_panel(law: &str, loops: Vec<(String, &Loop)>) -> Panel {
+pub(crate) fn deformation_panel(law: &str, loops: Vec<(String, &Loop)>) -> Panel {
     let curves = loops.into_iter().map(|(name, driven)| {
         let states = driven.states.iter();
         (name, states.map(|s| (s.deformation, s.force)).collect())

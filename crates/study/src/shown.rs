@@ -51,11 +51,17 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
     // Replaced tables with headers of their own would leave their entries behind.
     let case = Case::parse(&text, &study.base.file).map_err(|e| not_shown(e.to_string()))?;
     match scale {
-        Some(scale) if case.ground_motion.scale != Some(Scale::Factor(scale)) => {
+        Some(scale) if !scaled_by(&case, scale) => {
             Err(not_shown("its `scale` cannot be replaced".to_owned()))
         }
         _ => Ok(text),
     }
+}
+
+/// Whether this is the scale of the case.
+fn scaled_by(case: &Case, factor: f64) -> bool {
+    let scale = case.ground_motion.scale.as_ref();
+    scale.is_some_and(|scale| scale.value == Scale::Factor(factor))
 }
 
 /// The case with a record in our own layout, and no word of its former one.

@@ -127,6 +127,8 @@ pub(crate) struct Elements {
     /// Which elements turned at this very instant: their velocity is zero but for
     /// round-off, which must not lead them over the ends of their new branch.
     pub turned: Vec<bool>,
+    /// How often each element changed its branch at this very instant.
+    pub changes: Vec<usize>,
 }
 
 /// Round-off of a coefficient over the largest of the motions that it is made from.
@@ -147,6 +149,7 @@ impl Elements {
         Self {
             histories: system.elements().iter().map(|e| e.law.virgin()).collect(),
             turned: vec![false; system.elements().len()],
+            changes: vec![0; system.elements().len()],
         }
     }
 

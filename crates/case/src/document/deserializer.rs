@@ -74,7 +74,8 @@ enum Held<'r> {
     Places(&'r Spanned<DeValue<'r>>),
 }
 
-/// What enums of words expect by `#[serde(expecting)]`; others are tables.
+/// What enums of words expect by `#[serde(expecting)]`, at least at its beginning; others are
+/// tables.
 const WORD: &str = "a text in quotes";
 
 /// What counts expect.
@@ -295,10 +296,19 @@ impl<'r> Value<'r> {
         Ok(keys)
     }
 
-    /// The one of several words that is written.
-    fn word(self, name: &str, words: &[&'static str], more: &str) -> Result<&'static str, Error> {
+    /// The one of several words that is written. `expecting` says what else may stand there,
+    /// and in a second line, for words with a name, what there is more to know of them, for
+    /// others the remedy.
+    fn word(
+        self,
+        name: &str,
+        words: &[&'static str],
+        expecting: &str,
+    ) -> Result<&'static str, Error> {
+        let (form, more) = expecting.split_once('\n').unwrap_or((expecting, ""));
         let DeValue::String(word) = self.given()?.get_ref() else {
-            return Err(self.wrong_type(WORD));
+            let wanted = if is_type(name) { expecting } else { form };
+            return Err(self.wrong_type(wanted));
         };
         if let Some(known) = words.iter().find(|known| *known == word) {
             return Ok(known);
@@ -307,7 +317,10 @@ impl<'r> Value<'r> {
         Err(Error::New(match is_type(name) {
             true => Fault::new(
                 format!(" cannot be \"{word}\""),
-                format!("write {}", known.join(" or ")),
+                match more {
+                    "" => format!("write {}", known.join(" or ")),
+                    more => more.to_owned(),
+                },
             ),
             false => Fault::new(
                 format!("unknown {name} \"{word}\""),
@@ -480,9 +493,8 @@ impl<'de> Deserializer<'de> for Value<'_> {
             });
         }
         let expecting = expected(&visitor);
-        let (expecting, more) = expecting.split_once('\n').unwrap_or((&expecting, ""));
-        if expecting == WORD {
-            let variant = self.word(name, variants, more)?;
+        if expecting.starts_with(WORD) {
+            let variant = self.word(name, variants, &expecting)?;
             return visitor.visit_enum(Kind {
                 variant,
                 value: self.with(self.key, Held::Text(variant)),

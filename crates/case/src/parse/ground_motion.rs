@@ -9,7 +9,8 @@ use serde::Deserialize;
 use super::process::Process;
 use super::scale::{FilePath, ScaleValue, scale_of};
 use crate::document::{
-    Acceleration, Count, Dimensioned, Entry, Field, Optional, Positive, Reader, Time,
+    Acceleration, Count, Dimensioned, Entry, Fault, Field, Optional, Positive, Reader, Time,
+    Written,
 };
 use crate::types::{GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
@@ -35,7 +36,7 @@ pub(super) struct MotionTable {
     second_component: Optional<String>,
     /// Angle (degrees, a plain number) by which two components at right angles are turned,
     /// first towards second; the first is used
-    rotate: Optional<Quantity>,
+    rotate: Optional<Degrees>,
     /// acceleration, the only quantity that excites buildings
     quantity: Optional<String>,
     /// Plain columns: lines to skip at the start
@@ -75,6 +76,31 @@ impl Dimensioned for Sensitivity {
     };
 }
 
+/// How a turn is written.
+const TURN: &str =
+    "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
+
+/// An angle in degrees, which has no unit: radians are pure numbers too.
+#[derive(Deserialize, JsonSchema)]
+#[serde(try_from = "Written")]
+struct Degrees(f64);
+
+impl TryFrom<Written> for Degrees {
+    type Error = Fault;
+    fn try_from(written: Written) -> Result<Self, Fault> {
+        let is_plain = written.is_plain();
+        match written.any() {
+            Ok(Quantity {
+                value,
+                dimension: None,
+                ..
+            }) => Ok(Self(value)),
+            Err(fault) if is_plain => Err(fault),
+            _ => Err(Fault::new(" is a plain number of degrees", TURN)),
+        }
+    }
+}
+
 impl MotionTable {
     /// The motion; of a table that could not be read, one without file.
     pub(super) fn read(self, reader: &Reader<'_>) -> GroundMotion {
@@ -105,7 +131,10 @@ impl MotionTable {
                 .value()
                 .and_then(|steps| steps.read(reader))
                 .unwrap_or_default(),
-            scale: self.scale.value().map(scale_of),
+            scale: self.scale.located().map(|scale| Located {
+                value: scale_of(scale.value),
+                span: scale.span,
+            }),
         }
     }
 }
@@ -113,26 +142,20 @@ impl MotionTable {
 fn rotation(
     reader: &Reader<'_>,
     second: Optional<String>,
-    rotate: Optional<Quantity>,
+    rotate: Optional<Degrees>,
 ) -> Option<Rotation> {
-    const EXAMPLE: &str =
-        "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
     let (second, rotate) = match (second, rotate) {
-        (Some(second), Some(rotate)) => (second.located()?, rotate.located()?),
+        (Some(second), Some(rotate)) => (second.located()?, rotate.value()?),
         (second, rotate) => {
             return reader.refuse(
                 second.span().or(rotate.span())?,
                 "`rotate` and `second_component` belong together",
-                EXAMPLE,
+                TURN,
             );
         }
     };
-    if rotate.value.dimension.is_some() {
-        let message = "`rotate` is a plain number of degrees";
-        return reader.refuse(rotate.span, message, EXAMPLE);
-    }
     Some(Rotation {
         second_component: second,
-        angle: rotate.value.value,
+        angle: rotate.0,
     })
 }

@@ -69,7 +69,10 @@ enum Sign {
 }
 
 #[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+#[serde(
+    rename_all = "snake_case",
+    expecting = "a text in quotes, or a table\nwrite \"mean\", { pre_event = \"10 s\" } or { value = \"0.1 m/s2\" }"
+)]
 enum OfAll {
     Mean,
 }
@@ -233,10 +236,17 @@ impl Process {
     }
 }
 
-/// A table in which nothing is given that it needs.
-fn nothing<T>(reader: &Reader<'_>, place: Range<usize>, needed: &str) -> Option<T> {
-    let message = format!("{needed}, and nothing of the other kinds");
-    reader.refuse(place, message, "write each kind as a step of its own")
+/// A table `step` in which neither of its keys `either` is given.
+fn nothing<T>(
+    reader: &Reader<'_>,
+    place: Range<usize>,
+    step: &str,
+    either: [&str; 2],
+    help: &str,
+) -> Option<T> {
+    let [first, second] = either;
+    let message = format!("`{step}` needs `{first}`, `{second}` or both");
+    reader.refuse(place, message, help)
 }
 
 impl Step {
@@ -267,8 +277,9 @@ impl Step {
             }),
             Self::Filter(Located { value, span }) => {
                 if value.high_pass.is_none() && value.low_pass.is_none() {
-                    let needed = "`filter` needs `high_pass`, `low_pass` or both";
-                    return nothing(reader, span, needed);
+                    let help = "for example filter = { high_pass = \"0.1 Hz\", low_pass = \"25 Hz\" }; known keys: high_pass, low_pass, order, phase, keep_pads";
+                    let either = ["high_pass", "low_pass"];
+                    return nothing(reader, span, "filter", either, help);
                 }
                 ProcessingStep::Filter(Butterworth {
                     order: value.order.map_or(4, |order| order.0),
@@ -299,14 +310,16 @@ impl Step {
             Self::Taper(Located { value, span }) => {
                 let (start, end) = (or_zero(value.start), or_zero(value.end));
                 if start == 0.0 && end == 0.0 {
-                    return nothing(reader, span, "`taper` needs `start`, `end` or both");
+                    let help = "for example taper = { start = \"1 s\", end = \"2 s\" }";
+                    return nothing(reader, span, "taper", ["start", "end"], help);
                 }
                 ProcessingStep::Taper { start, end }
             }
             Self::Pad(Located { value, span }) => {
                 let (before, after) = (or_zero(value.before), or_zero(value.after));
                 if before == 0.0 && after == 0.0 {
-                    return nothing(reader, span, "`pad` needs `before`, `after` or both");
+                    let help = "for example pad = { after = \"10 s\" }";
+                    return nothing(reader, span, "pad", ["before", "after"], help);
                 }
                 ProcessingStep::Pad { before, after }
             }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::document::{
-    Acceleration, Fault, Kinds, NotNegative, Number, Positive, TableOr, Time, Velocity,
+    Acceleration, Fault, Kinds, Number, Positive, Ratio, TableOr, Time, Velocity,
 };
 use crate::types::{Located, SpectrumFile};
 
@@ -40,7 +40,7 @@ pub(super) enum ScaleTable {
         /// Period of `psa` (s)
         period: Positive<Time>,
         /// Damping ratio, by default 0.05
-        damping: Option<NotNegative<Number>>,
+        damping: Option<Ratio>,
     },
     Target {
         /// File of a spectrum (header period_s,psa_g) to come near to from `from` to `to`
@@ -50,7 +50,7 @@ pub(super) enum ScaleTable {
         /// Last period of the band (s)
         to: Positive<Time>,
         /// Damping ratio, by default 0.05
-        damping: Option<NotNegative<Number>>,
+        damping: Option<Ratio>,
     },
 }
 
@@ -87,7 +87,7 @@ pub(super) fn scale_of(value: ScaleValue) -> Scale<SpectrumFile> {
         TableOr::Value(factor) => return Scale::Factor(factor.into()),
         TableOr::Table(Kinds(table)) => table,
     };
-    let or_default = |damping: Option<NotNegative<_>>| damping.map_or(DAMPING, f64::from);
+    let or_default = |damping: Option<Ratio>| damping.map_or(DAMPING, f64::from);
     match table {
         ScaleTable::Factor { factor } => Scale::Factor(factor.into()),
         ScaleTable::Pga { pga } => Scale::PeakAcceleration(pga.into()),

@@ -194,7 +194,7 @@ pub struct GroundMotion {
     /// What is done to the record, in this order.
     pub process: Vec<Located<ProcessingStep<SpectrumFile>>>,
     /// Scale, after that; `None`: as recorded.
-    pub scale: Option<Scale<SpectrumFile>>,
+    pub scale: Option<Located<Scale<SpectrumFile>>>,
 }
 
 /// A turn of two components at right angles.

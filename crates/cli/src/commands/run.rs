@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use pounding_assembly::Assembly;
 use pounding_files::FileUse;
+use pounding_report::pictures::run::Responses;
 use pounding_results::{RunEnding, RunHead, RunWriter};
 use pounding_time_history::{
     GridRecorder, Outcome, Recorder, SampleSink, Summary, TimeHistoryError, run as integrate,
@@ -47,7 +48,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     let writer = output.as_deref().map(|path| RunWriter::begin(path, &head));
     let mut writer = recorder(&assembly, writer.transpose()?).map_err(failed)?;
     let picture = arguments.plot.as_ref();
-    let picture = picture.map(|_| plot::Responses::of(&assembly.system));
+    let picture = picture.map(|_| Responses::of(&assembly.system));
     let mut picture = recorder(&assembly, picture).map_err(failed)?;
     let mut recorders: Vec<&mut dyn Recorder> = Vec::new();
     recorders.extend(writer.as_mut().map(|w| w as &mut dyn Recorder));
@@ -77,7 +78,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         })?;
     }
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
-        picture.responses.draw(path)?;
+        plot::write_drawn(path, picture.responses.picture())?;
     }
     if arguments.json {
         let summary = Summary::of(&assembly.system, (&outcome, &isolated), &warnings);

@@ -1,37 +1,33 @@
 //! Gaps of several widths.
 
+use pounding_study::gap_check::{Amplification, GapCheck};
+
 use super::panel;
 use crate::error::ReportError;
 use crate::figure::{Curve, figure};
 
-/// Names of buildings, each with a value by width.
-pub type ByBuilding<'n> = Vec<(&'n str, Vec<Option<f64>>)>;
-
-/// Amplification over the width (m) of a gap, a panel for each quantity with a curve for each
-/// building: its values by width, of which those that are not finite are left out.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn amplifications(
-    widths: &[f64],
-    quantities: &[(&str, ByBuilding<'_>)],
-) -> Result<String, ReportError> {
-    let curve = |(name, values): &(&str, Vec<Option<f64>>)| {
-        let points = widths.iter().zip(values).filter_map(|(width, value)| {
-            let value = value.filter(|x| x.is_finite())?;
-            Some((width * 1e3, value))
+/// Maximum amplification over storeys and records, over the width of a gap, a panel for each
+/// quantity with a curve for each building; values that are not finite are left out. `None` for
+/// a check that tried no widths.
+#[must_use]
+pub fn amplifications(check: &GapCheck) -> Option<Result<String, ReportError>> {
+    let (sweep, first) = (check.sweep.as_ref()?, check.records.first()?);
+    let panels = Amplification::QUANTITIES.map(|(quantity, of)| {
+        let curves = first.isolated.iter().enumerate().map(|(index, building)| {
+            let points = sweep.widths.iter().enumerate().filter_map(|(i, width)| {
+                let value = sweep.over_records(i, index, of)?;
+                value.is_finite().then_some((width * 1e3, value))
+            });
+            Curve {
+                name: building.name.clone(),
+                points: points.collect(),
+            }
         });
-        Curve {
-            name: (*name).to_owned(),
-            points: points.collect(),
-        }
-    };
-    let panels = quantities.iter().map(|(quantity, buildings)| {
         panel(
             &format!("Amplification of {quantity} (-), maximum over storeys and records"),
             "width of the gap (mm)",
-            buildings.iter().map(curve).collect(),
+            curves.collect(),
         )
     });
-    figure(&panels.collect::<Vec<_>>())
+    Some(figure(&panels))
 }

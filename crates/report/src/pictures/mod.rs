@@ -1,8 +1,12 @@
-//! Pictures of what the laboratories, the motions and the gap check find.
+//! Pictures of runs, studies, laboratories and motions: what each command draws.
 
 pub mod collision;
+pub mod comparison;
 pub mod gap;
+pub mod hysteresis;
+pub mod ida;
 pub mod motion;
+pub mod run;
 
 use crate::figure::{Curve, Panel};
 

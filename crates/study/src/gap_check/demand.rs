@@ -30,6 +30,18 @@ pub struct Amplification {
     pub acceleration_absolute: f64,
 }
 
+/// What pounding amplifies: its name, and its amplification.
+pub type AmplifiedQuantity = (&'static str, fn(&Amplification) -> f64);
+
+impl Amplification {
+    /// The quantities, in the order of tables and pictures.
+    pub const QUANTITIES: [AmplifiedQuantity; 3] = [
+        ("displacement", |a| a.displacement),
+        ("storey shear", |a| a.storey_shear),
+        ("absolute acceleration", |a| a.acceleration_absolute),
+    ];
+}
+
 /// One record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordDemand {

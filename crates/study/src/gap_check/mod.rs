@@ -12,7 +12,7 @@ mod sweep;
 mod systems;
 
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words};
-pub use demand::{Amplification, GapLevel, RecordDemand};
+pub use demand::{Amplification, AmplifiedQuantity, GapLevel, RecordDemand};
 pub use error::CheckError;
 pub use parallel::Progress;
 pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};

@@ -236,6 +236,7 @@ impl Driver<'_> {
         element
             .law
             .pass(history, guard, motion, &self.state[element.range(layout)]);
+        self.contacts.elements.changes[index] += 1;
         if guard == Guard::Turning {
             self.contacts.elements.turned[index] = true;
         }

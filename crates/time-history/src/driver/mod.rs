@@ -45,6 +45,9 @@ const PROGRESS_STEP: f64 = 1.0e-6;
 /// such while (s).
 const TOUCHES: usize = 8;
 const LONGEST_TOUCH: f64 = 1.0e-5;
+/// Changes of branch of an element at one instant that lie on its way: a hook and a gap without
+/// play have no way between them.
+const CHANGES_ON_THE_WAY: usize = 2;
 /// Events without progress before the run is given up.
 const CHATTER: usize = 10_000;
 
@@ -366,13 +369,15 @@ impl<'a> Driver<'a> {
         }
     }
 
-    /// Whether an element that turned at this very instant would leave its new branch at
-    /// once: at rest, that is told by a second derivative, which the interpolant of a long
-    /// step does not have.
+    /// Whether an element that turned at this very instant, or that has come to where it may
+    /// go back and forth, would leave its new branch at once: at rest, that is told by a second
+    /// derivative, between floors that set out together even by the fourth, which the
+    /// interpolant of a long step does not have.
     fn turns_at_once(&self, event: Candidate, step: f64) -> bool {
+        let elements = &self.contacts.elements;
         matches!(event.kind, EventKind::Branch(_))
             && event.theta * step <= EVENT_TOLERANCE
-            && self.contacts.elements.turned[event.level]
+            && (elements.turned[event.level] || elements.changes[event.level] >= CHANGES_ON_THE_WAY)
     }
 
     fn find(&mut self, segment: &Segment, tau: f64, step: f64) -> Option<Candidate> {
@@ -431,6 +436,7 @@ impl<'a> Driver<'a> {
             self.at_once.fill(0);
             self.mute.fill(Mute::No);
             self.contacts.elements.turned.fill(false);
+            self.contacts.elements.changes.fill(0);
             self.stalled = 0;
         }
         let n = self.dynamics.layout.dofs;

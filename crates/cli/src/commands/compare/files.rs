@@ -1,10 +1,9 @@
-//! Tables and pictures of the comparison.
+//! Tables of the comparison.
 
 use pounding_study::comparison::{Comparison, ModelRun, QuantityKind, StoreyDifference};
 
 use crate::failure::Failure;
 use crate::output::comma_separated;
-use crate::plot::{Curve, Panel, figure as draw};
 
 /// Every model, record and quantity, then the peaks of every storey and the impacts of
 /// every level, each with the statistic that it is.
@@ -110,37 +109,4 @@ fn places(c: &Comparison, (m, r): (usize, usize), run: &ModelRun) -> Vec<[String
         }
     }
     rows
-}
-
-/// Peaks over those without pounding, over the models in the order of the tables; a curve
-/// a building and record.
-pub fn figure(c: &Comparison) -> Result<String, Failure> {
-    let panel = |kind: QuantityKind, name: &str| {
-        let quantities = c.quantities.iter().enumerate();
-        let curves = quantities
-            .filter(|(_, q)| q.kind == kind)
-            .flat_map(|(q, quantity)| {
-                c.records.iter().enumerate().map(move |(r, record)| {
-                    let isolated = c.isolated[r][q];
-                    let ratio = |m: usize| ((m + 1) as f64, c.value(m, r, q) / isolated);
-                    Curve {
-                        name: format!("{}, {record}", quantity.of),
-                        points: (0..c.models.len())
-                            .map(ratio)
-                            .filter(|p| p.1.is_finite())
-                            .collect(),
-                    }
-                })
-            });
-        Panel {
-            caption: format!("Maximum {name} over the storeys, over that without pounding (-)"),
-            horizontal: "number of the model, in the order of the table".to_owned(),
-            curves: curves.collect(),
-        }
-    };
-    draw(&[
-        panel(QuantityKind::Displacement, "displacement"),
-        panel(QuantityKind::StoreyShear, "storey shear"),
-        panel(QuantityKind::AccelerationAbsolute, "absolute acceleration"),
-    ])
 }

@@ -5,6 +5,7 @@ mod numbers;
 mod text;
 
 use pounding_files::FileUse;
+use pounding_report::pictures::comparison::peak_ratios;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
@@ -44,7 +45,7 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         plot::write(path, &files::table(&comparison)?)?;
     }
     if let Some(path) = &arguments.plot {
-        plot::write(path, &files::figure(&comparison)?)?;
+        plot::write_drawn(path, peak_ratios(&comparison))?;
     }
     if arguments.json {
         print(&pretty(&numbers::Compared::of(&comparison))?)?;

@@ -1,10 +1,7 @@
-//! Tables and pictures of the gap check.
+//! Tables of the gap check.
 
-use pounding_report::ReportError;
-use pounding_report::pictures::gap::amplifications;
-use pounding_study::gap_check::GapCheck;
+use pounding_study::gap_check::{Amplification, GapCheck};
 
-use super::text::QUANTITIES;
 use crate::failure::Failure;
 use crate::output::comma_separated;
 
@@ -32,7 +29,7 @@ pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
                     let mut row = start.to_vec();
                     row.push(building.name.clone());
                     row.push((storey + 1).to_string());
-                    row.extend(QUANTITIES.map(|(_, of)| of(a).to_string()));
+                    row.extend(Amplification::QUANTITIES.map(|(_, of)| of(a).to_string()));
                     row.push(run.impacts.to_string());
                     row.push(run.peak_force.to_string());
                     row.push(run.impact_energy.to_string());
@@ -135,19 +132,4 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         "caution",
     ];
     comma_separated(&header, rows)
-}
-
-/// Maximum amplification over storeys and records, over the width, as a picture; nothing
-/// without a sweep.
-pub fn figure(check: &GapCheck) -> Option<Result<String, ReportError>> {
-    let (sweep, first) = (check.sweep.as_ref()?, check.records.first()?);
-    let quantities = QUANTITIES.map(|(quantity, of)| {
-        let buildings = first.isolated.iter().enumerate().map(|(building, b)| {
-            let widths = 0..sweep.widths.len();
-            let values = widths.map(|width| sweep.over_records(width, building, of));
-            (b.name.as_str(), values.collect())
-        });
-        (quantity, buildings.collect())
-    });
-    Some(amplifications(&sweep.widths, &quantities))
 }

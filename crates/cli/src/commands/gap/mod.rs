@@ -9,6 +9,7 @@ use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
+use pounding_report::pictures::gap::amplifications;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
@@ -99,9 +100,11 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
         return Err(Failure::input(message, Some(help)));
     }
     write(&arguments.csv, &|| files::sweep(check))?;
-    match (arguments.plot.as_deref(), files::figure(check)) {
-        (Some(path), Some(picture)) => plot::write_drawn(path, picture),
-        (Some(path), None) => plot::write(path, ""),
-        (None, _) => Ok(()),
+    let Some(path) = arguments.plot.as_deref() else {
+        return Ok(());
+    };
+    match amplifications(check) {
+        Some(picture) => plot::write_drawn(path, picture),
+        None => plot::write(path, ""),
     }
 }

@@ -6,6 +6,8 @@ use pounding_study::gap_check::{
 use pounding_time_history::{BuildingOutcome, LevelPlace};
 use serde::Serialize;
 
+use super::provisions::Descriptor;
+
 /// The object that `gap --json` prints.
 #[derive(Serialize)]
 pub struct Check<'c> {
@@ -248,16 +250,8 @@ impl Combination {
 /// A provision, with what it asks for under each record.
 #[derive(Serialize)]
 struct Provision<'c> {
-    name: &'static str,
-    region: &'static str,
-    edition: &'static str,
-    clause: &'static str,
-    place: &'static str,
-    basis: &'static str,
-    formula: &'static str,
-    status: &'static str,
-    status_remark: &'static str,
-    elastic_displacement_factor: Option<&'static str>,
+    #[serde(flatten)]
+    descriptor: Descriptor,
     refusal: Option<String>,
     caution: Option<&'c str>,
     satisfied: Option<bool>,
@@ -306,18 +300,8 @@ impl<'c> Provision<'c> {
                 levels: levels.iter().map(level).collect(),
             }
         });
-        let p = c.provision;
         Self {
-            name: p.name,
-            region: p.region,
-            edition: p.edition,
-            clause: p.clause,
-            place: p.place().name(),
-            basis: p.basis.name(),
-            formula: p.formula,
-            status: p.status.name(),
-            status_remark: p.status.remark(),
-            elastic_displacement_factor: p.elastic_displacement_factor,
+            descriptor: Descriptor::of(c.provision),
             refusal: c.refusal().map(ToString::to_string),
             caution: c.caution(),
             satisfied: c.satisfied_by(&gap.levels),

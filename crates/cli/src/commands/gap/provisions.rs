@@ -1,6 +1,8 @@
 //! The list of provisions.
 
-use pounding_separation::{CombinationRule, EffectiveProperties, descriptors, unavailable};
+use pounding_separation::{
+    CombinationRule, EffectiveProperties, ProvisionDescriptor, descriptors, unavailable,
+};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -78,9 +80,9 @@ struct Provisions {
     unavailable: Vec<Missing>,
 }
 
-/// A provision with what it needs to know.
+/// What a provision is, in each object that names it.
 #[derive(Serialize)]
-struct Provision {
+pub struct Descriptor {
     name: &'static str,
     region: &'static str,
     edition: &'static str,
@@ -90,8 +92,36 @@ struct Provision {
     formula: &'static str,
     status: &'static str,
     status_remark: &'static str,
-    remarks: &'static [&'static str],
+    /// Only in the list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remarks: Option<&'static [&'static str]>,
     elastic_displacement_factor: Option<&'static str>,
+}
+
+impl Descriptor {
+    /// That of a provision, without its remarks.
+    pub fn of(p: &ProvisionDescriptor) -> Self {
+        Self {
+            name: p.name,
+            region: p.region,
+            edition: p.edition,
+            clause: p.clause,
+            place: p.place().name(),
+            basis: p.basis.name(),
+            formula: p.formula,
+            status: p.status.name(),
+            status_remark: p.status.remark(),
+            remarks: None,
+            elastic_displacement_factor: p.elastic_displacement_factor,
+        }
+    }
+}
+
+/// A provision with what it needs to know.
+#[derive(Serialize)]
+struct Provision {
+    #[serde(flatten)]
+    descriptor: Descriptor,
     inputs: Vec<&'static str>,
 }
 
@@ -106,17 +136,10 @@ struct Missing {
 impl Provisions {
     fn all() -> Self {
         let provisions = descriptors().iter().map(|p| Provision {
-            name: p.name,
-            region: p.region,
-            edition: p.edition,
-            clause: p.clause,
-            place: p.place().name(),
-            basis: p.basis.name(),
-            formula: p.formula,
-            status: p.status.name(),
-            status_remark: p.status.remark(),
-            remarks: p.remarks,
-            elastic_displacement_factor: p.elastic_displacement_factor,
+            descriptor: Descriptor {
+                remarks: Some(p.remarks),
+                ..Descriptor::of(p)
+            },
             inputs: p.inputs.iter().map(|i| i.key()).collect(),
         });
         let unavailable = unavailable().iter().map(|u| Missing {

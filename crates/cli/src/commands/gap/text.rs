@@ -14,15 +14,6 @@ const LISTED: usize = 6;
 /// Rows of the printed sweep; every width is in the CSV file.
 const ROWS: usize = 16;
 
-type Quantity = (&'static str, fn(&Amplification) -> f64);
-
-/// The quantities that pounding amplifies.
-pub const QUANTITIES: [Quantity; 3] = [
-    ("displacement", |a| a.displacement),
-    ("storey shear", |a| a.storey_shear),
-    ("absolute acceleration", |a| a.acceleration_absolute),
-];
-
 /// The whole report.
 pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     let mut text = String::new();
@@ -324,7 +315,7 @@ fn provided(check: &GapCheck) -> String {
         let amplification = record.amplification().unwrap_or_default();
         for (building, storeys) in with.iter().zip(amplification).filter(|_| listed) {
             let mut row = vec![name.clone(), building.name.clone()];
-            row.extend(QUANTITIES.map(|(_, q)| maximum(&storeys, q)));
+            row.extend(Amplification::QUANTITIES.map(|(_, q)| maximum(&storeys, q)));
             row.push(impacts.to_string());
             table.add_row(row);
         }
@@ -350,7 +341,7 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
     let buildings = check.records.first().map_or(&[][..], |r| &r.isolated);
     let row = |(index, building): (usize, &pounding_time_history::BuildingOutcome)| {
         let mut row = vec![format!("maximum of {}", all.len()), building.name.clone()];
-        row.extend(QUANTITIES.map(|(_, of)| {
+        row.extend(Amplification::QUANTITIES.map(|(_, of)| {
             let tops = all.iter().filter_map(|(name, a)| {
                 let top = a.get(index)?.iter().map(of).reduce(f64::max)?;
                 Some((*name, top))
@@ -376,7 +367,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     let buildings: Vec<&str> = first.isolated.iter().map(|b| b.name.as_str()).collect();
     let mut header = vec!["width (mm)".to_owned()];
     for name in &buildings {
-        header.extend(QUANTITIES.map(|(quantity, _)| format!("{name}: {quantity}")));
+        header.extend(Amplification::QUANTITIES.map(|(quantity, _)| format!("{name}: {quantity}")));
     }
     header.push("impacts".to_owned());
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
@@ -386,7 +377,9 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
         let mut row = vec![format!("{:.2}", width * 1e3)];
         for building in 0..buildings.len() {
             let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| decimal(x, 3));
-            row.extend(QUANTITIES.map(|(_, q)| cell(sweep.over_records(i, building, q))));
+            row.extend(
+                Amplification::QUANTITIES.map(|(_, q)| cell(sweep.over_records(i, building, q))),
+            );
         }
         let impacts = sweep.runs[i].iter().flatten().map(|r| r.impacts).max();
         row.push(impacts.map_or("-".to_owned(), |n| n.to_string()));
@@ -416,7 +409,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
 fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
     let mut text = String::new();
     for (building, name) in buildings.iter().enumerate() {
-        for (quantity, of) in QUANTITIES {
+        for (quantity, of) in Amplification::QUANTITIES {
             let Some(w) = sweep.worst(building, of) else {
                 continue;
             };

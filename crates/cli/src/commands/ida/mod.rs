@@ -1,13 +1,13 @@
 //! `pounding ida`: incremental dynamic analysis, fragility, and the gap for a frequency.
 
 mod numbers;
-mod picture;
 mod tables;
 
 use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_report::pictures::ida::fragility;
 use pounding_study::{IdaReport, ResultReader, Shard, Study, StudyError, evaluate};
 
 use crate::arguments::IdaArguments;
@@ -33,7 +33,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
     let report = evaluate(&study, &result.map_err(StudyError::from)?)?;
     if let Some(path) = &arguments.plot {
-        plot::write(path, &picture::curves(&report)?)?;
+        plot::write_drawn(path, fragility(&report))?;
     }
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;

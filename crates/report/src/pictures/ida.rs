@@ -1,34 +1,35 @@
-//! Fragility curves, demands against intensity, and frequency against gap, as SVG.
+//! Incremental dynamic analyses.
 
 use pounding_study::{Counts, FragilityFit, IdaReport, LimitResult};
 
-use crate::failure::Failure;
-use crate::plot::{Curve, Panel, figure};
+use super::panel;
+use crate::error::ReportError;
+use crate::figure::{Curve, figure};
 
 /// Points of a drawn curve.
 const POINTS: usize = 200;
 /// Curves of one panel that can still be told apart.
 const MOST: usize = 7;
 
-/// The picture.
-pub fn curves(report: &IdaReport) -> Result<String, Failure> {
+/// Fragility curves with the fractions they were fitted to, of the limits and of pounding by
+/// width of each gap, and the mean annual frequency of pounding over the width.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn fragility(report: &IdaReport) -> Result<String, ReportError> {
     let highest = last_that_differs(report);
     let horizontal = format!("{} ({})", report.measure, report.unit);
-    let panel = |caption: &str, curves: Vec<Curve>| Panel {
-        caption: caption.to_owned(),
-        horizontal: horizontal.clone(),
-        curves,
-    };
     let states: Vec<&LimitResult> = report.limits.iter().collect();
     let mut panels = vec![panel(
         "Probability of a state: counts (broken lines) and fitted curves",
+        &horizontal,
         fragilities(&states, highest),
     )];
     for gap in &report.gaps {
         let widths: Vec<&LimitResult> = gap.widths.iter().map(|w| &w.result).collect();
         if !widths.is_empty() {
             let caption = format!("Probability of pounding, {}, by width of the gap", gap.gap);
-            panels.push(panel(&caption, fragilities(&widths, highest)));
+            panels.push(panel(&caption, &horizontal, fragilities(&widths, highest)));
         }
         let frequencies: Vec<(f64, f64)> = gap
             .widths
@@ -36,17 +37,15 @@ pub fn curves(report: &IdaReport) -> Result<String, Failure> {
             .filter_map(|w| Some((w.width * 1e3, w.result.frequency?.log10())))
             .collect();
         if frequencies.len() > 1 {
-            panels.push(Panel {
-                caption: format!(
-                    "Mean annual frequency of pounding, {} (decimal logarithm)",
-                    gap.gap
-                ),
-                horizontal: "gap (mm)".to_owned(),
-                curves: vec![Curve {
-                    name: gap.gap.clone(),
-                    points: frequencies,
-                }],
-            });
+            let caption = format!(
+                "Mean annual frequency of pounding, {} (decimal logarithm)",
+                gap.gap
+            );
+            let curve = Curve {
+                name: gap.gap.clone(),
+                points: frequencies,
+            };
+            panels.push(panel(&caption, "gap (mm)", vec![curve]));
         }
     }
     figure(&panels)

@@ -175,8 +175,20 @@ fn the_schema_stands_by_itself() {
     assert!(!text.contains("$ref") && !text.contains("null"), "{text}");
     assert_eq!(schema["$id"], "pounding/case.schema.json");
     let building = &schema["properties"]["building"]["items"];
-    let required = ["name", "mass", "stiffness", "height", "damping"];
+    let required = ["name", "mass", "damping"];
     assert_eq!(building["required"], serde_json::json!(required));
+    let one_of = |number: usize| -> Vec<&str> {
+        let choices = building["allOf"][number]["oneOf"].as_array().unwrap();
+        choices
+            .iter()
+            .map(|choice| choice["required"][0].as_str().unwrap())
+            .collect()
+    };
+    let matrices = ["stiffness_matrix", "flexibility_matrix"];
+    let helpers = ["cantilever", "fishbone"];
+    let resist = [&["stiffness"][..], &matrices, &helpers].concat();
+    assert_eq!(one_of(0), resist);
+    assert_eq!(one_of(1), ["height", "elevations"]);
     assert_eq!(building["additionalProperties"], false);
     let mass = &building["properties"]["mass"];
     assert_eq!(mass["anyOf"][0]["exclusiveMinimum"], 0.0);

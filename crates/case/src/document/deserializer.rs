@@ -24,18 +24,19 @@ use super::Reader;
 use super::entries::ask;
 use super::error::{Error, Fault};
 
-/// The root of a tree; `None` after recording what is wrong.
+/// The value of a key, empty for the root of a tree; `None` after recording what is wrong.
 pub(super) fn read<T: DeserializeOwned>(
     reader: Reader<'_>,
-    root: &Spanned<DeValue<'_>>,
+    key: &str,
+    value: &Spanned<DeValue<'_>>,
 ) -> Option<T> {
-    let root = Value {
+    let value = Value {
         reader,
-        key: "",
+        key,
         wanted: "",
-        held: Held::Given(root),
+        held: Held::Given(value),
     };
-    root.recorded(PhantomData).ok()
+    value.recorded(PhantomData).ok()
 }
 
 /// A value with the name of its key, or something else about it.

@@ -15,7 +15,7 @@ use crate::types::{GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
 
 /// The recorded motion
-#[derive(Default, Deserialize, JsonSchema)]
+#[derive(Clone, Default, Deserialize, JsonSchema)]
 #[serde(rename = "[ground_motion]")]
 pub(super) struct MotionTable {
     /// Record, relative to the folder of the case file
@@ -65,6 +65,7 @@ pub fn ground_motion_schema(generator: &mut SchemaGenerator) -> Schema {
 }
 
 /// Counts per m/s2.
+#[derive(Clone)]
 struct Sensitivity;
 
 impl Dimensioned for Sensitivity {

@@ -15,12 +15,13 @@ use crate::document::{Entry, Field, Length, OneOrEach, Optional, Positive, Reade
 use crate::types::{Building, Located, Side};
 
 /// Two neighbours.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of two names")]
 #[schemars(extend("minItems" = 2, "maxItems" = 2))]
 pub(super) struct Between(Vec<Located<String>>);
 
 /// Which floors face one another.
+#[derive(Clone)]
 pub(super) enum Levels {
     /// Those at equal elevation.
     Matching,
@@ -31,7 +32,7 @@ pub(super) enum Levels {
 type Level = OneOrEach<Located<Storey>, 0>;
 
 /// A storey, from 1, that may not exist.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(expecting = "storeys as whole numbers, in pairs such as [1, 1] or alone beside a wall")]
 pub(super) struct Storey(i64);
 

@@ -27,13 +27,15 @@ mod levels;
 mod process;
 mod scale;
 mod separation;
+mod variation;
 
 pub use ground_motion::ground_motion_schema;
 pub use process::process_steps;
 pub(crate) use separation::keys as separation_keys;
+pub use variation::CaseTree;
 
 /// A case of seismic pounding
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "the case")]
 #[schemars(title = "pounding case")]
 struct CaseFile {
@@ -61,7 +63,19 @@ pub fn schema() -> serde_json::Value {
     document::schema_of::<CaseFile>("pounding/case.schema.json")
 }
 
+/// Where to see how a case file is written.
+const EXAMPLE: &str = "see the example in docs/reference/case-file.md";
+
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
+    case_of(source, file, |reader| reader.read(EXAMPLE))
+}
+
+/// The case of the tables that are read from a text.
+fn case_of(
+    source: &str,
+    file: &Path,
+    tables: impl FnOnce(&Reader<'_>) -> Option<CaseFile>,
+) -> Result<Case, Box<Refusal>> {
     let name = file.display().to_string();
     let errors = Errors::default();
     let reader = Reader {
@@ -69,8 +83,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
         source,
         errors: &errors,
     };
-    let case = reader.read::<CaseFile>("see the example in docs/reference/case-file.md");
-    let draft = case.map(|case| case.draft(&reader, file));
+    let draft = tables(&reader).map(|case| case.draft(&reader, file));
     match (errors.finish(Ok(())), draft) {
         (Ok(()), Some(draft)) => Ok(draft.case),
         (Err(error), draft) => Err(Box::new(Refusal { error, draft })),

@@ -28,12 +28,12 @@ struct Steps {
 }
 
 /// Steps in their order.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of steps")]
 pub(super) struct Process(Vec<Field<Step>>);
 
 /// A step of processing
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     rename = "a step of `process`",
     rename_all = "snake_case",
@@ -62,19 +62,19 @@ enum Step {
     Scale(ScaleValue),
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 enum Sign {
     Reversed,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 enum OfAll {
     Mean,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum RemoveTable {
@@ -88,7 +88,7 @@ enum RemoveTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct FilterTable {
     /// High-pass (low-cut) corner (Hz)
     high_pass: Option<Positive<Cycles>>,
@@ -102,14 +102,14 @@ struct FilterTable {
     keep_pads: Option<bool>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 enum PhaseWord {
     Zero,
     Causal,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum BaselineTable {
@@ -138,7 +138,7 @@ enum BaselineTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum TrimTable {
@@ -156,7 +156,7 @@ enum TrimTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct TaperTable {
     /// Length at the start (s)
     start: Option<NotNegative<Time>>,
@@ -164,7 +164,7 @@ struct TaperTable {
     end: Option<NotNegative<Time>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct PadTable {
     /// Length before (s)
     before: Option<NotNegative<Time>>,
@@ -172,7 +172,7 @@ struct PadTable {
     after: Option<NotNegative<Time>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct ResampleTable {
     /// New time step (s)
     time_step: Positive<Time>,

@@ -311,8 +311,9 @@ fn collide(a: &Variable, b: &Variable) -> bool {
         Target::Entry { entry, .. } => vec![(entry.span.clone(), entry.before.clone())],
         Target::Model { edits } => edits.first().map_or_else(Vec::new, |edits| {
             // A model puts new lines where another absent key might go: no collision.
-            let old = edits.iter().filter(|(_, new)| new.is_empty());
-            old.map(|(span, _)| (span.clone(), String::new())).collect()
+            let old = edits.iter().filter(|edit| edit.value.is_none());
+            old.map(|edit| (edit.entry.span.clone(), String::new()))
+                .collect()
         }),
         _ => Vec::new(),
     };

@@ -627,19 +627,16 @@ impl<'r> Keys<'r> {
             unknown: Vec::new(),
             kinds: "",
         };
-        keys.unknown = keys
-            .others()
-            .filter_map(|(key, _)| {
-                let known = fields.iter().copied().filter(|k| *k != FREE);
-                // Where any key may stand, one that is nearly another is a slip.
-                match keys.is_open() {
-                    false => Some((key, suggestion::misspelt(key.get_ref(), known))),
-                    true => suggestion::nearest(key.get_ref(), known)
-                        .filter(|k| suggestion::is_within(key.get_ref(), k, 2))
-                        .map(|k| (key, Some(k))),
-                }
-            })
-            .collect();
+        let known = || fields.iter().copied().filter(|k| *k != FREE);
+        let unknown = |(key, _): (&'r Key<'r>, _)| match keys.is_open() {
+            false => Some((key, suggestion::misspelt(key.get_ref(), known()))),
+            // Where any key may stand, one that is nearly another is a slip.
+            true => {
+                let meant = suggestion::nearest_within(key.get_ref(), known(), 2);
+                meant.map(|meant| (key, Some(meant)))
+            }
+        };
+        keys.unknown = keys.others().filter_map(unknown).collect();
         keys.unknown.sort_by_key(|(key, _)| key.span().start);
         keys
     }

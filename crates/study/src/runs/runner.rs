@@ -166,16 +166,12 @@ impl<'s> Runner<'s> {
         };
         let regapped = |case: &Case| regap(case, &base);
         let (system, options) = variant.make(&case, regapped).map_err(said)?;
-        let shape = Layout::of(&system, self.study.isolated_demand);
-        if (shape.storeys.len(), shape.levels.len())
-            != (self.layout.storeys.len(), self.layout.levels.len())
-        {
+        let shape = (system.degrees_of_freedom(), system.levels().len());
+        let layout = (self.layout.storeys.len(), self.layout.levels.len());
+        if shape != layout {
             return Err(format!(
                 "the run has {} storeys and {} contact levels, the study {} and {}",
-                shape.storeys.len(),
-                shape.levels.len(),
-                self.layout.storeys.len(),
-                self.layout.levels.len()
+                shape.0, shape.1, layout.0, layout.1
             ));
         }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {

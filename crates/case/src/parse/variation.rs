@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{CaseFile, EXAMPLE, case_of};
+use super::{CaseFile, EXAMPLE, Row, case_of};
 use crate::document::Reader;
 use crate::error::CaseError;
 use crate::types::Case;
@@ -18,7 +18,9 @@ pub struct CaseTree<'s> {
     source: &'s str,
     file: &'s Path,
     tree: DeTable<'s>,
+    /// All but the buildings.
     tables: CaseFile,
+    row: Row,
 }
 
 impl<'s> CaseTree<'s> {
@@ -27,18 +29,21 @@ impl<'s> CaseTree<'s> {
     /// # Errors
     /// All that is wrong in it: the first error with the others.
     pub fn parse(source: &'s str, file: &'s Path) -> Result<Self, CaseError> {
-        let mut tables = None;
+        let mut read = None;
         let case = case_of(source, file, |reader| {
-            tables = reader.read::<CaseFile>(EXAMPLE);
-            tables.clone()
+            let mut tables: CaseFile = reader.read(EXAMPLE)?;
+            let row = Row::new(reader, tables.building.take());
+            let (tables, row) = read.insert((tables, row));
+            Some(tables.clone().draft(reader, file, row))
         });
         let case = case.map_err(|refusal| refusal.error)?;
-        match (DeTable::parse(source), tables) {
-            (Ok(tree), Some(tables)) => Ok(Self {
+        match (DeTable::parse(source), read) {
+            (Ok(tree), Some((tables, row))) => Ok(Self {
                 source,
                 file,
                 tree: tree.into_inner(),
                 tables,
+                row,
             }),
             // It was read before.
             _ => Err(case.error(0..0, "the file cannot be read", None)),
@@ -71,7 +76,8 @@ impl<'s> CaseTree<'s> {
         let case = case_of(self.source, self.file, |reader| {
             let mut tables = self.tables.clone();
             tables.read_again(reader, changed);
-            Some(tables)
+            let row = tables.building.take().map(|of| Row::new(reader, Some(of)));
+            Some(tables.draft(reader, self.file, row.as_ref().unwrap_or(&self.row)))
         });
         case.ok()
     }

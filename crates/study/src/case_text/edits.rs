@@ -1,6 +1,7 @@
 //! Finding and replacing entries of a case: in its tree, and in its text.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -133,26 +134,32 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
 pub(crate) fn entry(source: &str, path: &Path) -> Result<Arc<Entry>, Lost> {
     let tree = tree(source)?;
     let entry = Arc::new(find(source, &tree, path)?);
-    says_the_same(source, &tree, path, &[Edit::new(&entry, "0")])?;
-    Ok(entry)
+    if text_agrees(source, &tree, &[Edit::new(&entry, "0")]) {
+        return Ok(entry);
+    }
+    Err(match entry.before.is_empty() {
+        true => (
+            format!("`{path}` is a table with a header of its own in the case"),
+            "vary one of its entries, or write it in one line, such as scale = { pga = 3 }"
+                .to_owned(),
+        ),
+        false => left_out(path),
+    })
 }
 
-/// Refuses edits that make of the text another case than of the tree, as those do that put a
-/// value in the place of a header.
-fn says_the_same(
-    source: &str,
-    tree: &DeTable<'_>,
-    path: &Path,
-    edits: &[Edit],
-) -> Result<(), Lost> {
+/// A key that cannot be put in.
+fn left_out(key: impl Display) -> Lost {
+    (
+        format!("the case leaves `{key}` out"),
+        "write it in the case with any value".to_owned(),
+    )
+}
+
+/// Whether edits make of the text what they make of the tree: they do not where a value takes
+/// the place of a header.
+fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> bool {
     let lines = |changed| Lines::of(tree).with(&changed);
-    if changed(tree, edits).map(lines) == Some(canonical(&apply(source, edits))) {
-        return Ok(());
-    }
-    Err((
-        format!("`{path}` cannot be replaced in the text of the case"),
-        "write what has a header of its own in one line, such as scale = { pga = 3 }".to_owned(),
-    ))
+    changed(tree, edits).map(lines) == Some(canonical(&apply(source, edits)))
 }
 
 /// Keys that every gap understands, whatever its model.
@@ -244,8 +251,13 @@ fn rewritten(
         let before = format!("\n{} = ", as_key(&key));
         edits.push(edit(&key, span.end..span.end, before, Some(value)));
     }
-    says_the_same(source, &tree, path, &edits)?;
-    Ok(edits)
+    match text_agrees(source, &tree, &edits) {
+        true => Ok(edits),
+        false => Err((
+            format!("a table in `{path}` has a header of its own in the case"),
+            "write it in one line, such as scale = { pga = 3 }".to_owned(),
+        )),
+    }
 }
 
 /// The table whose header stands here.
@@ -312,10 +324,7 @@ fn room(source: &str, table: &Value<'_>, key: &str) -> Result<(usize, String), L
                 .and_then(|t| t.values().map(|v| v.span().end).max());
             Ok((last.unwrap_or(span.end), format!(", {new} = ")))
         }
-        _ => Err((
-            format!("the case leaves `{key}` out"),
-            "write it in the case with any value".to_owned(),
-        )),
+        _ => Err(left_out(key)),
     }
 }
 
@@ -478,14 +487,18 @@ mod tests {
         let case = CASE.replace("scale = { pga = 3 }", "[ground_motion.scale]\npga = 3");
         for path in ["ground_motion.scale", "ground_motion", "gap", "gap.0"] {
             let (why, help) = entry(&case, &Path::parse(path).unwrap()).unwrap_err();
-            assert_eq!(
-                why,
-                format!("`{path}` cannot be replaced in the text of the case")
-            );
+            let wanted = format!("`{path}` is a table with a header of its own in the case");
+            assert_eq!(why, wanted);
             assert!(help.contains("in one line"));
         }
         let pga = Path::parse("ground_motion.scale.pga").unwrap();
         assert!(entry(&case, &pga).is_ok());
+        // Its entries would stay where it is taken away.
+        let (why, _) = with_motion(&case, &[], Vec::new()).unwrap_err();
+        assert_eq!(
+            why,
+            "a table in `ground_motion` has a header of its own in the case"
+        );
     }
 
     /// Keys that must be quoted are, so that they stay one key.

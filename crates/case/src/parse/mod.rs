@@ -27,12 +27,12 @@ mod levels;
 mod process;
 mod scale;
 mod separation;
-mod variation;
+mod tree;
 
 pub use ground_motion::ground_motion_schema;
 pub use process::process_steps;
 pub(crate) use separation::keys as separation_keys;
-pub use variation::CaseTree;
+pub use tree::CaseTree;
 
 /// A case of seismic pounding
 #[derive(Clone, Deserialize, JsonSchema)]

@@ -114,6 +114,16 @@ impl Reader<'_> {
             return None;
         }
         let root = Spanned::new(0..0, DeValue::Table(tree.into_inner()));
-        deserializer::read(*self, &root)
+        self.value("", &root)
+    }
+
+    /// The value of a key, empty for that of the whole text; `None` after recording what is
+    /// wrong.
+    pub(crate) fn value<T: DeserializeOwned>(
+        &self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<T> {
+        deserializer::read(*self, key, value)
     }
 }

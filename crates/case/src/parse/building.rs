@@ -16,7 +16,7 @@ use crate::document::{
 use crate::types::{Building, Damping, Lateral, Located};
 
 /// A building
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "[[building]]")]
 #[schemars(extend("allOf" = [
     {"oneOf": [
@@ -70,7 +70,7 @@ pub(super) struct BuildingTable {
 }
 
 /// Viscous damping, one of its kinds
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     rename_all = "snake_case",
     expecting = "a table\nfor example { stiffness_proportional = 0.05 }, the ratio in the first mode"
@@ -105,7 +105,7 @@ enum DampingTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct Rayleigh {
     /// Mass factor (1/s)
     alpha: NotNegative<Frequency>,
@@ -113,7 +113,7 @@ struct Rayleigh {
     beta: NotNegative<Time>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of two modes")]
 #[schemars(extend("minItems" = 2, "maxItems" = 2, "uniqueItems" = true))]
 struct Modes(Vec<Count<1>>);

@@ -18,7 +18,7 @@ use crate::types::{Lateral, Located, MatrixSource};
 pub(super) type MatrixValue<D> = TableOr<MatrixFile, Rows<D>>;
 
 /// Rows of a matrix.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     bound = "",
     expecting = "a list of rows, or a table\nwrite [[...], [...]] with one row per floor, bottom first, or { file = \"K.csv\", unit = \"kN/mm\" }"
@@ -27,7 +27,7 @@ pub(super) type MatrixValue<D> = TableOr<MatrixFile, Rows<D>>;
 pub(super) struct Rows<D: Dimensioned>(Vec<Vec<Signed<D>>>);
 
 /// File of a matrix
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 pub(super) struct MatrixFile {
     /// CSV file with one row per floor, bottom first, and no header
     file: Located<FilePath>,
@@ -36,7 +36,7 @@ pub(super) struct MatrixFile {
 }
 
 /// Cantilever wall
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     expecting = "a table\nfor example { flexural_rigidity = \"6 GN m2\" }, with shear_rigidity where the wall deforms in shear too"
 )]
@@ -48,7 +48,7 @@ pub(super) struct CantileverTable {
 }
 
 /// Frame with flexible beams, its columns and beams lumped
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     expecting = "a table\nfor example { columns = \"240 MN m2\", beams = \"150 MN m2\", span = \"6 m\" }"
 )]

@@ -45,7 +45,7 @@ fn a_file_is_the_matrix_that_stands_in_it() {
 
 #[test]
 fn entries_that_are_averaged_are_told() {
-    let slightly = "stiffness_matrix = [[2e8, -1e8], [-1.00001e8, 1e8]]";
+    let slightly = "stiffness_matrix = [[2e8, -1e8], [-1.000001e8, 1e8]]";
     let warnings = assembled(slightly, "").unwrap().warnings();
     assert!(
         warnings[0].contains("differ by up to 5.0e-6") || warnings[0].contains("means are used")

@@ -1,7 +1,7 @@
 //! Parameters of a law as a user gives them, and those that several laws have.
 
 pub use pounding_catalogue::Parameters as LawParameters;
-pub(crate) use pounding_catalogue::{non_negative, positive};
+pub(crate) use pounding_catalogue::{non_negative, optional_positive, positive};
 
 use crate::descriptor::{ParameterDescriptor, ParameterUnit};
 

@@ -331,3 +331,74 @@ fn a_yielding_bumper_leaves_a_wider_gap() {
     let area = 0.5 * 0.01 + 0.5 * (1.0 + top) * 0.02 - 0.5 * top * top / 100.0;
     assert!((points[1].dissipated - area).abs() < 1e-15);
 }
+
+/// Forces by hand, and the loss of virgin excursions
+/// `y/b - (a/b^2) ln(1 + b y/a) - F^2/(2 Ku)`, `a = 1/Ki`, `b = Rf/Fu`.
+#[test]
+fn backfill_is_a_hyperbola_that_leaves_a_wider_gap() {
+    let parameters = [
+        ("initial_stiffness", 200.0),
+        ("unloading_stiffness", 400.0),
+        ("ultimate_force", 2.0),
+        ("failure_ratio", 0.8),
+        ("gap", 0.01),
+    ];
+    let backfill = law("hyperbolic_gap", &parameters);
+    let (a, b) = (1.0 / 200.0, 0.8 / 2.0);
+    let force = |y: f64| y / (a + b * y);
+    let loss = |y: f64| y / b - a / (b * b) * (1.0 + b * y / a).ln() - force(y) * force(y) / 800.0;
+    let (first, second) = (0.02, 0.05);
+    let left = first - force(first) / 400.0;
+    let path = [
+        (-0.01, 0.0),
+        (-0.02, -force(0.01)),
+        (-0.01 - first, -force(first)),
+        (-0.01 - first + 0.001, -(force(first) - 0.4)),
+        (0.03, 0.0),
+        (-0.01 - left, 0.0),
+        (-0.01 - left - 0.001, -0.4),
+        (-0.01 - second, -force(second)),
+        (0.0, 0.0),
+        (-0.02, 0.0),
+    ];
+    follows(backfill.as_ref(), &path);
+    let deformations: Vec<f64> = path.iter().map(|p| p.0).collect();
+    let points = history(backfill.as_ref(), &deformations, 1.0);
+    assert!((points[4].dissipated - loss(first)).abs() < 1e-15);
+    assert!((points[9].dissipated - loss(second)).abs() < 1e-14);
+    // The ultimate force is passed where the descriptor says, and a plateau ends it there.
+    let reached = 2.0 / (200.0 * 0.2);
+    assert!((force(reached) - 2.0).abs() < 1e-14);
+    let capped = [&parameters[..], &[("force_limit", 2.0)]].concat();
+    let capped = law("hyperbolic_gap", &capped);
+    let beyond = -0.01 - 2.0 * reached;
+    let path = [
+        (beyond, -2.0),
+        (beyond + 0.002, -1.2),
+        (beyond - 0.01, -2.0),
+    ];
+    follows(capped.as_ref(), &path);
+    let points = history(capped.as_ref(), &[beyond, 0.0], 1.0);
+    let plateau = loss(reached) + 2.0 * reached;
+    assert!((points[1].dissipated - plateau).abs() < 1e-14);
+}
+
+#[test]
+fn backfill_that_cannot_be_is_refused() {
+    let refused = |more: &[(&str, f64)]| {
+        let mut all = vec![
+            ("initial_stiffness", 200.0),
+            ("ultimate_force", 2.0),
+            ("failure_ratio", 0.8),
+        ];
+        all.retain(|(name, _)| more.iter().all(|(other, _)| other != name));
+        all.extend(more);
+        let parameters = LawParameters::from_pairs(&all);
+        let error = build("hyperbolic_gap", &parameters);
+        error.unwrap_err().to_string()
+    };
+    assert!(refused(&[("unloading_stiffness", 100.0)]).contains("below its initial_stiffness"));
+    assert!(refused(&[("force_limit", 2.5)]).contains("never reaches"));
+    assert!(refused(&[("failure_ratio", 1.0)]).contains("failure_ratio"));
+    assert!(refused(&[("ultimate_force", 0.0)]).contains("ultimate_force"));
+}

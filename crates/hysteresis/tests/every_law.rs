@@ -302,7 +302,7 @@ fn work_is_stored_or_dissipated() {
 }
 
 /// Laws that act differently on the two sides.
-const ONE_SIDED: [&str; 2] = ["gap_hook", "elastoplastic_gap"];
+const ONE_SIDED: [&str; 3] = ["gap_hook", "elastoplastic_gap", "hyperbolic_gap"];
 
 #[test]
 fn the_mirrored_path_gives_the_mirrored_force_bit_for_bit() {

@@ -87,7 +87,7 @@ fn unknown_and_missing_names_are_told() {
         HysteresisError::Definition(DefinitionError::UnknownParameter { .. })
     ));
     for descriptor in descriptors() {
-        for parameter in descriptor.parameters.iter().filter(|p| p.default.is_none()) {
+        for parameter in descriptor.parameters.iter().filter(|p| p.required) {
             let mut parameters = descriptor.example_parameters();
             parameters.values.remove(parameter.name);
             match build(descriptor.name, &parameters).unwrap_err() {

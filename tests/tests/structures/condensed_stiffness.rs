@@ -67,7 +67,8 @@ fn file() -> File {
     serde_json::from_str(text).unwrap()
 }
 
-fn el_centro() -> GroundAcceleration {
+/// El Centro 1940 NS as it lies in the repository.
+pub fn el_centro() -> GroundAcceleration {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../ground_motions/el_centro_1940_ns.csv");
     let record = pounding_ground_motion::read(&path, &Default::default()).unwrap();

@@ -2,4 +2,5 @@
 //! codes and against their limits.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod abutment;
 mod condensed_stiffness;

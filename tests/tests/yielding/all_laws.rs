@@ -15,7 +15,7 @@ const DURATION: f64 = 6.0;
 
 /// Newmark's step (s): short for laws that close a gap onto a stiff element.
 fn step(law: &str) -> f64 {
-    if matches!(law, "gap_hook" | "elastoplastic_gap") {
+    if matches!(law, "gap_hook" | "elastoplastic_gap" | "hyperbolic_gap") {
         2.5e-5
     } else {
         2.0e-4

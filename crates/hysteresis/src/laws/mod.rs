@@ -9,6 +9,7 @@ pub(crate) mod coulomb_friction;
 pub(crate) mod elastic_perfectly_plastic;
 pub(crate) mod elastoplastic_gap;
 pub(crate) mod gap_hook;
+pub(crate) mod hyperbolic_gap;
 pub(crate) mod ibarra_medina_krawinkler_2005_bilinear;
 pub(crate) mod ibarra_medina_krawinkler_2005_peak_oriented;
 pub(crate) mod ibarra_medina_krawinkler_2005_pinching;
@@ -46,6 +47,7 @@ pub(crate) static ALL: &[&LawDescriptor] = &[
     &maxwell::DESCRIPTOR,
     &gap_hook::DESCRIPTOR,
     &elastoplastic_gap::DESCRIPTOR,
+    &hyperbolic_gap::DESCRIPTOR,
     &iwan_six_parameter::DESCRIPTOR,
     &segalman_2005::DESCRIPTOR,
     &song_2004::DESCRIPTOR,

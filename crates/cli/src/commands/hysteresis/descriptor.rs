@@ -56,9 +56,10 @@ pub fn text(d: &LawDescriptor) -> String {
     }
     text.push_str("\nparameters\n");
     for p in d.parameters {
-        let default = p
-            .default
-            .map_or_else(|| ", required".to_owned(), |x| format!(", default {x}"));
+        let default = p.default.map_or_else(
+            || if p.required { ", required" } else { "" }.to_owned(),
+            |x| format!(", default {x}"),
+        );
         text.push_str(&format!(
             "  {:20} {:14} {}  in {}{default}\n",
             p.name,

@@ -49,7 +49,10 @@ fn head(d: &LawDescriptor) -> String {
 fn parameters(d: &LawDescriptor) -> String {
     let mut text = PARAMETERS.to_owned();
     for p in d.parameters {
-        let default = p.default.map_or_else(|| "required".to_owned(), all_digits);
+        let default = p.default.map_or_else(
+            || if p.required { "required" } else { "-" }.to_owned(),
+            all_digits,
+        );
         text.push_str(&parameter(
             [p.name, p.unit.symbol(), &p.range(), &default],
             p.explanation,

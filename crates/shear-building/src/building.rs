@@ -81,40 +81,26 @@ impl ShearBuilding {
         damping: Damping,
         gravity: f64,
     ) -> Result<Self, ShearBuildingError> {
-        check_storeys(&name, &mass, &height)?;
-        check(&name, "stiffness", &stiffness, mass.len())?;
-        let geometric = geometric(&mass, &height, gravity);
-        for (i, geometric) in geometric.iter().enumerate() {
+        let parts = Parts::new(name, mass, height, damping, gravity)?;
+        check(&parts.name, "stiffness", &stiffness, parts.mass.len())?;
+        for (i, geometric) in parts.geometric.iter().enumerate() {
             if !(*geometric < stiffness[i]) {
                 return Err(ShearBuildingError::Unstable {
-                    building: name,
+                    building: parts.name,
                     storey: i + 1,
-                    load: geometric * height[i],
-                    height: height[i],
+                    load: geometric * parts.height[i],
+                    height: parts.height[i],
                     geometric: *geometric,
                     stiffness: stiffness[i],
                 });
             }
         }
-        let lateral: Vec<f64> = stiffness
-            .iter()
-            .zip(&geometric)
-            .map(|(k, g)| k - g)
-            .collect();
+        let storeys = stiffness.iter().zip(&parts.geometric);
+        let lateral: Vec<f64> = storeys.map(|(k, g)| k - g).collect();
         let chain = SymmetricTridiagonal::chain(&lateral);
-        let undamped = undamped(&mass, &lateral, &chain);
-        Self::finish(
-            Parts {
-                name,
-                mass,
-                height,
-                damping,
-                geometric,
-            },
-            stiffness,
-            (StiffnessMatrix::Tridiagonal(chain), None),
-            undamped,
-        )
+        let undamped = undamped(&parts.mass, &lateral, &chain);
+        let matrices = (StiffnessMatrix::Tridiagonal(chain), None);
+        Self::finish(parts, stiffness, matrices, undamped)
     }
 
     /// A building whose floors all act on one another: a frame or a wall, condensed to the
@@ -132,37 +118,28 @@ impl ShearBuilding {
         damping: Damping,
         gravity: f64,
     ) -> Result<Self, ShearBuildingError> {
-        check_storeys(&name, &mass, &height)?;
+        let parts = Parts::new(name, mass, height, damping, gravity)?;
         let asymmetry = stiffness.asymmetry();
         let elastic = stiffness.into_matrix();
-        let n = mass.len();
+        let n = parts.mass.len();
         if elastic.nrows() != n {
             return Err(ShearBuildingError::Length {
-                building: name,
+                building: parts.name,
                 quantity: "stiffness matrix",
                 found: elastic.nrows(),
                 expected: n,
             });
         }
-        let geometric = geometric(&mass, &height, gravity);
-        let off = SymmetricTridiagonal::chain(&geometric);
+        let off = SymmetricTridiagonal::chain(&parts.geometric);
         let matrix = DMatrix::from_fn(n, n, |i, j| elastic[(i, j)] - off.entry(i, j));
         if gravity > 0.0 && matrix.clone().cholesky().is_none() {
-            return Err(ShearBuildingError::UnstableMatrix { building: name });
+            return Err(ShearBuildingError::UnstableMatrix {
+                building: parts.name,
+            });
         }
-        let undamped = undamped_dense(&mass, &matrix);
-        let building = Self::finish(
-            Parts {
-                name,
-                mass,
-                height,
-                damping,
-                geometric,
-            },
-            Vec::new(),
-            (StiffnessMatrix::Dense(matrix), Some(elastic)),
-            undamped,
-        )?;
+        let undamped = undamped_dense(&parts.mass, &matrix);
+        let matrices = (StiffnessMatrix::Dense(matrix), Some(elastic));
+        let building = Self::finish(parts, Vec::new(), matrices, undamped)?;
         Ok(Self {
             asymmetry,
             ..building
@@ -397,21 +374,34 @@ fn geometric(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
         .collect()
 }
 
-fn check_storeys(name: &str, mass: &[f64], height: &[f64]) -> Result<(), ShearBuildingError> {
-    if mass.is_empty() {
-        return Err(ShearBuildingError::NoStoreys {
-            building: name.to_owned(),
-        });
+impl Parts {
+    fn new(
+        name: String,
+        mass: Vec<f64>,
+        height: Vec<f64>,
+        damping: Damping,
+        gravity: f64,
+    ) -> Result<Self, ShearBuildingError> {
+        if mass.is_empty() {
+            return Err(ShearBuildingError::NoStoreys { building: name });
+        }
+        if mass.len() > MAXIMUM_STOREYS {
+            return Err(ShearBuildingError::TooManyStoreys {
+                building: name,
+                storeys: mass.len(),
+                largest: MAXIMUM_STOREYS,
+            });
+        }
+        check(&name, "mass", &mass, mass.len())?;
+        check(&name, "height", &height, mass.len())?;
+        Ok(Self {
+            geometric: geometric(&mass, &height, gravity),
+            name,
+            mass,
+            height,
+            damping,
+        })
     }
-    if mass.len() > MAXIMUM_STOREYS {
-        return Err(ShearBuildingError::TooManyStoreys {
-            building: name.to_owned(),
-            storeys: mass.len(),
-            largest: MAXIMUM_STOREYS,
-        });
-    }
-    check(name, "mass", mass, mass.len())?;
-    check(name, "height", height, mass.len())
 }
 
 fn check(

@@ -6,7 +6,7 @@ use pounding_hysteresis::{LawParameters, build};
 use pounding_shear_building::{Damping, ShearBuilding};
 use pounding_time_history::{Floor, LinkedPair, MethodChoice, Outcome, RunOptions, System, run};
 
-use super::condensed_stiffness::el_centro;
+use crate::yielding::setup::el_centro;
 
 /// 600 t, 0.9 s, damped by a dashpot; backfill of 10 m width behind 25.4 mm.
 fn frame() -> System {

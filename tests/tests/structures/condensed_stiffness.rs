@@ -2,16 +2,16 @@
 //! beams.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
 use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
 use pounding_time_history::{
-    Floor, GridRecorder, GroundAcceleration, MethodChoice, Outcome, Peak, Recorder, RunOptions,
-    System, run,
+    Floor, GridRecorder, MethodChoice, Outcome, Peak, Recorder, RunOptions, System, run,
 };
 use serde::Deserialize;
+
+use crate::yielding::setup::el_centro;
 
 /// The figures of `data/structures/condensed_stiffness_pair.json`, which says where they come
 /// from.
@@ -65,17 +65,6 @@ struct Impact {
 fn file() -> File {
     let text = include_str!("../../data/structures/condensed_stiffness_pair.json");
     serde_json::from_str(text).unwrap()
-}
-
-/// El Centro 1940 NS as it lies in the repository.
-pub fn el_centro() -> GroundAcceleration {
-    let path =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../ground_motions/el_centro_1940_ns.csv");
-    let record = pounding_ground_motion::read(&path, &Default::default()).unwrap();
-    GroundAcceleration {
-        samples: record.samples().into(),
-        time_step: record.time_step(),
-    }
 }
 
 fn model() -> Arc<dyn ImpactModel> {

@@ -9,4 +9,4 @@ mod exact_oscillator;
 mod from_rest;
 mod p_delta;
 mod properties;
-mod setup;
+pub mod setup;

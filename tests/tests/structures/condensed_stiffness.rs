@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};
+use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
 use pounding_time_history::{
     Floor, GridRecorder, GroundAcceleration, MethodChoice, Outcome, Peak, Recorder, RunOptions,
@@ -67,17 +68,21 @@ fn file() -> File {
     serde_json::from_str(text).unwrap()
 }
 
-fn el_centro() -> GroundAcceleration {
+pub(super) fn el_centro() -> Accelerogram {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../ground_motions/el_centro_1940_ns.csv");
-    let record = pounding_ground_motion::read(&path, &Default::default()).unwrap();
+    pounding_ground_motion::read(&path, &Default::default()).unwrap()
+}
+
+pub(super) fn ground() -> GroundAcceleration {
+    let record = el_centro();
     GroundAcceleration {
         samples: record.samples().into(),
         time_step: record.time_step(),
     }
 }
 
-fn model() -> Arc<dyn ImpactModel> {
+pub(super) fn model() -> Arc<dyn ImpactModel> {
     let parameters = ModelParameters::from_pairs(&[("stiffness", 2.0e8), ("restitution", 0.65)]);
     registry::build("anagnostopoulos_2004", &parameters)
         .unwrap()
@@ -100,7 +105,7 @@ fn pair_of(wall: LateralStiffness, frame: LateralStiffness) -> System {
     let wall = building("A", vec![4.0e4; 4], wall, modal);
     let masses = vec![6.0e4, 6.0e4, 5.0e4];
     let frame = building("B", masses, frame, Damping::Rayleigh { alpha, beta });
-    let mut system = System::new(vec![wall, frame], el_centro());
+    let mut system = System::new(vec![wall, frame], ground());
     let level = |i: usize| (Floor::Storey(0, i), Floor::Storey(1, i), 0.012, model());
     let names = ["A".to_owned(), "B".to_owned()];
     system
@@ -300,7 +305,7 @@ fn a_typed_chain_is_the_shear_building() {
                 Damping::StiffnessProportional { ratio: 0.05 },
             );
             let buildings = vec![Arc::new(building), Arc::new(stiff.unwrap())];
-            let mut system = System::new(buildings, el_centro());
+            let mut system = System::new(buildings, ground());
             let level = |i| (Floor::Storey(0, i), Floor::Storey(1, i), 0.02, model());
             let names = ["left".to_owned(), "right".to_owned()];
             system

@@ -2,4 +2,5 @@
 //! codes and against their limits.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod base_moments;
 mod condensed_stiffness;

@@ -165,6 +165,12 @@ impl<'s> Runner<'s> {
                 self.layout.levels.len()
             ));
         }
+        if shape.buildings != self.layout.buildings {
+            return Err(
+                "the run has a stiffness matrix where the study has storeys, or the reverse"
+                    .to_owned(),
+            );
+        }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
             Ok(outcome) => Ok(outcome),
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),

@@ -19,6 +19,9 @@ impl Case {
         let targets = steps.chain(scale.as_ref().and_then(|scale| scale.value.target()));
         let mut files = vec![("record", self.resolve(&file.value))];
         files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
+        let lateral = self.buildings.iter().filter_map(|b| b.lateral.as_ref());
+        let matrices = lateral.filter_map(|l| l.value.file());
+        files.extend(matrices.map(|f| ("matrix", self.resolve(&f.value))));
         files
     }
 }

@@ -39,6 +39,10 @@ impl Dimension {
     pub const FORCE: Self = Self::new(1.0, 1.0, -2.0);
     /// Stiffness, N/m.
     pub const STIFFNESS: Self = Self::new(1.0, 0.0, -2.0);
+    /// Flexibility, m/N.
+    pub const FLEXIBILITY: Self = Self::new(-1.0, 0.0, 2.0);
+    /// Flexural rigidity, N m2.
+    pub const FLEXURAL_RIGIDITY: Self = Self::new(1.0, 3.0, -2.0);
     /// Dashpot coefficient, N s/m.
     pub const DASHPOT: Self = Self::new(1.0, 0.0, -1.0);
     /// Energy, J.
@@ -92,6 +96,8 @@ impl fmt::Display for Dimension {
             (Self::ACCELERATION, "an acceleration (m/s2)"),
             (Self::FORCE, "a force (N)"),
             (Self::STIFFNESS, "a stiffness (N/m)"),
+            (Self::FLEXIBILITY, "a flexibility (m/N)"),
+            (Self::FLEXURAL_RIGIDITY, "a flexural rigidity (N m2)"),
             (Self::DASHPOT, "a dashpot coefficient (N s/m)"),
             (Self::ENERGY, "an energy (J)"),
             // Also the contact stiffness of a law with exponent 2.

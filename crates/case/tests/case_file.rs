@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
-use pounding_case::{Case, Damping, Dimension, Side, parse_quantity, schema};
+use pounding_case::{Case, CaseTree, Damping, Dimension, Side, parse_quantity, schema};
 use pounding_ground_motion::processing::Scale;
 use proptest::prelude::*;
+use toml::de::DeTable;
 
 const EXAMPLE: &str = r#"
 title = "Three-storey pair, El Centro 1940 NS"
@@ -83,6 +84,38 @@ fn the_example_means_what_it_says() {
 
 /// Definitions: pound 0.45359237 kg and inch 0.0254 m (1959), standard gravity
 /// 9.80665 m/s2 (1901); 25000 kip/in^1.5 = 2.747108735e10 N/m^1.5.
+/// Of a case that differs in a table, that table is read, and what depends on it.
+#[test]
+fn a_table_is_read_again() {
+    let file = Path::new("folder/case.toml");
+    let tree = CaseTree::parse(EXAMPLE, file).unwrap();
+    let with = |edited: &str| {
+        let edited = DeTable::parse(edited).unwrap().into_inner();
+        let (key, _) = edited.iter().next().unwrap();
+        let changed = [(key.clone(), edited[key.get_ref().as_ref()].clone())];
+        tree.with(&changed.into_iter().collect())
+    };
+    let base = parse(EXAMPLE).unwrap();
+    assert_eq!(tree.with(&DeTable::new()).unwrap(), base);
+    let wider = EXAMPLE.replace("20 mm", "30 mm");
+    let gap = &wider[wider.find("[[gap]]").unwrap()..wider.find("[ground").unwrap()];
+    let made = with(gap).unwrap();
+    assert_eq!(made.gaps[0].levels[2].width, 0.03);
+    assert_eq!(
+        (&made.buildings, &made.analysis),
+        (&base.buildings, &base.analysis)
+    );
+    // Gaps and buildings are held against one another, whichever of them is new.
+    assert_eq!(with(&gap.replace("light", "lihgt")), None);
+    let buildings =
+        &EXAMPLE[EXAMPLE.find("[[building]]").unwrap()..EXAMPLE.find("[[gap]]").unwrap()];
+    let lower = with(&buildings.replace("\"3 m\"", "2.5")).unwrap();
+    assert_eq!(lower.buildings[1].height, [2.5; 3]);
+    assert_eq!(lower.gaps[0].levels, base.gaps[0].levels);
+    assert_eq!(with(&buildings.replacen("\"3 m\"", "2.5", 1)), None);
+    assert!(CaseTree::parse(&EXAMPLE.replace("width", "widht"), file).is_err());
+}
+
 #[test]
 fn units_by_definition() {
     for (text, value, dimension) in [
@@ -175,8 +208,20 @@ fn the_schema_stands_by_itself() {
     assert!(!text.contains("$ref") && !text.contains("null"), "{text}");
     assert_eq!(schema["$id"], "pounding/case.schema.json");
     let building = &schema["properties"]["building"]["items"];
-    let required = ["name", "mass", "stiffness", "height", "damping"];
+    let required = ["name", "mass", "damping"];
     assert_eq!(building["required"], serde_json::json!(required));
+    let one_of = |number: usize| -> Vec<&str> {
+        let choices = building["allOf"][number]["oneOf"].as_array().unwrap();
+        choices
+            .iter()
+            .map(|choice| choice["required"][0].as_str().unwrap())
+            .collect()
+    };
+    let matrices = ["stiffness_matrix", "flexibility_matrix"];
+    let helpers = ["cantilever", "fishbone"];
+    let resist = [&["stiffness"][..], &matrices, &helpers].concat();
+    assert_eq!(one_of(0), resist);
+    assert_eq!(one_of(1), ["height", "elevations"]);
     assert_eq!(building["additionalProperties"], false);
     let mass = &building["properties"]["mass"];
     assert_eq!(mass["anyOf"][0]["exclusiveMinimum"], 0.0);

@@ -4,5 +4,6 @@ mod bad_input;
 mod case_file;
 mod document;
 mod ground_motion;
+mod lateral;
 mod separation;
 mod several_errors;

@@ -56,8 +56,7 @@ impl<D: Descriptor> Registry<D> {
     #[must_use]
     pub fn nearest(&self, name: &str) -> &'static str {
         let known = || self.all.iter().flat_map(|d| names(*d));
-        let nearly = suggestion::nearest(name, known())
-            .filter(|k| suggestion::is_within(name, k, 1 + name.chars().count() / 4));
+        let nearly = suggestion::nearest_within(name, known(), 1 + name.chars().count() / 4);
         let by_part = || known().find(|k| !name.is_empty() && k.contains(name));
         nearly
             .or_else(|| self.by_word(name))

@@ -1,9 +1,22 @@
 //! The known name that was probably meant.
 
-/// The known name with the fewest letters to change; the first of equals.
-pub fn nearest<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
-    let distance = |known: &T| letters_to_change(name, known.as_ref());
-    known.into_iter().min_by_key(distance)
+/// The known name with the fewest letters to change, if they are no more than so many; the first
+/// of equals.
+pub fn nearest_within<T: AsRef<str>>(
+    name: &str,
+    known: impl IntoIterator<Item = T>,
+    most: usize,
+) -> Option<T> {
+    let letters = |name: &str| name.chars().count();
+    let of_name = letters(name);
+    // So many are inserted or removed at least.
+    let near = known
+        .into_iter()
+        .filter(|known| letters(known.as_ref()).abs_diff(of_name) <= most)
+        .map(|known| (letters_to_change(name, known.as_ref()), known));
+    near.filter(|(change, _)| *change <= most)
+        .min_by_key(|(change, _)| *change)
+        .map(|(_, known)| known)
 }
 
 /// The known name of which `name` is an abbreviation; else the one with the fewest letters to
@@ -33,12 +46,6 @@ fn is_abbreviation(name: &str, known: &str) -> bool {
         && words
             .zip(of)
             .all(|(word, of)| word.len() >= SHORTEST_ABBREVIATION && of.starts_with(word))
-}
-
-/// Whether at most this many letters have to be changed.
-#[must_use]
-pub fn is_within(name: &str, known: &str, letters: usize) -> bool {
-    letters_to_change(name, known) <= letters
 }
 
 /// How many letters have to be inserted, removed or replaced (Levenshtein's distance).
@@ -78,15 +85,17 @@ mod tests {
 
     #[test]
     fn the_first_of_the_nearest_is_meant() {
-        assert_eq!(nearest("ab", ["abc", "abd"]), Some("abc"));
-        assert_eq!(nearest("ab", ["axyz", "abd"]), Some("abd"));
-        assert_eq!(nearest("ab", Vec::<String>::new()), None);
+        assert_eq!(nearest_within("ab", ["abc", "abd"], 2), Some("abc"));
+        assert_eq!(nearest_within("ab", ["axyz", "abd"], 3), Some("abd"));
+        assert_eq!(nearest_within("ab", ["axy", "abd"], 1), Some("abd"));
+        assert_eq!(nearest_within("ab", Vec::<String>::new(), 9), None);
         assert_eq!(
             misspelt("restitutoin", ["stiffness", "restitution"]),
             Some("restitution")
         );
         assert_eq!(misspelt("é", ["e"]), Some("e"));
         assert_eq!(misspelt("mass", ["stiffness"]), None);
-        assert!(is_within("width", "widht", 2) && !is_within("width", "widht", 1));
+        assert_eq!(nearest_within("width", ["widht"], 2), Some("widht"));
+        assert_eq!(nearest_within("width", ["widht"], 1), None);
     }
 }

@@ -35,6 +35,7 @@ pub struct ShearBuilding {
     stiffness: Vec<f64>,
     /// The matrix of a building that is no chain, without what gravity takes off.
     elastic: Option<DMatrix<f64>>,
+    asymmetry: f64,
     height: Vec<f64>,
     laws: Vec<Option<StoreyLaw>>,
     geometric: Vec<f64>,
@@ -132,6 +133,7 @@ impl ShearBuilding {
         gravity: f64,
     ) -> Result<Self, ShearBuildingError> {
         check_storeys(&name, &mass, &height)?;
+        let asymmetry = stiffness.asymmetry();
         let elastic = stiffness.into_matrix();
         let n = mass.len();
         if elastic.nrows() != n {
@@ -145,8 +147,11 @@ impl ShearBuilding {
         let geometric = geometric(&mass, &height, gravity);
         let off = SymmetricTridiagonal::chain(&geometric);
         let matrix = DMatrix::from_fn(n, n, |i, j| elastic[(i, j)] - off.entry(i, j));
+        if gravity > 0.0 && matrix.clone().cholesky().is_none() {
+            return Err(ShearBuildingError::UnstableMatrix { building: name });
+        }
         let undamped = undamped_dense(&mass, &matrix);
-        Self::finish(
+        let building = Self::finish(
             Parts {
                 name,
                 mass,
@@ -157,7 +162,11 @@ impl ShearBuilding {
             Vec::new(),
             (StiffnessMatrix::Dense(matrix), Some(elastic)),
             undamped,
-        )
+        )?;
+        Ok(Self {
+            asymmetry,
+            ..building
+        })
     }
 
     fn finish(
@@ -196,6 +205,7 @@ impl ShearBuilding {
             mass,
             stiffness,
             elastic,
+            asymmetry: 0.0,
             height,
             elevations,
             damping,
@@ -337,6 +347,13 @@ impl ShearBuilding {
     pub fn elastic_stiffness_matrix(&self) -> Option<Vec<Vec<f64>>> {
         let rows = self.elastic.as_ref()?.row_iter();
         Some(rows.map(|row| row.iter().copied().collect()).collect())
+    }
+
+    /// Difference of entries on both sides of the diagonal that the given matrix had, over its
+    /// largest entry ([`LateralStiffness::asymmetry`]).
+    #[must_use]
+    pub fn asymmetry(&self) -> f64 {
+        self.asymmetry
     }
 
     /// Stiffness matrix (N/m), with what gravity takes off where P-Delta is on.

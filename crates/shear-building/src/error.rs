@@ -86,6 +86,14 @@ pub enum ShearBuildingError {
         /// Storey stiffness (N/m).
         stiffness: f64,
     },
+    /// The same for a building with a stiffness matrix.
+    #[error(
+        "building {building}: gravity acting through the drift takes more off its stiffness matrix than this has: it cannot stand"
+    )]
+    UnstableMatrix {
+        /// Name of the building.
+        building: String,
+    },
     /// Masses or stiffnesses so far apart that double precision cannot resolve a mode.
     #[error(
         "building {building}: mode {mode} has the circular frequency {frequency} rad/s; masses or stiffnesses are too far apart"

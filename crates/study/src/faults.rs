@@ -310,6 +310,7 @@ fn plain_building() -> Building {
         },
         mass: vec![1.0],
         stiffness: vec![1.0e3],
+        lateral: None,
         height: vec![3.0],
         initial_displacement: Located {
             value: vec![0.0],

@@ -3,7 +3,7 @@
 use pounding_case::Case;
 use pounding_ground_motion::processing::Scale;
 
-use crate::case_text::{Path, apply, entry, options_of_motion};
+use crate::case_text::{Edit, Path, apply, entry, with_motion};
 use crate::error::StudyError;
 use crate::runs::{Runner, chosen, factor, motion, wanted, written};
 use crate::study_file::{RecordKind, Study};
@@ -66,16 +66,14 @@ fn scaled_by(case: &Case, factor: f64) -> bool {
 
 /// The case with a record in our own layout, and no word of its former one.
 fn with_file(text: &str, file: &str) -> Result<String, String> {
-    let (old, header) = options_of_motion(text, &["scale"]).map_err(|(reason, _)| reason)?;
-    let mut edits: Vec<_> = old.into_iter().map(|p| (p, String::new())).collect();
-    let file = toml::Value::String(file.to_owned());
-    edits.push((header..header, format!("\nfile = {file}")));
-    Ok(apply(text, edits))
+    let file = toml::Value::String(file.to_owned()).to_string();
+    let edits = with_motion(text, &["scale"], vec![("file".to_owned(), file)]);
+    Ok(apply(text, &edits.map_err(|(reason, _)| reason)?))
 }
 
 /// The case with this factor as the scale of its record.
 fn with_scale(text: &str, scale: f64) -> Result<String, String> {
     let path = Path::parse("ground_motion.scale")?;
     let entry = entry(text, &path).map_err(|(reason, _)| reason)?;
-    Ok(apply(text, vec![entry.with(&written(scale))]))
+    Ok(apply(text, &[Edit::new(&entry, written(scale))]))
 }

@@ -166,6 +166,141 @@ fn identity_is_that_of_the_content() {
     );
 }
 
+/// A run made in the tree of its case has the identity, and the values, of the text that shows
+/// it: whatever varies, also what the case leaves out, words and whole models.
+#[test]
+fn identity_is_that_of_the_shown_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let varied = study(
+        folder.path(),
+        r#"
+[[variable]]
+name = "height"
+path = "building.light.height"
+values = ["3 m", 3.003]
+[[variable]]
+name = "tolerance"
+path = "gap.0.elevation_tolerance"
+values = [0.02, "1 cm"]
+[[variable]]
+name = "ratio"
+path = "building.1.damping.stiffness_proportional"
+values = [0.05, "2 %"]
+[[variable]]
+name = "model"
+path = "gap.light-heavy.model"
+values = [{ model = "jankowski_2005", stiffness = "2.75e9 N/m^1.5", restitution = 0.7 }, { model = "anagnostopoulos_2004", restitution = 0.6, stiffness = "93.5 MN/m", separation = "no_tension" }]
+[[variable]]
+name = "method"
+path = "analysis.method"
+values = ["event_driven", "adaptive"]
+[[variable]]
+records = ["MOTIONS/el_centro_1940_ns.csv", { file = "MOTIONS/kobe_1995_jma_ns.csv", prepend_zero = false, process = [{ sign = "reversed" }] }]
+[design]
+kind = "latin_hypercube"
+runs = 12
+"#,
+    )
+    .unwrap();
+    let found = rows(&varied, folder.path());
+    for (row, _) in &found {
+        assert_eq!(row.ending, Ending::Complete);
+        let alone = tempfile::tempdir().unwrap();
+        let text = case_of_run(&varied, row.run).unwrap();
+        std::fs::write(alone.path().join("case.toml"), text).unwrap();
+        let duration =
+            "case = \"case.toml\"\n[[variable]]\npath = \"analysis.duration\"\nvalues = [6]\n";
+        let alone_study = Study::parse(duration, &alone.path().join("study.toml")).unwrap();
+        let (same, _) = rows(&alone_study, alone.path()).remove(0);
+        assert_eq!(same.id, row.id, "run {}", row.run);
+        assert_eq!(same.values, row.values, "run {}", row.run);
+    }
+}
+
+/// Values that the case bears alone and not together are failures of their runs, whose
+/// messages have their places in the text of the run, be it the case or a model that refuses.
+#[test]
+fn failures_have_their_place_in_the_text_of_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    study(folder.path(), "").unwrap_err();
+    let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    let case = case.replace("jankowski_2005", "anagnostopoulos_2004");
+    let case = case.replace("2.75e9 N/m^1.5", "93.5 MN/m");
+    std::fs::write(folder.path().join("case.toml"), &case).unwrap();
+    let text = r#"
+case = "case.toml"
+[[variable]]
+name = "tolerance"
+path = "gap.0.elevation_tolerance"
+values = [0.02, 0.002]
+[[variable]]
+name = "height"
+path = "building.light.height"
+values = [3, 3.003]
+[[variable]]
+name = "model"
+path = "gap.0.model"
+values = [{ model = "anagnostopoulos_2004", stiffness = 93.5e6, restitution = 0.65 }, { model = "hertz_1882", stiffness = 2.75e9 }]
+[[variable]]
+name = "rule"
+path = "gap.0.separation"
+values = ["no_tension", "zero_penetration"]
+"#;
+    let varied = Study::parse(text, &folder.path().join("study.toml")).unwrap();
+    let (mut by_case, mut by_model) = (0, 0);
+    for (row, _) in rows(&varied, folder.path()) {
+        let file = folder.path().join("case.toml");
+        let shown = case_of_run(&varied, row.run);
+        let Ending::Failed(reason) = row.ending else {
+            shown.unwrap();
+            continue;
+        };
+        match shown {
+            // It cannot be shown for the same reason.
+            Err(e) => {
+                by_case += 1;
+                assert!(reason.contains("case.toml:"), "{reason}");
+                assert!(e.to_string().contains(&reason), "{e}");
+            }
+            Ok(text) => {
+                by_model += 1;
+                let case = Case::parse(&text, &file).unwrap();
+                assert_eq!(reason, assemble(&case).unwrap_err().to_string());
+                let line = text.lines().position(|l| l.starts_with("separation"));
+                let line = format!("case.toml:{}:", line.unwrap() + 1);
+                assert!(reason.contains(&line), "{reason}");
+            }
+        }
+    }
+    assert_eq!((by_case, by_model), (4, 3));
+}
+
+/// Variables of which one lies within the other cannot be written together.
+#[test]
+fn variables_within_one_another_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    study(folder.path(), "").unwrap_err();
+    let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    let case = case.replace(
+        "[analysis]",
+        "scale = { psa = 2, period = 1 }\n\n[analysis]",
+    );
+    std::fs::write(folder.path().join("case.toml"), &case).unwrap();
+    let of = |second: &str| {
+        let text = format!(
+            "case = \"case.toml\"\n[[variable]]\nname = \"a\"\npath = \"ground_motion.scale\"\nvalues = [1, 2]\n[[variable]]\nname = \"b\"\npath = \"ground_motion.scale.{second}\"\nvalues = [0.5]\n"
+        );
+        Study::parse(&text, &folder.path().join("study.toml"))
+    };
+    for second in ["period", "damping"] {
+        let wrong = of(second).unwrap_err().to_string();
+        assert!(
+            wrong.contains("\"a\" and \"b\" vary the same entry"),
+            "{wrong}"
+        );
+    }
+}
+
 /// Scaled to a measure, a record has it; and the isolated demand grows in proportion, for
 /// the buildings are elastic.
 #[test]

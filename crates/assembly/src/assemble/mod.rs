@@ -1,6 +1,7 @@
 //! Buildings, models, gaps, links and options of a case, put together.
 
 mod again;
+mod lateral;
 mod laws;
 
 pub use again::{assemble_with_record, regap};
@@ -50,7 +51,12 @@ impl Assembly {
     pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {
         let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
         let record = record.unwrap_or_default().iter().cloned();
-        record.chain(ours.iter().map(Warning::to_string)).collect()
+        let buildings = self.system.buildings().iter();
+        let averaged = buildings.filter_map(|b| lateral::averaged(b));
+        record
+            .chain(averaged)
+            .chain(ours.iter().map(Warning::to_string))
+            .collect()
     }
 }
 
@@ -203,17 +209,25 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
 
 fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
     let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
-    let building = ShearBuilding::under_gravity(
-        b.name.value.clone(),
-        b.mass.clone(),
-        b.stiffness.clone(),
-        b.height.clone(),
-        b.damping.value.clone(),
-        gravity,
-    )
-    .map_err(|e| {
+    let (name, mass, height) = (b.name.value.clone(), b.mass.clone(), b.height.clone());
+    let damping = b.damping.value.clone();
+    let made = match &b.lateral {
+        None => {
+            let stiffness = b.stiffness.clone();
+            ShearBuilding::under_gravity(name, mass, stiffness, height, damping, gravity)
+        }
+        Some(lateral) => {
+            let stiffness = lateral::stiffness(case, b, lateral)?;
+            ShearBuilding::with_stiffness_matrix(name, mass, stiffness, height, damping, gravity)
+        }
+    };
+    let building = made.map_err(|e| {
+        let at_matrix = b.lateral.as_ref().map_or(&b.name.span, |l| &l.span);
         let (place, help) = match &e {
             ShearBuildingError::Unstable { .. } => (&b.name.span, None),
+            ShearBuildingError::UnstableMatrix { .. } | ShearBuildingError::Length { .. } => {
+                (at_matrix, None)
+            }
             ShearBuildingError::TooManyStoreys { .. } => (
                 &b.name.span,
                 Some("join storeys: several of them as one of their total height and mass, and of their stiffnesses in series".to_owned()),

@@ -24,18 +24,19 @@ use super::Reader;
 use super::entries::ask;
 use super::error::{Error, Fault};
 
-/// The root of a tree; `None` after recording what is wrong.
+/// The value of a key, empty for the root of a tree; `None` after recording what is wrong.
 pub(super) fn read<T: DeserializeOwned>(
     reader: Reader<'_>,
-    root: &Spanned<DeValue<'_>>,
+    key: &str,
+    value: &Spanned<DeValue<'_>>,
 ) -> Option<T> {
-    let root = Value {
+    let value = Value {
         reader,
-        key: "",
+        key,
         wanted: "",
-        held: Held::Given(root),
+        held: Held::Given(value),
     };
-    root.recorded(PhantomData).ok()
+    value.recorded(PhantomData).ok()
 }
 
 /// A value with the name of its key, or something else about it.
@@ -638,19 +639,16 @@ impl<'r> Keys<'r> {
             unknown: Vec::new(),
             kinds: "",
         };
-        keys.unknown = keys
-            .others()
-            .filter_map(|(key, _)| {
-                let known = fields.iter().copied().filter(|k| *k != FREE);
-                // Where any key may stand, one that is nearly another is a slip.
-                match keys.is_open() {
-                    false => Some((key, suggestion::misspelt(key.get_ref(), known))),
-                    true => suggestion::nearest(key.get_ref(), known)
-                        .filter(|k| suggestion::is_within(key.get_ref(), k, 2))
-                        .map(|k| (key, Some(k))),
-                }
-            })
-            .collect();
+        let known = || fields.iter().copied().filter(|k| *k != FREE);
+        let unknown = |(key, _): (&'r Key<'r>, _)| match keys.is_open() {
+            false => Some((key, suggestion::misspelt(key.get_ref(), known()))),
+            // Where any key may stand, one that is nearly another is a slip.
+            true => {
+                let meant = suggestion::nearest_within(key.get_ref(), known(), 2);
+                meant.map(|meant| (key, Some(meant)))
+            }
+        };
+        keys.unknown = keys.others().filter_map(unknown).collect();
         keys.unknown.sort_by_key(|(key, _)| key.span().start);
         keys
     }

@@ -31,9 +31,9 @@ pub use entries::{
 };
 pub use error::Fault;
 pub use numbers::{
-    AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Dimensioned, Frequency, Length, Mass,
-    NotNegative, Number, Positive, Ratio, Scalar, Signed, Stiffness, Time, Velocity, Within,
-    Written,
+    AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Dimensioned, Flexibility,
+    FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Positive, Ratio, Scalar,
+    Signed, Stiffness, Time, Velocity, Within, Written,
 };
 pub use schema::schema_of;
 
@@ -114,6 +114,16 @@ impl Reader<'_> {
             return None;
         }
         let root = Spanned::new(0..0, DeValue::Table(tree.into_inner()));
-        deserializer::read(*self, &root)
+        self.value("", &root)
+    }
+
+    /// The value of a key, empty for that of the whole text; `None` after recording what is
+    /// wrong.
+    pub(crate) fn value<T: DeserializeOwned>(
+        &self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<T> {
+        deserializer::read(*self, key, value)
     }
 }

@@ -69,6 +69,12 @@ impl Written {
         Ok(value)
     }
 
+    /// A text as it could be written.
+    #[must_use]
+    pub fn of_text(text: String) -> Self {
+        Self { text, plain: false }
+    }
+
     /// The text, or the digits of a number.
     #[must_use]
     pub fn as_written(&self) -> &str {
@@ -224,7 +230,10 @@ dimensions! {
     Frequency FREQUENCY "Frequency, 1/s.";
     Velocity VELOCITY "Velocity, m/s.";
     Acceleration ACCELERATION "Acceleration, m/s2.";
+    Force FORCE "Force, N.";
     Stiffness STIFFNESS "Stiffness, N/m.";
+    Flexibility FLEXIBILITY "Flexibility, m/N.";
+    FlexuralRigidity FLEXURAL_RIGIDITY "Flexural rigidity, N m2.";
     Dashpot DASHPOT "Dashpot coefficient, N s/m.";
 }
 

@@ -7,7 +7,7 @@ use crate::document::{Entry, Number, Optional, Positive, Signed, Table, Time};
 use crate::types::{Analysis, Located};
 
 /// Method, duration, output
-#[derive(Default, Deserialize, JsonSchema)]
+#[derive(Clone, Default, Deserialize, JsonSchema)]
 #[serde(rename = "[analysis]")]
 pub(super) struct AnalysisTable {
     /// event_driven (default), adaptive, newmark, hht_alpha, runge_kutta_4, or moreau_jean

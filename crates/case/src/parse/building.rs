@@ -6,17 +6,28 @@ use pounding_catalogue::wording::counted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::lateral::{CantileverTable, FishboneTable, MatrixValue, matrix, rows};
 use super::law::{LawTable, storey_laws};
 use super::{check_name, spread};
 use crate::document::{
-    Count, Dashpot, Entry, Field, Frequency, Kinds, Length, Mass, NotNegative, OneOrEach, Optional,
-    Positive, Ratio, Reader, Signed, Stiffness, Time, Velocity,
+    Count, Dashpot, Dimensioned, Entry, Field, Flexibility, Frequency, Kinds, Length, Mass,
+    NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Time, Velocity,
 };
-use crate::types::{Building, Damping, Located};
+use crate::types::{Building, Damping, Lateral, Located};
 
 /// A building
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "[[building]]")]
+#[schemars(extend("allOf" = [
+    {"oneOf": [
+        {"required": ["stiffness"]},
+        {"required": ["stiffness_matrix"]},
+        {"required": ["flexibility_matrix"]},
+        {"required": ["cantilever"]},
+        {"required": ["fishbone"]}
+    ]},
+    {"oneOf": [{"required": ["height"]}, {"required": ["elevations"]}]}
+]))]
 pub(super) struct BuildingTable {
     /// Name, unique in the case; "wall" is reserved
     name: Field<String>,
@@ -25,9 +36,23 @@ pub(super) struct BuildingTable {
     /// Floor mass (kg), one for all storeys or a list, bottom first
     mass: Field<OneOrEach<Positive<Mass>>>,
     /// Storey stiffness (N/m), one for all storeys or a list, bottom first
-    stiffness: Field<OneOrEach<Positive<Stiffness>>>,
+    stiffness: Optional<OneOrEach<Positive<Stiffness>>>,
+    /// Lateral stiffness matrix of the floors (N/m) in the place of storey stiffnesses: its
+    /// rows, bottom first, or the CSV file that holds them
+    stiffness_matrix: Optional<MatrixValue<Stiffness>>,
+    /// Flexibility matrix of the floors (m/N) in the place of storey stiffnesses: its rows,
+    /// bottom first, or the CSV file that holds them
+    flexibility_matrix: Optional<MatrixValue<Flexibility>>,
+    /// A cantilever wall in the place of storey stiffnesses
+    cantilever: Optional<CantileverTable>,
+    /// A frame with flexible beams in the place of storey stiffnesses, its columns and beams
+    /// lumped
+    fishbone: Optional<FishboneTable>,
     /// Storey height (m), one for all storeys or a list, bottom first
-    height: Field<OneOrEach<Positive<Length>>>,
+    height: Optional<OneOrEach<Positive<Length>>>,
+    /// Elevations of the floors above the base (m) in the place of storey heights, bottom
+    /// first
+    elevations: Optional<Vec<Positive<Length>>>,
     /// Floor displacement relative to the ground at time zero (m), one for all floors or a
     /// list; by default at rest
     initial_displacement: Optional<OneOrEach<Signed<Length>>>,
@@ -45,7 +70,7 @@ pub(super) struct BuildingTable {
 }
 
 /// Viscous damping, one of its kinds
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     rename_all = "snake_case",
     expecting = "a table\nfor example { stiffness_proportional = 0.05 }, the ratio in the first mode"
@@ -80,7 +105,7 @@ enum DampingTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct Rayleigh {
     /// Mass factor (1/s)
     alpha: NotNegative<Frequency>,
@@ -88,7 +113,7 @@ struct Rayleigh {
     beta: NotNegative<Time>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of two modes")]
 #[schemars(extend("minItems" = 2, "maxItems" = 2, "uniqueItems" = true))]
 struct Modes(Vec<Count<1>>);
@@ -116,7 +141,12 @@ impl BuildingTable {
         name: Option<Located<String>>,
     ) -> Option<(Building, bool)> {
         let keep = reader.errors;
-        let sound = !(self.mass.is_wrong() || self.stiffness.is_wrong() || self.height.is_wrong());
+        let given = self.resistances();
+        let resists = self.resists(reader, &given, &place);
+        let heights_given = self.heights_given(reader, &place);
+        let heights_wrong = !heights_given || self.height.is_wrong() || self.elevations.is_wrong();
+        let stiffness_wrong = !resists || self.resistance_is_wrong();
+        let sound = !(self.mass.is_wrong() || stiffness_wrong || heights_wrong);
         let storeys = match self.storeys(reader)? {
             Some(storeys) => storeys,
             // One of the values that are wrong may say it.
@@ -129,9 +159,28 @@ impl BuildingTable {
                 );
             }
         };
+        let by_storeys = given.contains(&"stiffness");
+        if let (Some(span), false, false) = (self.law.span(), by_storeys, given.is_empty()) {
+            return reader.refuse(
+                span,
+                format!(
+                    "a `law` takes the place of one storey's stiffness, but this building has `{}`",
+                    given[0]
+                ),
+                "leave out the law, or give storey stiffnesses",
+            );
+        }
+        let lateral = lateral(
+            reader,
+            storeys,
+            (self.stiffness_matrix, self.flexibility_matrix),
+            (self.cantilever, self.fishbone),
+        );
+        let stiffness_wrong = stiffness_wrong || !by_storeys && lateral.is_none();
+        let sound = sound && !stiffness_wrong;
         let laws = self.law.value();
         let laws = laws.map_or_else(Vec::new, |laws| storey_laws(reader, laws, storeys));
-        if self.stiffness.is_wrong() {
+        if stiffness_wrong {
             // A law is held against the stiffness of its storey.
             for law in &laws {
                 keep.incomplete(law.model.span.clone());
@@ -155,7 +204,10 @@ impl BuildingTable {
                 span: place,
             }
         });
-        let heights = !self.height.is_wrong();
+        let height = match self.elevations.located() {
+            Some(elevations) => heights(reader, elevations, storeys)?,
+            None => each(self.height, storeys, 1.0),
+        };
         let displaced = self.initial_displacement.span();
         let building = Building {
             initial_displacement: Located {
@@ -165,13 +217,92 @@ impl BuildingTable {
             initial_velocity: each(self.initial_velocity, storeys, 0.0),
             name,
             mass: each(self.mass, storeys, 1.0),
-            stiffness: each(self.stiffness, storeys, 1.0),
-            height: each(self.height, storeys, 1.0),
+            stiffness: match by_storeys || stiffness_wrong {
+                true => each(self.stiffness, storeys, 1.0),
+                false => Vec::new(),
+            },
+            lateral,
+            height,
             laws,
             p_delta: self.p_delta.value().unwrap_or_default() && sound,
             damping,
         };
-        Some((building, heights))
+        Some((building, !heights_wrong))
+    }
+
+    /// Keys that say what resists the lateral motion.
+    fn resistances(&self) -> Vec<&'static str> {
+        let keys = [
+            ("stiffness", self.stiffness.is_some()),
+            ("stiffness_matrix", self.stiffness_matrix.is_some()),
+            ("flexibility_matrix", self.flexibility_matrix.is_some()),
+            ("cantilever", self.cantilever.is_some()),
+            ("fishbone", self.fishbone.is_some()),
+        ];
+        keys.into_iter()
+            .filter_map(|(key, given)| given.then_some(key))
+            .collect()
+    }
+
+    fn resistance_is_wrong(&self) -> bool {
+        self.stiffness.is_wrong()
+            || self.stiffness_matrix.is_wrong()
+            || self.flexibility_matrix.is_wrong()
+            || self.cantilever.is_wrong()
+            || self.fishbone.is_wrong()
+    }
+
+    /// Whether one key, and one alone, says what resists.
+    fn resists(&self, reader: &Reader<'_>, given: &[&str], place: &Range<usize>) -> bool {
+        match given {
+            [_] => return true,
+            [] => {
+                reader.refuse::<()>(
+                    place.clone(),
+                    "[[building]] has no `stiffness`",
+                    "add `stiffness = ...`; for a frame or a wall `stiffness_matrix`, `flexibility_matrix`, `cantilever` or `fishbone`",
+                );
+            }
+            [first, second, ..] => {
+                let spans = [
+                    self.stiffness.span(),
+                    self.stiffness_matrix.span(),
+                    self.flexibility_matrix.span(),
+                    self.cantilever.span(),
+                    self.fishbone.span(),
+                ];
+                let span = spans.into_iter().flatten().nth(1);
+                reader.refuse::<()>(
+                    span.unwrap_or_else(|| place.clone()),
+                    format!("a building has either `{first}` or `{second}`, not both"),
+                    "leave one of them out",
+                );
+            }
+        }
+        false
+    }
+
+    /// Whether one of the two keys, and one alone, says how high the storeys are.
+    fn heights_given(&self, reader: &Reader<'_>, place: &Range<usize>) -> bool {
+        match (&self.height, &self.elevations) {
+            (None, None) => {
+                reader.refuse::<()>(
+                    place.clone(),
+                    "[[building]] has no `height`",
+                    "add `height = ...`, or `elevations = [...]`",
+                );
+                false
+            }
+            (Some(_), Some(_)) => {
+                reader.refuse::<()>(
+                    self.elevations.span().unwrap_or_else(|| place.clone()),
+                    "a building has either `height` or `elevations`, not both",
+                    "leave one of them out",
+                );
+                false
+            }
+            _ => true,
+        }
     }
 
     /// The number of storeys, on which `storeys` and all lists must agree; `Some(None)` if
@@ -183,8 +314,17 @@ impl BuildingTable {
         }
         for (key, list) in [
             ("mass", length(Some(&self.mass))),
-            ("stiffness", length(Some(&self.stiffness))),
-            ("height", length(Some(&self.height))),
+            ("stiffness", length(self.stiffness.as_ref())),
+            (
+                "stiffness_matrix",
+                matrix_rows(self.stiffness_matrix.as_ref()),
+            ),
+            (
+                "flexibility_matrix",
+                matrix_rows(self.flexibility_matrix.as_ref()),
+            ),
+            ("height", length(self.height.as_ref())),
+            ("elevations", list_length(self.elevations.as_ref())),
             (
                 "initial_displacement",
                 length(self.initial_displacement.as_ref()),
@@ -201,7 +341,14 @@ impl BuildingTable {
                         span,
                         format!(
                             "`{key}` has {}, but `{other}` says {}",
-                            counted(values, "value"),
+                            counted(
+                                values,
+                                if key.ends_with("matrix") {
+                                    "row"
+                                } else {
+                                    "value"
+                                }
+                            ),
                             counted(n, "storey")
                         ),
                         "give one value per storey, or a single value for all",
@@ -220,6 +367,76 @@ fn length<T>(list: Option<&Field<OneOrEach<T>>>) -> Option<(usize, Range<usize>)
         Field::Given(list) => Some((list.value.length()?, list.span.clone())),
         Field::Wrong => None,
     }
+}
+
+/// The same of rows of a matrix.
+fn matrix_rows<D: Dimensioned>(
+    matrix: Option<&Field<MatrixValue<D>>>,
+) -> Option<(usize, Range<usize>)> {
+    match matrix? {
+        Field::Given(matrix) => Some((rows(&matrix.value)?, matrix.span.clone())),
+        Field::Wrong => None,
+    }
+}
+
+/// The same of a list.
+fn list_length<T>(list: Option<&Field<Vec<T>>>) -> Option<(usize, Range<usize>)> {
+    match list? {
+        Field::Given(list) => Some((list.value.len(), list.span.clone())),
+        Field::Wrong => None,
+    }
+}
+
+/// What resists in the place of storey stiffnesses.
+fn lateral(
+    reader: &Reader<'_>,
+    storeys: usize,
+    (stiffness, flexibility): (
+        Optional<MatrixValue<Stiffness>>,
+        Optional<MatrixValue<Flexibility>>,
+    ),
+    (cantilever, fishbone): (Optional<CantileverTable>, Optional<FishboneTable>),
+) -> Option<Located<Lateral>> {
+    let at = |span, value| Some(Located { value, span });
+    if let Some(Located { value, span }) = stiffness.located() {
+        let source = matrix(reader, value, &span, storeys)?;
+        return at(span, Lateral::Stiffness(source));
+    }
+    if let Some(Located { value, span }) = flexibility.located() {
+        let source = matrix(reader, value, &span, storeys)?;
+        return at(span, Lateral::Flexibility(source));
+    }
+    if let Some(Located { value, span }) = cantilever.located() {
+        return at(span, value.read(reader, storeys)?);
+    }
+    let Located { value, span } = fishbone.located()?;
+    at(span, value.read(reader, storeys)?)
+}
+
+/// Storey heights from the elevations of the floors.
+fn heights(
+    reader: &Reader<'_>,
+    elevations: Located<Vec<Positive<Length>>>,
+    storeys: usize,
+) -> Option<Vec<f64>> {
+    let floors: Vec<f64> = elevations.value.into_iter().map(f64::from).collect();
+    let mut heights = Vec::with_capacity(storeys);
+    let mut below = 0.0;
+    for (i, z) in floors.iter().enumerate() {
+        if z - below <= 0.0 {
+            return reader.refuse(
+                elevations.span,
+                format!(
+                    "floor {} is at {z} m, not above the one below it at {below} m",
+                    i + 1
+                ),
+                "give the elevations above the base, bottom first",
+            );
+        }
+        heights.push(z - below);
+        below = *z;
+    }
+    Some(heights)
 }
 
 /// One value for each storey.

@@ -15,7 +15,7 @@ use crate::types::{ContactLevel, Gap, Parameter, Side};
 use crate::units::Quantity;
 
 /// A gap between neighbours, or to a rigid wall
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "[[gap]]")]
 pub(super) struct GapTable {
     /// Name of the gap, by default left-right

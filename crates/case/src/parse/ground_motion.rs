@@ -16,7 +16,7 @@ use crate::types::{GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
 
 /// The recorded motion
-#[derive(Default, Deserialize, JsonSchema)]
+#[derive(Clone, Default, Deserialize, JsonSchema)]
 #[serde(rename = "[ground_motion]")]
 pub(super) struct MotionTable {
     /// Record, relative to the folder of the case file
@@ -66,6 +66,7 @@ pub fn ground_motion_schema(generator: &mut SchemaGenerator) -> Schema {
 }
 
 /// Counts per m/s2.
+#[derive(Clone)]
 struct Sensitivity;
 
 impl Dimensioned for Sensitivity {
@@ -81,7 +82,7 @@ const TURN: &str =
     "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
 
 /// An angle in degrees, which has no unit: radians are pure numbers too.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(try_from = "Written")]
 struct Degrees(f64);
 

@@ -14,7 +14,7 @@ use crate::types::{LawParameter, Link, Located, Side, StoreyLaw};
 use crate::units::Quantity;
 
 /// Law of some storeys
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "law")]
 pub(super) struct LawTable {
     /// Law of the storey
@@ -27,7 +27,7 @@ pub(super) struct LawTable {
     parameters: FreeKeys<Values>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of storeys, from 1")]
 #[schemars(extend("minItems" = 1))]
 struct Storeys(Vec<Located<Count<1>>>);
@@ -35,7 +35,7 @@ struct Storeys(Vec<Located<Count<1>>>);
 type Values = OneOrEach<Located<Quantity>, 0>;
 
 /// A link between floors
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "[[link]]")]
 pub(super) struct LinkTable {
     /// Name of the link, by default left-right

@@ -15,12 +15,13 @@ use crate::document::{Entry, Field, Length, OneOrEach, Optional, Positive, Reade
 use crate::types::{Building, Located, Side};
 
 /// Two neighbours.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of two names")]
 #[schemars(extend("minItems" = 2, "maxItems" = 2))]
 pub(super) struct Between(Vec<Located<String>>);
 
 /// Which floors face one another.
+#[derive(Clone)]
 pub(super) enum Levels {
     /// Those at equal elevation.
     Matching,
@@ -31,7 +32,7 @@ pub(super) enum Levels {
 type Level = OneOrEach<Located<Storey>, 0>;
 
 /// A storey, from 1, that may not exist.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(expecting = "storeys as whole numbers, in pairs such as [1, 1] or alone beside a wall")]
 pub(super) struct Storey(i64);
 
@@ -137,6 +138,11 @@ impl Faces {
         let by_rule: Vec<Pair> = match (&listed, between, facing) {
             (Some(_), ..) => Vec::new(),
             (None, _, Some(pair)) => {
+                let elevations = between.map(|side| match side {
+                    Side::Building(building) => row.elevations[building].as_slice(),
+                    Side::Wall => &[],
+                });
+                let pair = (pair, elevations);
                 levels_at_equal_elevation(reader, pair, tolerance, is_matching, &rule)?
             }
             (None, [Side::Building(i), _], _) => storeys(i).map(|s| (Some(s), None)).collect(),
@@ -297,27 +303,26 @@ fn listed_levels(
 
 fn levels_at_equal_elevation(
     reader: &Reader<'_>,
-    buildings: [&Building; 2],
+    (buildings, [a, b]): ([&Building; 2], [&[f64]; 2]),
     tolerance: f64,
     matching_only: bool,
     place: &Range<usize>,
 ) -> Option<Vec<Pair>> {
-    let [a, b] = buildings.map(Building::elevations);
-    let pairs = level_pairs(&a, &b, tolerance);
+    let pairs = level_pairs(a, b, tolerance);
     if pairs.is_empty() && matching_only {
         let [left, right] = buildings.map(|b| &b.name.value);
-        let (a, b) = (shown(&a), shown(&b));
+        let (a, b) = (shown(a), shown(b));
         return reader.refuse(
             place.clone(),
             format!("no floor of \"{left}\" ({a}) is level with a floor of \"{right}\" ({b}; tolerance {tolerance} m)"),
             AT_DIFFERENT_ELEVATIONS,
         );
     }
-    let alone = floor_without_partner([&a, &b], &pairs, tolerance).filter(|_| !matching_only);
+    let alone = floor_without_partner([a, b], &pairs, tolerance).filter(|_| !matching_only);
     let Some((side, storey)) = alone else {
         return Some(pairs.iter().map(|p| (Some(p.0), Some(p.1))).collect());
     };
-    let (building, elevation) = (buildings[side], [&a, &b][side][storey]);
+    let (building, elevation) = (buildings[side], [a, b][side][storey]);
     reader.refuse(
         place.clone(),
         format!("floor {} of \"{}\" at {elevation} m has no floor of its neighbour at equal elevation (tolerance {tolerance} m)", storey + 1, building.name.value),

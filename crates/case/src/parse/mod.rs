@@ -22,18 +22,21 @@ mod analysis;
 mod building;
 mod gap;
 mod ground_motion;
+mod lateral;
 mod law;
 mod levels;
 mod process;
 mod scale;
 mod separation;
+mod tree;
 
 pub use ground_motion::ground_motion_schema;
 pub use process::process_steps;
 pub(crate) use separation::keys as separation_keys;
+pub use tree::CaseTree;
 
 /// A case of seismic pounding
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "the case")]
 #[schemars(title = "pounding case")]
 struct CaseFile {
@@ -61,7 +64,23 @@ pub fn schema() -> serde_json::Value {
     document::schema_of::<CaseFile>("pounding/case.schema.json")
 }
 
+/// Where to see how a case file is written.
+const EXAMPLE: &str = "see the example in docs/reference/case-file.md";
+
 pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
+    case_of(source, file, |reader| {
+        let mut tables: CaseFile = reader.read(EXAMPLE)?;
+        let row = Row::new(reader, tables.building.take());
+        Some(tables.draft(reader, file, &row))
+    })
+}
+
+/// The case that is read from a text, unless anything is wrong with it.
+fn case_of(
+    source: &str,
+    file: &Path,
+    draft: impl FnOnce(&Reader<'_>) -> Option<Draft>,
+) -> Result<Case, Box<Refusal>> {
     let name = file.display().to_string();
     let errors = Errors::default();
     let reader = Reader {
@@ -69,8 +88,7 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
         source,
         errors: &errors,
     };
-    let case = reader.read::<CaseFile>("see the example in docs/reference/case-file.md");
-    let draft = case.map(|case| case.draft(&reader, file));
+    let draft = draft(&reader);
     match (errors.finish(Ok(())), draft) {
         (Ok(()), Some(draft)) => Ok(draft.case),
         (Err(error), draft) => Err(Box::new(Refusal { error, draft })),
@@ -83,11 +101,10 @@ pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
 }
 
 impl CaseFile {
-    /// The case as far as it could be read.
-    fn draft(self, reader: &Reader<'_>, file: &Path) -> Draft {
-        let row = Row::new(reader, self.building);
-        let gaps = gaps(reader, self.gap, &row);
-        let links = links(reader, self.link, &row);
+    /// The case as far as it could be read, with these buildings.
+    fn draft(self, reader: &Reader<'_>, file: &Path, row: &Row) -> Draft {
+        let gaps = gaps(reader, self.gap, row);
+        let links = links(reader, self.link, row);
         let before = reader.errors.count();
         let motion = self.ground_motion.value().unwrap_or_default();
         let ground_motion = motion.value.read(reader);
@@ -97,7 +114,7 @@ impl CaseFile {
         Draft {
             case: Case {
                 title: self.title.value().unwrap_or_default(),
-                buildings: row.readable,
+                buildings: row.readable.clone(),
                 gaps,
                 links,
                 ground_motion,
@@ -120,6 +137,8 @@ struct Row {
     names: Option<Vec<String>>,
     /// The buildings that could be read, with stand-ins for values that are wrong.
     readable: Vec<Building>,
+    /// Elevations of their floors (m).
+    elevations: Vec<Vec<f64>>,
     /// Whether these are all, and their storey heights sound.
     heights: bool,
 }
@@ -135,6 +154,7 @@ impl Row {
             count: tables.len(),
             names: None,
             readable: Vec::new(),
+            elevations: Vec::new(),
             heights: !tables.is_empty(),
         };
         let mut names: Vec<Option<Located<String>>> = Vec::new();
@@ -164,6 +184,7 @@ impl Row {
             row.heights &= building.as_ref().is_some_and(|(_, heights)| *heights);
             row.readable.extend(building.map(|(building, _)| building));
         }
+        row.elevations = row.readable.iter().map(Building::elevations).collect();
         if row.count > 0 {
             row.names = names.into_iter().map(|n| Some(n?.value)).collect();
         }

@@ -28,12 +28,12 @@ struct Steps {
 }
 
 /// Steps in their order.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(expecting = "a list of steps")]
 pub(super) struct Process(Vec<Field<Step>>);
 
 /// A step of processing
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     rename = "a step of `process`",
     rename_all = "snake_case",
@@ -62,13 +62,13 @@ enum Step {
     Scale(ScaleValue),
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 enum Sign {
     Reversed,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(
     rename_all = "snake_case",
     expecting = "a text in quotes, or a table\nwrite \"mean\", { pre_event = \"10 s\" } or { value = \"0.1 m/s2\" }"
@@ -77,7 +77,7 @@ enum OfAll {
     Mean,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum RemoveTable {
@@ -91,7 +91,7 @@ enum RemoveTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct FilterTable {
     /// High-pass (low-cut) corner (Hz)
     high_pass: Option<Positive<Cycles>>,
@@ -105,14 +105,14 @@ struct FilterTable {
     keep_pads: Option<bool>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
 enum PhaseWord {
     Zero,
     Causal,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum BaselineTable {
@@ -141,7 +141,7 @@ enum BaselineTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 enum TrimTable {
@@ -159,7 +159,7 @@ enum TrimTable {
     },
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct TaperTable {
     /// Length at the start (s)
     start: Option<NotNegative<Time>>,
@@ -167,7 +167,7 @@ struct TaperTable {
     end: Option<NotNegative<Time>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct PadTable {
     /// Length before (s)
     before: Option<NotNegative<Time>>,
@@ -175,7 +175,7 @@ struct PadTable {
     after: Option<NotNegative<Time>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 struct ResampleTable {
     /// New time step (s)
     time_step: Positive<Time>,

@@ -18,7 +18,7 @@ const DAMPING: f64 = 0.05;
 pub(super) type ScaleValue = TableOr<Kinds<ScaleTable>, Positive<Number>>;
 
 /// Scale
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(untagged)]
 pub(super) enum ScaleTable {
@@ -55,7 +55,7 @@ pub(super) enum ScaleTable {
 }
 
 /// The name of a file.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(try_from = "String")]
 pub(super) struct FilePath(PathBuf);
 

@@ -9,7 +9,7 @@ use crate::error::{CaseError, Errors};
 use crate::types::{Located, Separation};
 
 /// What provisions for the gap need to know
-#[derive(Deserialize, JsonSchema)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(rename = "[separation]")]
 pub(super) struct SeparationTable {
     /// R, q, Rd Ro, R* or Ra (-), one for all buildings or a list

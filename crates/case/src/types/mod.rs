@@ -80,8 +80,11 @@ pub struct Building {
     pub name: Located<String>,
     /// Floor masses (kg).
     pub mass: Vec<f64>,
-    /// Storey stiffnesses (N/m).
+    /// Storey stiffnesses (N/m); none where `lateral` says what resists.
     pub stiffness: Vec<f64>,
+    /// What resists the lateral motion of a building that is no chain of storeys, at its
+    /// key.
+    pub lateral: Option<Located<Lateral>>,
     /// Storey heights (m).
     pub height: Vec<f64>,
     /// Floor displacements relative to the ground at time zero (m).
@@ -94,6 +97,55 @@ pub struct Building {
     pub p_delta: bool,
     /// Damping.
     pub damping: Located<Damping>,
+}
+
+/// What resists the lateral motion of a frame or a wall.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Lateral {
+    /// Stiffness matrix of the floors (N/m).
+    Stiffness(MatrixSource),
+    /// Flexibility matrix of the floors (m/N).
+    Flexibility(MatrixSource),
+    /// A cantilever wall.
+    Cantilever {
+        /// E I of every storey (N m2).
+        flexural_rigidity: Vec<f64>,
+        /// kappa G A of every storey (N), if it deforms in shear.
+        shear_rigidity: Option<Vec<f64>>,
+    },
+    /// A frame, its columns and beams lumped.
+    Fishbone {
+        /// E I of the columns of every storey (N m2).
+        columns: Vec<f64>,
+        /// Rotational stiffness of the beams at every floor (N m).
+        beam_stiffness: Vec<f64>,
+    },
+}
+
+/// A matrix of the floors, bottom first.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MatrixSource {
+    /// Its rows, in SI units.
+    Rows(Vec<Vec<f64>>),
+    /// A CSV file without header, one row a line.
+    File {
+        /// The file, relative to the folder of the case file.
+        file: Located<PathBuf>,
+        /// Its unit in SI units.
+        unit: f64,
+    },
+}
+
+impl Lateral {
+    /// The file that it is read from.
+    #[must_use]
+    pub fn file(&self) -> Option<&Located<PathBuf>> {
+        match self {
+            Self::Stiffness(MatrixSource::File { file, .. })
+            | Self::Flexibility(MatrixSource::File { file, .. }) => Some(file),
+            _ => None,
+        }
+    }
 }
 
 /// One end of a gap.

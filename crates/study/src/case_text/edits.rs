@@ -1,72 +1,97 @@
-//! Finding and replacing entries in the text of a case.
+//! Finding and replacing entries of a case: in its tree, and in its text.
 
+use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
+use std::sync::Arc;
 
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::agreeing;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::identity::{Lines, canonical};
 use super::path::{Path, Step};
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
-/// Where a new value of an entry goes.
+/// Where an entry stands, or would stand, in a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Entry {
-    /// Bytes of the case that the value replaces; none if the case leaves the entry out.
+    /// The way to it through keys and places in lists, without names.
+    pub path: Path,
+    /// Bytes of the case that a value replaces; none if the case leaves the entry out.
     pub span: Range<usize>,
     /// What stands before the value where the case leaves the entry out.
     pub before: String,
 }
 
 impl Entry {
-    /// The replacement that gives the entry this value.
-    pub(crate) fn with(&self, value: &str) -> (Range<usize>, String) {
-        (self.span.clone(), format!("{}{value}", self.before))
+    /// Whether both are the same entry, or one is within the other.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        let (a, b) = (&self.span, &other.span);
+        // Keys that a case leaves out may be put in at one place.
+        (a == b && self.before == other.before) || (a.start < b.end && b.start < a.end)
     }
 }
 
-/// Replacements in a text, in order of their places.
-pub(crate) type Edits = Vec<(Range<usize>, String)>;
-
-/// What a path leads to.
+/// A new value of an entry, as TOML; `None` takes the entry away with its key.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Found {
-    /// An entry of the case.
-    Present(Range<usize>),
-    /// A table of the case has no such key: it can be put in at this byte, after this.
-    Absent(usize, String),
+pub(crate) struct Edit {
+    pub entry: Arc<Entry>,
+    pub value: Option<String>,
+}
+
+impl Edit {
+    pub(crate) fn new(entry: &Arc<Entry>, value: impl Into<String>) -> Self {
+        Self {
+            entry: Arc::clone(entry),
+            value: Some(value.into()),
+        }
+    }
 }
 
 /// A path that leads nowhere: why, and what to do.
 pub(crate) type Lost = (String, String);
 
-/// Follows a path through the text of a case, which is sound.
-pub(crate) fn find(source: &str, path: &Path) -> Result<Found, Lost> {
+/// The tree of a case, which is sound.
+fn tree(source: &str) -> Result<DeTable<'_>, Lost> {
     let broken = |_| {
         (
             "the case is not TOML".to_owned(),
             "run check on it".to_owned(),
         )
     };
-    let tree = DeTable::parse(source).map_err(broken)?;
+    Ok(DeTable::parse(source).map_err(broken)?.into_inner())
+}
+
+/// Follows a path through a case.
+fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
     let Some((Step::Key(first), rest)) = path.0.split_first() else {
         return Err((
             "a path begins with the name of a table".to_owned(),
-            roots(tree.get_ref()),
+            roots(tree),
         ));
     };
-    let Some(mut value) = get(tree.get_ref(), first) else {
-        return Err((format!("the case has no `{first}`"), roots(tree.get_ref())));
+    let Some(mut value) = tree.get(first.as_str()) else {
+        return Err((format!("the case has no `{first}`"), roots(tree)));
     };
+    let mut way = vec![Step::Key(first.clone())];
     for (i, step) in rest.iter().enumerate() {
         let last = i + 1 == rest.len();
         let shown = Path(path.0[..=i].to_vec());
+        way.push(step.clone());
         value = match (value.get_ref(), step) {
-            (DeValue::Table(table), Step::Key(key)) => match get(table, key) {
+            (DeValue::Table(table), Step::Key(key)) => match table.get(key.as_str()) {
                 Some(inner) => inner,
-                None if last => return absent(source, value, key),
+                None if last => {
+                    let (at, before) = room(source, value, key)?;
+                    return Ok(Entry {
+                        path: Path(way),
+                        span: at..at,
+                        before,
+                    });
+                }
                 None => return Err(unknown(&shown, key, &keys(table))),
             },
             (DeValue::Array(items), Step::Index(index)) => items.get(*index).ok_or_else(|| {
@@ -80,9 +105,12 @@ pub(crate) fn find(source: &str, path: &Path) -> Result<Found, Lost> {
                 )
             })?,
             (DeValue::Array(items), Step::Key(name)) => {
-                let named = items.iter().find(|i| name_of(i).as_deref() == Some(name));
+                let mut named = items.iter().enumerate();
+                let named = named.find(|(_, i)| name_of(i).as_deref() == Some(name));
                 let names: Vec<String> = items.iter().filter_map(name_of).collect();
-                named.ok_or_else(|| unknown(&shown, name, &names))?
+                let (index, named) = named.ok_or_else(|| unknown(&shown, name, &names))?;
+                way[i + 1] = Step::Index(index);
+                named
             }
             (DeValue::Table(table), Step::Index(n)) => {
                 return Err(unknown(&shown, &n.to_string(), &keys(table)));
@@ -95,21 +123,43 @@ pub(crate) fn find(source: &str, path: &Path) -> Result<Found, Lost> {
             }
         };
     }
-    Ok(Found::Present(value.span()))
+    Ok(Entry {
+        path: Path(way),
+        span: value.span(),
+        before: String::new(),
+    })
 }
 
 /// The place of an entry that a study varies.
-pub(crate) fn entry(source: &str, path: &Path) -> Result<Entry, Lost> {
-    Ok(match find(source, path)? {
-        Found::Present(span) => Entry {
-            span,
-            before: String::new(),
-        },
-        Found::Absent(at, before) => Entry {
-            span: at..at,
-            before,
-        },
+pub(crate) fn entry(source: &str, path: &Path) -> Result<Arc<Entry>, Lost> {
+    let tree = tree(source)?;
+    let entry = Arc::new(find(source, &tree, path)?);
+    if text_agrees(source, &tree, &[Edit::new(&entry, "0")]) {
+        return Ok(entry);
+    }
+    Err(match entry.before.is_empty() {
+        true => (
+            format!("`{path}` is a table with a header of its own in the case"),
+            "vary one of its entries, or write it in one line, such as scale = { pga = 3 }"
+                .to_owned(),
+        ),
+        false => left_out(path),
     })
+}
+
+/// A key that cannot be put in.
+fn left_out(key: impl Display) -> Lost {
+    (
+        format!("the case leaves `{key}` out"),
+        "write it in the case with any value".to_owned(),
+    )
+}
+
+/// Whether edits make of the text what they make of the tree: they do not where a value takes
+/// the place of a header.
+fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> bool {
+    let lines = |changed| Lines::of(tree).with(&changed);
+    changed(tree, edits).map(lines) == Some(canonical(&apply(source, edits)))
 }
 
 /// Keys that every gap understands, whatever its model.
@@ -123,14 +173,14 @@ const OF_ANY_GAP: [&str; 7] = [
     "model",
 ];
 
-/// All that belongs to the model of a gap, from key to value, and the end of the header of
-/// the gap's table.
-pub(crate) fn options_of_gap(
+/// A gap without all that belongs to its model, and with these keys, as TOML, instead.
+pub(crate) fn with_model(
     source: &str,
-    path: &Path,
-) -> Result<(Vec<Range<usize>>, usize), Lost> {
+    gap: &Path,
+    options: Vec<(String, String)>,
+) -> Result<Vec<Edit>, Lost> {
     let mine = |key: &str| key == "model" || !OF_ANY_GAP.contains(&key);
-    entries(source, path, mine)
+    rewritten(source, gap, mine, options)
 }
 
 /// Names of the buildings of a case that is TOML, in the order of the file.
@@ -138,47 +188,76 @@ pub(crate) fn building_names(source: &str) -> Vec<String> {
     let Ok(tree) = DeTable::parse(source) else {
         return Vec::new();
     };
-    let buildings = get(tree.get_ref(), "building").and_then(|v| v.get_ref().as_array());
+    let buildings = tree
+        .get_ref()
+        .get("building")
+        .and_then(|v| v.get_ref().as_array());
     let names = buildings.into_iter().flatten().map(name_of);
     names.map(Option::unwrap_or_default).collect()
 }
 
-/// All that says which record to read and how, but for some keys, and the end of the header
-/// `[ground_motion]`.
-pub(crate) fn options_of_motion(
+/// A case without all that says which record to read and how, but for some keys, and with these
+/// keys, as TOML, instead.
+pub(crate) fn with_motion(
     source: &str,
     kept: &[&str],
-) -> Result<(Vec<Range<usize>>, usize), Lost> {
+    options: Vec<(String, String)>,
+) -> Result<Vec<Edit>, Lost> {
     let path = Path(vec![Step::Key("ground_motion".to_owned())]);
-    entries(source, &path, |key| !kept.contains(&key))
+    rewritten(source, &path, |key| !kept.contains(&key), options)
 }
 
-/// Entries of a table with a header of its own that `pick` wants.
-fn entries(
+/// A table with a header of its own without the entries that `pick` wants, and with these
+/// behind its header.
+fn rewritten(
     source: &str,
     path: &Path,
     pick: impl Fn(&str) -> bool,
-) -> Result<(Vec<Range<usize>>, usize), Lost> {
-    let Found::Present(span) = find(source, path)? else {
-        return Err((format!("the case has no `{path}`"), "add it".to_owned()));
-    };
+    new: Vec<(String, String)>,
+) -> Result<Vec<Edit>, Lost> {
+    let tree = tree(source)?;
+    let Entry {
+        path: way, span, ..
+    } = find(source, &tree, path)?;
     let with_header = source[span.clone()].starts_with('[');
-    let tree = DeTable::parse(source).map_err(|e| (e.to_string(), String::new()))?;
-    let table = with_header
-        .then(|| table_at(tree.get_ref(), &span))
-        .flatten();
+    let table = with_header.then(|| table_at(&tree, &span)).flatten();
     let Some(table) = table else {
         return Err((
             format!("`{path}` has no header of its own in the case"),
             "write it as a table under [ground_motion] or [[gap]]".to_owned(),
         ));
     };
+    let edit = |key: &str, span: Range<usize>, before: String, value| {
+        let step = Step::Key(key.to_owned());
+        let entry = Entry {
+            path: Path(way.0.iter().cloned().chain([step]).collect()),
+            span,
+            before,
+        };
+        Edit {
+            entry: Arc::new(entry),
+            value,
+        }
+    };
     let picked = table.iter().filter(|(key, _)| pick(key.get_ref()));
-    let mut places: Vec<Range<usize>> = picked
-        .map(|(key, value)| key.span().start..value.span().end)
+    let mut edits: Vec<Edit> = picked
+        .map(|(key, value)| {
+            let place = key.span().start..value.span().end;
+            edit(key.get_ref(), place, String::new(), None)
+        })
         .collect();
-    places.sort_by_key(|p| p.start);
-    Ok((places, span.end))
+    edits.sort_by_key(|edit| edit.entry.span.start);
+    for (key, value) in new {
+        let before = format!("\n{} = ", as_key(&key));
+        edits.push(edit(&key, span.end..span.end, before, Some(value)));
+    }
+    match text_agrees(source, &tree, &edits) {
+        true => Ok(edits),
+        false => Err((
+            format!("a table in `{path}` has a header of its own in the case"),
+            "write it in one line, such as scale = { pga = 3 }".to_owned(),
+        )),
+    }
 }
 
 /// The table whose header stands here.
@@ -191,11 +270,13 @@ fn table_at<'t, 'a>(root: &'t DeTable<'a>, span: &Range<usize>) -> Option<&'t De
         .find_map(|value| of(value).or_else(|| value.get_ref().as_array()?.iter().find_map(of)))
 }
 
-fn get<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Option<&'t Value<'a>> {
-    table
-        .iter()
-        .find(|(k, _)| k.get_ref() == key)
-        .map(|(_, v)| v)
+/// A key as TOML.
+fn as_key(key: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match !key.is_empty() && key.chars().all(is_bare) {
+        true => key.to_owned(),
+        false => toml::Value::String(key.to_owned()).to_string(),
+    }
 }
 
 fn keys(table: &DeTable<'_>) -> Vec<String> {
@@ -209,10 +290,10 @@ fn roots(table: &DeTable<'_>) -> String {
 /// The name of a building or a gap: that of a gap is `left-right` by default.
 fn name_of(value: &Value<'_>) -> Option<String> {
     let table = value.get_ref().as_table()?;
-    if let Some(name) = get(table, "name") {
+    if let Some(name) = table.get("name") {
         return Some(name.get_ref().as_str()?.to_owned());
     }
-    let between = get(table, "between")?.get_ref().as_array()?;
+    let between = table.get("between")?.get_ref().as_array()?;
     let names: Vec<&str> = between
         .iter()
         .filter_map(|v| v.get_ref().as_str())
@@ -229,40 +310,107 @@ fn unknown(place: &Path, key: &str, known: &[String]) -> Lost {
     )
 }
 
-/// A key that a table leaves out can be put behind its header, or into its braces.
-fn absent(source: &str, table: &Value<'_>, key: &str) -> Result<Found, Lost> {
+/// Where a key that a table leaves out can be put, behind its header or into its braces, and
+/// what then stands before the value.
+fn room(source: &str, table: &Value<'_>, key: &str) -> Result<(usize, String), Lost> {
     let span = table.span();
+    let new = as_key(key);
     match source.as_bytes().get(span.start) {
-        Some(b'[') => Ok(Found::Absent(span.end, format!("\n{key} = "))),
+        Some(b'[') => Ok((span.end, format!("\n{new} = "))),
         Some(b'{') if table.get_ref().as_table().is_some_and(|t| !t.is_empty()) => {
             let last = table
                 .get_ref()
                 .as_table()
                 .and_then(|t| t.values().map(|v| v.span().end).max());
-            Ok(Found::Absent(
-                last.unwrap_or(span.end),
-                format!(", {key} = "),
-            ))
+            Ok((last.unwrap_or(span.end), format!(", {new} = ")))
         }
-        _ => Err((
-            format!("the case leaves `{key}` out"),
-            "write it in the case with any value".to_owned(),
-        )),
+        _ => Err(left_out(key)),
     }
 }
 
+/// Edits in the order of their places.
+fn in_order(edits: &[Edit]) -> Vec<&Edit> {
+    let mut edits: Vec<&Edit> = edits.iter().collect();
+    edits.sort_by_key(|edit| (edit.entry.span.start, edit.entry.span.end));
+    edits
+}
+
 /// The text with its edits, which do not overlap.
-pub(crate) fn apply(source: &str, mut edits: Edits) -> String {
-    edits.sort_by_key(|(span, _)| (span.start, span.end));
+pub(crate) fn apply(source: &str, edits: &[Edit]) -> String {
     let mut text = String::with_capacity(source.len() + 64 * edits.len());
     let mut from = 0;
-    for (span, new) in edits {
-        text.push_str(source.get(from..span.start).unwrap_or_default());
-        text.push_str(&new);
-        from = span.end;
+    for Edit { entry, value } in in_order(edits) {
+        let Range { start, end } = entry.span;
+        text.push_str(source.get(from..start).unwrap_or_default());
+        if let Some(value) = value {
+            text.push_str(&entry.before);
+            text.push_str(value);
+        }
+        from = end;
     }
     text.push_str(source.get(from..).unwrap_or_default());
     text
+}
+
+/// The values of the root keys that edits change in a tree; `None` where they cannot be made.
+pub(crate) fn changed<'t>(tree: &DeTable<'t>, edits: &'t [Edit]) -> Option<DeTable<'t>> {
+    let mut roots = DeTable::new();
+    // What is taken away may be put in again elsewhere.
+    let (put, taken): (Vec<_>, Vec<_>) = in_order(edits)
+        .into_iter()
+        .partition(|edit| edit.value.is_some());
+    for edit in taken.into_iter().chain(put) {
+        let (Step::Key(root), way) = edit.entry.path.0.split_first()? else {
+            return None;
+        };
+        if !roots.contains_key(root.as_str()) {
+            let (key, value) = tree.get_key_value(root.as_str())?;
+            roots.insert(key.clone(), value.clone());
+        }
+        make(edit, roots.get_mut(root.as_str())?, way)?;
+    }
+    Some(roots)
+}
+
+/// Makes an edit in the value of a root key, from which this way leads to it; `None` if it
+/// cannot be made.
+fn make<'t>(edit: &'t Edit, root: &mut Value<'t>, way: &'t [Step]) -> Option<()> {
+    let Edit { entry, value } = edit;
+    let here = |value| Spanned::new(entry.span.clone(), value);
+    let value = match value {
+        None => None,
+        Some(text) => Some(here(DeValue::parse(text).ok()?.into_inner())),
+    };
+    match value {
+        Some(value) if entry.before.is_empty() => *inside(root, way)? = value,
+        value => {
+            let (Step::Key(key), way) = way.split_last()? else {
+                return None;
+            };
+            let DeValue::Table(table) = inside(root, way)?.get_mut() else {
+                return None;
+            };
+            let Some(value) = value else {
+                return table.remove(key.as_str()).map(drop);
+            };
+            let key = Spanned::new(entry.span.clone(), Cow::Borrowed(key.as_str()));
+            // In the text it must not stand twice.
+            return table.insert(key, value).is_none().then_some(());
+        }
+    }
+    Some(())
+}
+
+/// The value at the end of a way.
+fn inside<'v, 't>(mut value: &'v mut Value<'t>, way: &[Step]) -> Option<&'v mut Value<'t>> {
+    for step in way {
+        value = match (value.get_mut(), step) {
+            (DeValue::Table(table), Step::Key(key)) => table.get_mut(key.as_str())?,
+            (DeValue::Array(items), Step::Index(index)) => items.get_mut(*index)?,
+            _ => return None,
+        };
+    }
+    Some(value)
 }
 
 #[cfg(test)]
@@ -273,8 +421,8 @@ mod tests {
     const CASE: &str = "[[building]]\nname = \"light\"\nmass = [1, \"2 t\"]\n\n[[gap]] # the gap\nbetween = [\"light\", \"wall\"]\nwidth = \"20 mm\"   # as built\nmodel = \"hertz_1882\"\nstiffness = 1e9\n\n[ground_motion]\nfile = \"a.csv\"\nscale = { pga = 3 }\n";
 
     fn edited(path: &str, new: &str) -> String {
-        let place = entry(CASE, &Path::parse(path).unwrap()).unwrap();
-        apply(CASE, vec![(place.span, format!("{}{new}", place.before))])
+        let entry = entry(CASE, &Path::parse(path).unwrap()).unwrap();
+        apply(CASE, &[Edit::new(&entry, new)])
     }
 
     #[test]
@@ -303,7 +451,7 @@ mod tests {
 
     #[test]
     fn wrong_paths_say_what_there_is() {
-        let lost = |path: &str| find(CASE, &Path::parse(path).unwrap()).unwrap_err();
+        let lost = |path: &str| entry(CASE, &Path::parse(path).unwrap()).unwrap_err();
         assert!(
             lost("gap.lihgt-wall.width")
                 .1
@@ -317,12 +465,60 @@ mod tests {
 
     #[test]
     fn options_of_the_model_are_told_from_those_of_the_gap() {
-        let (places, header) = options_of_gap(CASE, &Path::parse("gap.0").unwrap()).unwrap();
-        let texts: Vec<&str> = places.iter().map(|p| &CASE[p.clone()]).collect();
-        assert_eq!(texts, ["model = \"hertz_1882\"", "stiffness = 1e9"]);
-        assert!(CASE[..header].ends_with("[[gap]]"));
-        let (places, _) = options_of_motion(CASE, &["scale"]).unwrap();
-        assert_eq!(&CASE[places[0].clone()], "file = \"a.csv\"");
-        assert_eq!(places.len(), 1);
+        let option = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let gap = Path::parse("gap.0").unwrap();
+        let new = vec![option("model", "\"new\""), option("stiffness", "2")];
+        let text = apply(CASE, &with_model(CASE, &gap, new).unwrap());
+        let wanted = CASE
+            .replace("[[gap]]", "[[gap]]\nmodel = \"new\"\nstiffness = 2")
+            .replace("model = \"hertz_1882\"\nstiffness = 1e9\n", "\n\n");
+        assert_eq!(text, wanted);
+        let new = vec![option("file", "\"b.csv\"")];
+        let text = apply(CASE, &with_motion(CASE, &["scale"], new).unwrap());
+        let wanted = CASE
+            .replace("file = \"a.csv\"", "")
+            .replace("[ground_motion]", "[ground_motion]\nfile = \"b.csv\"");
+        assert_eq!(text, wanted);
+    }
+
+    /// A table with a header of its own cannot be replaced in the text as in the tree.
+    #[test]
+    fn headers_are_not_replaced() {
+        let case = CASE.replace("scale = { pga = 3 }", "[ground_motion.scale]\npga = 3");
+        for path in ["ground_motion.scale", "ground_motion", "gap", "gap.0"] {
+            let (why, help) = entry(&case, &Path::parse(path).unwrap()).unwrap_err();
+            let wanted = format!("`{path}` is a table with a header of its own in the case");
+            assert_eq!(why, wanted);
+            assert!(help.contains("in one line"));
+        }
+        let pga = Path::parse("ground_motion.scale.pga").unwrap();
+        assert!(entry(&case, &pga).is_ok());
+        // Its entries would stay where it is taken away.
+        let (why, _) = with_motion(&case, &[], Vec::new()).unwrap_err();
+        assert_eq!(
+            why,
+            "a table in `ground_motion` has a header of its own in the case"
+        );
+    }
+
+    /// Keys that must be quoted are, so that they stay one key.
+    #[test]
+    fn keys_are_put_in_whole() {
+        let text = edited("gap.0[\"a.b c\"]", "1");
+        assert!(text.contains("[[gap]]\n\"a.b c\" = 1 #"), "{text}");
+    }
+
+    /// What the text would not bear is not made in the tree.
+    #[test]
+    fn a_key_is_not_put_in_twice() {
+        let tree = DeTable::parse(CASE).unwrap().into_inner();
+        let put = entry(CASE, &Path::parse("gap.0.restitution").unwrap()).unwrap();
+        let put = Edit::new(&put, "0.5");
+        assert!(changed(&tree, std::slice::from_ref(&put)).is_some());
+        assert!(changed(&tree, &[put.clone(), put]).is_none());
+        let scale = entry(CASE, &Path::parse("ground_motion.scale").unwrap()).unwrap();
+        let inner = entry(CASE, &Path::parse("ground_motion.scale.factor").unwrap()).unwrap();
+        let edits = [Edit::new(&inner, "2"), Edit::new(&scale, "1")];
+        assert!(changed(&tree, &edits).is_none());
     }
 }

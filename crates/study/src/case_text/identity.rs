@@ -1,6 +1,9 @@
 //! What a case says, without how it is written.
 
+use std::borrow::Cow;
+
 use pounding_case::parse_quantity;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Entries that change no number of a run: the record counts by its bytes.
@@ -10,31 +13,55 @@ const WITHOUT_EFFECT: [&str; 2] = ["title", "ground_motion.file"];
 /// texts that say the same give the same lines, whatever their comments, order and units.
 /// Text that is not TOML stands for itself.
 pub(crate) fn canonical(source: &str) -> String {
-    let Ok(tree) = DeTable::parse(source) else {
-        return source.to_owned();
-    };
-    let mut lines = Vec::new();
-    table(tree.get_ref(), "", &mut lines);
-    lines.sort_unstable();
-    lines.join("\n")
+    match DeTable::parse(source) {
+        Ok(tree) => Lines::of(tree.get_ref()).with(&DeTable::new()),
+        Err(_) => source.to_owned(),
+    }
 }
 
-fn table(entries: &DeTable<'_>, path: &str, lines: &mut Vec<String>) {
-    for (key, inner) in entries {
-        let name = key.get_ref();
-        let place = match path {
-            "" => name.to_string(),
-            _ => format!("{path}.{name}"),
+/// The lines of a tree by its root keys.
+#[derive(Debug)]
+pub(crate) struct Lines(Vec<(String, Vec<String>)>);
+
+impl Lines {
+    pub(crate) fn of(tree: &DeTable<'_>) -> Self {
+        let of_root = |(key, inner): (&Key<'_>, &Spanned<DeValue<'_>>)| {
+            let mut lines = Vec::new();
+            entry(key.get_ref(), inner, &mut lines);
+            (key.get_ref().to_string(), lines)
         };
-        if !WITHOUT_EFFECT.contains(&place.as_str()) {
-            value(inner.get_ref(), &place, lines);
-        }
+        Self(tree.iter().map(of_root).collect())
+    }
+
+    /// The lines in their order, with those of these root keys in the place of their own.
+    pub(crate) fn with(&self, changed: &DeTable<'_>) -> String {
+        let new = Self::of(changed);
+        let kept = |(root, _): &&(String, _)| !changed.contains_key(root.as_str());
+        let roots = self.0.iter().filter(kept).chain(&new.0);
+        let mut lines: Vec<&str> = roots
+            .flat_map(|(_, lines)| lines)
+            .map(String::as_str)
+            .collect();
+        lines.sort_unstable();
+        lines.join("\n")
+    }
+}
+
+type Key<'a> = Spanned<Cow<'a, str>>;
+
+fn entry(place: &str, inner: &Spanned<DeValue<'_>>, lines: &mut Vec<String>) {
+    if !WITHOUT_EFFECT.contains(&place) {
+        value(inner.get_ref(), place, lines);
     }
 }
 
 fn value(value_here: &DeValue<'_>, path: &str, lines: &mut Vec<String>) {
     match value_here {
-        DeValue::Table(entries) => table(entries, path, lines),
+        DeValue::Table(entries) => {
+            for (key, inner) in entries {
+                entry(&format!("{path}.{}", key.get_ref()), inner, lines);
+            }
+        }
         DeValue::Array(items) => {
             for (i, item) in items.iter().enumerate() {
                 value(item.get_ref(), &format!("{path}.{i}"), lines);

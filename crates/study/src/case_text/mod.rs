@@ -1,16 +1,16 @@
-//! The text of a case with some of its entries replaced.
+//! Cases that differ in some entries.
 //!
-//! Runs of a study differ from their case in a few entries. Replacing them in the text
-//! puts every run through the same reading and checking as a case file, and gives a run
-//! that can be written out and repeated alone.
+//! Runs of a study differ from their case in a few entries. These are replaced in the tree of
+//! the case, of which only the tables that differ are read again, as those of a case file are.
+//! Replaced in the text, they give a run that can be written out and repeated alone.
 
 mod edits;
 mod identity;
 mod path;
+mod variant;
 
-pub(crate) use edits::{
-    Edits, Entry, Lost, apply, building_names, entry, options_of_gap, options_of_motion,
-};
-pub(crate) use identity::canonical;
+pub(crate) use edits::{Edit, Entry, Lost, apply, building_names, entry, with_model, with_motion};
+pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;
 pub(crate) use pounding_files::checksum::hexadecimal;
+pub(crate) use variant::Variant;

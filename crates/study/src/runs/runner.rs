@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use pounding_assembly::{AssemblyError, assemble_with_record, regap, scale_record};
-use pounding_case::Case;
+use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
     GroundAcceleration, RunOptions, System, TimeHistoryError, isolated_demand, run,
@@ -15,7 +15,7 @@ use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
-use crate::case_text::{Edits, apply, canonical, hexadecimal};
+use crate::case_text::{Edit, Lines, Variant, apply, canonical, hexadecimal};
 use crate::error::StudyError;
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
 
@@ -41,6 +41,9 @@ pub(crate) struct Runner<'s> {
     /// What the user should know of the case.
     pub warnings: Vec<String>,
     version: &'static str,
+    base: CaseTree<'s>,
+    /// What the case says.
+    lines: Lines,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
 }
@@ -68,9 +71,13 @@ impl<'s> Runner<'s> {
                 gap.name
             )
         }));
+        let base =
+            CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         Ok(Self {
             layout,
             warnings,
+            lines: Lines::of(base.tree()),
+            base,
             study,
             motions,
             version: VERSION,
@@ -81,20 +88,21 @@ impl<'s> Runner<'s> {
 
     /// The text of the case of a run.
     pub(crate) fn text(study: &Study, point: &[Value]) -> String {
-        apply(&study.base.source, edits(study, point))
+        apply(&study.base.source, &edits(study, point))
     }
 
     /// Makes a run. Whatever goes wrong is in the row.
     pub(crate) fn row(&self, number: usize) -> Row {
         let point = self.study.point(number);
-        let text = Self::text(self.study, &point);
+        let edits = edits(self.study, &point);
+        let variant = Variant::new(&self.base, &edits);
         let motion = self.motion(&point);
         let intensity = wanted(self.study, &point).map(|(_, x)| x);
         let factor = factor(intensity, motion);
         let mut row = Row {
             run: number,
             id: self.identity(
-                &text,
+                &variant,
                 self.source(&point),
                 motion,
                 factor.as_ref().ok().copied().flatten().or(intensity),
@@ -104,7 +112,7 @@ impl<'s> Runner<'s> {
         };
         let made = catch_unwind(AssertUnwindSafe(|| {
             let motion = motion.map_err(Clone::clone)?;
-            self.values(&point, &text, motion, factor?)
+            self.values(&point, &variant, motion, factor?)
         }));
         let values =
             made.unwrap_or_else(|panic| Err(format!("the program broke off: {}", said(&*panic))));
@@ -129,19 +137,23 @@ impl<'s> Runner<'s> {
     fn values(
         &self,
         point: &[Value],
-        text: &str,
+        variant: &Variant<'_, '_>,
         motion: &Motion,
         factor: Option<f64>,
     ) -> Result<(Vec<f64>, Ending), String> {
         let said = |e: AssemblyError| e.to_string();
-        let case = Case::parse(text, &self.study.base.file).map_err(|e| e.to_string())?;
-        let record = scaled(&case, motion, factor)?;
+        let case = variant.case().map_err(|e| e.to_string())?;
+        let scaled = |case: &Case| scaled(case, motion, factor);
+        let record = variant.make(&case, scaled).map_err(said)?;
         let key = key(self.study, point);
         let base = self.buildings.get(&key.buildings, || {
-            // Without gaps, which are those of this run alone.
-            let mut alone = case.clone();
-            alone.gaps.clear();
-            let assembly = assemble_with_record(&alone, &record).map_err(said)?;
+            let assembled = |case: &Case| {
+                // Without gaps, which are those of this run alone.
+                let mut alone = case.clone();
+                alone.gaps.clear();
+                assemble_with_record(&alone, &record)
+            };
+            let assembly = variant.make(&case, assembled).map_err(said)?;
             Ok(Arc::new(assembly.system))
         })?;
         let base = if key.motion.is_empty() {
@@ -152,24 +164,25 @@ impl<'s> Runner<'s> {
                 time_step: record.time_step(),
             }))
         };
-        let (system, options) = regap(&case, &base).map_err(said)?;
-        let shape = Layout::of(&system, self.study.isolated_demand);
-        if (shape.storeys.len(), shape.levels.len())
-            != (self.layout.storeys.len(), self.layout.levels.len())
-        {
+        let regapped = |case: &Case| regap(case, &base);
+        let (system, options) = variant.make(&case, regapped).map_err(said)?;
+        let shape = (system.degrees_of_freedom(), system.levels().len());
+        let layout = (self.layout.storeys.len(), self.layout.levels.len());
+        if shape != layout {
             return Err(format!(
                 "the run has {} storeys and {} contact levels, the study {} and {}",
-                shape.storeys.len(),
-                shape.levels.len(),
-                self.layout.storeys.len(),
-                self.layout.levels.len()
+                shape.0, shape.1, layout.0, layout.1
             ));
         }
-        if shape.buildings != self.layout.buildings {
-            return Err(
-                "the run has a stiffness matrix where the study has storeys, or the reverse"
-                    .to_owned(),
-            );
+        let matrices = system
+            .buildings()
+            .iter()
+            .filter(|b| b.stiffness().is_empty());
+        let (found, expected) = (matrices.count(), self.layout.buildings.len());
+        if found != expected {
+            return Err(format!(
+                "{found} buildings of the run have a stiffness matrix, {expected} of the study"
+            ));
         }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
             Ok(outcome) => Ok(outcome),
@@ -200,13 +213,13 @@ impl<'s> Runner<'s> {
     /// factor on the intensity wanted.
     fn identity(
         &self,
-        text: &str,
+        variant: &Variant<'_, '_>,
         name: &str,
         motion: Result<&Motion, &String>,
         factor: Option<f64>,
     ) -> [u8; ID] {
         let mut hash = Sha256::new();
-        hash.update(canonical(text));
+        hash.update(variant.canonical(&self.lines));
         hash.update([0]);
         match motion {
             Ok(motion) => hash.update(&motion.sha256),
@@ -251,14 +264,16 @@ fn apart(system: &System, options: &RunOptions) -> Result<Vec<f64>, String> {
     }
 }
 
-/// Replacements that make the case of a run.
-fn edits(study: &Study, point: &[Value]) -> Edits {
-    let mut all = Edits::new();
+/// Edits that make the case of a run.
+fn edits(study: &Study, point: &[Value]) -> Vec<Edit> {
+    let mut all = Vec::new();
     for (variable, value) in study.variables.iter().zip(point) {
         match (&variable.target, value) {
-            (Target::Entry { entry, .. }, Value::Number(x)) => all.push(entry.with(&written(*x))),
+            (Target::Entry { entry, .. }, Value::Number(x)) => {
+                all.push(Edit::new(entry, written(*x)));
+            }
             (Target::Entry { entry, texts, .. }, Value::Choice(i)) => {
-                all.push(entry.with(&texts[*i]));
+                all.push(Edit::new(entry, &texts[*i]));
             }
             (Target::Model { edits }, Value::Choice(i)) => all.extend(edits[*i].iter().cloned()),
             (Target::Record, Value::Choice(i)) => {
@@ -307,14 +322,17 @@ pub(crate) fn factor(
 }
 
 /// The motion as this run has it.
-fn scaled(case: &Case, motion: &Motion, factor: Option<f64>) -> Result<Arc<Accelerogram>, String> {
+fn scaled(
+    case: &Case,
+    motion: &Motion,
+    factor: Option<f64>,
+) -> Result<Arc<Accelerogram>, AssemblyError> {
     let record = &motion.record;
-    let scaled = match (factor, &case.ground_motion.scale) {
-        (Some(factor), _) => record.scaled_by(factor).map_err(|e| e.to_string()),
-        (None, None) => return Ok(Arc::clone(record)),
-        (None, _) => scale_record(case, Accelerogram::clone(record)).map_err(|e| e.to_string()),
-    };
-    scaled.map(Arc::new)
+    Ok(match (factor, &case.ground_motion.scale) {
+        (Some(factor), _) => Arc::new(record.scaled_by(factor)?),
+        (None, None) => Arc::clone(record),
+        (None, _) => Arc::new(scale_record(case, Accelerogram::clone(record))?),
+    })
 }
 
 /// What tells runs apart for sharing: runs with equal numbers have equal buildings, or

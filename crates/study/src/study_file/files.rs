@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use pounding_case::Case;
+use pounding_case::CaseTree;
 
 use super::{RecordKind, Study, Target};
-use crate::case_text::apply;
+use crate::case_text::{Edit, Variant};
 
 impl Study {
     /// Every file that the study reads: what each is, and its path.
@@ -21,12 +21,13 @@ impl Study {
                 files.extend(case.files());
             }
         }
+        let tree = CaseTree::parse(&self.base.source, &self.base.file).ok();
         for variable in &self.variables {
             // Such as target spectra by name.
             if let Target::Entry { entry, texts, .. } = &variable.target {
                 let cases = texts.iter().filter_map(|text| {
-                    let text = apply(&self.base.source, vec![entry.with(text)]);
-                    Case::parse(&text, &self.base.file).ok()
+                    let edits = [Edit::new(entry, text)];
+                    Variant::new(tree.as_ref()?, &edits).case().ok()
                 });
                 files.extend(cases.flat_map(|case| case.files()));
             }

@@ -11,6 +11,7 @@ mod values;
 mod variables;
 
 use std::path::{Path as FilePath, PathBuf};
+use std::sync::Arc;
 
 pub use hazard_file::hazard_schema;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
@@ -22,7 +23,7 @@ pub use values::{Spacing, Values};
 use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 
-use crate::case_text::{Edits, Entry, Path};
+use crate::case_text::{Edit, Entry, Path};
 use crate::design::Design;
 use crate::error::StudyError;
 
@@ -70,13 +71,13 @@ pub struct Variable {
 pub(crate) enum Target {
     /// An entry of the case.
     Entry {
-        entry: Entry,
+        entry: Arc<Entry>,
         path: Path,
         /// For choices: the texts as they stand in the study.
         texts: Vec<String>,
     },
-    /// The model of a gap with all its options: an edit for each choice.
-    Model { edits: Vec<Edits> },
+    /// The model of a gap with all its options: edits for each choice.
+    Model { edits: Vec<Vec<Edit>> },
     /// The motion.
     Record,
     /// The intensity of the motion, by scaling it.
@@ -94,7 +95,7 @@ pub(crate) struct RecordSource {
 #[derive(Debug, Clone)]
 pub(crate) enum RecordKind {
     /// A file, read as this case says; and what makes this case of the base.
-    File { case: Box<Case>, edits: Edits },
+    File { case: Box<Case>, edits: Vec<Edit> },
     /// A synthetic motion from a seed.
     Made {
         record: Box<Accelerogram>,

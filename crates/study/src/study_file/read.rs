@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use pounding_assembly::{AssemblyError, assemble_with_record};
 use pounding_case::document::{Entry, Field, List, Optional, Reader, Table, schema_of};
@@ -223,7 +224,7 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
             e => return Err(e.into()),
         },
     };
-    let first = |b: &std::sync::Arc<_>| {
+    let first = |b: &Arc<_>| {
         let building: &pounding_shear_building::ShearBuilding = b;
         building.modes().period.iter().copied().fold(0.0, f64::max)
     };
@@ -305,15 +306,13 @@ fn variables(
 /// Whether two variables change the same bytes of the case, or the same property of the
 /// motion.
 fn collide(a: &Variable, b: &Variable) -> bool {
-    let overlap =
-        |a: &Range<usize>, b: &Range<usize>| a == b || (a.start < b.end && b.start < a.end);
-    let spans = |v: &Variable| match &v.target {
-        Target::Entry { entry, .. } => vec![(entry.span.clone(), entry.before.clone())],
-        Target::Model { edits } => edits.first().map_or_else(Vec::new, |edits| {
-            // A model puts new lines where another absent key might go: no collision.
-            let old = edits.iter().filter(|(_, new)| new.is_empty());
-            old.map(|(span, _)| (span.clone(), String::new())).collect()
-        }),
+    let entries = |v: &Variable| match &v.target {
+        Target::Entry { entry, .. } => vec![Arc::clone(entry)],
+        // A model puts new lines where another absent key might go: no collision.
+        Target::Model { edits } => {
+            let old = edits.iter().take(1).flatten().filter(|e| e.value.is_none());
+            old.map(|edit| Arc::clone(&edit.entry)).collect()
+        }
         _ => Vec::new(),
     };
     match (&a.target, &b.target) {
@@ -325,11 +324,9 @@ fn collide(a: &Variable, b: &Variable) -> bool {
         | (Target::Record, Target::Entry { path, .. }) => {
             path.table() == "ground_motion" && !path.of_scale()
         }
-        _ => spans(a).iter().any(|(s, before)| {
-            spans(b)
-                .iter()
-                .any(|(t, other)| overlap(s, t) && before == other)
-        }),
+        _ => entries(a)
+            .iter()
+            .any(|a| entries(b).iter().any(|b| a.overlaps(b))),
     }
 }
 

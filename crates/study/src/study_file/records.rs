@@ -9,7 +9,7 @@ use pounding_case::document::{
     Cycles, Dimensioned, Entry, Field, FreeKeys, List, Number, Optional, Reader, Signed, TableOr,
     Time, Velocity,
 };
-use pounding_case::{Case, Dimension, Located};
+use pounding_case::{Case, CaseTree, Dimension, Located};
 use pounding_catalogue::suggestion;
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 
@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use super::context::Context;
 use super::values::{Whole, all};
 use super::{RecordKind, RecordSource};
-use crate::case_text::{Edits, apply, options_of_motion};
+use crate::case_text::{Variant, with_motion};
 
 /// A record: the name of its file, or a table.
 pub(super) type Record = TableOr<RecordTable, String>;
@@ -104,7 +104,7 @@ pub(super) fn of_case(base: &Case) -> RecordSource {
         name: stem(file),
         kind: RecordKind::File {
             case: Box::new(base.clone()),
-            edits: Edits::new(),
+            edits: Vec::new(),
         },
     }
 }
@@ -118,8 +118,8 @@ fn stem(file: &Path) -> String {
 
 fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Option<RecordSource> {
     let Located { value, span } = item;
-    // What the case file would hold, a line each, as it is written here.
-    let mut lines = String::new();
+    // What the case file would hold, as it is written here.
+    let mut options = Vec::new();
     let (name, file, others) = match value {
         TableOr::Value(file) => (None, file, Vec::new()),
         TableOr::Table(table) => (table.name.value(), table.file.value()?, table.others.0),
@@ -129,7 +129,7 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
         if KEYS.contains(&key) {
             let Some(place) = value.span() else { continue };
             processed |= key == "process";
-            lines.push_str(&format!("\n{key} = {}", &reader.source[place]));
+            options.push((key, reader.source[place].to_owned()));
         } else if !value.is_wrong() {
             let nearest = suggestion::misspelt(&key, KEYS.iter());
             let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
@@ -140,7 +140,7 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
     let path = context.folder.join(&file);
     let path = std::path::absolute(&path).unwrap_or(path);
     let shown = toml::Value::String(path.display().to_string()).to_string();
-    let new = format!("\nfile = {shown}{lines}");
+    options.insert(0, ("file".to_owned(), shown));
     let base = &context.base.as_ref()?.case;
     // What the case does to its own record it does to all, unless one says otherwise.
     let kept: &[&str] = if processed {
@@ -148,16 +148,12 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
     } else {
         &["scale", "process"]
     };
-    let (old, header) = match options_of_motion(&base.source, kept) {
-        Ok(options) => options,
+    let edits = match with_motion(&base.source, kept, options) {
+        Ok(edits) => edits,
         Err((message, help)) => return reader.refuse(span, message, help),
     };
-    let mut edits: Edits = old
-        .into_iter()
-        .map(|place| (place, String::new()))
-        .collect();
-    edits.push((header..header, new));
-    let case = match Case::parse(&apply(&base.source, edits.clone()), &base.file) {
+    let tree = CaseTree::parse(&base.source, &base.file);
+    let case = match tree.and_then(|tree| Variant::new(&tree, &edits).case()) {
         Ok(case) => case,
         Err(e) => {
             let message = format!("in a case, this record: {}", e.message);

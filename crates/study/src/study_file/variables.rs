@@ -1,24 +1,25 @@
 //! Variables: what varies, and every value tried in the case.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use pounding_assembly::{AssemblyError, assemble_with_record, parameter_dimension};
 use pounding_case::document::{
     Amount, Entry, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader, Scalar,
     TableOr, Time, Written,
 };
-use pounding_case::{Case, CaseError, Dimension, Located};
+use pounding_case::{Case, CaseError, CaseTree, Dimension, Located};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::context::Context;
+use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
-use crate::case_text::{Edits, Entry as CaseEntry, Lost, Path, apply, entry, options_of_gap};
+use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, Variant, entry, with_model};
 use crate::runs::written;
 
 table_with_range! {
@@ -246,12 +247,15 @@ impl VariableTable {
             kept(reader, &place, entry)
         });
         let tried = context.base.as_ref().zip(path.as_ref().zip(entry));
-        let tried = tried.map(|(base, (path, entry))| Trial {
-            reader: *reader,
-            base: &base.case,
-            path,
-            entry,
-            place: place.clone(),
+        let tried = tried.and_then(|(Base { case: base, .. }, (path, entry))| {
+            Some(Trial {
+                reader: *reader,
+                tree: CaseTree::parse(&base.source, &base.file).ok()?,
+                base,
+                path,
+                entry,
+                place: place.clone(),
+            })
         });
         let first = match &self.values {
             Some(Field::Given(list)) => list.value.0.first().cloned().and_then(Entry::value),
@@ -385,28 +389,26 @@ fn models(
         );
     }
     let mut labels: Vec<String> = Vec::new();
-    let texts = all(list.value.0.into_iter().map(|item| {
+    let models = all(list.value.0.into_iter().map(|item| {
         let Located { value, span } = item.located()?;
         let TableOr::Table(model) = value else {
             let message = "give all models as tables, or none";
             return reader.refuse(span, message, "write { model = \"...\", ... }");
         };
-        let (label, text) = model.read(reader)?;
+        let (label, options) = model.read(reader)?;
         if labels.contains(&label) {
             let message = format!("two values are called \"{label}\"");
             return reader.refuse(span, message, "add label = \"...\"");
         }
         labels.push(label);
-        Some((span, text))
+        Some((span, options))
     }))?;
     let tried = tried?;
     let gap = Path(tried.path.0[..tried.path.0.len() - 1].to_vec());
-    let options = options_of_gap(&tried.base.source, &gap);
-    let (old, header) = kept(reader, &list.span, options)?;
-    let edits = all(texts.into_iter().map(|(span, text)| {
-        let removed = old.iter().map(|place| (place.clone(), String::new()));
-        let edits: Edits = removed.chain([(header..header, text)]).collect();
-        match tried.refusal(edits.clone()) {
+    let edits = all(models.into_iter().map(|(span, options)| {
+        let edits = with_model(&tried.base.source, &gap, options);
+        let edits = kept(reader, &list.span, edits)?;
+        match tried.refusal(&edits) {
             Ok(()) => Some(edits),
             Err(refusal) => tried.wrong(refusal, span),
         }
@@ -415,18 +417,15 @@ fn models(
 }
 
 impl ModelTable {
-    /// The label of a model, and its lines in a case, which knows the keys of its gaps.
-    fn read(self, reader: &Reader<'_>) -> Option<(String, String)> {
-        let mut text = match self.model.span() {
-            Some(place) => format!("\nmodel = {}", &reader.source[place]),
-            None => return None,
-        };
+    /// The label of a model, and its keys in a case, which knows those of its gaps.
+    fn read(self, reader: &Reader<'_>) -> Option<(String, Vec<(String, String)>)> {
+        let text = |place: Range<usize>| reader.source[place].to_owned();
+        let mut options = vec![("model".to_owned(), text(self.model.span()?))];
         for (key, value) in self.parameters.0 {
-            let place = value.span()?;
-            text.push_str(&format!("\n{} = {}", key.value, &reader.source[place]));
+            options.push((key.value, text(value.span()?)));
         }
         let label = self.label.value_or(self.model.value()?)?;
-        Some((label, text))
+        Some((label, options))
     }
 }
 
@@ -434,8 +433,9 @@ impl ModelTable {
 struct Trial<'r> {
     reader: Reader<'r>,
     base: &'r Case,
+    tree: CaseTree<'r>,
     path: &'r Path,
-    entry: CaseEntry,
+    entry: Arc<CaseEntry>,
     /// Where the study names the path.
     place: Range<usize>,
 }
@@ -444,7 +444,7 @@ impl Trial<'_> {
     /// What a variable of these values changes.
     fn target(&self, texts: Vec<String>) -> Target {
         Target::Entry {
-            entry: self.entry.clone(),
+            entry: Arc::clone(&self.entry),
             path: self.path.clone(),
             texts,
         }
@@ -455,7 +455,7 @@ impl Trial<'_> {
     fn values(&self, values: impl IntoIterator<Item = (Range<usize>, Vec<String>)>) -> Option<()> {
         let mut sound = true;
         for (place, texts) in values {
-            let refused = |text: &String| self.refusal(vec![self.entry.with(text)]).err();
+            let refused = |text: &String| self.refusal(&[Edit::new(&self.entry, text)]).err();
             match texts.iter().find_map(refused) {
                 None => {}
                 Some(refusal) if refusal.of_key => return self.wrong(refusal, self.place.clone()),
@@ -475,7 +475,7 @@ impl Trial<'_> {
     }
 
     /// Reads and assembles the case with these edits, without its record.
-    fn refusal(&self, edits: Edits) -> Result<(), Refusal> {
+    fn refusal(&self, edits: &[Edit]) -> Result<(), Refusal> {
         // An entry that the case leaves out brings its key with it.
         let key = self.entry.span.start..self.entry.span.start + self.entry.before.len();
         let of_text = |e: CaseError| Refusal {
@@ -483,8 +483,8 @@ impl Trial<'_> {
             message: e.message,
             help: e.help,
         };
-        let text = apply(&self.base.source, edits);
-        let case = Case::parse(&text, &self.base.file).map_err(of_text)?;
+        let variant = Variant::new(&self.tree, edits);
+        let case = variant.case().map_err(of_text)?;
         let of_file = |message: String, help| Refusal {
             of_key: false,
             message,
@@ -493,7 +493,7 @@ impl Trial<'_> {
         let unit = AccelerationUnit::MetrePerSecondSquared;
         let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0);
         let at_rest = at_rest.map_err(|e| of_file(e.to_string(), e.help()))?;
-        match assemble_with_record(&case, &at_rest) {
+        match variant.make(&case, |case| assemble_with_record(case, &at_rest)) {
             Ok(_) => Ok(()),
             Err(AssemblyError::Case(e)) => Err(of_text(e)),
             Err(e) => Err(of_file(e.to_string(), e.help())),

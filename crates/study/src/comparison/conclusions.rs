@@ -76,7 +76,7 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
             let words = match quantity.kind {
                 QuantityKind::Displacement => "displacement",
                 QuantityKind::StoreyShear => "storey shear",
-                QuantityKind::BaseMoment => "overturning moment at the base",
+                QuantityKind::BaseMoment => "overturning moment",
                 _ => "absolute acceleration",
             };
             let amplification = quantity.kind.amplification();

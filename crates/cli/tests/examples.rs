@@ -33,6 +33,33 @@ fn run_example(name: &str) -> Value {
     result
 }
 
+/// Against two independent codes, which agree to 1e-14 (`tests/data/structures`).
+#[test]
+fn wall_and_frame() {
+    let result = run_example("wall_and_frame");
+    let (wall, frame) = (&result["buildings"][0], &result["buildings"][1]);
+    close(
+        &wall["storeys"][3]["displacement"]["peak"],
+        0.087_995_903,
+        1e-8,
+    );
+    close(
+        &wall["storeys"][0]["storey_shear"]["peak"],
+        1_892_776.414_81,
+        1e-8,
+    );
+    close(
+        &frame["storeys"][2]["storey_shear"]["peak"],
+        845_536.371_741_5,
+        1e-8,
+    );
+    let levels = &result["gaps"][0]["levels"];
+    let impacts = [0, 1, 2].map(|l: usize| levels[l]["impacts"].as_u64().unwrap());
+    assert_eq!(impacts, [0, 11, 24]);
+    close(&levels[1]["peak_force"]["peak"], 603_702.418_562, 1e-8);
+    close(&levels[2]["peak_force"]["peak"], 504_958.384_377, 1e-8);
+}
+
 fn close(value: &Value, expected: f64, relative: f64) {
     let value = value.as_f64().unwrap();
     assert!(

@@ -6,7 +6,7 @@ mod sections;
 mod under;
 mod unequal_floors;
 
-use nalgebra::{DMatrix, DVectorView};
+use nalgebra::DMatrix;
 use pounding_gap_element::ImpactModel;
 use pounding_shear_building::{
     DampingMatrix, ELEVATION_TOLERANCE, ShearBuilding, StiffnessMatrix, SymmetricTridiagonal,
@@ -452,8 +452,11 @@ impl System {
             let mut below = 0.0;
             let range = range[0]..range[1];
             if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
-                let u = DVectorView::from_slice(&u[range.clone()], range.len());
-                sum += 0.5 * u.dot(&(k * u));
+                let u = &u[range];
+                for (column, x) in k.column_iter().zip(u) {
+                    let force: f64 = column.iter().zip(u).map(|(k, u)| k * u).sum();
+                    sum += 0.5 * force * x;
+                }
                 continue;
             }
             for (k, x) in self.spring[range.clone()].iter().zip(&u[range]) {

@@ -1,0 +1,4 @@
+//! Assembly of cases: records and buildings.
+
+mod excitation;
+mod lateral;

@@ -290,6 +290,39 @@ fn sweep_and_merge_hold_a_column_for_each_building() {
     );
 }
 
+/// What stands in the file of a matrix belongs to the study as its text does.
+#[test]
+fn a_changed_matrix_file_is_another_study() {
+    let bench = Bench::new();
+    let (start, rest) = CASE.split_once("stiffness_matrix = [").unwrap();
+    let (_, end) = rest.split_once("\n]\n").unwrap();
+    let case = format!("{start}stiffness_matrix = {{ file = \"K.csv\" }}\n{end}");
+    bench.write("case.toml", &case);
+    let matrix = "1.8e8,-1.0e8,0.2e8\n-1.0e8,1.4e8,-0.6e8\n0.2e8,-0.6e8,0.5e8\n";
+    bench.write("K.csv", matrix);
+    let study = "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"8 mm\"]\n";
+    bench.write("study.toml", study);
+    bench.text("sweep study.toml -o a.h5 --csv a.csv");
+    bench.text("sweep study.toml -o a.h5 --resume --csv again.csv");
+    assert_eq!(bench.read("again.csv"), bench.read("a.csv"));
+    bench.write("K.csv", &matrix.replace("1.8e8", "1.9e8"));
+    bench.refused(
+        "sweep study.toml -o a.h5 --resume",
+        &["it is the result of another study"],
+    );
+    bench.text("sweep study.toml -o b.h5 --csv b.csv");
+    let id = |name: &str| {
+        let table = bench.read(name);
+        let rows: Vec<Vec<String>> = table
+            .lines()
+            .map(|l| l.split(',').map(str::to_owned).collect())
+            .collect();
+        let column = rows[0].iter().position(|c| c == "run_id").unwrap();
+        rows[1][column].clone()
+    };
+    assert_ne!(id("a.csv"), id("b.csv"));
+}
+
 #[test]
 fn fragilities_ask_for_the_moment() {
     let bench = Bench::new();

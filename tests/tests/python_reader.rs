@@ -5,11 +5,13 @@
 use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 
 use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_results::{RunEnding, RunHead, RunWriter};
-use pounding_time_history::{GridRecorder, Recorder, run};
+use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
+use pounding_time_history::{GridRecorder, GroundAcceleration, Recorder, RunOptions, System, run};
 
 /// Runs `tests/python/open_result.py` with the interpreter named by
 /// `POUNDING_PYTHON`, as `scripts/test` does. Without it there is no Python to
@@ -83,16 +85,64 @@ fn a_result_opens_in_python() {
         return;
     };
     the_documented_check(&python, root, &path);
-    let output = Command::new(&python)
-        .arg(root.join("python/open_result.py"))
-        .arg(&path)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
+    opens(&python, &root.join("python/open_result.py"), &path);
+    // In this test: another beside it would write while Python runs.
+    let path = folder.path().join("wall.h5");
+    write_wall(&path);
+    opens(&python, &root.join("python/open_base_moment.py"), &path);
+}
+
+fn opens(python: &OsStr, script: &Path, result: &Path) {
+    let output = Command::new(python).arg(script).arg(result).output();
+    let output = output.unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+}
+
+/// The result of a wall, with its stiffness matrix, and of a chain of storeys that does not
+/// touch it.
+fn write_wall(path: &Path) {
+    let motion = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let motion = motion.join("../ground_motions/el_centro_1940_ns.csv");
+    let record = pounding_ground_motion::read(&motion, &Default::default()).unwrap();
+    let (mass, height) = (vec![4.0e4; 4], vec![3.0; 4]);
+    let damping = Damping::Modal { ratios: vec![0.05] };
+    let matrix = LateralStiffness::cantilever(&height, &[6.0e9; 4], None).unwrap();
+    let wall = ShearBuilding::with_stiffness_matrix(
+        "wall".to_owned(),
+        mass.clone(),
+        matrix,
+        height.clone(),
+        damping.clone(),
+        0.0,
     );
+    let storeys = vec![3.0e7; 4];
+    let chain = ShearBuilding::new("chain".to_owned(), mass, storeys, height, damping);
+    let buildings = [wall, chain].map(|b| Arc::new(b.unwrap()));
+    let ground = GroundAcceleration {
+        samples: record.samples().into(),
+        time_step: record.time_step(),
+    };
+    let system = System::new(buildings.to_vec(), ground);
+    let head = RunHead {
+        title: "A wall",
+        case: "[[building]]",
+        version: "test",
+        build: "test",
+        system: &system,
+        accelerogram: &record,
+    };
+    let writer = RunWriter::begin(path, &head).unwrap();
+    let mut writer = GridRecorder::into_sink(0.01, writer).unwrap();
+    let options = RunOptions::default();
+    let outcome = run(&system, &options, &mut [&mut writer], &mut |_| {}).unwrap();
+    let ending = RunEnding {
+        outcome: &outcome,
+        isolated: &outcome,
+        warnings: &[],
+        wall_time: 0.0,
+    };
+    writer.responses.finish(&ending).unwrap();
 }
 
 /// Runs the lines of `docs/reference/result-file.md` that check a file without the program: they take

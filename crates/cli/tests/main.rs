@@ -3,6 +3,7 @@
 mod argument_units;
 mod bad_input;
 mod bad_laws;
+mod base_moments;
 mod calibrate;
 mod compare;
 mod documents;

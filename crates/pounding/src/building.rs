@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pounding_catalogue::STANDARD_GRAVITY;
-use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
+use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding, StoreyLaw};
 
 use crate::error::Error;
 use crate::law::Law;
@@ -20,11 +20,25 @@ pub struct Storey {
     pub height: Length,
 }
 
-/// A building in the making: storeys from the bottom, damping, laws.
+/// A floor of a building with a stiffness matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Floor {
+    /// Mass of the floor.
+    pub mass: Mass,
+    /// Height from the floor below.
+    pub height: Length,
+}
+
+/// A building in the making: storeys from the bottom, or floors on a stiffness matrix;
+/// damping, laws.
 #[derive(Debug, Clone)]
 pub struct Building {
     name: String,
-    storeys: Vec<Storey>,
+    /// Stiffness of all floors together, in the place of those of the storeys.
+    matrix: Option<LateralStiffness>,
+    floors: Vec<Floor>,
+    /// Of each floor that was added as a storey.
+    stiffness: Vec<Option<Stiffness>>,
     damping: Option<Damping>,
     p_delta: bool,
     /// Laws, each of some storeys from 1, or of all.
@@ -39,13 +53,40 @@ impl Building {
     pub fn shear(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
-            storeys: Vec::new(),
+            matrix: None,
+            floors: Vec::new(),
+            stiffness: Vec::new(),
             damping: None,
             p_delta: false,
             laws: Vec::new(),
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
         }
+    }
+
+    /// A building whose floors all act on one another, without floors as yet: a wall, a frame
+    /// with flexible beams, the matrix of another program. Its overturning moment at the base
+    /// is among the results.
+    #[must_use]
+    pub fn stiffness_matrix(name: impl Into<String>, matrix: LateralStiffness) -> Self {
+        Self {
+            matrix: Some(matrix),
+            ..Self::shear(name)
+        }
+    }
+
+    /// Adds a floor on top of a building with a stiffness matrix.
+    #[must_use]
+    pub fn floor(self, floor: Floor) -> Self {
+        self.floors(1, floor)
+    }
+
+    /// Adds equal floors on top of a building with a stiffness matrix.
+    #[must_use]
+    pub fn floors(mut self, count: usize, floor: Floor) -> Self {
+        self.floors.extend(std::iter::repeat_n(floor, count));
+        self.stiffness.extend(std::iter::repeat_n(None, count));
+        self
     }
 
     /// Adds a storey on top.
@@ -57,7 +98,14 @@ impl Building {
     /// Adds equal storeys on top.
     #[must_use]
     pub fn storeys(mut self, count: usize, storey: Storey) -> Self {
-        self.storeys.extend(std::iter::repeat_n(storey, count));
+        let Storey {
+            mass,
+            stiffness,
+            height,
+        } = storey;
+        self = self.floors(count, Floor { mass, height });
+        let added = self.stiffness.len() - count;
+        self.stiffness[added..].fill(Some(stiffness));
         self
     }
 
@@ -128,29 +176,50 @@ impl Building {
     }
 
     pub(crate) fn build(&self) -> Result<Arc<ShearBuilding>, Error> {
-        let each = |of: fn(&Storey) -> f64| self.storeys.iter().map(of).collect();
+        let each = |of: fn(&Floor) -> f64| self.floors.iter().map(of).collect();
         let damping = self.damping.clone().ok_or_else(|| Error::NoDamping {
             building: self.name.clone(),
         })?;
         let gravity = if self.p_delta { STANDARD_GRAVITY } else { 0.0 };
-        let building = ShearBuilding::under_gravity(
-            self.name.clone(),
-            each(|s| s.mass.si()),
-            each(|s| s.stiffness.si()),
-            each(|s| s.height.si()),
-            damping,
-            gravity,
-        )?;
+        let name = self.name.clone();
+        let (mass, height) = (each(|f| f.mass.si()), each(|f| f.height.si()));
+        let building = match &self.matrix {
+            Some(matrix) => {
+                if let Some(storey) = self.stiffness.iter().position(Option::is_some) {
+                    return Err(self.stiffness_of(storey, true));
+                }
+                let matrix = matrix.clone();
+                ShearBuilding::with_stiffness_matrix(name, mass, matrix, height, damping, gravity)?
+            }
+            None => {
+                let known = |(storey, k): (usize, &Option<Stiffness>)| {
+                    k.map(|k| k.si())
+                        .ok_or_else(|| self.stiffness_of(storey, false))
+                };
+                let stiffness = self.stiffness.iter().enumerate().map(known);
+                let stiffness = stiffness.collect::<Result<_, _>>()?;
+                ShearBuilding::under_gravity(name, mass, stiffness, height, damping, gravity)?
+            }
+        };
         if self.laws.is_empty() {
             return Ok(Arc::new(building));
         }
         Ok(Arc::new(building.with_laws(self.storey_laws()?)?))
     }
 
+    /// A storey, from zero, with a stiffness beside a matrix, or with neither.
+    fn stiffness_of(&self, storey: usize, matrix: bool) -> Error {
+        Error::StiffnessOfStorey {
+            building: self.name.clone(),
+            storey: storey + 1,
+            matrix,
+        }
+    }
+
     /// The law of each storey, if it has one.
     fn storey_laws(&self) -> Result<Vec<Option<StoreyLaw>>, Error> {
         let of = format!("building {}", self.name);
-        let count = self.storeys.len();
+        let count = self.floors.len();
         let mut laws = vec![None; count];
         for (storeys, law) in &self.laws {
             let all = || (1..=count).collect();
@@ -162,11 +231,14 @@ impl Building {
                 };
                 let index = storey.checked_sub(1).filter(|i| *i < count);
                 let index = index.ok_or_else(|| refused("there is no such storey"))?;
+                if self.matrix.is_some() {
+                    return Err(refused("a stiffness matrix has no storeys of its own"));
+                }
                 if laws[index].is_some() {
                     return Err(refused("it has a law already"));
                 }
-                let stiffness = self.storeys[index].stiffness.si();
-                laws[index] = Some(law.build(&of, Some(stiffness))?);
+                let stiffness = self.stiffness[index].map(|k| k.si());
+                laws[index] = Some(law.build(&of, stiffness)?);
             }
         }
         Ok(laws)
@@ -181,7 +253,7 @@ impl Building {
 
     /// A value of each floor, at rest where none are given.
     fn each_floor(&self, values: Vec<f64>) -> Result<Vec<f64>, Error> {
-        let storeys = self.storeys.len();
+        let storeys = self.floors.len();
         match values.len() {
             0 => Ok(vec![0.0; storeys]),
             given if given == storeys => Ok(values),

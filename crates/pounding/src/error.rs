@@ -3,7 +3,7 @@
 use pounding_gap_element::GapElementError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
-use pounding_shear_building::ShearBuildingError;
+use pounding_shear_building::{LateralStiffnessError, ShearBuildingError};
 use pounding_time_history::TimeHistoryError;
 
 /// What can go wrong between a description and its results.
@@ -13,6 +13,22 @@ pub enum Error {
     /// A building cannot be; the error names it.
     #[error(transparent)]
     Building(#[from] ShearBuildingError),
+    /// A matrix that is no stiffness of a building.
+    #[error(transparent)]
+    LateralStiffness(#[from] LateralStiffnessError),
+    /// A storey with a stiffness of its own beside a stiffness matrix, or a floor with neither.
+    #[error("building {building}, storey {storey}: {}", match matrix {
+        true => "it has a stiffness, and the building a stiffness matrix",
+        false => "it has no stiffness, and the building no stiffness matrix",
+    })]
+    StiffnessOfStorey {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Whether the building has a matrix.
+        matrix: bool,
+    },
     /// A building that is not said to be damped, nor to be undamped.
     #[error("building {building} has no damping")]
     NoDamping {
@@ -177,7 +193,11 @@ impl Error {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Building(_) | Self::Twice { .. } => None,
+            Self::Building(_) | Self::LateralStiffness(_) | Self::Twice { .. } => None,
+            Self::StiffnessOfStorey { .. } => Some(
+                "`Building::shear(...)` takes storeys, `Building::stiffness_matrix(...)` floors"
+                    .to_owned(),
+            ),
             Self::NoDamping { .. } => {
                 Some("damp it by `.damping(...)`, or say `.undamped()`".to_owned())
             }

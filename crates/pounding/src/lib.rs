@@ -121,6 +121,33 @@
 //! # }
 //! ```
 //!
+//! # Walls, frames, matrices of other programs
+//!
+//! A building whose floors all act on one another has one [`LateralStiffness`](prelude::LateralStiffness)
+//! in the place of storey stiffnesses: of a wall, of a frame with flexible beams, or typed in.
+//! Its overturning moment at the base is among the results.
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let heights = [3.0; 4];
+//! let flexural_rigidity = [6.0e9; 4];
+//! let wall = LateralStiffness::cantilever(&heights, &flexural_rigidity, None)?;
+//! let floor = Floor { mass: Mass::tonnes(40.0), height: Length::metres(3.0) };
+//! let wall = Building::stiffness_matrix("core", wall)
+//!     .floors(4, floor)
+//!     .damping(Damping::Modal { ratios: vec![0.05] });
+//! let motion = GroundMotion::read("ground_motions/el_centro_1940_ns.csv")?;
+//! let outcome = Simulation::of([wall]).ground_motion(motion).run()?;
+//! let moment = outcome.buildings[0].base_moment.expect("that of a matrix");
+//! println!("{:.0} kN m at {:.2} s", moment.value / 1e3, moment.time);
+//! # assert!(moment.value > 1.0e6);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # What is where
 //!
 //! | crate | what |
@@ -145,7 +172,7 @@ mod record;
 mod simulation;
 pub mod units;
 
-pub use building::{Building, Storey};
+pub use building::{Building, Floor, Storey};
 pub use error::Error;
 pub use gap::Gap;
 pub use link::Link;
@@ -167,11 +194,11 @@ pub use pounding_time_history as time_history;
 
 /// What most programs need.
 pub mod prelude {
-    pub use pounding_shear_building::Damping;
+    pub use pounding_shear_building::{Damping, LateralStiffness};
     pub use pounding_time_history::{
         GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink, Summary,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};
-    pub use crate::{Building, Error, Gap, GroundMotion, Link, Model, Simulation, Storey};
+    pub use crate::{Building, Error, Floor, Gap, GroundMotion, Link, Model, Simulation, Storey};
 }

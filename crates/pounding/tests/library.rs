@@ -475,3 +475,146 @@ fn storeys_follow_laws() {
     assert!(!storeys.is_empty());
     assert!(outcome.energy.end.hysteretic > 0.0);
 }
+
+/// A wall beside a frame: the outcome of the core, and base moments in the answer for machines
+/// and in the result file.
+#[test]
+fn buildings_with_a_stiffness_matrix() {
+    use pounding::shear_building::ShearBuilding;
+    use pounding::time_history as core;
+    let wall = || LateralStiffness::cantilever(&[3.0; 4], &[6.0e9; 4], None).unwrap();
+    let rows = [
+        vec![1.8e8, -1.0e8, 0.2e8],
+        vec![-1.0e8, 1.4e8, -0.6e8],
+        vec![0.2e8, -0.6e8, 0.5e8],
+    ];
+    let frame = || LateralStiffness::from_rows(&rows).unwrap();
+    let damping = Damping::Modal { ratios: vec![0.03] };
+    let floor = |tonnes: f64| Floor {
+        mass: Mass::tonnes(tonnes),
+        height: Length::metres(3.0),
+    };
+    let described = [
+        Building::stiffness_matrix("core", wall())
+            .floors(4, floor(40.0))
+            .damping(damping.clone()),
+        Building::stiffness_matrix("frame", frame())
+            .floors(2, floor(60.0))
+            .floor(floor(50.0))
+            .damping(damping.clone())
+            .p_delta(),
+    ];
+    let gap = Gap::between("core", "frame")
+        .width(Length::millimetres(12.0))
+        .model(
+            "anagnostopoulos_2004",
+            [("stiffness", 2.0e8), ("restitution", 0.65)],
+        );
+    let simulation = Simulation::of(described)
+        .gap(gap)
+        .ground_motion(el_centro())
+        .duration(Time::seconds(8.0));
+    let model = simulation.build().unwrap();
+    let outcome = model.run().unwrap();
+    assert!(!outcome.impacts.is_empty());
+
+    let made = |name: &str, mass: Vec<f64>, matrix, gravity| {
+        let height = vec![3.0; mass.len()];
+        let damping = damping.clone();
+        let name = name.to_owned();
+        let made =
+            ShearBuilding::with_stiffness_matrix(name, mass, matrix, height, damping, gravity);
+        Arc::new(made.unwrap())
+    };
+    let wall = made("core", vec![40e3; 4], wall(), 0.0);
+    let frame = made("frame", vec![60e3, 60e3, 50e3], frame(), 9.80665);
+    let record = el_centro();
+    let mut system = core::System::new(
+        vec![wall, frame],
+        core::GroundAcceleration {
+            samples: record.accelerogram().samples().into(),
+            time_step: record.accelerogram().time_step(),
+        },
+    );
+    let parameters = ModelParameters::from_pairs(&[("stiffness", 2.0e8), ("restitution", 0.65)]);
+    let law = registry::build("anagnostopoulos_2004", &parameters).unwrap();
+    let law: Arc<dyn pounding::gap_element::ImpactModel> = law.into();
+    let level = |i| {
+        let floors = [0, 1].map(|b| core::Floor::Storey(b, i));
+        (floors[0], floors[1], 0.012, Arc::clone(&law))
+    };
+    let names = ["core", "frame"].map(str::to_owned);
+    system
+        .add_gap("core-frame", names, (0..3).map(level).collect())
+        .unwrap();
+    let options = core::RunOptions {
+        duration: Some(8.0),
+        ..core::RunOptions::default()
+    };
+    let expected = core::run(&system, &options, &mut [], &mut |_| {}).unwrap();
+    assert_eq!(outcome.buildings, expected.buildings);
+    assert_eq!(outcome.impacts, expected.impacts);
+    assert!(outcome.buildings.iter().all(|b| b.base_moment.is_some()));
+
+    let isolated = model.isolated().run().unwrap();
+    let summary = Summary::of(&system, (&outcome, &isolated), &[]);
+    let summary = serde_json::to_value(&summary).unwrap();
+    let pair = pair().run().unwrap();
+    let chains = serde_json::to_value(&pair.buildings).unwrap();
+    for b in 0..2 {
+        for (key, outcome) in [
+            ("base_moment", &outcome),
+            ("isolated_base_moment", &isolated),
+        ] {
+            let told = &summary["buildings"][b][key];
+            let moment = outcome.buildings[b].base_moment.unwrap();
+            assert_eq!(told["peak"].as_f64(), Some(moment.value));
+            assert_eq!(told["time"].as_f64(), Some(moment.time));
+        }
+        assert!(chains[b].get("base_moment").is_none(), "of a chain");
+    }
+}
+
+/// Storeys and floors, matrices and laws that do not go together.
+#[test]
+fn what_a_stiffness_matrix_cannot_have() {
+    let matrix = || LateralStiffness::cantilever(&[3.0; 2], &[6.0e9; 2], None).unwrap();
+    let floor = Floor {
+        mass: Mass::tonnes(40.0),
+        height: Length::metres(3.0),
+    };
+    let refused = |building: Building, words: [&str; 2]| {
+        let building = building.undamped();
+        let error = Simulation::of([building]).ground_motion(el_centro()).run();
+        let error = format!("{:?}", error.unwrap_err());
+        for word in words {
+            assert!(error.contains(word), "{error}");
+        }
+    };
+    let wall = || Building::stiffness_matrix("core", matrix());
+    refused(
+        wall().floor(floor).storey(storey(40.0, 3.0)),
+        [
+            "building core, storey 2: it has a stiffness",
+            "takes storeys",
+        ],
+    );
+    refused(
+        Building::shear("chain")
+            .storey(storey(40.0, 3.0))
+            .floor(floor),
+        [
+            "building chain, storey 2: it has no stiffness",
+            "takes storeys",
+        ],
+    );
+    refused(wall().floor(floor), ["core", "stiffness matrix"]);
+    let law = wall().floors(2, floor);
+    refused(
+        law.law("bilinear", [("yield_force", 1e5), ("hardening_ratio", 0.1)]),
+        ["law of storey 1", "a stiffness matrix has no storeys"],
+    );
+    let mechanism = [vec![1.0, -1.0], vec![-1.0, 1.0]];
+    let error = LateralStiffness::from_rows(&mechanism).map_err(Error::from);
+    assert!(format!("{:?}", error.unwrap_err()).contains("mechanism"));
+}

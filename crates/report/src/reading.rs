@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Group, H5Type, Location};
 use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
-use pounding_results::{ResultFile, number, read_all, text, texts, values};
+use pounding_results::{ResultFile, number, read_all, text, texts, value, values};
 
 use crate::error::ReportError;
 use crate::result::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult, RunResult,
-    StoreyPeaks, Table,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult,
+    RunResult, StoreyPeaks, Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
@@ -182,6 +182,7 @@ impl Reader {
             drift_peaks: of("drift_ratio")?,
             shear_peaks: of("storey_shear")?,
             acceleration_peaks: of("acceleration_absolute")?,
+            base_moment: self.base_moment(&peaks)?,
             ductility: ductility.transpose()?,
             period: self.column(group, "period")?,
             damping_ratio: self.column(group, "damping_ratio")?,
@@ -198,6 +199,21 @@ impl Reader {
             storeys > 0 && building.displacement.columns == storeys && peaks.iter().all(whole);
         self.fits(group, fits)?;
         Ok(building)
+    }
+
+    /// The peak of the base moment, of a building that has one.
+    fn base_moment(&self, peaks: &Group) -> Outcome<Option<BaseMoment>> {
+        if !peaks.link_exists("base_moment") {
+            return Ok(None);
+        }
+        let one = |name: &str| -> Outcome<f64> {
+            value(peaks, name).map_err(self.failed(&format!("{}/{name}", peaks.name())))
+        };
+        Ok(Some(BaseMoment {
+            value: one("base_moment")?,
+            time: one("base_moment_time")?,
+            isolated: one("isolated_base_moment")?,
+        }))
     }
 
     /// Levels of a gap or a link.

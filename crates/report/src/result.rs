@@ -32,6 +32,17 @@ pub struct StoreyPeaks {
     pub isolated: Vec<f64>,
 }
 
+/// Peak overturning moment at the base of a building, with and without gaps and links.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BaseMoment {
+    /// With them (N m).
+    pub value: f64,
+    /// When (s).
+    pub time: f64,
+    /// Of the isolated building (N m).
+    pub isolated: f64,
+}
+
 /// One building.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildingResult {
@@ -49,6 +60,8 @@ pub struct BuildingResult {
     pub shear_peaks: StoreyPeaks,
     /// Peak absolute acceleration (m/s2).
     pub acceleration_peaks: StoreyPeaks,
+    /// Peak overturning moment at the base, of a building with a stiffness matrix.
+    pub base_moment: Option<BaseMoment>,
     /// Ductility of every storey (-), where any has a law; NaN where there is no yield force.
     pub ductility: Option<Vec<f64>>,
     /// Natural periods (s).

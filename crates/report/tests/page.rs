@@ -3,8 +3,8 @@
 
 use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
-    BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, ReportError, RunResult,
-    StoreyPeaks, Table, page,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, ReportError,
+    RunResult, StoreyPeaks, Table, page,
 };
 
 fn peaks(value: [f64; 2], isolated: [f64; 2]) -> StoreyPeaks {
@@ -56,6 +56,7 @@ fn result() -> RunResult {
         drift_peaks: peaks([0.016, 0.017], [0.02, 0.01]),
         shear_peaks: peaks([2.0e5, 1.0e5], [1.0e5, 1.0e5]),
         acceleration_peaks: peaks([4.0, 9.0], [3.0, 3.0]),
+        base_moment: None,
         ductility: None,
         period: vec![0.61, 0.2],
         damping_ratio: vec![0.05, 0.05],
@@ -140,6 +141,30 @@ fn the_answers_stand_in_the_page() {
     }
     // Nothing yields: no curve and no share of it.
     assert!(!html.contains("yielding"));
+}
+
+/// Of a building with a stiffness matrix alone.
+#[test]
+fn base_moments_stand_in_the_page() {
+    let mut result = result();
+    result.buildings[1].base_moment = Some(BaseMoment {
+        value: 2.5e6,
+        time: 4.321,
+        isolated: 2.0e6,
+    });
+    let html = page(&result, "pair.h5").unwrap();
+    is_whole(&html);
+    let sentence = "overturning moment at the base 1.25 times (2500 kN m, isolated 2000 kN m)";
+    assert_eq!(html.matches(sentence).count(), 1, "{html}");
+    let row = "<td>2500</td><td>4.321</td><td>2000</td><td>1.25</td>";
+    assert_eq!(html.matches(row).count(), 1, "{html}");
+    // Where the isolated buildings could not be run, there is nothing beside it.
+    if let Some(moment) = &mut result.buildings[1].base_moment {
+        moment.isolated = f64::NAN;
+    }
+    let html = page(&result, "pair.h5").unwrap();
+    assert!(!html.contains("moment at the base \u{2013}") && !html.contains("NaN"));
+    assert!(html.contains("<td>4.321</td><td>\u{2013}</td><td>\u{2013}</td>"));
 }
 
 #[test]

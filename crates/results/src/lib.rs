@@ -19,7 +19,7 @@ use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 pub use run::{
     MAXIMUM_RESPONSES, ResponsesTooLarge, RunEnding, RunHead, RunWriter, WriteError, check_size,
 };
-pub use values::{dataset, number, read_all, text, texts, values};
+pub use values::{dataset, number, read_all, text, texts, value, values};
 
 /// Name of the root attribute of a file that was written with a checksum.
 pub const CHECKSUM: &str = "checksum";

@@ -48,6 +48,20 @@ pub fn values<T: H5Type>(group: &Group, name: &str) -> Result<Vec<T>> {
     data.read_raw()
 }
 
+/// The number of a dataset that holds a single one.
+///
+/// # Errors
+/// What HDF5 says; another type, more than one value, a value that is not stored.
+pub fn value<T: H5Type>(group: &Group, name: &str) -> Result<T> {
+    let data = group.dataset(name)?;
+    if !data.is_scalar() || data.space()?.extents()?.is_null() {
+        return Err(Error::from("it is no single value"));
+    }
+    has_type::<T>(&data)?;
+    has_storage(&data)?;
+    data.read_scalar()
+}
+
 /// All texts of a dataset.
 ///
 /// # Errors
@@ -74,6 +88,12 @@ fn is_stored(data: &Dataset) -> Result<()> {
     if shape.is_empty() || data.space()?.extents()?.is_null() {
         return Err(Error::from("it has no rows"));
     }
+    has_storage(data)
+}
+
+/// The same for a dataset of any shape.
+fn has_storage(data: &Dataset) -> Result<()> {
+    let shape = data.shape();
     let product = |sizes: &[usize]| sizes.iter().try_fold(1_usize, |n, m| n.checked_mul(*m));
     let bytes = product(&shape).and_then(|n| n.checked_mul(data.dtype().ok()?.size()));
     let bytes = bytes.ok_or_else(too_many)?;
@@ -118,7 +138,9 @@ fn below(group: &Group, levels: usize) -> Result<()> {
 
 /// Reads a dataset of any type that results have.
 fn any(group: &Group, name: &str) -> Result<()> {
-    match group.dataset(name)?.dtype()?.to_descriptor()? {
+    let data = group.dataset(name)?;
+    match data.dtype()?.to_descriptor()? {
+        TypeDescriptor::Float(_) if data.is_scalar() => value::<f64>(group, name).map(drop),
         TypeDescriptor::Float(_) => values::<f64>(group, name).map(drop),
         TypeDescriptor::Integer(IntSize::U1) => values::<i8>(group, name).map(drop),
         TypeDescriptor::Integer(IntSize::U4) => values::<i32>(group, name).map(drop),

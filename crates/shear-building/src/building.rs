@@ -318,6 +318,14 @@ impl ShearBuilding {
         Some(rows)
     }
 
+    /// Rows of the stiffness matrix (N/m) without what gravity takes off; `None` for a chain
+    /// of storeys, which [`ShearBuilding::stiffness`] describes.
+    #[must_use]
+    pub fn elastic_stiffness_matrix(&self) -> Option<Vec<Vec<f64>>> {
+        let rows = self.elastic.as_ref()?.row_iter();
+        Some(rows.map(|row| row.iter().copied().collect()).collect())
+    }
+
     /// Difference of entries on both sides of the diagonal that the given matrix had, over its
     /// largest entry ([`LateralStiffness::asymmetry`]).
     #[must_use]

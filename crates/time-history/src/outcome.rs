@@ -289,6 +289,9 @@ impl Outcome {
                 acceleration_absolute: unknown,
             };
         }
+        for building in &mut outcome.buildings {
+            building.base_moment = building.base_moment.map(|_| unknown);
+        }
         outcome
     }
 }

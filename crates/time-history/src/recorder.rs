@@ -33,6 +33,9 @@ pub struct Sample {
     /// Storey shears (N), of the law where a storey has one, else elastic; buildings
     /// from the left.
     pub storey_shear: Vec<f64>,
+    /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
+    /// the left.
+    pub base_moment: Vec<f64>,
     /// Deformation of every element (m), in the order of [`System::elements`].
     pub element_deformation: Vec<f64>,
     /// Force of every element (N).
@@ -218,14 +221,14 @@ pub(crate) fn fill(
         out.force[l] = forces[l];
     }
     out.storey_shear.clear();
+    out.base_moment.clear();
     let mut sections = system.sections().iter();
     for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
         let mut below = 0.0;
         if building.stiffness().is_empty() {
             let shears = sections.by_ref().take(building.storeys());
             out.storey_shear.extend(shears.map(|s| s.at(u)));
-            // The base moment.
-            sections.next();
+            out.base_moment.extend(sections.next().map(|s| s.at(u)));
             continue;
         }
         for (k, u) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
@@ -312,6 +315,9 @@ pub struct History {
     pub force: Vec<f64>,
     /// Storey shears (N).
     pub storey_shear: Vec<f64>,
+    /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
+    /// the left.
+    pub base_moment: Vec<f64>,
     /// Deformation of every element (m).
     pub element_deformation: Vec<f64>,
     /// Force of every element (N).
@@ -346,6 +352,7 @@ impl History {
             &mut self.penetration,
             &mut self.force,
             &mut self.storey_shear,
+            &mut self.base_moment,
             &mut self.element_deformation,
             &mut self.element_force,
             &mut self.element_dissipated,
@@ -387,6 +394,7 @@ impl History {
             (&mut self.penetration, &sample.penetration),
             (&mut self.force, &sample.force),
             (&mut self.storey_shear, &sample.storey_shear),
+            (&mut self.base_moment, &sample.base_moment),
             (&mut self.element_deformation, &sample.element_deformation),
             (&mut self.element_force, &sample.element_force),
             (&mut self.element_dissipated, &sample.element_dissipated),

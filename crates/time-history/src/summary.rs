@@ -4,7 +4,7 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    Ledger, LevelOutcome, LinkLevelOutcome, Outcome, Statistics, StoreyPeaks, YieldingStorey,
+    Ledger, LevelOutcome, LinkLevelOutcome, Outcome, Peak, Statistics, StoreyPeaks, YieldingStorey,
 };
 use crate::system::{LevelPlace, System};
 
@@ -29,8 +29,12 @@ struct Building<'a> {
     name: &'a str,
     elevation: &'a [f64],
     storeys: &'a [StoreyPeaks],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_moment: Option<Peak>,
     yielding: &'a [Option<YieldingStorey>],
     isolated: &'a [StoreyPeaks],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    isolated_base_moment: Option<Peak>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -81,8 +85,10 @@ impl<'a> Summary<'a> {
             name: &with.name,
             elevation: building.elevations(),
             storeys: &with.storeys,
+            base_moment: with.base_moment,
             yielding: &with.yielding,
             isolated: &without.storeys,
+            isolated_base_moment: without.base_moment,
         });
         let gaps = outcome.gaps.iter().zip(system.gaps()).map(|(gap, place)| {
             let levels = system.levels_of(place);

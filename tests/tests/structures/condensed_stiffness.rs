@@ -67,7 +67,7 @@ fn file() -> File {
     serde_json::from_str(text).unwrap()
 }
 
-fn model() -> Arc<dyn ImpactModel> {
+pub(super) fn model() -> Arc<dyn ImpactModel> {
     let parameters = ModelParameters::from_pairs(&[("stiffness", 2.0e8), ("restitution", 0.65)]);
     registry::build("anagnostopoulos_2004", &parameters)
         .unwrap()

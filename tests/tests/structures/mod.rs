@@ -3,4 +3,5 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod abutment;
+mod base_moments;
 mod condensed_stiffness;

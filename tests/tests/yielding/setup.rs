@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};
-use pounding_ground_motion::ReadOptions;
+use pounding_ground_motion::{Accelerogram, ReadOptions};
 use pounding_hysteresis::{LawParameters, build, yield_deformation};
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 use pounding_time_history::{
@@ -12,10 +12,15 @@ use pounding_time_history::{
 };
 
 /// El Centro 1940 NS as it lies in the repository.
-pub fn el_centro() -> GroundAcceleration {
+pub fn el_centro_record() -> Accelerogram {
     let file =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../ground_motions/el_centro_1940_ns.csv");
-    let record = pounding_ground_motion::read(&file, &ReadOptions::default()).unwrap();
+    pounding_ground_motion::read(&file, &ReadOptions::default()).unwrap()
+}
+
+/// The same as a ground acceleration.
+pub fn el_centro() -> GroundAcceleration {
+    let record = el_centro_record();
     GroundAcceleration {
         samples: record.samples().into(),
         time_step: record.time_step(),

@@ -50,6 +50,9 @@ struct Building<'a> {
     name: &'a str,
     mass: &'a [f64],
     stiffness: &'a [f64],
+    /// Rows, without what gravity takes off; of a building that is no chain of storeys.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiffness_matrix: Option<Vec<Vec<f64>>>,
     height: &'a [f64],
     elevation: &'a [f64],
     period: &'a [f64],
@@ -110,6 +113,7 @@ impl<'a> Understood<'a> {
             name: b.name(),
             mass: b.mass(),
             stiffness: b.stiffness(),
+            stiffness_matrix: b.elastic_stiffness_matrix(),
             height: b.height(),
             elevation: b.elevations(),
             period: &b.modes().period,

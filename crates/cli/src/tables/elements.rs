@@ -125,19 +125,43 @@ pub(super) fn laws(building: &ShearBuilding) -> String {
             law.law.descriptor().name
         ));
     }
-    let shares = building
-        .geometric_stiffness()
-        .iter()
-        .zip(building.stiffness());
-    let maximum = shares.map(|(g, k)| g / k).fold(0.0, f64::max);
-    if maximum > 0.0 {
-        text.push_str(&format!(
-            "P-Delta: gravity takes up to {:.2} % off a storey stiffness; periods include it\n",
-            100.0 * maximum
-        ));
-    }
+    text.push_str(&gravity(building));
     text.push_str(&sources(descriptors(building)));
     text
+}
+
+/// What `check` says of gravity: what it takes off the storey stiffnesses, or off the stiffness
+/// of the first mode where there is a matrix.
+fn gravity(building: &ShearBuilding) -> String {
+    let geometric = building.geometric_stiffness();
+    if geometric.iter().all(|g| *g == 0.0) {
+        return String::new();
+    }
+    let shares = geometric.iter().zip(building.stiffness());
+    let taken = match shares.map(|(g, k)| g / k).reduce(f64::max) {
+        Some(share) => format!("up to {:.2} % off a storey stiffness", 100.0 * share),
+        None => format!(
+            "{:.2} % off the stiffness of the first mode",
+            100.0 * share_of_first_mode(building)
+        ),
+    };
+    format!("P-Delta: gravity takes {taken}; periods include it\n")
+}
+
+/// What gravity takes off the stiffness of the first mode, over that stiffness without
+/// gravity (-): by the shape of the mode with gravity.
+fn share_of_first_mode(building: &ShearBuilding) -> f64 {
+    let shape = building.modes().shape.column(0);
+    let mut below = 0.0;
+    let mut taken = 0.0;
+    for (u, k) in shape.iter().zip(building.geometric_stiffness()) {
+        taken += k * (u - below) * (u - below);
+        below = *u;
+    }
+    let frequency = building.modes().circular_frequency[0];
+    let masses = shape.iter().zip(building.mass());
+    let mass: f64 = masses.map(|(u, m)| m * u * u).sum();
+    taken / (taken + frequency * frequency * mass)
 }
 
 /// What the event-driven method does where a storey or a link follows a law.

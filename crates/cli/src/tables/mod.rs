@@ -126,8 +126,13 @@ fn building(run: &Run<'_>, index: usize) -> String {
             cell(a.acceleration_absolute, b.acceleration_absolute, 1.0 / G, 3),
         ]);
     }
+    let base = with.base_moment.zip(isolated.base_moment);
+    let base = base.map_or_else(String::new, |(a, b)| {
+        let moment = cell(a, b, 1e-3, 1);
+        format!("overturning moment at the base (kN m): {moment}\n")
+    });
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n",
+        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}",
         with.name
     )
 }
@@ -261,11 +266,16 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     }
     text.push_str(&warning_lines(&assembly.warnings()));
     for b in assembly.system.buildings() {
+        let matrix = b.elastic_stiffness_matrix();
         let mut table = new_table([
             "storey",
             "elevation (m)",
             "mass (kg)",
-            "stiffness (N/m)",
+            if matrix.is_some() {
+                "K_ii (N/m)"
+            } else {
+                "stiffness (N/m)"
+            },
             "mode",
             "period (s)",
             "damping (%)",
@@ -278,9 +288,10 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
                 (i + 1).to_string(),
                 format!("{}", b.elevations()[i]),
                 format!("{}", b.mass()[i]),
-                b.stiffness()
-                    .get(i)
-                    .map_or_else(|| "matrix".to_owned(), |k| format!("{k:e}")),
+                match &matrix {
+                    Some(rows) => format!("{:.6e}", rows[i][i]),
+                    None => format!("{:e}", b.stiffness()[i]),
+                },
                 (i + 1).to_string(),
                 decimal(modes.period[i], 5),
                 format!("{:.3}", 100.0 * modes.damping_ratio[i]),
@@ -288,6 +299,9 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             ]);
         }
         text.push_str(&format!("\nBuilding {}\n{table}\n", b.name()));
+        if matrix.is_some() {
+            text.push_str("stiffness matrix: every floor acts on every other; K_ii is its diagonal, all of it is in --json\n");
+        }
         text.push_str(&elements::laws(b));
     }
     for gap in assembly.system.gaps() {

@@ -67,6 +67,26 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
     table(headings, rows) + note
 }
 
+/// The peak of the overturning moment at the base; nothing for a chain of storeys.
+pub(super) fn base_moment(building: &BuildingResult) -> String {
+    let Some(moment) = &building.base_moment else {
+        return String::new();
+    };
+    let headings = [
+        "overturning moment at the base (kN m)",
+        "at (s)",
+        "without",
+        "ratio",
+    ];
+    let row = vec![
+        figures(1.0e-3 * moment.value),
+        figures(moment.time),
+        figures(1.0e-3 * moment.isolated),
+        ratio(moment.value, moment.isolated),
+    ];
+    table(&headings, std::iter::once(row))
+}
+
 /// The levels of a gap, the top first.
 pub(super) fn levels(gap: &GapResult) -> String {
     let headings = [

@@ -94,6 +94,15 @@ fn changed(building: &BuildingResult) -> Option<String> {
             figures(factor * peaks.isolated[storey]),
         ))
     };
+    let base = building.base_moment.filter(|m| m.isolated > 0.0);
+    let base = base.map(|moment| {
+        format!(
+            "overturning moment at the base {} times ({} kN m, isolated {} kN m)",
+            times(moment.value, moment.isolated),
+            figures(1.0e-3 * moment.value),
+            figures(1.0e-3 * moment.isolated),
+        )
+    });
     let parts = [
         rise("displacement", &building.displacement_peaks, (1.0e3, "mm")),
         rise("storey shear", &building.shear_peaks, (1.0e-3, "kN")),
@@ -102,6 +111,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
             &building.acceleration_peaks,
             (1.0, "m/s\u{b2}"),
         ),
+        base,
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| {

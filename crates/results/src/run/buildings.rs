@@ -3,10 +3,17 @@
 use hdf5::{Dataset, Group};
 use pounding_time_history::{Peak, StoreyPeaks, System};
 
-use super::datasets::series;
+use super::datasets::{series, single};
 use super::tables::{Content, Tables};
 use super::{Result, RunEnding, elements, share_time};
 use crate::dimension_scales;
+
+/// Names of the buildings whose base moment is known, those with a stiffness matrix.
+pub(crate) fn with_base_moment(system: &System) -> impl Iterator<Item = &str> {
+    let buildings = system.buildings().iter();
+    let buildings = buildings.filter(|b| b.stiffness().is_empty());
+    buildings.map(|b| b.name())
+}
 
 /// Creates the groups of all buildings, with coordinates, modes, and the datasets that grow.
 pub(super) fn begin(
@@ -67,6 +74,11 @@ pub(super) fn begin(
             dimension_scales::attach(&data, time, 0)?;
             dimension_scales::attach(&data, &storey, 1)?;
         }
+        if let Some(column) = with_base_moment(system).position(|name| name == building.name()) {
+            let names = ("base_moment", "N m", "overturning moment at the base");
+            let data = tables.add(&group, names, Content::Column(|h| &h.base_moment, column))?;
+            dimension_scales::attach(&data, time, 0)?;
+        }
         elements::begin_storeys(&group, system, index, tables, (time, &storey))?;
         let modes = building.modes();
         let period = series(&group, "period", "s", "natural periods", &modes.period)?;
@@ -90,18 +102,13 @@ pub(super) fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>)
         let storey = group.dataset("storey")?;
         let peaks = group.create_group("peak")?;
         group.link_hard("storey", "peak/storey")?;
-        storey_peaks(
-            &peaks,
-            "",
-            &ending.outcome.buildings[index].storeys,
-            &storey,
-        )?;
-        storey_peaks(
-            &peaks,
-            "isolated_",
-            &ending.isolated.buildings[index].storeys,
-            &storey,
-        )?;
+        for (prefix, outcome) in [("", ending.outcome), ("isolated_", ending.isolated)] {
+            let building = &outcome.buildings[index];
+            storey_peaks(&peaks, prefix, &building.storeys, &storey)?;
+            if let Some(moment) = building.base_moment {
+                base_moment(&peaks, prefix, moment)?;
+            }
+        }
         elements::finish_storeys((&group, &peaks), &ending.outcome.buildings[index], &storey)?;
     }
     Ok(())
@@ -122,11 +129,7 @@ fn storey_peaks(
             p.acceleration_absolute
         }),
     ];
-    let without = if prefix.is_empty() {
-        ""
-    } else {
-        " without pounding"
-    };
+    let without = without(prefix);
     for (name, units, pick) in quantities {
         let values: Vec<f64> = peaks.iter().map(|p| pick(p).value).collect();
         let times: Vec<f64> = peaks.iter().map(|p| pick(p).time).collect();
@@ -149,4 +152,23 @@ fn storey_peaks(
         dimension_scales::attach(&time, storey, 0)?;
     }
     Ok(())
+}
+
+/// The peak of the overturning moment at the base of a building.
+fn base_moment(group: &Group, prefix: &str, peak: Peak) -> Result<()> {
+    let without = without(prefix);
+    let name = format!("{prefix}base_moment");
+    let long_name = format!("peak absolute overturning moment at the base{without}");
+    single(group, &name, "N m", &long_name, peak.value)?;
+    let long_name = format!("time of peak overturning moment at the base{without}");
+    single(group, &format!("{name}_time"), "s", &long_name, peak.time)?;
+    Ok(())
+}
+
+/// What long names of peaks say of the run that they are of.
+fn without(prefix: &str) -> &'static str {
+    match prefix {
+        "" => "",
+        _ => " without pounding",
+    }
 }

@@ -38,6 +38,20 @@ pub(super) fn series<T: H5Type>(
     Ok(data)
 }
 
+/// A dataset of a single number with units and long name.
+pub(super) fn single(
+    group: &Group,
+    name: &str,
+    units: &str,
+    long_name: &str,
+    value: f64,
+) -> Result<Dataset> {
+    let data = group.new_dataset::<f64>().create(name)?;
+    data.write_scalar(&value)?;
+    describe(&data, units, long_name)?;
+    Ok(data)
+}
+
 /// A dataset of rows of several columns, one after another.
 pub(super) fn table<T: H5Type>(group: &Group, name: &str, rows: &[T]) -> Result<Dataset> {
     let builder = group.new_dataset::<T>();

@@ -22,6 +22,7 @@ use sha2::{Digest, Sha256};
 
 use crate::attributes::{self, text};
 use crate::dimension_scales;
+pub(crate) use buildings::with_base_moment;
 pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
 use tables::{Content, Tables};
 

@@ -19,6 +19,8 @@ const LEAST_ROWS: usize = 16;
 pub(super) enum Content {
     /// A number of every time.
     Number(fn(&History) -> &[f64]),
+    /// One column of a list.
+    Column(fn(&History) -> &[f64], usize),
     /// Some columns of a list.
     Columns(fn(&History) -> &[f64], Range<usize>),
     /// Columns of a list in any order; a column that is none holds zeros.
@@ -114,7 +116,7 @@ impl Content {
     /// Columns of the dataset; `None` where it has one dimension.
     fn columns(&self) -> Option<usize> {
         match self {
-            Self::Number(_) | Self::Energy(_) => None,
+            Self::Number(_) | Self::Column(..) | Self::Energy(_) => None,
             Self::Columns(_, range) | Self::DriftRatios(range, _) => Some(range.len()),
             Self::Chosen(_, columns) => Some(columns.len()),
         }
@@ -125,6 +127,7 @@ impl Content {
         match self {
             Self::Number(list) => list(block).to_vec(),
             Self::Energy(part) => block.energy.iter().map(part).collect(),
+            Self::Column(list, index) => block.column(list(block), *index),
             Self::Columns(list, range) => block.columns(list(block), range.clone()),
             Self::Chosen(list, columns) => {
                 let list = list(block);

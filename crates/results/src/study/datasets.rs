@@ -16,6 +16,7 @@ pub(super) struct Axes<'d> {
     pub run: &'d Dataset,
     pub storey: Option<&'d Dataset>,
     pub level: Option<&'d Dataset>,
+    pub building: Option<&'d Dataset>,
     /// Names of the coordinates of the runs.
     pub coordinates: &'d str,
 }
@@ -82,6 +83,7 @@ pub(super) fn quantities(
             Axis::Run => (None, None, ""),
             Axis::Storey => (Some(layout.width(q.axis)), axes.storey, OF_STOREYS),
             Axis::Level => (Some(layout.width(q.axis)), axes.level, OF_LEVELS),
+            Axis::Building => (Some(layout.width(q.axis)), axes.building, ""),
         };
         if width == Some(0) {
             continue;

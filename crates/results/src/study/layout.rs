@@ -2,6 +2,8 @@
 
 use pounding_time_history::{LevelPlace, Outcome, System};
 
+use crate::run::with_base_moment;
+
 /// What a quantity belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
@@ -11,6 +13,8 @@ pub enum Axis {
     Storey,
     /// Each contact level of each gap.
     Level,
+    /// Each building with a stiffness matrix.
+    Building,
 }
 
 /// A quantity of the results.
@@ -139,10 +143,19 @@ const ISOLATED_DEMAND: Quantity = quantity(
     "maximum approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
 
+/// The quantity of studies of buildings with a stiffness matrix.
+const BASE_MOMENT: Quantity = quantity(
+    Axis::Building,
+    "peak_base_moment",
+    "N m",
+    "maximum overturning moment at the base",
+);
+
 /// Whether a name is taken by the results.
 #[must_use]
 pub fn is_result(name: &str) -> bool {
     let labels = [
+        "building",
         "storey_building",
         "storey_number",
         "level_gap",
@@ -156,7 +169,7 @@ pub fn is_result(name: &str) -> bool {
     ];
     QUANTITIES
         .iter()
-        .chain([&ISOLATED_DEMAND])
+        .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
         .any(|q| q.name == name)
         || labels.contains(&name)
 }
@@ -203,6 +216,8 @@ pub struct Layout {
     pub storeys: Vec<Place>,
     /// Contact levels of all gaps, in the order of the case and from the bottom.
     pub levels: Vec<Place>,
+    /// Names of the buildings with a stiffness matrix, from the left.
+    pub buildings: Vec<String>,
     /// Quantities in the order of the columns.
     pub quantities: Vec<Quantity>,
 }
@@ -229,22 +244,31 @@ impl Layout {
                 width: Some(l.width),
             })
         });
-        Self::from_places(storeys.collect(), levels.collect(), isolated_demand)
+        let buildings = with_base_moment(system).map(str::to_owned);
+        Self::from_places(
+            (storeys.collect(), levels.collect()),
+            buildings.collect(),
+            isolated_demand,
+        )
     }
 
-    /// The shape with these storeys and levels.
+    /// The shape with these storeys and levels, and these buildings with a base moment.
     pub(super) fn from_places(
-        storeys: Vec<Place>,
-        levels: Vec<Place>,
+        (storeys, levels): (Vec<Place>, Vec<Place>),
+        buildings: Vec<String>,
         isolated_demand: bool,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
+        if !buildings.is_empty() {
+            quantities.push(BASE_MOMENT);
+        }
         if isolated_demand {
             quantities.push(ISOLATED_DEMAND);
         }
         Self {
             storeys,
             levels,
+            buildings,
             quantities,
         }
     }
@@ -256,6 +280,7 @@ impl Layout {
             Axis::Run => 1,
             Axis::Storey => self.storeys.len(),
             Axis::Level => self.levels.len(),
+            Axis::Building => self.buildings.len(),
         }
     }
 
@@ -299,6 +324,8 @@ impl Layout {
         let end = outcome.energy.end;
         out.extend([end.input, end.viscous, end.hysteretic, end.impact]);
         out.push(outcome.energy.residual_ratio);
+        let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
+        out.extend(moments.map(|m| m.value));
         out.extend(demand);
     }
 
@@ -317,6 +344,7 @@ impl Layout {
             .iter()
             .chain(&self.levels)
             .map(|p| p.label.as_str());
+        let labels = labels.chain(self.buildings.iter().map(String::as_str));
         let names = self.quantities.iter().map(|q| q.name);
         labels.chain(names).collect::<Vec<_>>().join("\n")
     }

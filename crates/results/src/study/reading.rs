@@ -373,9 +373,14 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
                 width,
             },
         );
+    // A study without such buildings may have a variable of that name.
+    let buildings = match file.link_exists("peak_base_moment") {
+        true => labels("building")?,
+        false => Vec::new(),
+    };
     Ok(Layout::from_places(
-        storeys.collect(),
-        levels.collect(),
+        (storeys.collect(), levels.collect()),
+        buildings,
         file.link_exists("isolated_demand"),
     ))
 }

@@ -122,7 +122,16 @@ impl Open {
             "level",
             layout.levels.iter().map(|p| p.label.as_str()),
         )?;
-        for scale in [("storey", &storey), ("level", &level)] {
+        let building = labels(
+            &file,
+            "building",
+            layout.buildings.iter().map(String::as_str),
+        )?;
+        for scale in [
+            ("storey", &storey),
+            ("level", &level),
+            ("building", &building),
+        ] {
             if let Some(data) = scale.1 {
                 make_scale(data, scale.0)?;
             }
@@ -138,6 +147,7 @@ impl Open {
             run: &run,
             storey: storey.as_ref(),
             level: level.as_ref(),
+            building: building.as_ref(),
             coordinates: &names.join(" "),
         };
         let (status, id) = states(&file, &axes, rows)?;

@@ -69,12 +69,14 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
         QuantityKind::Displacement,
         QuantityKind::StoreyShear,
         QuantityKind::AccelerationAbsolute,
+        QuantityKind::BaseMoment,
     ];
     for (q, quantity) in comparison.quantities.iter().enumerate() {
         if kinds.contains(&quantity.kind) {
             let words = match quantity.kind {
                 QuantityKind::Displacement => "displacement",
                 QuantityKind::StoreyShear => "storey shear",
+                QuantityKind::BaseMoment => "overturning moment",
                 _ => "absolute acceleration",
             };
             let amplification = quantity.kind.amplification();

@@ -15,6 +15,8 @@ pub enum QuantityKind {
     StoreyShear,
     /// Maximum absolute floor acceleration of a building (m/s2); not of rigid impacts.
     AccelerationAbsolute,
+    /// Maximum overturning moment at the base of a building with a stiffness matrix (N m).
+    BaseMoment,
     /// Impacts in a gap (-).
     Impacts,
     /// Maximum contact force of a gap (N); not of rigid impacts.
@@ -53,6 +55,7 @@ impl QuantityKind {
             Self::DriftRatio => "drift_ratio",
             Self::StoreyShear => "storey_shear",
             Self::AccelerationAbsolute => "acceleration_absolute",
+            Self::BaseMoment => "base_moment",
             Self::Impacts => "impacts",
             Self::PeakForce => "peak_force",
             Self::Impulse => "impulse",
@@ -69,6 +72,7 @@ impl QuantityKind {
             Self::Displacement => "m",
             Self::StoreyShear | Self::PeakForce => "N",
             Self::AccelerationAbsolute => "m/s2",
+            Self::BaseMoment => "N m",
             Self::Impulse => "N s",
             Self::ApproachVelocity => "m/s",
             Self::ImpactEnergy => "J",
@@ -84,6 +88,7 @@ impl QuantityKind {
             | Self::DriftRatio
             | Self::StoreyShear
             | Self::AccelerationAbsolute => "maximum over storeys",
+            Self::BaseMoment => "at the base",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
             Self::PeakForce => "maximum over levels",
             Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
@@ -111,14 +116,15 @@ impl QuantityKind {
         }
     }
 
-    /// The peak of this kind among those of a storey.
+    /// The peak of this kind among those of a storey; `None` for what no storey has.
     #[must_use]
-    pub fn peak(self, storey: &StoreyPeaks) -> Peak {
+    pub fn peak(self, storey: &StoreyPeaks) -> Option<Peak> {
         match self {
-            Self::Displacement => storey.displacement,
-            Self::DriftRatio => storey.drift_ratio,
-            Self::StoreyShear => storey.storey_shear,
-            _ => storey.acceleration_absolute,
+            Self::Displacement => Some(storey.displacement),
+            Self::DriftRatio => Some(storey.drift_ratio),
+            Self::StoreyShear => Some(storey.storey_shear),
+            Self::AccelerationAbsolute => Some(storey.acceleration_absolute),
+            _ => None,
         }
     }
 }
@@ -138,7 +144,7 @@ impl Quantity {
     /// Whether it belongs to a building, and has a value without pounding.
     #[must_use]
     pub fn is_of_building(&self) -> bool {
-        QuantityKind::OF_BUILDINGS.contains(&self.kind)
+        QuantityKind::OF_BUILDINGS.contains(&self.kind) || self.kind == QuantityKind::BaseMoment
     }
 
     /// Name and owner.
@@ -158,6 +164,9 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     let mut all = Vec::new();
     for (index, b) in system.buildings().iter().enumerate() {
         all.extend(QuantityKind::OF_BUILDINGS.map(|kind| quantity(kind, b.name(), index)));
+        if b.stiffness().is_empty() {
+            all.push(quantity(QuantityKind::BaseMoment, b.name(), index));
+        }
     }
     for (index, g) in system.gaps().iter().enumerate() {
         all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));
@@ -165,10 +174,13 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     all
 }
 
-/// Maximum over the storeys of a building.
+/// Maximum over the storeys of a building, or that of its base.
 pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64 {
-    let peaks = building.storeys.iter().map(|s| kind.peak(s).value);
-    peaks.fold(0.0, f64::max)
+    if kind == QuantityKind::BaseMoment {
+        return building.base_moment.map_or(f64::NAN, |m| m.value);
+    }
+    let peaks = building.storeys.iter().filter_map(|s| kind.peak(s));
+    peaks.map(|p| p.value).fold(0.0, f64::max)
 }
 
 /// Whether some impact of a rigid law was a jump of the velocity, which has neither a force

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::runs::Layout;
+use crate::runs::{Axis, Layout};
 use crate::study_file::{DemandKind, Limit};
 
 /// The demand that asks the buildings without gaps.
@@ -89,23 +89,25 @@ fn chosen(range: Range<usize>, pick: impl Fn(usize) -> bool) -> Vec<usize> {
 
 /// Columns of a demand whose name and unit a study gives; `building` names the building.
 pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -> Demand {
-    let (name, unit, of_level) = match limit.demand {
-        DemandKind::Displacement => ("peak_displacement", "m", false),
-        DemandKind::DriftRatio => ("peak_drift_ratio", "1", false),
-        DemandKind::StoreyShear => ("peak_storey_shear", "N", false),
-        DemandKind::AccelerationAbsolute => ("peak_acceleration_absolute", "m s-2", false),
-        DemandKind::ContactForce => ("peak_force", "N", true),
-        DemandKind::Impulse => ("impulse_max", "N s", true),
-        DemandKind::Impacts => ("impacts", "1", true),
-        DemandKind::IsolatedDemand => ("isolated_demand", "m", true),
+    let (name, unit, axis) = match limit.demand {
+        DemandKind::Displacement => ("peak_displacement", "m", Axis::Storey),
+        DemandKind::DriftRatio => ("peak_drift_ratio", "1", Axis::Storey),
+        DemandKind::StoreyShear => ("peak_storey_shear", "N", Axis::Storey),
+        DemandKind::AccelerationAbsolute => ("peak_acceleration_absolute", "m s-2", Axis::Storey),
+        DemandKind::BaseMoment => ("peak_base_moment", "N m", Axis::Building),
+        DemandKind::ContactForce => ("peak_force", "N", Axis::Level),
+        DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
+        DemandKind::Impacts => ("impacts", "1", Axis::Level),
+        DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),
     };
-    let mine = |column: usize| match (of_level, building, limit.place) {
-        (true, _, Some(level)) => column == level,
-        (true, _, None) | (false, None, _) => true,
-        (false, Some(building), place) => {
+    let mine = |column: usize| match axis {
+        Axis::Level => limit.place.is_none_or(|level| column == level),
+        Axis::Building => building.is_none_or(|b| layout.buildings[column] == b),
+        _ => building.is_none_or(|building| {
             let storey = &layout.storeys[column];
-            storey.of == building && place.is_none_or(|p| storey.storeys[0] == p + 1)
-        }
+            let here = limit.place.is_none_or(|p| storey.storeys[0] == p + 1);
+            storey.of == building && here
+        }),
     };
     Demand {
         name: limit.name.clone(),

@@ -1,6 +1,7 @@
 //! One run of a study: from its number to its row.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use pounding_assembly::{AssemblyError, assemble_with_record, regap, scale_record};
@@ -44,6 +45,8 @@ pub(crate) struct Runner<'s> {
     base: CaseTree<'s>,
     /// What the case says.
     lines: Lines,
+    /// Hashes of the files of stiffness matrices, which the case says by their names alone.
+    matrices: Vec<String>,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
 }
@@ -77,6 +80,7 @@ impl<'s> Runner<'s> {
             layout,
             warnings,
             lines: Lines::of(base.tree()),
+            matrices: matrices(study),
             base,
             study,
             motions,
@@ -174,6 +178,16 @@ impl<'s> Runner<'s> {
                 shape.0, shape.1, layout.0, layout.1
             ));
         }
+        let matrices = system
+            .buildings()
+            .iter()
+            .filter(|b| b.stiffness().is_empty());
+        let (found, expected) = (matrices.count(), self.layout.buildings.len());
+        if found != expected {
+            return Err(format!(
+                "{found} buildings of the run have a stiffness matrix, {expected} of the study"
+            ));
+        }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
             Ok(outcome) => Ok(outcome),
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
@@ -217,6 +231,7 @@ impl<'s> Runner<'s> {
         }
         hash.update(factor.map_or([0; 8], f64::to_le_bytes));
         hash.update(self.version);
+        self.matrices.iter().for_each(|m| hash.update(m));
         let mut id = [0; ID];
         id.copy_from_slice(&hash.finalize()[..ID]);
         id
@@ -240,8 +255,24 @@ impl<'s> Runner<'s> {
             hash.update(motion.as_ref().map_or("unreadable", |m| m.sha256.as_str()));
         }
         hash.update(self.layout.signature());
+        self.matrices.iter().for_each(|m| hash.update(m));
         hexadecimal(&hash.finalize())
     }
+}
+
+/// Hashes of the files of stiffness matrices that a study names, each file once.
+fn matrices(study: &Study) -> Vec<String> {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for (what, path) in study.files() {
+        if what == "matrix" && !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    let hash = |path: PathBuf| match std::fs::read(path) {
+        Ok(bytes) => hexadecimal(&Sha256::digest(bytes)),
+        Err(_) => "unreadable".to_owned(),
+    };
+    paths.into_iter().map(hash).collect()
 }
 
 /// The isolated demand of each level; infinite where the buildings collapse by themselves,

@@ -34,6 +34,8 @@ pub enum DemandKind {
     StoreyShear,
     /// Maximum absolute floor acceleration (m/s2).
     AccelerationAbsolute,
+    /// Maximum overturning moment at the base of a building with a stiffness matrix (N m).
+    BaseMoment,
     /// Maximum contact force (N).
     ContactForce,
     /// Maximum impulse of one impact (N s).
@@ -53,6 +55,8 @@ impl DemandKind {
             Self::DriftRatio | Self::Impacts => Dimension::NUMBER,
             Self::StoreyShear | Self::ContactForce => Dimension::FORCE,
             Self::AccelerationAbsolute => Dimension::ACCELERATION,
+            // Of a moment, as of an energy.
+            Self::BaseMoment => Dimension::ENERGY,
             Self::Impulse => Dimension {
                 mass: 1.0,
                 length: 1.0,
@@ -284,6 +288,7 @@ fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -
 impl LimitTable {
     fn read(self, reader: &Reader<'_>, context: &Context) -> Option<Limit> {
         let demand = self.demand.value();
+        let exceeds_at = self.exceeds.span();
         let exceeds = self.exceeds.located().and_then(|exceeds| {
             let value = match demand {
                 Some(demand) => exceeds.value.above_zero(demand.dimension()),
@@ -321,9 +326,27 @@ impl LimitTable {
                 return reader.refuse(span.clone(), message, format!("it has {storeys}"));
             }
         }
+        let demand = demand?;
+        if demand == DemandKind::BaseMoment {
+            if let Some(span) = places.1.or(places.2) {
+                let message = "the base moment is of a building, not of a storey or a level";
+                return reader.refuse(span, message, "leave it out");
+            }
+            let buildings = &context.base.as_ref()?.case.buildings;
+            let mut asked = match building {
+                Some(index) => buildings[index..=index].iter(),
+                None => buildings.iter(),
+            };
+            if !asked.any(|b| b.lateral.is_some()) {
+                let span = places.0.unwrap_or(exceeds_at?);
+                let message = "the base moment is known of buildings with a stiffness matrix only";
+                let help = "ask for `storey_shear`, or for a building with a stiffness matrix";
+                return reader.refuse(span, message, help);
+            }
+        }
         Some(Limit {
             name: self.name.value()?,
-            demand: demand?,
+            demand,
             building,
             place: storey.or(level).map(|number| number.value.0 - 1),
             exceeds: exceeds?,

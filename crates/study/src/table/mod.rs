@@ -160,6 +160,11 @@ fn header(d: &Description) -> Vec<String> {
             }
             Axis::Storey => &d.layout.storeys,
             Axis::Level => &d.layout.levels,
+            Axis::Building => {
+                let of = |name: &String| with_unit(&format!("{}: {name}", q.name), q.unit);
+                cells.extend(d.layout.buildings.iter().map(of));
+                continue;
+            }
         };
         cells.extend(
             places

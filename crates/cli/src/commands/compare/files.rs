@@ -73,24 +73,17 @@ fn places(c: &Comparison, (m, r): (usize, usize), run: &ModelRun) -> Vec<[String
         if quantity.is_of_building() {
             let without = c.own[r].isolated[of].storeys.iter();
             for (s, (with, isolated)) in run.storeys[of].iter().zip(without).enumerate() {
+                let (Some(with), Some(isolated)) = (kind.peak(with), kind.peak(isolated)) else {
+                    continue;
+                };
                 let here = |d: &&StoreyDifference| (d.building, d.storey, d.kind) == (of, s, kind);
                 let difference = c.storey_differences.iter().find(here);
                 let differs = difference.is_some_and(|d| d.models[r].contains(&m));
                 let jumps = kind == QuantityKind::AccelerationAbsolute
                     && run.amplification[of][s].acceleration_absolute.is_nan();
-                let value = if jumps {
-                    f64::NAN
-                } else {
-                    kind.peak(with).value
-                };
+                let value = if jumps { f64::NAN } else { with.value };
                 let place = format!("storey {}", s + 1);
-                add(
-                    value,
-                    kind.peak(isolated).value,
-                    "peak of the storey",
-                    place,
-                    differs,
-                );
+                add(value, isolated.value, "peak of the storey", place, differs);
             }
         }
         if kind == QuantityKind::Impacts {

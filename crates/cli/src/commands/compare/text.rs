@@ -13,10 +13,11 @@ const LISTED: usize = 6;
 const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
-const SHOWN: [QuantityKind; 8] = [
+const SHOWN: [QuantityKind; 9] = [
     QuantityKind::Displacement,
     QuantityKind::StoreyShear,
     QuantityKind::AccelerationAbsolute,
+    QuantityKind::BaseMoment,
     QuantityKind::Impacts,
     QuantityKind::PeakForce,
     QuantityKind::ApproachVelocity,
@@ -31,6 +32,7 @@ fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
         QuantityKind::DriftRatio => ("%", 1e-2, 3),
         QuantityKind::StoreyShear | QuantityKind::PeakForce => ("kN", 1e3, 1),
         QuantityKind::AccelerationAbsolute => ("g", G, 3),
+        QuantityKind::BaseMoment => ("kN m", 1e3, 1),
         QuantityKind::Impacts => ("-", 1.0, 0),
         QuantityKind::Impulse => ("kN s", 1e3, 2),
         QuantityKind::ApproachVelocity => ("m/s", 1.0, 3),

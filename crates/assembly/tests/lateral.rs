@@ -78,7 +78,7 @@ fn wrong_matrices_are_refused_at_their_place() {
             file,
             "2e8,-1e8\n-1e8\n",
             "\"K.csv\"",
-            "not square: row 2 has 1 entries",
+            "not square: row 2 has 1 of 2 entries",
         ),
         (
             file,
@@ -93,6 +93,18 @@ fn wrong_matrices_are_refused_at_their_place() {
             "cannot read the matrix",
         ),
         (
+            "stiffness_matrix = { file = \".\" }",
+            "",
+            "\".\"",
+            "this is a folder",
+        ),
+        (
+            "stiffness_matrix = { file = \"/dev/zero\" }",
+            "",
+            "\"/dev/zero\"",
+            "this is no regular file",
+        ),
+        (
             "stiffness_matrix = [[1e8, -1e8], [-1e8, 1e8]]",
             "",
             "[[1e8, -1e8], [-1e8, 1e8]]",
@@ -102,7 +114,7 @@ fn wrong_matrices_are_refused_at_their_place() {
             "flexibility_matrix = [[1e-8, 1e-8], [1e-8, 1.00000000000001e-8]]",
             "",
             "[[1e-8, 1e-8], [1e-8, 1.00000000000001e-8]]",
-            "condition number",
+            "round-off",
         ),
         (
             "p_delta = true\nstiffness_matrix = [[2e5, -1e5], [-1e5, 1e5]]",

@@ -108,6 +108,16 @@ fn what_cannot_be_is_refused_once_at_its_place() {
             "`unit` must be a stiffness (N/m), but \"kN\" is a force (N)",
         ),
         (
+            "storeys = 2\nstiffness_matrix = { file = \"K.csv\", unit = \"\" }",
+            "\"\"",
+            "`unit` is empty",
+        ),
+        (
+            "storeys = 2\nstiffness_matrix = [[], []]",
+            "[[], []]",
+            "row 1 has 0 entries for 2 floors",
+        ),
+        (
             "storeys = 2\nstiffness_matrix = { file = \"\" }",
             "\"\"",
             "`file` is empty",

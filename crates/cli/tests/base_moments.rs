@@ -290,37 +290,47 @@ fn sweep_and_merge_hold_a_column_for_each_building() {
     );
 }
 
-/// What stands in the file of a matrix belongs to the study as its text does.
+/// What stands in the files that a case names belongs to the study as its text does.
 #[test]
-fn a_changed_matrix_file_is_another_study() {
-    let bench = Bench::new();
+fn a_changed_file_is_another_study() {
     let (start, rest) = CASE.split_once("stiffness_matrix = [").unwrap();
     let (_, end) = rest.split_once("\n]\n").unwrap();
-    let case = format!("{start}stiffness_matrix = {{ file = \"K.csv\" }}\n{end}");
-    bench.write("case.toml", &case);
+    let by_matrix = format!("{start}stiffness_matrix = {{ file = \"K.csv\" }}\n{end}");
     let matrix = "1.8e8,-1.0e8,0.2e8\n-1.0e8,1.4e8,-0.6e8\n0.2e8,-0.6e8,0.5e8\n";
-    bench.write("K.csv", matrix);
-    let study = "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"8 mm\"]\n";
-    bench.write("study.toml", study);
-    bench.text("sweep study.toml -o a.h5 --csv a.csv");
-    bench.text("sweep study.toml -o a.h5 --resume --csv again.csv");
-    assert_eq!(bench.read("again.csv"), bench.read("a.csv"));
-    bench.write("K.csv", &matrix.replace("1.8e8", "1.9e8"));
-    bench.refused(
-        "sweep study.toml -o a.h5 --resume",
-        &["it is the result of another study"],
-    );
-    bench.text("sweep study.toml -o b.h5 --csv b.csv");
-    let id = |name: &str| {
-        let table = bench.read(name);
-        let rows: Vec<Vec<String>> = table
-            .lines()
-            .map(|l| l.split(',').map(str::to_owned).collect())
-            .collect();
-        let column = rows[0].iter().position(|c| c == "run_id").unwrap();
-        rows[1][column].clone()
-    };
-    assert_ne!(id("a.csv"), id("b.csv"));
+    let scale = "[ground_motion]\nscale = { target = \"S.csv\", from = 0.2, to = 1 }\n";
+    let by_spectrum = CASE.replace("[ground_motion]\n", scale);
+    assert_ne!(by_spectrum, CASE);
+    let spectrum = "period_s,psa_g\n0.1,0.5\n0.5,0.7\n2,0.2\n";
+    for (case, file, contents, changed) in [
+        (by_matrix, "K.csv", matrix, ("1.8e8", "1.9e8")),
+        (by_spectrum, "S.csv", spectrum, ("0.7", "0.9")),
+    ] {
+        let bench = Bench::new();
+        bench.write("case.toml", &case);
+        bench.write(file, contents);
+        let study =
+            "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"8 mm\"]\n";
+        bench.write("study.toml", study);
+        bench.text("sweep study.toml -o a.h5 --csv a.csv");
+        bench.text("sweep study.toml -o a.h5 --resume --csv again.csv");
+        assert_eq!(bench.read("again.csv"), bench.read("a.csv"));
+        bench.write(file, &contents.replace(changed.0, changed.1));
+        bench.refused(
+            "sweep study.toml -o a.h5 --resume",
+            &["it is the result of another study"],
+        );
+        bench.text("sweep study.toml -o b.h5 --csv b.csv");
+        let id = |name: &str| {
+            let table = bench.read(name);
+            let rows: Vec<Vec<String>> = table
+                .lines()
+                .map(|l| l.split(',').map(str::to_owned).collect())
+                .collect();
+            let column = rows[0].iter().position(|c| c == "run_id").unwrap();
+            rows[1][column].clone()
+        };
+        assert_ne!(id("a.csv"), id("b.csv"), "{file}");
+    }
 }
 
 #[test]

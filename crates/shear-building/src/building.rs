@@ -308,13 +308,17 @@ impl ShearBuilding {
     pub fn section_forces(&self) -> Option<Vec<Vec<f64>>> {
         let elastic = self.elastic.as_ref()?;
         let n = self.storeys();
-        let row = |weight: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            let column = |j: usize| (0..n).map(|i| weight(i) * elastic[(i, j)]).sum();
-            (0..n).map(column).collect()
-        };
-        let shear = |storey: usize| row(&|i: usize| f64::from(u8::from(i >= storey)));
-        let mut rows: Vec<_> = (0..n).map(shear).collect();
-        rows.push(row(&|i: usize| self.elevations[i]));
+        // From the roof down.
+        let (mut shear, mut moment) = (vec![0.0; n], vec![0.0; n]);
+        let mut rows = vec![Vec::new(); n];
+        for i in (0..n).rev() {
+            for j in 0..n {
+                shear[j] += elastic[(i, j)];
+                moment[j] += self.elevations[i] * elastic[(i, j)];
+            }
+            rows[i].clone_from(&shear);
+        }
+        rows.push(moment);
         Some(rows)
     }
 

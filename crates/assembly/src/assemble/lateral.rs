@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pounding_case::{Building, Case, CaseError, Lateral, Located, MatrixSource};
 use pounding_catalogue::wording::counted;
-use pounding_shear_building::{LateralStiffness, ShearBuilding};
+use pounding_shear_building::{LateralStiffness, MAXIMUM_STOREYS, ShearBuilding};
 
 /// Difference of two entries of a matrix, over the largest one, that is told.
 const TOLD: f64 = 1.0e-12;
@@ -38,7 +38,12 @@ pub(super) fn stiffness(
         let place = file.map_or(&lateral.span, |file| &file.span);
         let named = file.map_or_else(String::new, |f| format!("{}: ", f.value.display()));
         let message = format!("building {}: {named}{e}", building.name.value);
-        let help = "give the matrix of the floors as the frame program exports it: bottom floor first, all other coordinates condensed out";
+        let help = match lateral.value {
+            Lateral::Stiffness(_) | Lateral::Flexibility(_) => {
+                "give the matrix of the floors as the frame program exports it: bottom floor first, all other coordinates condensed out"
+            }
+            _ => "correct the rigidities: they are so far apart that the matrix of the floors is round-off",
+        };
         case.error(place.clone(), message, Some(help.to_owned()))
     })
 }
@@ -79,6 +84,20 @@ fn rows(
 /// are left out. Fails with what is wrong and what to do.
 fn read(path: &Path) -> Result<Vec<Vec<f64>>, (String, &'static str)> {
     const CORRECT: &str = "write one row per floor with numbers between commas, and no header";
+    const PATH: &str = "name the file relative to the folder of the case file";
+    // A device or a pipe may never end.
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_dir() => {
+            return Err(("cannot read the matrix: this is a folder".to_owned(), PATH));
+        }
+        Ok(found) if !found.is_file() => {
+            return Err((
+                "cannot read the matrix: this is no regular file".to_owned(),
+                PATH,
+            ));
+        }
+        _ => {}
+    }
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -90,10 +109,7 @@ fn read(path: &Path) -> Result<Vec<Vec<f64>>, (String, &'static str)> {
             csv::ErrorKind::Io(e) => format!("cannot read the matrix: {e}"),
             _ => e.to_string(),
         };
-        (
-            message,
-            "name the file relative to the folder of the case file",
-        )
+        (message, PATH)
     })?;
     let mut rows = Vec::new();
     for record in reader.records() {
@@ -109,19 +125,14 @@ fn read(path: &Path) -> Result<Vec<Vec<f64>>, (String, &'static str)> {
                 (message, CORRECT)
             })
         };
-        rows.push(
-            record
-                .iter()
-                .enumerate()
-                .map(number)
-                .collect::<Result<_, _>>()?,
-        );
-        if rows.len() > pounding_shear_building::MAXIMUM_STOREYS {
-            return Err((
-                "it has more rows than a building can have floors".to_owned(),
-                CORRECT,
-            ));
+        if record.len() > MAXIMUM_STOREYS || rows.len() == MAXIMUM_STOREYS {
+            let message = format!(
+                "it has more than {MAXIMUM_STOREYS} rows or columns, the most floors of a building"
+            );
+            return Err((message, CORRECT));
         }
+        let entries = record.iter().enumerate();
+        rows.push(entries.map(number).collect::<Result<_, _>>()?);
     }
     Ok(rows)
 }

@@ -46,15 +46,20 @@ impl Assembly {
         self.with_those_of_the_record(&ours)
     }
 
+    /// Warnings of how the buildings were made.
+    #[must_use]
+    pub fn warnings_of_buildings(&self) -> Vec<String> {
+        let buildings = self.system.buildings().iter();
+        buildings.filter_map(|b| lateral::averaged(b)).collect()
+    }
+
     /// The warnings of the record before these.
     #[must_use]
     pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {
         let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
         let record = record.unwrap_or_default().iter().cloned();
-        let buildings = self.system.buildings().iter();
-        let averaged = buildings.filter_map(|b| lateral::averaged(b));
         record
-            .chain(averaged)
+            .chain(self.warnings_of_buildings())
             .chain(ours.iter().map(Warning::to_string))
             .collect()
     }
@@ -231,6 +236,10 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
             ShearBuildingError::TooManyStoreys { .. } => (
                 &b.name.span,
                 Some("join storeys: several of them as one of their total height and mass, and of their stiffnesses in series".to_owned()),
+            ),
+            ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
+                &b.damping.span,
+                Some("give ratios, such as { modal = 0.05 }".to_owned()),
             ),
             _ => (&b.damping.span, None),
         };

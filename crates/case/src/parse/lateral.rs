@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use pounding_catalogue::wording::counted;
+use pounding_catalogue::wording::{agreeing, counted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -78,9 +78,10 @@ pub(super) fn matrix<D: Dimensioned>(
                 return reader.refuse(
                     place.clone(),
                     format!(
-                        "row {} has {} for {}",
+                        "row {} has {} {} for {}",
                         row + 1,
-                        counted(rows[row].len(), "entry"),
+                        rows[row].len(),
+                        agreeing(&rows[row].len(), "entry", "entries"),
                         counted(storeys, "floor")
                     ),
                     "give one row per floor, bottom first, with one entry per floor",
@@ -95,6 +96,13 @@ pub(super) fn matrix<D: Dimensioned>(
         None => 1.0,
         Some(unit) => {
             let text = unit.value.as_written().to_owned();
+            if text.trim().is_empty() {
+                return reader.refuse(
+                    unit.span,
+                    "`unit` is empty",
+                    "write the unit, such as \"kN/mm\", or leave it out for SI",
+                );
+            }
             let one = Written::of_text(format!("1 {text}")).of(D::DIMENSION);
             let one = one.map_err(|fault| Fault {
                 message: fault.message.replace(&format!("1 {text}"), &text),

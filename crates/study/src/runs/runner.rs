@@ -45,8 +45,9 @@ pub(crate) struct Runner<'s> {
     base: CaseTree<'s>,
     /// What the case says.
     lines: Lines,
-    /// Hashes of the files of stiffness matrices, which the case says by their names alone.
-    matrices: Vec<String>,
+    /// Hashes of matrices and target spectra, which the case says by the names of their files
+    /// alone.
+    named_files: Vec<String>,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
 }
@@ -59,13 +60,16 @@ impl<'s> Runner<'s> {
         let motions = Motions::read(study, keep_failures)?;
         let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
         let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
-        let system = assemble_with_record(&study.base, &rest)?.system;
+        let assembly = assemble_with_record(&study.base, &rest)?;
+        let averaged = assembly.warnings_of_buildings();
+        let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
         let varied = leave_out_varied(&mut layout, study, &system);
         let mut warnings: Vec<String> = system
             .unequal_floor_warnings()
             .iter()
             .map(ToString::to_string)
+            .chain(averaged)
             .collect();
         let meant = study.base.gaps.iter().filter(|g| g.floor_to_floor);
         warnings.extend(meant.filter(|g| varied.contains(&g.name)).map(|gap| {
@@ -80,7 +84,7 @@ impl<'s> Runner<'s> {
             layout,
             warnings,
             lines: Lines::of(base.tree()),
-            matrices: matrices(study),
+            named_files: named_files(study),
             base,
             study,
             motions,
@@ -231,7 +235,7 @@ impl<'s> Runner<'s> {
         }
         hash.update(factor.map_or([0; 8], f64::to_le_bytes));
         hash.update(self.version);
-        self.matrices.iter().for_each(|m| hash.update(m));
+        self.named_files.iter().for_each(|f| hash.update(f));
         let mut id = [0; ID];
         id.copy_from_slice(&hash.finalize()[..ID]);
         id
@@ -255,22 +259,27 @@ impl<'s> Runner<'s> {
             hash.update(motion.as_ref().map_or("unreadable", |m| m.sha256.as_str()));
         }
         hash.update(self.layout.signature());
-        self.matrices.iter().for_each(|m| hash.update(m));
+        self.named_files.iter().for_each(|f| hash.update(f));
         hexadecimal(&hash.finalize())
     }
 }
 
-/// Hashes of the files of stiffness matrices that a study names, each file once.
-fn matrices(study: &Study) -> Vec<String> {
+/// Hashes of the files of matrices and target spectra that a study names, each file once.
+fn named_files(study: &Study) -> Vec<String> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (what, path) in study.files() {
-        if what == "matrix" && !paths.contains(&path) {
+        if matches!(what, "matrix" | "target spectrum") && !paths.contains(&path) {
             paths.push(path);
         }
     }
-    let hash = |path: PathBuf| match std::fs::read(path) {
-        Ok(bytes) => hexadecimal(&Sha256::digest(bytes)),
-        Err(_) => "unreadable".to_owned(),
+    // A device or a pipe may never end.
+    let read = |path: PathBuf| match path.is_file() {
+        true => std::fs::read(path).ok(),
+        false => None,
+    };
+    let hash = |path: PathBuf| match read(path) {
+        Some(bytes) => hexadecimal(&Sha256::digest(bytes)),
+        None => "unreadable".to_owned(),
     };
     paths.into_iter().map(hash).collect()
 }

@@ -351,7 +351,11 @@ impl BuildingTable {
                             ),
                             counted(n, "storey")
                         ),
-                        "give one value per storey, or a single value for all",
+                        if key.ends_with("matrix") {
+                            "give one row per floor, bottom first"
+                        } else {
+                            "give one value per storey, or a single value for all"
+                        },
                     );
                 }
                 Some(_) => {}

@@ -142,10 +142,9 @@ impl BuildingTable {
     ) -> Option<(Building, bool)> {
         let keep = reader.errors;
         let given = self.resistances();
-        let resists = self.resists(reader, &given, &place);
+        let stiffness_wrong = !resists(reader, &given, &place);
         let heights_given = self.heights_given(reader, &place);
         let heights_wrong = !heights_given || self.height.is_wrong() || self.elevations.is_wrong();
-        let stiffness_wrong = !resists || self.resistance_is_wrong();
         let sound = !(self.mass.is_wrong() || stiffness_wrong || heights_wrong);
         let storeys = match self.storeys(reader)? {
             Some(storeys) => storeys,
@@ -159,13 +158,13 @@ impl BuildingTable {
                 );
             }
         };
-        let by_storeys = given.contains(&"stiffness");
-        if let (Some(span), false, false) = (self.law.span(), by_storeys, given.is_empty()) {
+        let by_storeys = given.iter().any(|stated| stated.key == "stiffness");
+        if let (Some(span), Some(stated), false) = (self.law.span(), given.first(), by_storeys) {
             return reader.refuse(
                 span,
                 format!(
                     "a `law` takes the place of one storey's stiffness, but this building has `{}`",
-                    given[0]
+                    stated.key
                 ),
                 "leave out the law, or give storey stiffnesses",
             );
@@ -230,56 +229,22 @@ impl BuildingTable {
         Some((building, !heights_wrong))
     }
 
-    /// Keys that say what resists the lateral motion.
-    fn resistances(&self) -> Vec<&'static str> {
-        let keys = [
-            ("stiffness", self.stiffness.is_some()),
-            ("stiffness_matrix", self.stiffness_matrix.is_some()),
-            ("flexibility_matrix", self.flexibility_matrix.is_some()),
-            ("cantilever", self.cantilever.is_some()),
-            ("fishbone", self.fishbone.is_some()),
-        ];
-        keys.into_iter()
-            .filter_map(|(key, given)| given.then_some(key))
-            .collect()
-    }
-
-    fn resistance_is_wrong(&self) -> bool {
-        self.stiffness.is_wrong()
-            || self.stiffness_matrix.is_wrong()
-            || self.flexibility_matrix.is_wrong()
-            || self.cantilever.is_wrong()
-            || self.fishbone.is_wrong()
-    }
-
-    /// Whether one key, and one alone, says what resists.
-    fn resists(&self, reader: &Reader<'_>, given: &[&str], place: &Range<usize>) -> bool {
-        match given {
-            [_] => return true,
-            [] => {
-                reader.refuse::<()>(
-                    place.clone(),
-                    "[[building]] has no `stiffness`",
-                    "add `stiffness = ...`; for a frame or a wall `stiffness_matrix`, `flexibility_matrix`, `cantilever` or `fishbone`",
-                );
-            }
-            [first, second, ..] => {
-                let spans = [
-                    self.stiffness.span(),
-                    self.stiffness_matrix.span(),
-                    self.flexibility_matrix.span(),
-                    self.cantilever.span(),
-                    self.fishbone.span(),
-                ];
-                let span = spans.into_iter().flatten().nth(1);
-                reader.refuse::<()>(
-                    span.unwrap_or_else(|| place.clone()),
-                    format!("a building has either `{first}` or `{second}`, not both"),
-                    "leave one of them out",
-                );
-            }
+    /// The keys that say what resists the lateral motion.
+    fn resistances(&self) -> Vec<Stated> {
+        fn stated<T>(key: &'static str, entry: &Optional<T>) -> Option<Stated> {
+            entry.as_ref().map(|field| Stated {
+                key,
+                span: field.span(),
+            })
         }
-        false
+        let keys = [
+            stated("stiffness", &self.stiffness),
+            stated("stiffness_matrix", &self.stiffness_matrix),
+            stated("flexibility_matrix", &self.flexibility_matrix),
+            stated("cantilever", &self.cantilever),
+            stated("fishbone", &self.fishbone),
+        ];
+        keys.into_iter().flatten().collect()
     }
 
     /// Whether one of the two keys, and one alone, says how high the storeys are.
@@ -363,6 +328,37 @@ impl BuildingTable {
         }
         Some(known.map(|(_, n)| n))
     }
+}
+
+/// A key that is given, with the place of its value; no place where that is wrong.
+struct Stated {
+    key: &'static str,
+    span: Option<Range<usize>>,
+}
+
+/// Whether one key, and one alone, says rightly what resists.
+fn resists(reader: &Reader<'_>, given: &[Stated], place: &Range<usize>) -> bool {
+    match given {
+        [one] => return one.span.is_some(),
+        [] => {
+            reader.refuse::<()>(
+                place.clone(),
+                "[[building]] has no `stiffness`",
+                "add `stiffness = ...`; for a frame or a wall `stiffness_matrix`, `flexibility_matrix`, `cantilever` or `fishbone`",
+            );
+        }
+        [first, second, ..] => {
+            reader.refuse::<()>(
+                second.span.as_ref().unwrap_or(place).clone(),
+                format!(
+                    "a building has either `{}` or `{}`, not both",
+                    first.key, second.key
+                ),
+                "leave one of them out",
+            );
+        }
+    }
+    false
 }
 
 /// Length and place of a list.

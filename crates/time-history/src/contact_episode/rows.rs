@@ -1,5 +1,7 @@
 //! Floors, drifts and levels as rows over the modes.
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use crate::contact_free::{ContactFree, Lane, WIDTH};
@@ -13,6 +15,12 @@ pub(crate) struct ModalRow {
 }
 
 impl ModalRow {
+    /// Modes of the lanes where it is not zero.
+    pub(crate) fn modes(&self) -> Range<usize> {
+        let end = self.first_lane + self.weights.len();
+        self.first_lane * WIDTH..end * WIDTH
+    }
+
     /// Its weight on a mode.
     pub(crate) fn weight(&self, mode: usize) -> f64 {
         let lane = (mode / WIDTH).checked_sub(self.first_lane);

@@ -5,7 +5,7 @@ use pounding_shear_building::{Damping, ShearBuilding};
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
-use crate::contact_episode::FloorRows;
+use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
 use crate::system::System;
 
@@ -188,11 +188,17 @@ impl ContactFree {
     /// The same of the forces in sections.
     fn add_sections(&mut self) {
         let (modes, sections) = (self.building.len(), &self.rows.sections);
-        let lanes = sections.chunks(WIDTH).map(|sections| Rows {
-            first_mode: 0,
-            columns: (0..modes)
-                .map(|mode| Lane::from_fn(|l| sections.get(l).map_or(0.0, |s| s.weight(mode))))
-                .collect(),
+        let lanes = sections.chunks(WIDTH).map(|sections| {
+            let own = sections.iter().map(ModalRow::modes);
+            let own = own.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+            let own = own.unwrap_or_default();
+            let column = |mode: usize| -> Lane {
+                Lane::from_fn(|l| sections.get(l).map_or(0.0, |s| s.weight(mode)))
+            };
+            Rows {
+                first_mode: own.start,
+                columns: (own.start..own.end.min(modes)).map(column).collect(),
+            }
         });
         self.section_rows = lanes.collect();
     }

@@ -443,11 +443,11 @@ impl ContactFreePhase {
             }
             let values = block.values(quantity);
             let over = &block.over[quantity as usize];
-            let count_of = match quantity {
+            let functions = match quantity {
                 Quantity::SectionForce => constants.rows.sections.len(),
                 _ => constants.building.len(),
             };
-            for floor in 0..count_of {
+            for floor in 0..functions {
                 let (c, l) = (floor / WIDTH, floor % WIDTH);
                 let top = values.top[c][l].max(track.now[c][l].abs());
                 let over = over[c][l];

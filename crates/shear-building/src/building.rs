@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use pounding_hysteresis::HysteresisLaw;
 
+use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
@@ -44,6 +45,13 @@ pub struct ShearBuilding {
     stiffness_matrix: StiffnessMatrix,
     damping_matrix: DampingMatrix,
     modes: Modes,
+    /// Masses of the floors, then those of the further coordinates.
+    inertia: Vec<f64>,
+    further: Vec<Coordinate>,
+    drifts: Option<Vec<Vec<f64>>>,
+    /// Given storey shears and base moment of a building with further coordinates.
+    sections: Option<Vec<Vec<f64>>>,
+    responses: Vec<ResponseRow>,
 }
 
 impl ShearBuilding {
@@ -137,7 +145,7 @@ impl ShearBuilding {
                 building: parts.name,
             });
         }
-        let undamped = undamped_dense(&parts.mass, &matrix);
+        let undamped = undamped_dense(&parts.mass, &matrix, n);
         let matrices = (StiffnessMatrix::Dense(matrix), Some(elastic));
         let building = Self::finish(parts, Vec::new(), matrices, undamped)?;
         Ok(Self {
@@ -146,15 +154,98 @@ impl ShearBuilding {
         })
     }
 
+    /// A building of floors and other coordinates with full stiffness and damping matrices,
+    /// floors first. Damping by ratios belongs to the modes of all coordinates. Its storeys
+    /// have no laws.
+    ///
+    /// # Errors
+    /// As [`ShearBuilding::with_stiffness_matrix`], and matrices and rows whose size is not
+    /// that of the coordinates.
+    pub fn with_coordinates(general: GeneralBuilding) -> Result<Self, ShearBuildingError> {
+        let GeneralBuilding {
+            name,
+            mass,
+            height,
+            further,
+            stiffness,
+            damping,
+            drifts,
+            sections,
+            responses,
+        } = general;
+        let mut parts = Parts::new(name, mass, height, damping, 0.0)?;
+        let (floors, all) = (parts.mass.len(), parts.mass.len() + further.len());
+        let inertia = further.iter().map(|c| c.inertia);
+        for (coordinate, inertia) in further.iter().zip(inertia) {
+            if !(inertia.is_finite() && inertia > 0.0) {
+                return Err(ShearBuildingError::Inertia {
+                    building: parts.name,
+                    coordinate: coordinate.name.clone(),
+                    value: inertia,
+                });
+            }
+            parts.inertia.push(inertia);
+        }
+        let of_drifts = drifts.iter().flatten();
+        let of_responses = responses.iter().map(|r| &r.weights);
+        let sizes = [stiffness.nrows(), stiffness.ncols()];
+        let rows = of_drifts.chain(&sections).chain(of_responses);
+        let wrong = sizes.into_iter().chain(rows.map(Vec::len));
+        let lists = [
+            (drifts.as_ref().map_or(floors, Vec::len), floors),
+            (sections.len(), floors + 1),
+        ];
+        let wrong = wrong.map(|found| (found, all)).chain(lists);
+        for (found, expected) in wrong {
+            if found != expected {
+                return Err(ShearBuildingError::Length {
+                    building: parts.name,
+                    quantity: "matrix or row over its coordinates",
+                    found,
+                    expected,
+                });
+            }
+        }
+        let across = |c: &Coordinate| c.excitation != Excitation::Along;
+        let still = further.iter().map(across);
+        let influence = (vec![false; floors].into_iter().chain(still))
+            .map(|still| f64::from(u8::from(!still)))
+            .collect();
+        let undamped = undamped_dense(&parts.inertia, &stiffness, floors);
+        let matrices = (StiffnessMatrix::Dense(stiffness), None);
+        let building = Self::finish_with(parts, Vec::new(), matrices, undamped, influence)?;
+        Ok(Self {
+            further,
+            drifts,
+            sections: Some(sections),
+            responses,
+            ..building
+        })
+    }
+
     fn finish(
+        parts: Parts,
+        stiffness: Vec<f64>,
+        matrices: (StiffnessMatrix, Option<DMatrix<f64>>),
+        undamped: Undamped,
+    ) -> Result<Self, ShearBuildingError> {
+        let influence = vec![1.0; parts.mass.len()];
+        Self::finish_with(parts, stiffness, matrices, undamped, influence)
+    }
+
+    /// `influence` is the displacement of every coordinate by a unit shift of the ground along
+    /// the row.
+    fn finish_with(
         parts: Parts,
         stiffness: Vec<f64>,
         (stiffness_matrix, elastic): (StiffnessMatrix, Option<DMatrix<f64>>),
         undamped: Undamped,
+        influence: Vec<f64>,
     ) -> Result<Self, ShearBuildingError> {
         let Parts {
             name,
             mass,
+            inertia,
             height,
             damping,
             geometric,
@@ -168,14 +259,20 @@ impl ShearBuilding {
             });
         }
         let damping_matrix = damping
-            .matrix(&mass, &stiffness_matrix, &undamped)
+            .matrix(&inertia, &stiffness_matrix, &undamped)
             .map_err(|reason| ShearBuildingError::Damping {
                 building: name.clone(),
                 reason,
             })?;
-        let modes = Modes::new(undamped, &mass, (&damping, &damping_matrix));
+        let moved: Vec<f64> = inertia.iter().zip(influence).map(|(m, r)| m * r).collect();
+        let modes = Modes::new(undamped, &moved, (&damping, &damping_matrix));
         let elevations = elevations(&height);
         Ok(Self {
+            inertia,
+            further: Vec::new(),
+            drifts: None,
+            sections: None,
+            responses: Vec::new(),
             laws: vec![None; mass.len()],
             geometric,
             name,
@@ -306,6 +403,9 @@ impl ShearBuilding {
     /// times drift.
     #[must_use]
     pub fn section_forces(&self) -> Option<Vec<Vec<f64>>> {
+        if self.sections.is_some() {
+            return self.sections.clone();
+        }
         let elastic = self.elastic.as_ref()?;
         let n = self.storeys();
         // From the roof down.
@@ -355,6 +455,37 @@ impl ShearBuilding {
         &self.modes
     }
 
+    /// Coordinates after the floors.
+    #[must_use]
+    pub fn further_coordinates(&self) -> &[Coordinate] {
+        &self.further
+    }
+
+    /// Number of coordinates: floors and others.
+    #[must_use]
+    pub fn coordinates(&self) -> usize {
+        self.inertia.len()
+    }
+
+    /// Masses (kg) and moments of inertia (kg m2) of all coordinates, floors first.
+    #[must_use]
+    pub fn inertia(&self) -> &[f64] {
+        &self.inertia
+    }
+
+    /// Drift of every storey (m) as a sum over the coordinates; `None` where it is the
+    /// difference of the floors at both its ends.
+    #[must_use]
+    pub fn drifts(&self) -> Option<&[Vec<f64>]> {
+        self.drifts.as_deref()
+    }
+
+    /// Responses with names of their own.
+    #[must_use]
+    pub fn responses(&self) -> &[ResponseRow] {
+        &self.responses
+    }
+
     /// `out = C v` (N); one value a storey.
     pub fn apply_damping(&self, v: &[f64], out: &mut [f64]) {
         self.damping_matrix.multiply(v, out);
@@ -368,6 +499,8 @@ const SAME_STIFFNESS: f64 = 1.0e-6;
 struct Parts {
     name: String,
     mass: Vec<f64>,
+    /// Masses of all coordinates, floors first.
+    inertia: Vec<f64>,
     height: Vec<f64>,
     damping: Damping,
     geometric: Vec<f64>,
@@ -409,6 +542,7 @@ impl Parts {
         Ok(Self {
             geometric: geometric(&mass, &height, gravity),
             name,
+            inertia: mass.clone(),
             mass,
             height,
             damping,

@@ -46,6 +46,19 @@ pub enum Damping {
         /// Coefficients from the bottom (N s/m).
         coefficients: Vec<f64>,
     },
+    /// A given matrix, symmetric and positive semi-definite.
+    Matrix {
+        /// One row a coordinate, floors first (N s/m; N m s/rad on the diagonal of rotations).
+        matrix: DMatrix<f64>,
+    },
+}
+
+impl Damping {
+    /// Whether the undamped modes do not decouple: motion is then no sum of oscillators.
+    #[must_use]
+    pub fn couples_modes(&self) -> bool {
+        matches!(self, Self::Dashpots { .. } | Self::Matrix { .. })
+    }
 }
 
 /// The damping matrix of a building (N s/m).
@@ -130,6 +143,15 @@ impl Damping {
                 Ok(proportional(2.0 * ratio * omega[0], 0.0))
             }
             Self::Modal { ratios } => modal(ratios, mass, modes),
+            Self::Matrix { matrix } => {
+                if matrix.nrows() != n || matrix.ncols() != n {
+                    return Err(format!("a matrix of {} rows for {n} coordinates", matrix.nrows()));
+                }
+                if matrix.iter().any(|c| !c.is_finite()) {
+                    return Err("an entry of its matrix is not finite".to_owned());
+                }
+                Ok(DampingMatrix::Dense(matrix.clone()))
+            }
             Self::Dashpots { .. } if matches!(stiffness, StiffnessMatrix::Dense(_)) => Err(
                 "dashpots stand in the storeys of a shear building; with a stiffness matrix give ratios"
                     .to_owned(),

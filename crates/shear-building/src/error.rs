@@ -48,6 +48,18 @@ pub enum ShearBuildingError {
         /// What is allowed.
         required: &'static str,
     },
+    /// A coordinate without inertia.
+    #[error(
+        "building {building}: the inertia of its {coordinate} is {value}; it must be greater than zero"
+    )]
+    Inertia {
+        /// Name of the building.
+        building: String,
+        /// Name of the coordinate.
+        coordinate: String,
+        /// Inertia (kg or kg m2).
+        value: f64,
+    },
     /// Damping that cannot be.
     #[error("building {building}: damping: {reason}")]
     Damping {

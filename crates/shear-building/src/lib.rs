@@ -6,6 +6,7 @@
 //! act on one another, is a building with a full matrix instead ([`LateralStiffness`]).
 
 mod building;
+mod coordinates;
 mod damping;
 mod dense;
 mod elevation;
@@ -18,6 +19,7 @@ mod tridiagonal;
 mod tridiagonal_eigen;
 
 pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
+pub use coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow};
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,

@@ -87,11 +87,11 @@ pub(crate) fn undamped(
 
 /// The same for a full stiffness matrix; frequencies are NaN where it is not positive
 /// definite.
-pub(crate) fn undamped_dense(mass: &[f64], stiffness: &DMatrix<f64>) -> Undamped {
+pub(crate) fn undamped_dense(mass: &[f64], stiffness: &DMatrix<f64>, floors: usize) -> Undamped {
     let n = mass.len();
     let scale: Vec<f64> = mass.iter().map(|m| 1.0 / m.sqrt()).collect();
     let scaled = DMatrix::from_fn(n, n, |i, j| stiffness[(i, j)] * (scale[i] * scale[j]));
-    let shape = shapes_of(scaled, &scale);
+    let shape = shapes_of(scaled, &scale, floors);
     let mut force = vec![0.0; n];
     let frequency = |phi: &[f64]| {
         multiply(stiffness, phi, &mut force);
@@ -107,17 +107,17 @@ pub(crate) fn undamped_dense(mass: &[f64], stiffness: &DMatrix<f64>) -> Undamped
 
 fn dense_shapes(scaled: &SymmetricTridiagonal, scale: &[f64]) -> DMatrix<f64> {
     let n = scale.len();
-    shapes_of(DMatrix::from_fn(n, n, |i, j| scaled.entry(i, j)), scale)
+    shapes_of(DMatrix::from_fn(n, n, |i, j| scaled.entry(i, j)), scale, n)
 }
 
 /// Eigenvectors in the order of their eigenvalues, scaled, the roof positive.
-fn shapes_of(matrix: DMatrix<f64>, scale: &[f64]) -> DMatrix<f64> {
+fn shapes_of(matrix: DMatrix<f64>, scale: &[f64], floors: usize) -> DMatrix<f64> {
     let n = scale.len();
     let eigen = SymmetricEigen::new(matrix);
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
     let roof_sign = |column: usize| {
-        if eigen.eigenvectors[(n - 1, column)] < 0.0 {
+        if eigen.eigenvectors[(floors - 1, column)] < 0.0 {
             -1.0
         } else {
             1.0

@@ -9,7 +9,7 @@ use pounding_hysteresis::{History, Motion};
 use crate::contact::Contacts;
 use crate::elements::Element;
 use crate::small_solver::SmallSolver;
-use crate::system::{ContactLevel, System};
+use crate::system::{ContactLevel, Grounds, System};
 
 /// Where everything stands in the flat state vector.
 #[derive(Debug, Clone, Copy)]
@@ -23,8 +23,8 @@ pub(crate) struct Layout {
 /// A time at which the equations of motion are looked at.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Instant {
-    /// Ground acceleration (m/s2).
-    pub ground: f64,
+    /// Ground accelerations.
+    pub ground: Grounds,
     /// Time (s) since the histories of the elements were committed, for a method that
     /// does not locate their events; `None` holds their branches.
     pub elapsed: Option<f64>,
@@ -32,7 +32,7 @@ pub(crate) struct Instant {
 
 impl Instant {
     /// At the state that the histories belong to.
-    pub(crate) fn committed(ground: f64) -> Self {
+    pub(crate) fn committed(ground: Grounds) -> Self {
         Self {
             ground,
             elapsed: None,
@@ -40,7 +40,7 @@ impl Instant {
     }
 
     /// Inside a step, `offset` seconds after its start.
-    pub(crate) fn within(ground: f64, implicit: bool, offset: f64) -> Self {
+    pub(crate) fn within(ground: Grounds, implicit: bool, offset: f64) -> Self {
         Self {
             ground,
             elapsed: (implicit && offset > 0.0).then_some(offset),
@@ -97,11 +97,22 @@ pub(crate) struct Segment {
     pub acceleration: f64,
     /// Slope of the ground acceleration (m/s3).
     pub slope: f64,
+    /// Its number.
+    pub interval: usize,
 }
 
 impl Segment {
-    pub(crate) fn ground(&self, tau: f64) -> f64 {
+    /// Acceleration of the first ground motion (m/s2).
+    pub(crate) fn acceleration_at(&self, tau: f64) -> f64 {
         self.acceleration + self.slope * tau
+    }
+
+    pub(crate) fn ground(&self, tau: f64) -> Grounds {
+        Grounds {
+            first: self.acceleration_at(tau),
+            interval: self.interval,
+            tau,
+        }
     }
 }
 
@@ -147,7 +158,7 @@ impl<'a> Dynamics<'a> {
     pub(crate) fn derivative(
         &mut self,
         contacts: &Contacts,
-        ground: f64,
+        ground: Grounds,
         state: &[f64],
         out: &mut [f64],
     ) {
@@ -226,6 +237,7 @@ impl<'a> Dynamics<'a> {
         out: &mut [f64],
     ) -> (f64, f64) {
         let (n, ground) = (self.layout.dofs, now.ground);
+        let system = self.system;
         let (u, v) = (&state[..n], &state[n..2 * n]);
         self.system.internal_forces(u, v, out, &mut self.damping);
         self.net.fill(0.0);
@@ -252,16 +264,40 @@ impl<'a> Dynamics<'a> {
             push_apart(level, force, &mut self.net);
         }
         let (mut input, mut viscous) = (0.0, 0.0);
-        let mass = self.system.mass();
+        let mass = system.mass();
+        let with_mass = system.with_mass();
         for i in 0..out.len() {
-            input -= mass[i] * v[i] * ground;
+            let ground = system.ground_on(i, ground);
+            if i < with_mass {
+                input -= mass[i] * v[i] * ground;
+            }
             viscous += v[i] * self.damping[i];
             out[i] = (out[i] + self.net[i]) / mass[i] - ground;
         }
         if !self.stuck.is_empty() {
             self.hold(out);
         }
+        if with_mass < out.len() {
+            input += self.power_of_ground(contacts, now, state);
+        }
         (input, viscous)
+    }
+
+    /// Power (W) that ground which moves by itself on either side puts into contacts and links.
+    fn power_of_ground(&mut self, contacts: &Contacts, now: Instant, state: &[f64]) -> f64 {
+        let (n, system) = (self.layout.dofs, self.system);
+        let v = &state[n..2 * n];
+        let mut power = 0.0;
+        for &l in contacts.closed() {
+            power += self.forces[l] * system.levels()[l].terms.ground_of(|i| v[i]);
+        }
+        for (index, element) in system.elements().iter().enumerate() {
+            let rate = element.terms.ground_of(|i| v[i]);
+            if rate != 0.0 {
+                power += rate * self.element_force(contacts, index, state, now.elapsed);
+            }
+        }
+        power
     }
 
     /// Acceleration of floor `i` alone relative to the ground (m/s2), from the components
@@ -269,11 +305,12 @@ impl<'a> Dynamics<'a> {
     pub(crate) fn acceleration_of(
         &self,
         contacts: &Contacts,
-        (i, ground): (usize, f64),
+        (i, ground): (usize, Grounds),
         at: impl Fn(usize) -> f64,
     ) -> Option<f64> {
         let (n, system) = (self.layout.dofs, self.system);
-        let alone = system.elements().is_empty()
+        let alone = system.is_plain()
+            && system.elements().is_empty()
             && (contacts.closed().iter())
                 .all(|&l| contacts.contact(l).is_none_or(|c| !c.is_stuck()));
         if !alone {
@@ -296,7 +333,7 @@ impl<'a> Dynamics<'a> {
                 force += sign * contact.force(level, penetration, relative(n)).value;
             }
         }
-        Some(force / system.mass()[i] - ground)
+        Some(force / system.mass()[i] - ground.first)
     }
 
     /// Contact forces of the levels that are stuck, into [`Dynamics::forces`], from the
@@ -306,11 +343,11 @@ impl<'a> Dynamics<'a> {
     pub(crate) fn held_by_itself(
         &mut self,
         contacts: &Contacts,
-        ground: f64,
+        ground: Grounds,
         at: &impl Fn(usize) -> f64,
     ) -> bool {
         let system = self.system;
-        if !system.elements().is_empty() || system.bands().is_some() {
+        if !system.is_plain() || !system.elements().is_empty() || system.bands().is_some() {
             return false;
         }
         self.list_stuck(contacts);
@@ -325,7 +362,7 @@ impl<'a> Dynamics<'a> {
     pub(crate) fn held_acceleration_of(
         &self,
         contacts: &Contacts,
-        (i, ground): (usize, f64),
+        (i, ground): (usize, Grounds),
         at: &impl Fn(usize) -> f64,
     ) -> f64 {
         let mut net = 0.0;
@@ -339,7 +376,7 @@ impl<'a> Dynamics<'a> {
     fn released_acceleration_of(
         &self,
         contacts: &Contacts,
-        (i, ground): (usize, f64),
+        (i, ground): (usize, Grounds),
         at: &impl Fn(usize) -> f64,
     ) -> f64 {
         let (n, system) = (self.layout.dofs, self.system);
@@ -356,7 +393,7 @@ impl<'a> Dynamics<'a> {
                 push_floor(level, force.value, i, &mut net);
             }
         }
-        (-system.resistance_of(i, at, &rate) + net) / system.mass()[i] - ground
+        (-system.resistance_of(i, at, &rate) + net) / system.mass()[i] - ground.first
     }
 
     /// Collects the levels that are stuck.
@@ -415,6 +452,7 @@ pub(crate) fn push_apart(level: &ContactLevel, force: f64, net: &mut [f64]) {
     if let Some(r) = level.right {
         net[r] += force;
     }
+    level.terms.push(force, net);
 }
 
 /// The same for floor `i` alone.
@@ -434,8 +472,22 @@ pub(crate) fn coupling(a: &ContactLevel, b: &ContactLevel, mass: &[f64]) -> f64 
         (Some(i), Some(j)) if i == j => sign / mass[i],
         _ => 0.0,
     };
-    (term(a.left, b.left, 1.0) + term(a.right, b.right, 1.0))
-        + (term(a.left, b.right, -1.0) + term(a.right, b.left, -1.0))
+    let of_floors = (term(a.left, b.left, 1.0) + term(a.right, b.right, 1.0))
+        + (term(a.left, b.right, -1.0) + term(a.right, b.left, -1.0));
+    if a.terms.is_empty() && b.terms.is_empty() {
+        return of_floors;
+    }
+    let weights = |level: &ContactLevel| -> Vec<(usize, f64)> {
+        let ends = [(level.left, 1.0), (level.right, -1.0)].into_iter();
+        let ends = ends.filter_map(|(i, w)| i.map(|i| (i, w)));
+        ends.chain(level.terms.pushed.iter().copied()).collect()
+    };
+    let of_b = weights(b);
+    let products = weights(a).into_iter().map(|(i, w)| {
+        let same = of_b.iter().filter(|(j, _)| *j == i);
+        same.map(|(_, other)| w * other / mass[i]).sum::<f64>()
+    });
+    products.sum()
 }
 
 #[cfg(test)]
@@ -508,7 +560,11 @@ mod tests {
             let state: Vec<f64> = (0..dynamics.layout.dimension())
                 .map(|k| 0.02 * ((3 * k) as f64).sin())
                 .collect();
-            let ground = -1.37;
+            let ground = Grounds {
+                first: -1.37,
+                interval: 0,
+                tau: 0.0,
+            };
             let mut together = vec![0.0; n];
             let now = Instant::committed(ground);
             dynamics.accelerations(&contacts, now, &state, &mut together);

@@ -11,7 +11,7 @@ use pounding_hysteresis::{Guard, History, HysteresisLaw, Motion, Response};
 
 use crate::dynamics::Layout;
 use crate::polynomial::{COEFFICIENTS, Polynomial, difference};
-use crate::system::System;
+use crate::system::{LevelPlace, System, Terms};
 
 /// Where an element sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,10 @@ pub struct Element {
     pub far: Option<usize>,
     /// Degree of freedom at the other end; `None` moves with the ground.
     pub near: Option<usize>,
+    /// What the deformation holds beside both ends.
+    pub(crate) terms: Terms,
+    /// Storeys and elevations of both ends of a level of a link.
+    pub(crate) level_place: Option<LevelPlace>,
     /// The law: force (N) of the deformation far minus near (m).
     pub law: Arc<dyn HysteresisLaw>,
     /// Deformation (m) at which it begins to yield, if its law has one.
@@ -57,7 +61,11 @@ impl Element {
     /// Far minus near of any quantity given per degree of freedom.
     pub(crate) fn relative(&self, x: &[f64]) -> f64 {
         let at = |dof: Option<usize>| dof.map_or(0.0, |i| x[i]);
-        at(self.far) - at(self.near)
+        let of_ends = at(self.far) - at(self.near);
+        if self.terms.is_empty() {
+            return of_ends;
+        }
+        of_ends + self.terms.sum_of(|i| x[i])
     }
 
     pub(crate) fn motion(&self, u: &[f64], v: &[f64]) -> Motion {
@@ -81,6 +89,7 @@ impl Element {
         if let Some(i) = self.near {
             net[i] += force;
         }
+        self.terms.push(force, net);
     }
 
     /// Its deformation (offset zero) or the rate of it (offset of the velocities). What is
@@ -94,6 +103,11 @@ impl Element {
         let (far, near) = (at(self.far), at(self.near));
         let largest = far.iter().chain(&near).fold(0.0_f64, |m, c| m.max(c.abs()));
         let mut p = difference(&far, &near);
+        for (i, w) in self.terms.pushed.iter().chain(&self.terms.ground) {
+            for (sum, c) in p.iter_mut().zip(component(offset + i)) {
+                *sum += w * c;
+            }
+        }
         for c in &mut p[1..] {
             if c.abs() < ROUND_OFF * largest {
                 *c = 0.0;

@@ -7,6 +7,12 @@ use crate::warnings::APPROACH_VELOCITY;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimeHistoryError {
+    /// Ground motions that cannot be.
+    #[error("ground motions: {reason}")]
+    Motions {
+        /// What is wrong.
+        reason: String,
+    },
     /// A gap of the system is not well defined.
     #[error("gap {gap}: {reason}")]
     GapDefinition {

@@ -175,7 +175,10 @@ fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     let rate = |element: &Element| {
         let added = (element.law.initial_stiffness() - element.carried).max(0.0);
         let ends = [element.far, element.near].into_iter().flatten();
-        ends.map(|i| added / system.mass()[i]).sum::<f64>().sqrt()
+        let of_ends: f64 = ends.map(|i| added / system.mass()[i]).sum();
+        let further = element.terms.pushed.iter();
+        let further = further.map(|(i, w)| added * w * w / system.mass()[*i]);
+        (of_ends + further.sum::<f64>()).sqrt()
     };
     let rates = system.elements().iter().map(rate).enumerate();
     let (index, rate) = rates.max_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -271,14 +271,17 @@ fn relative(
     offset: usize,
 ) -> Polynomial {
     let level = &context.dynamics.system.levels()[level];
-    match (level.left, level.right) {
+    let mut sum = match (level.left, level.right) {
         (Some(l), Some(r)) => {
             difference(method.polynomial(offset + l), method.polynomial(offset + r))
         }
         (Some(l), None) => *method.polynomial(offset + l),
         (None, Some(r)) => negated(*method.polynomial(offset + r)),
         (None, None) => [0.0; COEFFICIENTS],
-    }
+    };
+    let component = |i: usize| method.polynomial(offset + i);
+    level.terms.add_polynomials(component, &mut sum);
+    sum
 }
 
 fn negated(p: Polynomial) -> Polynomial {

@@ -362,12 +362,10 @@ impl ImpactLog {
 /// Time (s) until which nothing moves: that of the last sample before the ground does, unless
 /// the buildings move from the start.
 fn begins_to_move(system: &System) -> f64 {
-    let ground = system.ground();
     if system.initial_state().iter().any(|y| *y != 0.0) {
         return 0.0;
     }
-    let first = ground.samples.iter().position(|a| *a != 0.0);
-    first.map_or(0.0, |i| i.saturating_sub(1) as f64 * ground.time_step)
+    system.ground_at_rest_until()
 }
 
 /// Raises the peak of an impact by that of one of its contacts; a velocity jump has none.

@@ -228,13 +228,15 @@ fn rigid_rows_have_clearance(system: &System) -> Result<(), TimeHistoryError> {
         }
     }
     for first in (0..levels.len()).filter(rigid) {
-        if levels[first].left.is_some() {
+        if system.storey_of(levels[first].between[0]).is_some() {
             continue;
         }
         let next = |l: &usize| levels[*l].right.and_then(|floor| to_the_right[floor]);
         let row = || std::iter::successors(Some(first), next);
         let clearance: f64 = row().map(|l| levels[l].width).sum();
-        let reaches_a_wall = row().last().is_some_and(|l| levels[l].right.is_none());
+        let reaches_a_wall = row()
+            .last()
+            .is_some_and(|l| system.storey_of(levels[l].between[1]).is_none());
         if reaches_a_wall && clearance <= LEAST_CLEARANCE {
             let places: Vec<_> = row().map(|l| system.name_of_level(l)).collect();
             return Err(TimeHistoryError::NoClearance {

@@ -51,8 +51,25 @@ pub struct BuildingOutcome {
     /// for a chain of storeys.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub base_moment: Option<Peak>,
+    /// Responses with names of the building ([`pounding_shear_building::ShearBuilding::responses`]).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub responses: Vec<NamedPeak>,
     /// What storeys with a law went through, from the bottom; `None` for the others.
     pub yielding: Vec<Option<YieldingStorey>>,
+}
+
+/// Peak magnitude of a response with a name.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct NamedPeak {
+    /// Name, such as `foundation_rotation`.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Peak magnitude.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub peak: Peak,
 }
 
 impl BuildingOutcome {
@@ -291,6 +308,9 @@ impl Outcome {
         }
         for building in &mut outcome.buildings {
             building.base_moment = building.base_moment.map(|_| unknown);
+            for response in &mut building.responses {
+                response.peak = unknown;
+            }
         }
         outcome
     }

@@ -12,7 +12,7 @@ use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
     value,
 };
-use crate::system::SectionPlace;
+use crate::system::{SectionForce, SectionPlace, System};
 
 /// Peaks of all storeys, and of the levels in contact.
 #[derive(Debug)]
@@ -20,6 +20,8 @@ pub(crate) struct Peaks {
     pub storeys: Vec<StoreyPeaks>,
     /// Overturning moment at the base of every building (N m), where it is followed.
     pub base_moment: Vec<Peak>,
+    /// Responses with names, of all buildings.
+    pub named: Vec<Peak>,
     /// Maximum force of each level during its present impact (N).
     pub force: Vec<Peak>,
     /// Maximum penetration of each level during its present impact (m).
@@ -32,6 +34,8 @@ pub(crate) struct Peaks {
     /// before they are known.
     acceleration: [Vec<f64>; 3],
     at: [f64; 3],
+    /// Storey heights of all buildings (m).
+    height: Vec<f64>,
 }
 
 /// Peaks of a storey with a law, or of a level of a link.
@@ -46,22 +50,25 @@ pub(crate) struct ElementPeaks {
 const NEAR: f64 = 1.0 - 1.0e-6;
 
 impl Peaks {
-    pub(crate) fn new(layout: Layout, buildings: usize, elements: usize) -> Self {
+    pub(crate) fn new(layout: Layout, system: &System) -> Self {
+        let buildings = system.buildings();
         Self {
-            storeys: vec![StoreyPeaks::default(); layout.dofs],
-            base_moment: vec![Peak::default(); buildings],
+            storeys: vec![StoreyPeaks::default(); system.floors()],
+            base_moment: vec![Peak::default(); buildings.len()],
+            named: vec![Peak::default(); system.named_responses()],
             force: vec![Peak::default(); layout.levels],
             penetration: vec![Peak::default(); layout.levels],
-            elements: vec![ElementPeaks::default(); elements],
+            elements: vec![ElementPeaks::default(); system.elements().len()],
             state: vec![0.0; layout.motion()],
             acceleration: std::array::from_fn(|_| vec![0.0; layout.dofs]),
             at: [f64::NAN; 3],
+            height: buildings.iter().flat_map(|b| b.height()).copied().collect(),
         }
     }
 
     /// Takes the state at time zero in, with all gaps open.
     pub(crate) fn begin(&mut self, context: &mut Context<'_, '_>, state: &[f64]) {
-        let (u, ground) = (state, context.segment.acceleration);
+        let (u, ground) = (state, context.segment.ground(0.0));
         let now = Instant::committed(ground);
         let out = &mut self.acceleration[0];
         context
@@ -72,11 +79,13 @@ impl Peaks {
             let mut below = 0.0;
             for (storey, i) in (range[0]..range[1]).enumerate() {
                 let (drift, peaks) = ((u[i] - below).abs(), &mut self.storeys[i]);
-                let acceleration = (self.acceleration[0][i] + ground).abs();
+                let acceleration = (self.acceleration[0][i] + system.ground_on(i, ground)).abs();
                 peaks.displacement.raise(u[i].abs(), 0.0);
-                peaks
-                    .drift_ratio
-                    .raise(drift / building.height()[storey], 0.0);
+                if building.drifts().is_none() {
+                    peaks
+                        .drift_ratio
+                        .raise(drift / building.height()[storey], 0.0);
+                }
                 if let (None, Some(stiffness)) =
                     (&building.laws()[storey], building.stiffness().get(storey))
                 {
@@ -87,7 +96,12 @@ impl Peaks {
             }
         }
         for section in system.sections() {
-            self.section(section.place).raise(section.at(u).abs(), 0.0);
+            self.raise_section(section.place, section.at(u).abs(), 0.0);
+        }
+        for row in system.acceleration_rows() {
+            let own = |i: usize| self.acceleration[0][i] + system.ground_on(i, ground);
+            let sum: f64 = row.terms().map(|(i, w)| w * own(i)).sum();
+            self.raise_section(row.place, sum.abs(), 0.0);
         }
         for (index, element) in system.elements().iter().enumerate() {
             let force = context
@@ -100,11 +114,18 @@ impl Peaks {
         }
     }
 
-    /// Peak of a force in a section.
-    pub(crate) fn section(&mut self, place: SectionPlace) -> &mut Peak {
+    /// Raises the peak of a response that is a sum over coordinates.
+    pub(crate) fn raise_section(&mut self, place: SectionPlace, value: f64, time: f64) {
         match place {
-            SectionPlace::StoreyShear(floor) => &mut self.storeys[floor].storey_shear,
-            SectionPlace::BaseMoment(building) => &mut self.base_moment[building],
+            SectionPlace::StoreyShear(floor) => {
+                self.storeys[floor].storey_shear.raise(value, time);
+            }
+            SectionPlace::BaseMoment(building) => self.base_moment[building].raise(value, time),
+            SectionPlace::Drift(floor) => {
+                let ratio = value / self.height[floor];
+                self.storeys[floor].drift_ratio.raise(ratio, time);
+            }
+            SectionPlace::Named(response) => self.named[response].raise(value, time),
         }
     }
 
@@ -113,6 +134,11 @@ impl Peaks {
         match place {
             SectionPlace::StoreyShear(floor) => self.storeys[floor].storey_shear,
             SectionPlace::BaseMoment(building) => self.base_moment[building],
+            SectionPlace::Drift(floor) => Peak {
+                value: self.storeys[floor].drift_ratio.value * self.height[floor],
+                ..self.storeys[floor].drift_ratio
+            },
+            SectionPlace::Named(response) => self.named[response],
         }
     }
 
@@ -143,10 +169,14 @@ impl Peaks {
                     *sum += weight * c;
                 }
             }
-            let peak = self.section(section.place);
-            if let Some((theta, top)) = absolute_maximum(&force, peak.value) {
-                peak.raise(top, context.segment.start + place.0 + theta * place.1);
+            let peak = self.of_section(section.place).value;
+            if let Some((theta, top)) = absolute_maximum(&force, peak) {
+                let time = context.segment.start + place.0 + theta * place.1;
+                self.raise_section(section.place, top, time);
             }
+        }
+        for row in system.acceleration_rows() {
+            self.acceleration_row(context, method, row, place);
         }
         for k in 0..context.contacts.closed().len() {
             let level = context.contacts.closed()[k];
@@ -227,8 +257,9 @@ impl Peaks {
             }
             let drift = below.map_or(*u, |b| difference(u, b));
             let height = building.height()[storey];
-            if let Some((theta, top)) =
-                absolute_maximum(&drift, peaks.drift_ratio.value * height * NEAR)
+            let present = peaks.drift_ratio.value * height * NEAR;
+            if building.drifts().is_none()
+                && let Some((theta, top)) = absolute_maximum(&drift, present)
             {
                 let time = start + theta * step;
                 peaks.drift_ratio.raise(top / height, time);
@@ -252,14 +283,14 @@ impl Peaks {
         (i, velocity): (usize, usize),
         (tau, step): (f64, f64),
     ) {
-        let mut a = derivative(method.polynomial(velocity)).map(|c| c / step);
-        a[0] += context.segment.ground(tau);
-        a[1] += context.segment.slope * step;
+        let system = context.dynamics.system;
+        let a = self.acceleration_polynomial(context, method, (i, velocity), (tau, step));
         let floor = self.storeys[i].acceleration_absolute.value * NEAR;
         let Some((theta, _)) = absolute_maximum(&a, floor) else {
             return;
         };
         let ground = context.segment.ground(tau + theta * step);
+        let own_ground = system.ground_on(i, ground);
         let time = context.segment.start + tau + theta * step;
         let place = match theta {
             0.0 => 0,
@@ -271,30 +302,91 @@ impl Peaks {
             let contacts = context.contacts;
             if let Some(own) = context.dynamics.acceleration_of(contacts, (i, ground), at) {
                 let peak = &mut self.storeys[i].acceleration_absolute;
-                peak.raise((own + ground).abs(), time);
+                peak.raise((own + own_ground).abs(), time);
                 return;
             }
             if context.dynamics.held_by_itself(contacts, ground, &at) {
                 let floor = (i, ground);
                 let own = (context.dynamics).held_acceleration_of(contacts, floor, &at);
                 let peak = &mut self.storeys[i].acceleration_absolute;
-                peak.raise((own + ground).abs(), time);
+                peak.raise((own + own_ground).abs(), time);
                 return;
             }
         }
+        self.evaluate_at(context, method, (tau, step), (place, theta));
+        let exact = (self.acceleration[place][i] + own_ground).abs();
+        self.storeys[i].acceleration_absolute.raise(exact, time);
+    }
+
+    /// Absolute acceleration of a degree of freedom by the interpolant of its velocity.
+    fn acceleration_polynomial(
+        &self,
+        context: &Context<'_, '_>,
+        method: &dyn Method,
+        (i, velocity): (usize, usize),
+        (tau, step): (f64, f64),
+    ) -> Polynomial {
+        let system = context.dynamics.system;
+        let mut a = derivative(method.polynomial(velocity)).map(|c| c / step);
+        a[0] += system.ground_on(i, context.segment.ground(tau));
+        a[1] += system.ground_slope_on(i, context.segment) * step;
+        a
+    }
+
+    /// A response that is a sum of absolute accelerations: where it may be at its maximum by the
+    /// interpolant, the equations of motion give the value.
+    fn acceleration_row(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        row: &SectionForce,
+        (tau, step): (f64, f64),
+    ) {
+        let (dofs, system) = (context.dynamics.layout.dofs, context.dynamics.system);
+        let mut sum = Polynomial::default();
+        for (i, weight) in row.terms() {
+            let a = self.acceleration_polynomial(context, method, (i, dofs + i), (tau, step));
+            for (sum, c) in sum.iter_mut().zip(a) {
+                *sum += weight * c;
+            }
+        }
+        let floor = self.of_section(row.place).value * NEAR;
+        let Some((theta, _)) = absolute_maximum(&sum, floor) else {
+            return;
+        };
+        let place = match theta {
+            0.0 => 0,
+            1.0 => 1,
+            _ => 2,
+        };
+        self.evaluate_at(context, method, (tau, step), (place, theta));
+        let ground = context.segment.ground(tau + theta * step);
+        let own = |i: usize| self.acceleration[place][i] + system.ground_on(i, ground);
+        let exact: f64 = row.terms().map(|(i, w)| w * own(i)).sum();
+        let time = context.segment.start + tau + theta * step;
+        self.raise_section(row.place, exact.abs(), time);
+    }
+
+    /// Accelerations at a place in the step, unless they are known.
+    fn evaluate_at(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        (tau, step): (f64, f64),
+        (place, theta): (usize, f64),
+    ) {
         if theta != self.at[place] {
             self.at[place] = theta;
             for (k, y) in self.state.iter_mut().enumerate() {
                 *y = value(method.polynomial(k), theta);
             }
+            let ground = context.segment.ground(tau + theta * step);
             let now = Instant::within(ground, method.information().implicit, theta * step);
             let out = &mut self.acceleration[place];
             context
                 .dynamics
                 .accelerations(context.contacts, now, &self.state, out);
         }
-        let exact = (self.acceleration[place][i] + ground).abs();
-        self.storeys[i].acceleration_absolute.raise(exact, time);
     }
 
     fn contact(

@@ -1,12 +1,12 @@
 //! How fast buildings, contacts and elements can move by themselves.
 
 use pounding_hysteresis::History;
-use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_shear_building::{DampingMatrix, ShearBuilding};
 use std::sync::Arc;
 
 use crate::dynamics::Layout;
 use crate::methods::Context;
-use crate::system::System;
+use crate::system::{System, Terms};
 
 /// Bound of the eigenvalues of the motion at a state: of the buildings, of the contacts
 /// that are closed, and of what elements are stiffer than the matrices carry.
@@ -32,9 +32,9 @@ impl Rates {
             let frequencies = b.modes().circular_frequency.iter();
             frequencies.copied().fold(0.0, f64::max)
         });
-        let damping = buildings.iter().map(|b| match b.damping() {
-            Damping::Dashpots { .. } => damping_rate(b),
-            _ => {
+        let damping = buildings.iter().map(|b| match b.damping().couples_modes() {
+            true => damping_rate(b),
+            false => {
                 let modes = b.modes();
                 let pairs = modes.circular_frequency.iter().zip(&modes.damping_ratio);
                 pairs.map(|(w, zeta)| 2.0 * w * zeta).fold(0.0, f64::max)
@@ -72,10 +72,21 @@ impl Rates {
         let (u, v) = (&state[..n], &state[n..2 * n]);
         let layout = Layout::of(system);
         self.added.fill((0.0, 0.0));
-        let mut add = |ends: [Option<usize>; 2], stiffness: f64, damping: f64| {
+        // A row `w` over several coordinates adds `w w'` times its stiffness, whose norm is
+        // the stiffness times `w' M^-1 w`.
+        let (mut of_rows, mass) = ((0.0, 0.0), system.mass());
+        let mut add = |ends: [Option<usize>; 2], terms: &Terms, stiffness: f64, damping: f64| {
+            if !terms.pushed.is_empty() {
+                let of_ends = ends.into_iter().flatten().map(|i| 1.0 / mass[i]);
+                let further = terms.pushed.iter().map(|(i, w)| w * w / mass[*i]);
+                let mobility: f64 = of_ends.chain(further).sum();
+                of_rows.0 += stiffness.max(0.0) * mobility;
+                of_rows.1 += damping.abs() * mobility;
+                return;
+            }
             for i in ends.into_iter().flatten() {
-                self.added[i].0 += stiffness.max(0.0) / system.mass()[i];
-                self.added[i].1 += damping.abs() / system.mass()[i];
+                self.added[i].0 += stiffness.max(0.0) / mass[i];
+                self.added[i].1 += damping.abs() / mass[i];
             }
         };
         for &l in contacts.closed() {
@@ -86,7 +97,12 @@ impl Rates {
                 let delta = contacts.penetration(system, l, u);
                 let law = contact.force(level, delta, level.relative(v));
                 let ends = [level.left, level.right];
-                add(ends, law.by_penetration.abs(), law.by_velocity);
+                add(
+                    ends,
+                    &level.terms,
+                    law.by_penetration.abs(),
+                    law.by_velocity,
+                );
             }
         }
         for (element, history) in system.elements().iter().zip(&contacts.elements.histories) {
@@ -102,7 +118,8 @@ impl Rates {
                 tangent_stiffness.max(element.law.initial_stiffness())
             };
             let ends = [element.far, element.near];
-            add(ends, stiffness - element.carried, tangent.by_velocity);
+            let added = stiffness - element.carried;
+            add(ends, &element.terms, added, tangent.by_velocity);
         }
         let (mut stiffness, mut damping) = (0.0_f64, 0.0_f64);
         let mut look = |ends: [Option<usize>; 2]| {
@@ -117,6 +134,7 @@ impl Rates {
         for element in system.elements() {
             look([element.far, element.near]);
         }
+        (stiffness, damping) = (stiffness + of_rows.0, damping + of_rows.1);
         if stiffness == 0.0 && damping == 0.0 {
             return self.buildings;
         }
@@ -129,9 +147,9 @@ impl Rates {
 /// damping it is the maximum circular frequency; above it a mode forgets its velocity
 /// faster than it would swing.
 pub(crate) fn fastest_rate(buildings: &[Arc<ShearBuilding>]) -> f64 {
-    let rates = buildings.iter().map(|b| match b.damping() {
-        Damping::Dashpots { .. } => coupled(b),
-        _ => uncoupled(b),
+    let rates = buildings.iter().map(|b| match b.damping().couples_modes() {
+        true => coupled(b),
+        false => uncoupled(b),
     });
     rates.fold(0.0, f64::max)
 }
@@ -155,11 +173,15 @@ fn coupled(building: &ShearBuilding) -> f64 {
 
 /// Bound of the eigenvalues of `M^-1/2 C M^-1/2` by Gershgorin's discs.
 fn damping_rate(building: &ShearBuilding) -> f64 {
-    let (n, mass) = (building.storeys(), building.mass());
+    let (n, mass) = (building.coordinates(), building.inertia());
     let entry = |i: usize, j: usize| building.damping_matrix().entry(i, j);
+    let tridiagonal = matches!(building.damping_matrix(), DampingMatrix::Tridiagonal(_));
     let row = |i: usize| -> f64 {
-        (i.saturating_sub(1)..n.min(i + 2))
-            .map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())
+        let near = match tridiagonal {
+            true => i.saturating_sub(1)..n.min(i + 2),
+            false => 0..n,
+        };
+        near.map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())
             .sum()
     };
     (0..n).map(row).fold(0.0, f64::max)

@@ -11,7 +11,8 @@ use crate::ledger;
 use crate::methods::{Context, Method};
 use crate::outcome::{Energy, Impact};
 use crate::polynomial::{Polynomial, difference, maximum_above, value};
-use crate::system::System;
+use crate::system::{SectionPlace, System, Terms};
+use pounding_shear_building::ResponseKind;
 
 /// Responses at one time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,6 +37,12 @@ pub struct Sample {
     /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
     /// the left.
     pub base_moment: Vec<f64>,
+    /// Drift of every storey (m) of buildings whose drifts are not the differences of their
+    /// floors ([`pounding_shear_building::ShearBuilding::drifts`]), from the left.
+    pub drift: Vec<f64>,
+    /// Responses with names of all buildings, from the left
+    /// ([`pounding_shear_building::ShearBuilding::responses`]).
+    pub response: Vec<f64>,
     /// Deformation of every element (m), in the order of [`System::elements`].
     pub element_deformation: Vec<f64>,
     /// Force of every element (N).
@@ -132,6 +139,7 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
     pub(crate) fn approach(
         &mut self,
         (left, right): (Option<usize>, Option<usize>),
+        terms: &Terms,
         floor: f64,
     ) -> Option<(f64, f64)> {
         match &mut self.source {
@@ -139,7 +147,9 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
                 let of = |dof: Option<usize>| {
                     dof.map_or(Polynomial::default(), |i| *step.method.polynomial(i))
                 };
-                let found = maximum_above(&difference(&of(left), &of(right)), floor);
+                let mut approach = difference(&of(left), &of(right));
+                terms.add_polynomials(|i| step.method.polynomial(i), &mut approach);
+                let found = maximum_above(&approach, floor);
                 found.map(|(theta, top)| (step.start() + theta * step.step, top))
             }
             Source::Modes(step, workspace) => step.approach((left, right), floor, workspace),
@@ -183,11 +193,18 @@ pub(crate) fn fill_sample(
     context
         .dynamics
         .accelerations(context.contacts, now, state, &mut absolute);
-    for a in &mut absolute {
-        *a += ground;
+    for (i, a) in absolute.iter_mut().enumerate() {
+        *a += system.ground_on(i, ground);
     }
     let motion = (state, context.dynamics.forces.as_slice());
-    fill(system, context.contacts, (time, ground), motion, out);
+    fill(system, context.contacts, (time, ground.first), motion, out);
+    for row in system.acceleration_rows() {
+        let SectionPlace::Named(number) = row.place else {
+            continue;
+        };
+        out.response[number] = row.terms().map(|(i, w)| w * absolute[i]).sum();
+    }
+    absolute.truncate(system.floors());
     out.acceleration_absolute = absolute;
     if !system.elements().is_empty() {
         elements(context, now.elapsed, state, out);
@@ -209,9 +226,9 @@ pub(crate) fn fill(
     let (u, v) = (&state[..n], &state[n..2 * n]);
     (out.time, out.ground_acceleration) = (time, ground);
     out.displacement.clear();
-    out.displacement.extend_from_slice(u);
+    out.displacement.extend_from_slice(&u[..system.floors()]);
     out.velocity.clear();
-    out.velocity.extend_from_slice(v);
+    out.velocity.extend_from_slice(&v[..system.floors()]);
     out.penetration.clear();
     let penetration = |l| contacts.penetration(system, l, u);
     out.penetration.extend((0..layout.levels).map(penetration));
@@ -222,6 +239,9 @@ pub(crate) fn fill(
     }
     out.storey_shear.clear();
     out.base_moment.clear();
+    out.drift.clear();
+    out.response.clear();
+    out.response.resize(system.named_responses(), 0.0);
     let mut sections = system.sections().iter();
     for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
         let mut below = 0.0;
@@ -229,6 +249,18 @@ pub(crate) fn fill(
             let shears = sections.by_ref().take(building.storeys());
             out.storey_shear.extend(shears.map(|s| s.at(u)));
             out.base_moment.extend(sections.next().map(|s| s.at(u)));
+            let rows = building.drifts().map_or(0, <[_]>::len);
+            let drifts = sections.by_ref().take(rows);
+            out.drift.extend(drifts.map(|s| s.at(u)));
+            let named = building.responses().iter();
+            let named = named
+                .filter(|r| r.kind == ResponseKind::Displacement)
+                .count();
+            for row in sections.by_ref().take(named) {
+                if let SectionPlace::Named(number) = row.place {
+                    out.response[number] = row.at(u);
+                }
+            }
             continue;
         }
         for (k, u) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
@@ -318,6 +350,10 @@ pub struct History {
     /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
     /// the left.
     pub base_moment: Vec<f64>,
+    /// Drift of every storey (m) of buildings whose drifts are rows of their own.
+    pub drift: Vec<f64>,
+    /// Responses with names of all buildings.
+    pub response: Vec<f64>,
     /// Deformation of every element (m).
     pub element_deformation: Vec<f64>,
     /// Force of every element (N).
@@ -353,6 +389,8 @@ impl History {
             &mut self.force,
             &mut self.storey_shear,
             &mut self.base_moment,
+            &mut self.drift,
+            &mut self.response,
             &mut self.element_deformation,
             &mut self.element_force,
             &mut self.element_dissipated,
@@ -395,6 +433,8 @@ impl History {
             (&mut self.force, &sample.force),
             (&mut self.storey_shear, &sample.storey_shear),
             (&mut self.base_moment, &sample.base_moment),
+            (&mut self.drift, &sample.drift),
+            (&mut self.response, &sample.response),
             (&mut self.element_deformation, &sample.element_deformation),
             (&mut self.element_force, &sample.element_force),
             (&mut self.element_dissipated, &sample.element_dissipated),

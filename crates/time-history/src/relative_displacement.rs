@@ -5,7 +5,7 @@ use crate::error::TimeHistoryError;
 use crate::options::RunOptions;
 use crate::outcome::{Outcome, Peak};
 use crate::recorder::{Recorder, Sample, StepView};
-use crate::system::System;
+use crate::system::{System, Terms};
 
 /// Maximum approach of each pair of floors, left displacement minus right displacement
 /// (m), with its time. The extremum is that of the method's own interpolant inside each
@@ -13,8 +13,11 @@ use crate::system::System;
 /// that never come closer than at rest have zero.
 #[derive(Debug, Clone)]
 pub struct RelativeDisplacement {
-    /// Degrees of freedom of the left and the right floor; `None` is a rigid wall.
-    pairs: Vec<(Option<usize>, Option<usize>)>,
+    /// Degrees of freedom of the left and the right floor, `None` is a rigid wall; and what the
+    /// relative displacement holds beside them.
+    pairs: Vec<(Option<usize>, Option<usize>, Terms)>,
+    /// Displacements of all degrees of freedom at time zero (m).
+    start: Vec<f64>,
     peaks: Vec<Peak>,
 }
 
@@ -23,8 +26,10 @@ impl RelativeDisplacement {
     /// another one with the same buildings, such as [`System::without_gaps`].
     #[must_use]
     pub fn of_levels(system: &System) -> Self {
-        let pairs: Vec<_> = system.levels().iter().map(|l| (l.left, l.right)).collect();
+        let levels = system.levels().iter();
+        let pairs: Vec<_> = levels.map(|l| (l.left, l.right, l.terms.clone())).collect();
         Self {
+            start: system.initial_state()[..system.degrees_of_freedom()].to_vec(),
             peaks: vec![Peak::default(); pairs.len()],
             pairs,
         }
@@ -38,17 +43,18 @@ impl RelativeDisplacement {
 }
 
 impl Recorder for RelativeDisplacement {
-    fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
-        let at = |floor: Option<usize>| floor.map_or(0.0, |i| start.displacement[i]);
-        for (&(left, right), peak) in self.pairs.iter().zip(&mut self.peaks) {
-            peak.raise(at(left) - at(right), 0.0);
+    fn begin(&mut self, _system: &System, _start: &Sample) -> Result<(), TimeHistoryError> {
+        let at = |floor: Option<usize>| floor.map_or(0.0, |i| self.start[i]);
+        for ((left, right, terms), peak) in self.pairs.iter().zip(&mut self.peaks) {
+            let further = terms.sum_of(|i| self.start[i]);
+            peak.raise(at(*left) - at(*right) + further, 0.0);
         }
         Ok(())
     }
 
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
-        for (pair, peak) in self.pairs.iter().zip(&mut self.peaks) {
-            if let Some((time, top)) = step.approach(*pair, peak.value) {
+        for ((left, right, terms), peak) in self.pairs.iter().zip(&mut self.peaks) {
+            if let Some((time, top)) = step.approach((*left, *right), terms, peak.value) {
                 peak.raise(top, time);
             }
         }

@@ -316,7 +316,11 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
         }
     }
     warnings.extend(system.unequal_floor_warnings());
-    let samples = system.ground().samples.iter();
+    let further = system.ground_motions().iter().map(|m| &m.acceleration);
+    let samples = [system.ground()]
+        .into_iter()
+        .chain(further)
+        .flat_map(|g| g.samples.iter());
     let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
     if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
         warnings.push(Warning::GroundAcceleration { peak });
@@ -331,11 +335,12 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
 
 /// Height (m) of the lower of the storeys on both sides.
 fn lower_storey(system: &System, level: &ContactLevel) -> Option<f64> {
-    let height = |floor: usize| {
-        let building = system.offsets().partition_point(|first| *first <= floor) - 1;
-        system.buildings()[building].height()[floor - system.offsets()[building]]
-    };
-    let heights = [level.left, level.right].into_iter().flatten().map(height);
+    let height = |(building, storey): (usize, usize)| system.buildings()[building].height()[storey];
+    let heights = level
+        .between
+        .iter()
+        .filter_map(|f| system.storey_of(*f))
+        .map(height);
     heights.min_by(f64::total_cmp)
 }
 

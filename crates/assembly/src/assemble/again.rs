@@ -43,7 +43,7 @@ pub fn assemble_with_record(
 pub fn regap(case: &Case, base: &System) -> Result<(System, RunOptions), AssemblyError> {
     let models = models(case)?;
     let options = options(case)?;
-    let rest = vec![0.0; base.degrees_of_freedom()];
+    let rest = vec![0.0; base.floors()];
     let alone = base.isolated().with_initial_state(&rest, &rest)?;
     let system = with_gaps(case, &models, alone)?;
     options.check(&system)?;

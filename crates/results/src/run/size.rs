@@ -7,10 +7,13 @@ pub const MAXIMUM_RESPONSES: f64 = 1.0e11;
 
 /// Numbers of one sample of the responses in the file.
 pub(super) fn numbers(system: &System) -> usize {
-    let floors = 5 * system.degrees_of_freedom();
+    let floors = 5 * system.floors();
     let bases = super::buildings::with_base_moment(system).count();
     // Time, ground acceleration and the parts of the energy ledger.
-    floors + bases + 2 * system.levels().len() + 3 * system.elements().len() + 9
+    let responses: usize = (system.buildings().iter())
+        .map(|b| b.responses().len())
+        .sum();
+    floors + bases + responses + 2 * system.levels().len() + 3 * system.elements().len() + 9
 }
 
 /// Responses on the output grid that no disk would take.

@@ -120,16 +120,11 @@ impl GapPlace<'_> {
 
     /// Building and storey (from zero) on both sides of each level; `None` is a wall.
     fn levels(&self) -> Vec<[Option<(usize, usize)>; 2]> {
-        let offsets = self.system.offsets();
-        let place = |dof: Option<usize>| {
-            dof.map(|dof| {
-                let building = offsets.partition_point(|o| *o <= dof) - 1;
-                (building, dof - offsets[building])
-            })
-        };
         let gap = self.gap();
         let levels = self.system.levels_of(gap).iter();
-        levels.map(|l| [place(l.left), place(l.right)]).collect()
+        levels
+            .map(|l| l.between.map(|floor| self.system.storey_of(floor)))
+            .collect()
     }
 
     fn elevation(&self, level: usize) -> f64 {

@@ -3,17 +3,7 @@
 use std::sync::Arc;
 
 use pounding_gap_element::ImpactModel;
-use pounding_time_history::{ContactLevel, Floor, System, TimeHistoryError};
-
-/// The place of a degree of freedom in the row.
-fn floor(system: &System, dof: Option<usize>) -> Floor {
-    let Some(dof) = dof else {
-        return Floor::Wall;
-    };
-    let offsets = system.offsets();
-    let building = offsets.partition_point(|o| *o <= dof) - 1;
-    Floor::Storey(building, dof - offsets[building])
-}
+use pounding_time_history::{ContactLevel, System, TimeHistoryError};
 
 /// The same buildings and links under the same motion, with another width (m) and model at every
 /// contact level: `change` is given the gap and the level. What the isolated buildings
@@ -27,7 +17,7 @@ pub(crate) fn rebuilt(
         let levels = system.levels_of(gap);
         let pairs = levels.iter().map(|level| {
             let (width, model) = change(index, level);
-            let (left, right) = (floor(system, level.left), floor(system, level.right));
+            let [left, right] = level.between;
             (left, right, width, model)
         });
         let (between, tolerance) = (gap.between.clone(), gap.elevation_tolerance);

@@ -174,7 +174,7 @@ impl<'s> Runner<'s> {
         };
         let regapped = |case: &Case| regap(case, &base);
         let (system, options) = variant.make(&case, regapped).map_err(said)?;
-        let shape = (system.degrees_of_freedom(), system.levels().len());
+        let shape = (system.floors(), system.levels().len());
         let layout = (self.layout.storeys.len(), self.layout.levels.len());
         if shape != layout {
             return Err(format!(

@@ -481,7 +481,9 @@ impl ContactFreePhase {
             peak.raise(track.peak[c][l] * factor, track.time[c][l]);
         };
         for (i, section) in system.sections().iter().enumerate() {
-            raise(&self.sections, i, 1.0, peaks.section(section.place));
+            let (c, l) = (i / WIDTH, i % WIDTH);
+            let (peak, time) = (self.sections.peak[c][l], self.sections.time[c][l]);
+            peaks.raise_section(section.place, peak, time);
         }
         for (range, building) in system.offsets().windows(2).zip(system.buildings()) {
             for i in range[0]..range[1] {

@@ -1,6 +1,6 @@
 //! Following contacts in the coordinates of the modes.
 
-use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS, segment};
+use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS};
 use crate::contact_episode::{
     LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
     stored,
@@ -132,7 +132,7 @@ impl Driver<'_> {
         contact_episode.listed = false;
         q.copy_from_slice(&phase.now.displacement);
         p.copy_from_slice(&phase.now.velocity);
-        while let Some(segment) = segment(self.system, sample, duration) {
+        while let Some(segment) = self.system.segment(sample, duration) {
             if let Some(tau) = self.begin_episode_in_segment(open, &segment, observers)? {
                 if sample > first || tau > 0.0 {
                     open.put_back();

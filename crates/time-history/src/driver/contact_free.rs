@@ -5,7 +5,7 @@ use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
 use crate::dense_output::Observers;
 use crate::error::TimeHistoryError;
-use crate::system::System;
+use crate::system::{Grounds, System};
 
 /// Storeys of the largest building from which terms of tridiagonal matrices cost less than
 /// full matrices of mode shapes.
@@ -73,7 +73,11 @@ impl Driver<'_> {
                 return Err(self.not_finite((sample + advanced) as f64 * ground.time_step));
             }
             self.largest_residual = self.largest_residual.max(residual);
-            self.last_ground = ground.samples[sample + advanced];
+            self.last_ground = Some(Grounds {
+                first: ground.samples[sample + advanced],
+                interval: sample + advanced,
+                tau: 0.0,
+            });
             self.statistics.steps += advanced as u64;
             self.at_once.fill(0);
             self.stalled = 0;

@@ -56,7 +56,7 @@ impl Driver<'_> {
         let from = SeriesStep {
             displacement: &e.pair.start.motion[0],
             velocity: &e.pair.start.motion[1],
-            ground: (segment.ground(tau), segment.slope),
+            ground: (segment.acceleration_at(tau), segment.slope),
             step: whole,
             rate,
             terms: if e.affine { 0 } else { e.terms },
@@ -184,7 +184,7 @@ impl Driver<'_> {
             rows: &e.rows,
             system: self.system,
             touches: &e.touches,
-            ground: (segment.ground(tau), segment.slope),
+            ground: (segment.acceleration_at(tau), segment.slope),
             tolerance: e.tolerance,
         };
         if !e.derived {

@@ -23,7 +23,7 @@ use crate::options::RunOptions;
 use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
-use crate::system::System;
+use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use rigid_impacts::RigidImpacts;
 
@@ -70,7 +70,7 @@ pub fn run(
     driver.begin(observers.recorders)?;
     let mut reported = 0.0;
     let mut sample = 0;
-    while segment(system, sample, duration).is_some() {
+    while system.segment(sample, duration).is_some() {
         let mut from = 0.0;
         if driver.open.is_some() {
             sample += driver.propagate(sample, duration, &mut observers)?;
@@ -84,12 +84,14 @@ pub fn run(
             driver.hand_out_impacts(observers.recorders)?;
         }
         if from.is_finite()
-            && let Some(segment) = segment(system, sample, duration)
+            && let Some(segment) = system.segment(sample, duration)
         {
             driver.segment(&segment, from, duration, observers.recorders)?;
             sample += 1;
         }
-        let done = (sample as f64 * system.ground().time_step / duration).min(1.0);
+        let done = system
+            .segment(sample, duration)
+            .map_or(1.0, |s| s.start / duration);
         if done - reported >= 0.004 {
             reported = done;
             progress(done);
@@ -97,34 +99,6 @@ pub fn run(
     }
     progress(1.0);
     driver.finish(duration, observers.recorders)
-}
-
-/// Interval number `sample` of the ground motion up to the end of the run; after
-/// the last sample the ground stands still.
-fn segment(system: &System, sample: usize, duration: f64) -> Option<Segment> {
-    let ground = system.ground();
-    let start = sample as f64 * ground.time_step;
-    // The last interval may be round-off: duration is often a whole number of steps.
-    let rest = duration - start;
-    if rest <= 1.0e-9 * ground.time_step {
-        return None;
-    }
-    let (a, b) = match (ground.samples.get(sample), ground.samples.get(sample + 1)) {
-        (Some(a), Some(b)) => (*a, *b),
-        _ => (0.0, 0.0),
-    };
-    let whole = ground.time_step;
-    let length = if rest < whole * (1.0 + 1.0e-9) && rest > whole * (1.0 - 1.0e-9) {
-        whole
-    } else {
-        rest.min(whole)
-    };
-    Some(Segment {
-        start,
-        length,
-        acceleration: a,
-        slope: (b - a) / whole,
-    })
 }
 
 /// What events of a level do not count in the next step.
@@ -177,7 +151,7 @@ struct Driver<'a> {
     /// Step (s) that a muted level makes.
     quiet: Vec<f64>,
     stalled: usize,
-    last_ground: f64,
+    last_ground: Option<Grounds>,
     rigid: RigidImpacts,
     /// Exact contact-free motion, where the method and the buildings allow it.
     open: Option<Open<'a>>,
@@ -205,7 +179,7 @@ impl<'a> Driver<'a> {
             method: options.build_method(system),
             contacts,
             finder: Finder::new(layout),
-            peaks: Peaks::new(layout, system.buildings().len(), system.elements().len()),
+            peaks: Peaks::new(layout, system),
             log: ImpactLog::new(system),
             ledger: Ledger {
                 largest_input: state[layout.input()],
@@ -222,7 +196,7 @@ impl<'a> Driver<'a> {
             touches: vec![0; layout.levels],
             quiet: vec![PROGRESS_STEP; layout.levels],
             stalled: 0,
-            last_ground: f64::NAN,
+            last_ground: None,
             rigid: RigidImpacts::default(),
             open: None,
             series_terms: 0,
@@ -233,12 +207,13 @@ impl<'a> Driver<'a> {
     }
 
     fn begin(&mut self, recorders: &mut [&mut dyn Recorder]) -> Result<(), TimeHistoryError> {
-        let ground = self.system.ground().samples.first().copied().unwrap_or(0.0);
+        let ground = self.system.ground_at_start();
         let segment = Segment {
             start: 0.0,
             length: 0.0,
-            acceleration: ground,
+            acceleration: ground.first,
             slope: 0.0,
+            interval: 0,
         };
         let mut context = Context {
             dynamics: &mut self.dynamics,
@@ -263,11 +238,12 @@ impl<'a> Driver<'a> {
         duration: f64,
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<(), TimeHistoryError> {
-        if segment.ground(from) != self.last_ground {
+        let ground = segment.ground(from);
+        if !(self.last_ground).is_some_and(|last| self.system.same_ground(ground, last)) {
             // A jump of the ground acceleration, as at the end of a record.
             self.method.restart(true);
         }
-        self.last_ground = segment.ground(segment.length);
+        self.last_ground = Some(segment.ground(segment.length));
         let mut tau = from;
         while tau < segment.length {
             let context = Context {

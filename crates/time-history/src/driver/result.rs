@@ -1,14 +1,31 @@
 //! The end of a run.
 
 use super::Driver;
+use pounding_shear_building::ShearBuilding;
+
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
-    BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, YieldingStorey,
+    BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, NamedPeak, Outcome, Peak,
+    YieldingStorey,
 };
 use crate::recorder::Recorder;
 use crate::warnings::Warning;
+
+/// Responses with names of a building, from the peaks of all.
+fn responses<'a>(
+    building: &ShearBuilding,
+    peaks: impl Iterator<Item = &'a Peak>,
+) -> Vec<NamedPeak> {
+    let rows = building.responses().iter().zip(peaks);
+    rows.map(|(row, peak)| NamedPeak {
+        name: row.name.clone(),
+        unit: row.unit,
+        peak: *peak,
+    })
+    .collect()
+}
 
 impl Driver<'_> {
     pub(super) fn finish(
@@ -41,6 +58,7 @@ impl Driver<'_> {
         let counts = self.method.counts();
         self.statistics.evaluations = counts.evaluations + self.evaluations_in_modes();
         self.statistics.newton_iterations = counts.newton_iterations;
+        let mut named = self.peaks.named.iter();
         let mut buildings: Vec<BuildingOutcome> = self
             .system
             .buildings()
@@ -50,6 +68,7 @@ impl Driver<'_> {
             .map(|((b, range), base_moment)| BuildingOutcome {
                 name: b.name().to_owned(),
                 storeys: self.peaks.storeys[range[0]..range[1]].to_vec(),
+                responses: responses(b, named.by_ref()),
                 base_moment: b.stiffness().is_empty().then_some(*base_moment),
                 yielding: vec![None; b.storeys()],
             })

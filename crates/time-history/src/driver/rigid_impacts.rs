@@ -255,12 +255,17 @@ impl Driver<'_> {
             if let Some(right) = levels[l].right {
                 velocity[right] += impulse / mass[right];
             }
+            for (i, weight) in &levels[l].terms.pushed {
+                velocity[*i] -= weight * impulse / mass[*i];
+            }
         }
         let layout = self.dynamics.layout;
         for (k, (&l, impulse)) in work.active.iter().zip(impulses).enumerate() {
             let after = levels[l].relative(&self.state[n..2 * n]);
             self.state[layout.work(l)] += 0.5 * impulse * (work.before[k] + after);
             self.state[layout.impulse(l)] += impulse;
+            let of_ground = levels[l].terms.ground_of(|i| self.state[n + i]);
+            self.state[layout.input()] += impulse * of_ground;
         }
         let elements = &mut self.contacts.elements;
         elements.settle(self.system, layout, &self.state);

@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 
 use crate::bands::Bands;
-use crate::system::System;
+use crate::system::{System, Terms};
 
 /// Terms at most; ten to twenty reach round-off for steps below a sixth of the
 /// shortest period.
@@ -19,6 +19,8 @@ const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
 pub(crate) struct Spring {
     /// The level of a contact; of no use for an element.
     pub level: usize,
+    /// The element; of no use for a contact.
+    pub element: usize,
     pub left: Option<usize>,
     pub right: Option<usize>,
     pub at_rest: f64,
@@ -31,6 +33,34 @@ impl Spring {
     pub(crate) fn term(&self, k: usize, u: f64, v: f64) -> f64 {
         let constant = if k == 1 { self.at_rest } else { 0.0 };
         constant + self.stiffness * u + self.dashpot * v
+    }
+
+    /// What its relative displacement holds beside both floors.
+    pub(crate) fn terms<'s>(&self, system: &'s System) -> &'s Terms {
+        match system.levels().get(self.level) {
+            Some(level) => &level.terms,
+            None => &system.elements()[self.element].terms,
+        }
+    }
+
+    /// Adds the force from term number `k - 1`, with these further terms, to all that it acts on.
+    pub(crate) fn push_weighted(
+        &self,
+        k: usize,
+        (u, v): (&[f64], &[f64]),
+        terms: &Terms,
+        out: &mut [f64],
+    ) {
+        let at = |x: &[f64], floor: Option<usize>| floor.map_or(0.0, |i| x[i]);
+        let relative = |x: &[f64]| at(x, self.left) - at(x, self.right) + terms.sum_of(|i| x[i]);
+        let force = self.term(k, relative(u), relative(v));
+        if let Some(l) = self.left {
+            out[l] -= force;
+        }
+        if let Some(r) = self.right {
+            out[r] += force;
+        }
+        terms.push(force, out);
     }
 
     /// Adds that force, times a factor of the floor, to its floors: it pushes them apart.
@@ -138,6 +168,10 @@ impl Chain {
     /// `None` if a building's damping matrix is not tridiagonal.
     pub(crate) fn new(system: &System) -> Option<Self> {
         let n = system.degrees_of_freedom();
+        let terms = system.elements().iter().map(|e| &e.terms);
+        if !system.is_plain() || !terms.into_iter().all(Terms::is_empty) {
+            return None;
+        }
         let mut bands = system.bands()?.clone();
         bands.divide(system.mass());
         Some(Self {

@@ -64,7 +64,7 @@ impl EffectiveMass {
         building: &ShearBuilding,
         (c, k): (f64, f64),
     ) -> bool {
-        let mass = building.mass();
+        let mass = building.inertia();
         let n = mass.len();
         let matrices = (building.damping_matrix(), building.stiffness_matrix());
         match (matrices, &mut self.factors[index]) {
@@ -97,15 +97,27 @@ impl EffectiveMass {
 
     /// Solves with the factors in place, building by building.
     pub(crate) fn solve(&self, system: &System, x: &mut [f64]) {
-        for (factor, range) in self.factors.iter().zip(system.offsets().windows(2)) {
-            let part = &mut x[range[0]..range[1]];
+        for (index, factor) in self.factors.iter().enumerate() {
+            let [floors, further] = system.parts(index);
             match factor {
-                Factor::Tridiagonal(f) => f.solve_in_place(part),
-                Factor::Dense(Some(f)) => {
+                Factor::Tridiagonal(f) => f.solve_in_place(&mut x[floors]),
+                Factor::Dense(Some(f)) if further.is_empty() => {
+                    let part = &mut x[floors];
                     let mut view = nalgebra::DVectorViewMut::from_slice(part, part.len());
                     f.solve_mut(&mut view);
                 }
-                Factor::Dense(None) => part.fill(f64::NAN),
+                Factor::Dense(Some(f)) => {
+                    let all = floors.clone().chain(further.clone());
+                    let mut part = nalgebra::DVector::from_iterator(
+                        floors.len() + further.len(),
+                        all.clone().map(|i| x[i]),
+                    );
+                    f.solve_mut(&mut part);
+                    for (i, part) in all.zip(part.iter()) {
+                        x[i] = *part;
+                    }
+                }
+                Factor::Dense(None) => x[floors].fill(f64::NAN),
             }
         }
     }

@@ -67,9 +67,10 @@ impl MoreauJean {
         }
     }
 
-    /// Ground acceleration as the theta method weighs it (m/s2).
-    fn ground(&self, segment: &Segment, tau: f64) -> f64 {
-        (1.0 - self.theta) * segment.ground(tau) + self.theta * segment.ground(tau + self.step)
+    /// Ground acceleration on a degree of freedom as the theta method weighs it (m/s2).
+    fn ground(&self, system: &System, i: usize, (segment, tau): (&Segment, f64)) -> f64 {
+        let on = |tau: f64| system.ground_on(i, segment.ground(tau));
+        (1.0 - self.theta) * on(tau) + self.theta * on(tau + self.step)
     }
 
     /// Change of the velocities without impulses: `(M + theta h C + theta^2 h^2 K) w =
@@ -82,9 +83,9 @@ impl MoreauJean {
             self.middle[i] = u[i] + self.theta * self.step * v[i];
         }
         system.internal_forces(&self.middle, v, &mut self.load, &mut self.scratch);
-        let ground = self.ground(context.segment, tau);
-        for ((w, load), m) in self.change.iter_mut().zip(&self.load).zip(system.mass()) {
-            *w = self.step * (load - m * ground);
+        for i in 0..n {
+            let ground = self.ground(system, i, (context.segment, tau));
+            self.change[i] = self.step * (self.load[i] - system.mass()[i] * ground);
         }
         self.effective.solve(system, &mut self.change);
     }
@@ -148,12 +149,9 @@ impl MoreauJean {
             new[n + i] = state[n + i] + self.change[i];
         }
         new[2 * n..].copy_from_slice(&state[2 * n..]);
-        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
-            let (a, b) = (range[0], range[1]);
-            building.apply_damping(&self.middle[a..b], &mut self.scratch[a..b]);
-        }
-        let ground = self.ground(context.segment, tau);
-        for i in 0..n {
+        system.damping_forces(&self.middle, &mut self.scratch);
+        for i in 0..system.with_mass() {
+            let ground = self.ground(system, i, (context.segment, tau));
             new[layout.input()] -= h * system.mass()[i] * self.middle[i] * ground;
             new[layout.viscous()] += h * self.middle[i] * self.scratch[i];
         }
@@ -162,6 +160,8 @@ impl MoreauJean {
             let level = &system.levels()[l];
             let sum = level.relative(&state[n..2 * n]) + level.relative(&new[n..2 * n]);
             new[layout.work(l)] += 0.5 * impulse * sum;
+            let of_ground = level.terms.ground_of(|i| state[n + i] + new[n + i]);
+            new[layout.input()] += 0.5 * impulse * of_ground;
             new[layout.impulse(l)] += impulse;
         }
     }

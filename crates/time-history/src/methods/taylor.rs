@@ -105,6 +105,7 @@ impl Taylor {
                 self.levels.push(l);
                 self.springs.push(Spring {
                     level: l,
+                    element: usize::MAX,
                     left: level.left,
                     right: level.right,
                     at_rest,
@@ -114,12 +115,14 @@ impl Taylor {
             }
         }
         let (n, elements) = (self.layout.dofs, context.dynamics.system.elements());
-        for (element, history) in elements.iter().zip(&context.contacts.elements.histories) {
+        let histories = &context.contacts.elements.histories;
+        for (index, (element, history)) in elements.iter().zip(histories).enumerate() {
             let motion = element.motion(&state[..n], &state[n..2 * n]);
             let law = element.law.force(history, motion, &[]);
             let (stiffness, dashpot) = (law.by_deformation, law.by_velocity);
             self.springs.push(Spring {
                 level: usize::MAX,
+                element: index,
                 left: element.far,
                 right: element.near,
                 at_rest: law.force - stiffness * motion.deformation - dashpot * motion.velocity,
@@ -138,7 +141,10 @@ impl Taylor {
         new: &mut [f64],
     ) {
         let n = self.layout.dofs;
-        let load = [context.segment.ground(tau), context.segment.slope * h];
+        let load = [
+            context.segment.acceleration_at(tau),
+            context.segment.slope * h,
+        ];
         let constants = context.dynamics.system.contact_free();
         self.terms += match (&mut self.chain, self.modal.as_mut().zip(constants)) {
             (Some(chain), _) => chain.sum(&self.springs, load, h, (&state[..n], &state[n..2 * n])),
@@ -146,7 +152,7 @@ impl Taylor {
                 let (start, sums) = (&state[..2 * n], &mut self.sums);
                 modal.sum(constants, &self.springs, (load, h), start, sums)
             }
-            (None, None) => self.general(context, load, state, h),
+            (None, None) => self.general(context, tau, state, h),
         };
         let sums = self.chain.as_ref().map_or(&self.sums, |c| &c.sums);
         let (u, v) = new[..2 * n].split_at_mut(n);
@@ -162,20 +168,30 @@ impl Taylor {
     }
 
     /// The series with matrices of any shape. Returns the number of terms.
-    fn general(&mut self, context: &Context<'_, '_>, load: [f64; 2], state: &[f64], h: f64) -> u64 {
+    fn general(&mut self, context: &Context<'_, '_>, tau: f64, state: &[f64], h: f64) -> u64 {
         let n = self.layout.dofs;
-        let system = context.dynamics.system;
+        let (system, segment) = (context.dynamics.system, context.segment);
+        let start = segment.ground(tau);
         self.term.copy_from_slice(&state[..2 * n]);
         self.sums.begin(&state[..n], &state[n..2 * n]);
         for k in 1..TERMS {
             let (u, v) = self.term.split_at(n);
             system.internal_forces(u, v, &mut self.scratch, &mut self.damping);
             for spring in &self.springs {
-                spring.push((k, 0), (u, v), |_| 1.0, &mut self.scratch);
+                let terms = spring.terms(system);
+                if terms.is_empty() {
+                    spring.push((k, 0), (u, v), |_| 1.0, &mut self.scratch);
+                } else {
+                    spring.push_weighted(k, (u, v), terms, &mut self.scratch);
+                }
             }
-            let ground = load.get(k - 1).copied().unwrap_or(0.0);
             let scale = h / k as f64;
             for i in 0..n {
+                let ground = match k {
+                    1 => system.ground_on(i, start),
+                    2 => h * system.ground_slope_on(i, segment),
+                    _ => 0.0,
+                };
                 let u = scale * self.term[n + i];
                 let v = scale * (self.scratch[i] / system.mass()[i] - ground);
                 (self.term[i], self.term[n + i]) = (u, v);
@@ -216,25 +232,26 @@ impl Taylor {
     ) {
         let (n, layout) = (self.layout.dofs, self.layout);
         let (system, segment) = (context.dynamics.system, context.segment);
-        let (a, b) = (segment.ground(tau), segment.ground(tau + h));
-        for (i, m) in system.mass().iter().enumerate() {
-            let moved = new[i] * b - state[i] * a - segment.slope * self.integral[i];
+        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        let mass = &system.mass()[..system.with_mass()];
+        for (i, m) in mass.iter().enumerate() {
+            let [a, b] = instants.map(|at| system.ground_on(i, at));
+            let slope = system.ground_slope_on(i, segment);
+            let moved = new[i] * b - state[i] * a - slope * self.integral[i];
             new[layout.input()] -= m * moved;
         }
         let mut powers = [[[0.0; 3]; 2]; 2];
         for (end, y) in [(0, state), (1, &*new)] {
             let v = &y[n..2 * n];
             let [first, second, _] = [&self.start, &self.end][end];
-            let momentum = [v, first, second].map(|v| {
-                let products = system.mass().iter().zip(v).map(|(m, v)| m * v);
-                products.sum::<f64>()
-            });
-            let (ground, change) = ([a, b][end], segment.slope * h);
-            let input = [
-                -ground * momentum[0],
-                -ground * momentum[1] - change * momentum[0],
-                -ground * momentum[2] - 2.0 * change * momentum[1],
-            ];
+            let mut input = [0.0; 3];
+            for (i, m) in mass.iter().enumerate() {
+                let ground = system.ground_on(i, instants[end]);
+                let change = h * system.ground_slope_on(i, segment);
+                input[0] -= m * (ground * v[i]);
+                input[1] -= m * (ground * first[i] + change * v[i]);
+                input[2] -= m * (ground * second[i] + 2.0 * change * first[i]);
+            }
             let viscous = match &self.modal {
                 Some(modal) => modal.viscous_powers(end as f64),
                 None => self.viscous_powers(context, v, end),
@@ -257,6 +274,14 @@ impl Taylor {
         new[layout.viscous()] += h * viscous;
         for k in 0..self.levels.len() {
             self.contact_work(context, k, state, h, new);
+        }
+        for k in 0..self.springs.len() {
+            let added = self.ground_work(context, k, state, h, new);
+            for (powers, added) in powers.iter_mut().zip(added) {
+                for (power, added) in powers[0].iter_mut().zip(added) {
+                    *power += added;
+                }
+            }
         }
         self.accounts(context, state, h, new);
         for (which, place) in [layout.input(), layout.viscous()].into_iter().enumerate() {
@@ -291,12 +316,7 @@ impl Taylor {
         });
         let (mut impulse, mut work) = (0.0, 0.0);
         for (theta, weight) in GAUSS {
-            let at = |offset: usize| {
-                let one = |floor: Option<usize>| {
-                    floor.map_or(0.0, |i| value(&self.dense[offset + i], theta))
-                };
-                one(level.left) - one(level.right)
-            };
+            let at = |offset: usize| level.relative_of(|i| value(&self.dense[offset + i], theta));
             let (u, v) = (at(0), at(n));
             impulse += weight * force(u, v);
             work += weight * force(u, v) * v;
@@ -311,6 +331,46 @@ impl Taylor {
         }
     }
 
+    /// Work that ground which moves by itself puts into a contact or a link; returns its power
+    /// at both ends of the step, with two derivatives by theta.
+    fn ground_work(
+        &mut self,
+        context: &Context<'_, '_>,
+        k: usize,
+        state: &[f64],
+        h: f64,
+        new: &mut [f64],
+    ) -> [[f64; 3]; 2] {
+        let (n, spring) = (self.layout.dofs, self.springs[k]);
+        let terms = spring.terms(context.dynamics.system);
+        if terms.ground.is_empty() {
+            return [[0.0; 3]; 2];
+        }
+        let relative = |x: &dyn Fn(usize) -> f64| {
+            let at = |floor: Option<usize>| floor.map_or(0.0, x);
+            at(spring.left) - at(spring.right) + terms.sum_of(x)
+        };
+        let force = |u: f64, v: f64| spring.term(1, u, v);
+        let ends = [(state, &self.start), (&*new, &self.end)].map(|(y, [first, second, _])| {
+            let [u, v] = [0, n].map(|offset| relative(&|i| y[offset + i]));
+            let [v1, v2] = [first, second].map(|v| relative(&|i| v[i]));
+            let f = force(u, v);
+            let f1 = spring.stiffness * h * v + spring.dashpot * v1;
+            let f2 = spring.stiffness * h * v1 + spring.dashpot * v2;
+            let of_ground = |v: &[f64]| terms.ground_of(|i| v[i]);
+            let [g, g1, g2] = [of_ground(&y[n..]), of_ground(first), of_ground(second)];
+            [f * g, f1 * g + f * g1, f2 * g + 2.0 * f1 * g1 + f * g2]
+        });
+        let mut work = 0.0;
+        for (theta, weight) in GAUSS {
+            let component = |offset: usize, i: usize| value(&self.dense[offset + i], theta);
+            let [u, v] = [0, n].map(|offset| relative(&|i| component(offset, i)));
+            work += weight * force(u, v) * terms.ground_of(|i| component(n, i));
+        }
+        new[self.layout.input()] += h * work;
+        ends
+    }
+
     /// Internal variables of elements, which are integrals over the motion.
     fn accounts(&mut self, context: &Context<'_, '_>, state: &[f64], h: f64, new: &mut [f64]) {
         let (n, elements) = (self.layout.dofs, context.dynamics.system.elements());
@@ -321,9 +381,13 @@ impl Taylor {
             }
             let dense = &self.dense;
             let at = |offset: usize, theta: f64| {
-                let one =
-                    |floor: Option<usize>| floor.map_or(0.0, |i| value(&dense[offset + i], theta));
-                one(element.far) - one(element.near)
+                let component = |i: usize| value(&dense[offset + i], theta);
+                let one = |floor: Option<usize>| floor.map_or(0.0, component);
+                let of_ends = one(element.far) - one(element.near);
+                match element.terms.is_empty() {
+                    true => of_ends,
+                    false => of_ends + element.terms.sum_of(component),
+                }
             };
             let mut rates = [0.0; MAXIMUM_INTERNAL_VARIABLES];
             let mut at = |theta: f64| {
@@ -358,11 +422,7 @@ impl Taylor {
 
     /// Damping forces of these velocities, into the scratch.
     fn damp(&mut self, context: &Context<'_, '_>, v: &[f64]) {
-        let system = context.dynamics.system;
-        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
-            let (a, b) = (range[0], range[1]);
-            building.apply_damping(&v[a..b], &mut self.scratch[a..b]);
-        }
+        (context.dynamics.system).damping_forces(v, &mut self.scratch);
     }
 
     /// Power of the damping at an end of the step, with two derivatives by theta.

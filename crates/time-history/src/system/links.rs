@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pounding_hysteresis::HysteresisLaw;
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 
-use super::{Floor, LevelPlace, System};
+use super::{Floor, LevelPlace, System, Terms};
 use crate::elements::{Element, ElementPlace};
 use crate::error::TimeHistoryError;
 
@@ -57,25 +57,17 @@ impl System {
                 link: name.to_owned(),
                 reason,
             };
-            let place = |floor: Floor| -> Result<Option<usize>, TimeHistoryError> {
-                let Floor::Storey(b, s) = floor else {
-                    return Ok(None);
-                };
-                let there = self.buildings.get(b).is_some_and(|x| s < x.storeys());
-                if there {
-                    Ok(Some(self.offsets[b] + s))
-                } else {
-                    Err(wrong(format!("building {b} has no storey {}", s + 1)))
-                }
-            };
-            let (left, right) = (place(pair.left)?, place(pair.right)?);
-            if left.is_none() && right.is_none() {
-                return Err(wrong("a level lies between two walls".to_owned()));
-            }
+            // A link lengthens where a gap closes: its far end is the right one.
+            let row = self.row_between(pair.right, pair.left).map_err(wrong)?;
             self.elements.push(Element {
                 place: ElementPlace::Link { link, level },
-                far: right,
-                near: left,
+                far: row.left,
+                near: row.right,
+                terms: row.terms,
+                level_place: Some(LevelPlace {
+                    storeys: [row.place.storeys[1], row.place.storeys[0]],
+                    elevations: [row.place.elevations[1], row.place.elevations[0]],
+                }),
                 law: pair.law,
                 yield_deformation: pair.yield_deformation,
                 carried: 0.0,
@@ -100,23 +92,9 @@ impl System {
     /// Storeys and elevations of the levels of a link, from the bottom.
     #[must_use]
     pub fn link_levels(&self, link: usize) -> Vec<LevelPlace> {
-        let floor = |dof: usize| {
-            let building = self.offsets.partition_point(|o| *o <= dof) - 1;
-            let storey = dof - self.offsets[building];
-            (storey + 1, self.buildings[building].elevations()[storey])
-        };
         let link = &self.links[link];
         let levels = &self.elements[link.first_element..link.first_element + link.levels];
-        levels
-            .iter()
-            .map(|e| {
-                let sides = [e.near, e.far].map(|dof| dof.map(floor));
-                LevelPlace {
-                    storeys: sides.map(|s| s.map(|s| s.0)),
-                    elevations: sides.map(|s| s.map(|s| s.1)),
-                }
-            })
-            .collect()
+        levels.iter().filter_map(|e| e.level_place).collect()
     }
 
     /// Where an element sits, in words.
@@ -181,6 +159,8 @@ pub(super) fn storeys(
                 },
                 far: Some(dof),
                 near: (storey > 0).then(|| dof - 1),
+                terms: Terms::default(),
+                level_place: None,
                 law: Arc::clone(law),
                 yield_deformation: *yield_drift,
                 carried: elastic,

@@ -2,7 +2,10 @@
 
 mod level_place;
 mod links;
+mod motions;
+mod place;
 mod sections;
+mod terms;
 mod under;
 mod unequal_floors;
 
@@ -16,13 +19,20 @@ use std::sync::{Arc, OnceLock};
 pub use level_place::LevelPlace;
 use links::storeys;
 pub use links::{Link, LinkedPair};
-use sections::section_forces;
+pub(crate) use motions::Grounds;
+use motions::Motions;
+pub use motions::{GroundMotion, Support};
+use place::Row;
+pub use place::{BuildingPoint, Floor};
 pub(crate) use sections::{SectionForce, SectionPlace};
+use sections::{acceleration_responses, section_forces};
+pub(crate) use terms::Terms;
 pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
 use crate::contact_free::ContactFree;
+use crate::dynamics::Segment;
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
 
@@ -38,10 +48,15 @@ pub struct ContactLevel {
     pub place: LevelPlace,
     /// Width of the gap at rest (m).
     pub width: f64,
-    /// `m1 m2 / (m1 + m2)`, the floor's mass against a wall (kg).
+    /// `m1 m2 / (m1 + m2)`, the floor's mass against a wall (kg); `1 / (w' M^-1 w)` where the
+    /// penetration `w' q` is a sum over several coordinates.
     pub effective_mass: f64,
     /// The impact model that acts here.
     pub model: Arc<dyn ImpactModel>,
+    /// What it lies between.
+    pub between: [Floor; 2],
+    /// What the relative displacement holds beside both floors.
+    pub(crate) terms: Terms,
 }
 
 /// A gap: the contact levels between two neighbours.
@@ -69,27 +84,28 @@ pub struct GroundAcceleration {
     pub time_step: f64,
 }
 
-/// A floor's place in a contact level, for the definition of a gap.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Floor {
-    /// Building index in the row and storey index, both from zero.
-    Storey(usize, usize),
-    /// A rigid wall that moves with the ground.
-    Wall,
-}
-
 /// Buildings in a row with the gaps between them under one ground motion.
 ///
 /// Degrees of freedom are floor displacements relative to the ground, positive
-/// to the right, one building after another from the left, bottom floor first.
+/// to the right, one building after another from the left, bottom floor first; then the
+/// coordinates of buildings that are no floors, one building after another; then
+/// displacements of the ground, where a gap or a link lies between two ground motions.
 #[derive(Debug, Clone)]
 pub struct System {
     buildings: Vec<Arc<ShearBuilding>>,
     offsets: Vec<usize>,
     gaps: Vec<Gap>,
     levels: Vec<ContactLevel>,
+    /// Whether a level is no difference of two floors.
+    weighted_levels: bool,
     ground: GroundAcceleration,
+    /// Where there is more than that under all coordinates.
+    motions: Option<Arc<Motions>>,
+    /// First of the coordinates of each building that are no floors, and the total at the end.
+    further_offsets: Vec<usize>,
+    /// Motions whose displacement is a degree of freedom.
+    moving_ground: Vec<usize>,
+    /// Of every degree of freedom; one for displacements of the ground.
     mass: Vec<f64>,
     /// Displacements, then velocities at time zero.
     initial: Vec<f64>,
@@ -97,7 +113,10 @@ pub struct System {
     spring: Vec<f64>,
     elements: Vec<Element>,
     sections: Vec<SectionForce>,
+    /// Responses that are sums of absolute accelerations.
+    acceleration_rows: Vec<SectionForce>,
     links: Vec<Link>,
+    points: Vec<BuildingPoint>,
     bands: Option<Bands>,
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with
     /// these buildings and this step.
@@ -114,23 +133,73 @@ impl System {
             mass.extend_from_slice(building.mass());
             offsets.push(mass.len());
         }
+        let mut further_offsets = vec![mass.len()];
+        for building in &buildings {
+            mass.extend_from_slice(&building.inertia()[building.storeys()..]);
+            further_offsets.push(mass.len());
+        }
         let (spring, elements) = storeys(&buildings, &offsets);
-        let sections = section_forces(&buildings, &offsets);
-        Self {
+        let sections = section_forces(&buildings, &offsets, &further_offsets);
+        let acceleration_rows = acceleration_responses(&buildings, &offsets, &further_offsets);
+        let mut this = Self {
             offsets,
             gaps: Vec::new(),
             levels: Vec::new(),
+            weighted_levels: false,
             spring,
             elements,
             sections,
+            acceleration_rows,
             links: Vec::new(),
+            points: Vec::new(),
             ground,
+            motions: None,
+            further_offsets,
+            moving_ground: Vec::new(),
             initial: vec![0.0; 2 * mass.len()],
             bands: Bands::of(&buildings),
             contact_free: Arc::default(),
             buildings,
             mass,
+        };
+        if this.floors() < this.mass.len() {
+            this.motions = this.under_one_motion().map(Arc::new);
         }
+        this
+    }
+
+    /// Buildings without gaps, each under ground motions of its own.
+    ///
+    /// # Errors
+    /// No motion, supports that are not one a building or name no motion, or a delay that is
+    /// negative or not finite.
+    pub fn with_motions(
+        buildings: Vec<Arc<ShearBuilding>>,
+        motions: Vec<GroundMotion>,
+        supports: Vec<Support>,
+    ) -> Result<Self, TimeHistoryError> {
+        let made = Motions::new(motions, supports, &buildings)?;
+        let first = made.motions[0].acceleration.clone();
+        let plain = made.motions.len() == 1 && made.motions[0].delay == 0.0;
+        let mut this = Self::new(buildings, first);
+        if !plain || this.motions.is_some() {
+            this.motions = Some(Arc::new(made));
+        }
+        Ok(this)
+    }
+
+    /// The motion there is under all buildings, for coordinates that do not follow it.
+    fn under_one_motion(&self) -> Option<Motions> {
+        let motion = GroundMotion {
+            acceleration: self.ground.clone(),
+            delay: 0.0,
+        };
+        let support = Support {
+            along: 0,
+            across: None,
+        };
+        let supports = vec![support; self.buildings.len()];
+        Motions::new(vec![motion], supports, &self.buildings).ok()
     }
 
     /// The same system, let go at time zero from these floor displacements (m) and
@@ -144,16 +213,20 @@ impl System {
         displacement: &[f64],
         velocity: &[f64],
     ) -> Result<Self, TimeHistoryError> {
-        let n = self.mass.len();
-        let initial: Vec<f64> = displacement.iter().chain(velocity).copied().collect();
+        let n = self.floors();
+        let mut initial: Vec<f64> = displacement.iter().chain(velocity).copied().collect();
         let wrong = displacement.len() != n || velocity.len() != n;
         if wrong || !initial.iter().all(|x| x.is_finite()) {
             return Err(TimeHistoryError::InitialState {
                 reason: format!("it takes {n} finite displacements and as many velocities"),
             });
         }
+        // What is no floor starts at rest.
+        let rest = vec![0.0; self.mass.len() - n];
+        initial.splice(n..n, rest.iter().copied());
+        initial.extend(rest);
         for (l, level) in self.levels.iter().enumerate() {
-            let overlap = level.relative(displacement) - level.width;
+            let overlap = level.relative(&initial) - level.width;
             if overlap > 0.0 {
                 return Err(TimeHistoryError::InitialState {
                     reason: format!("gap {} overlaps by {overlap} m", self.name_of_level(l)),
@@ -207,6 +280,7 @@ impl System {
                     reason: format!("gap {name} overlaps by {overlap} m at time zero"),
                 });
             }
+            self.weighted_levels |= !level.terms.is_empty();
             self.levels.push(level);
         }
         self.gaps.push(Gap {
@@ -220,7 +294,7 @@ impl System {
     }
 
     fn contact_level(
-        &self,
+        &mut self,
         name: &str,
         left: Floor,
         right: Floor,
@@ -236,37 +310,35 @@ impl System {
                 "width is {width} m; it must be zero or more"
             )));
         }
-        let place = |floor: Floor| -> Result<Option<(usize, usize, f64, f64)>, TimeHistoryError> {
-            let Floor::Storey(b, s) = floor else {
-                return Ok(None);
-            };
-            let building = self.buildings.get(b).filter(|x| s < x.storeys());
-            let name = || self.buildings.get(b).map_or("the building", |b| b.name());
-            let building =
-                building.ok_or_else(|| wrong(format!("{} has no storey {}", name(), s + 1)))?;
-            Ok(Some((
-                self.offsets[b] + s,
-                s + 1,
-                building.mass()[s],
-                building.elevations()[s],
-            )))
-        };
-        let (l, r) = (place(left)?, place(right)?);
-        let effective_mass = match (l, r) {
-            (Some(a), Some(b)) => a.2 * b.2 / (a.2 + b.2),
-            (Some(a), None) | (None, Some(a)) => a.2,
-            (None, None) => return Err(wrong("a level lies between two walls".to_owned())),
+        let between = [left, right];
+        let row = self.row_between(left, right).map_err(wrong)?;
+        let Row {
+            left,
+            right,
+            terms,
+            place,
+        } = row;
+        let effective_mass = match (left, right) {
+            (Some(a), Some(b)) if terms.pushed.is_empty() => {
+                self.mass[a] * self.mass[b] / (self.mass[a] + self.mass[b])
+            }
+            (Some(a), None) | (None, Some(a)) if terms.pushed.is_empty() => self.mass[a],
+            _ => {
+                let ends = [(left, 1.0), (right, -1.0)].into_iter();
+                let ends = ends.filter_map(|(i, w)| i.map(|i| (i, w)));
+                let all = ends.chain(terms.pushed.iter().copied());
+                1.0 / all.map(|(i, w)| w * w / self.mass[i]).sum::<f64>()
+            }
         };
         Ok(ContactLevel {
-            left: l.map(|x| x.0),
-            right: r.map(|x| x.0),
-            place: LevelPlace {
-                storeys: [l, r].map(|x| x.map(|x| x.1)),
-                elevations: [l, r].map(|x| x.map(|x| x.3)),
-            },
+            left,
+            right,
+            place,
             width,
             effective_mass,
             model,
+            between,
+            terms,
         })
     }
 
@@ -278,6 +350,7 @@ impl System {
         Self {
             gaps: Vec::new(),
             levels: Vec::new(),
+            weighted_levels: false,
             elements: storeys(&self.buildings, &self.offsets).1,
             links: Vec::new(),
             ..self.clone()
@@ -298,7 +371,7 @@ impl System {
     /// Constants of contact-free motion; `None` if the damping of a building couples its modes,
     /// or where elements have a memory.
     pub(crate) fn contact_free(&self) -> Option<&ContactFree> {
-        if !self.elements.is_empty() {
+        if !self.elements.is_empty() || !self.is_plain() {
             return None;
         }
         let step = self.ground.time_step;
@@ -360,9 +433,216 @@ impl System {
         self.mass.len()
     }
 
+    /// Number of floors of all buildings: the first degrees of freedom.
+    #[must_use]
+    pub fn floors(&self) -> usize {
+        self.offsets.last().copied().unwrap_or(0)
+    }
+
+    /// Degrees of freedom of a building that are no floors.
+    #[must_use]
+    pub fn further_coordinates(&self, building: usize) -> std::ops::Range<usize> {
+        self.further_offsets[building]..self.further_offsets[building + 1]
+    }
+
+    /// Number of degrees of freedom with mass: all but displacements of the ground.
+    pub(crate) fn with_mass(&self) -> usize {
+        self.mass.len() - self.moving_ground.len()
+    }
+
+    /// Whether all degrees of freedom are floors under one ground motion, and all contacts
+    /// between two of them or a floor and a wall.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.motions.is_none() && self.mass.len() == self.floors() && !self.weighted_levels
+    }
+
+    /// Acceleration of the ground that degree of freedom `i` is relative to, as the equation
+    /// of motion takes it (m/s2).
+    #[inline]
+    pub(crate) fn ground_on(&self, i: usize, ground: Grounds) -> f64 {
+        match &self.motions {
+            None => ground.first,
+            Some(motions) => {
+                let (motion, weight) = motions.loads[i];
+                if weight == 0.0 {
+                    return 0.0;
+                }
+                let (value, slope) = match motions.intervals.get(ground.interval) {
+                    None => (0.0, 0.0),
+                    Some(interval) => (interval.loads[motion][0], interval.loads[motion][1]),
+                };
+                weight * (value + slope * ground.tau)
+            }
+        }
+    }
+
+    /// Slope of the same (m/s3).
+    pub(crate) fn ground_slope_on(&self, i: usize, segment: &Segment) -> f64 {
+        match &self.motions {
+            None => segment.slope,
+            Some(motions) => {
+                let (motion, weight) = motions.loads[i];
+                let interval = motions.intervals.get(segment.interval);
+                weight * interval.map_or(0.0, |interval| interval.loads[motion][1])
+            }
+        }
+    }
+
+    /// Whether no ground acceleration jumps between two instants at the same time.
+    pub(crate) fn same_ground(&self, a: Grounds, b: Grounds) -> bool {
+        match &self.motions {
+            None => a.first == b.first,
+            Some(motions) => {
+                let at = |ground: Grounds, motion: usize| {
+                    let interval = motions.intervals.get(ground.interval);
+                    interval.map_or(0.0, |interval| {
+                        interval.loads[motion][0] + interval.loads[motion][1] * ground.tau
+                    })
+                };
+                (0..motions.motions.len()).all(|m| {
+                    let (a, b) = (at(a, m), at(b, m));
+                    (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
+                })
+            }
+        }
+    }
+
+    /// Interval number `sample` up to the end of the run, in which every ground acceleration is
+    /// linear; after the last sample the ground stands still.
+    pub(crate) fn segment(&self, sample: usize, duration: f64) -> Option<Segment> {
+        match &self.motions {
+            None => self.segment_of_samples(sample, duration),
+            Some(motions) => {
+                let intervals = &motions.intervals;
+                let step = self.ground.time_step;
+                let (start, length) = match intervals.get(sample) {
+                    Some(interval) => (interval.start, interval.length),
+                    None => {
+                        let end = intervals.last().map_or(0.0, |i| i.start + i.length);
+                        (end + (sample - intervals.len()) as f64 * step, step)
+                    }
+                };
+                let rest = duration - start;
+                if rest <= 1.0e-9 * step {
+                    return None;
+                }
+                let whole = rest > length * (1.0 - 1.0e-9) && rest < length * (1.0 + 1.0e-9);
+                let [acceleration, slope] = intervals.get(sample).map_or([0.0; 2], |i| i.loads[0]);
+                Some(Segment {
+                    start,
+                    length: if whole { length } else { rest.min(length) },
+                    acceleration,
+                    slope,
+                    interval: sample,
+                })
+            }
+        }
+    }
+
+    fn segment_of_samples(&self, sample: usize, duration: f64) -> Option<Segment> {
+        let ground = &self.ground;
+        let start = sample as f64 * ground.time_step;
+        // The last interval may be round-off: duration is often a whole number of steps.
+        let rest = duration - start;
+        if rest <= 1.0e-9 * ground.time_step {
+            return None;
+        }
+        let (a, b) = match (ground.samples.get(sample), ground.samples.get(sample + 1)) {
+            (Some(a), Some(b)) => (*a, *b),
+            _ => (0.0, 0.0),
+        };
+        let whole = ground.time_step;
+        let length = if rest < whole * (1.0 + 1.0e-9) && rest > whole * (1.0 - 1.0e-9) {
+            whole
+        } else {
+            rest.min(whole)
+        };
+        Some(Segment {
+            start,
+            length,
+            acceleration: a,
+            slope: (b - a) / whole,
+            interval: sample,
+        })
+    }
+
+    /// Ground accelerations at time zero.
+    pub(crate) fn ground_at_start(&self) -> Grounds {
+        let first = self.ground.samples.first().copied().unwrap_or(0.0);
+        let delayed = self
+            .motions
+            .as_ref()
+            .is_some_and(|m| m.motions[0].delay > 0.0);
+        Grounds {
+            first: if delayed { 0.0 } else { first },
+            interval: 0,
+            tau: 0.0,
+        }
+    }
+
+    /// Time (s) until which all ground stands still.
+    pub(crate) fn ground_at_rest_until(&self) -> f64 {
+        let of = |ground: &GroundAcceleration, delay: f64| {
+            let first = ground.samples.iter().position(|a| *a != 0.0)?;
+            Some(delay + first.saturating_sub(1) as f64 * ground.time_step)
+        };
+        match &self.motions {
+            None => of(&self.ground, 0.0).unwrap_or(0.0),
+            Some(motions) => {
+                let begin = motions.motions.iter();
+                let begin = begin.filter_map(|m| of(&m.acceleration, m.delay));
+                begin.reduce(f64::min).unwrap_or(0.0)
+            }
+        }
+    }
+
+    /// The ground motions, the first of which is [`System::ground`]; empty where that one is
+    /// under all buildings.
+    #[must_use]
+    pub fn ground_motions(&self) -> &[GroundMotion] {
+        self.motions.as_ref().map_or(&[], |m| &m.motions)
+    }
+
+    /// Ground motion along the row under a building, by its number in
+    /// [`System::ground_motions`].
+    pub(crate) fn motion_under(&self, building: usize) -> usize {
+        let motions = self.motions.as_ref();
+        motions.map_or(0, |m| m.supports[building].along)
+    }
+
+    /// Degree of freedom that is the displacement of a ground motion; made when first asked for.
+    fn displacement_of_ground(&mut self, motion: usize) -> usize {
+        let first = self.with_mass();
+        if let Some(k) = self.moving_ground.iter().position(|m| *m == motion) {
+            return first + k;
+        }
+        if self.motions.is_none() {
+            self.motions = self.under_one_motion().map(Arc::new);
+        }
+        if let Some(motions) = &mut self.motions {
+            Arc::make_mut(motions).loads.push((motion, -1.0));
+        }
+        let n = self.mass.len();
+        self.mass.push(1.0);
+        self.initial.insert(n, 0.0);
+        self.initial.push(0.0);
+        self.moving_ground.push(motion);
+        n
+    }
+
     /// Shears and moments that are rows on the floors.
     pub(crate) fn sections(&self) -> &[SectionForce] {
         &self.sections
+    }
+
+    /// Responses that are sums of absolute accelerations.
+    pub(crate) fn acceleration_rows(&self) -> &[SectionForce] {
+        &self.acceleration_rows
+    }
+
+    /// Number of responses with names of all buildings.
+    pub(crate) fn named_responses(&self) -> usize {
+        self.buildings.iter().map(|b| b.responses().len()).sum()
     }
 
     /// Matrices of all buildings, if they are all tridiagonal.
@@ -376,10 +656,11 @@ impl System {
         &self.mass
     }
 
-    /// Duration of the ground motion (s).
+    /// Duration of the ground motion (s), of the one that ends last if there are several.
     #[must_use]
     pub fn record_duration(&self) -> f64 {
-        self.ground.time_step * self.ground.samples.len().saturating_sub(1) as f64
+        let motions = self.motions.as_ref();
+        motions.map_or_else(|| self.ground.duration(), |m| m.duration())
     }
 
     /// Storey forces, restoring and damping: `out = -(K u + C v)` (N), with the damping
@@ -396,16 +677,39 @@ impl System {
             bands.internal_forces(u, v, out, scratch);
             return;
         }
-        for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
-            let (a, b) = (range[0], range[1]);
-            building
-                .stiffness_matrix()
-                .multiply(&u[a..b], &mut out[a..b]);
-            building.apply_damping(&v[a..b], &mut scratch[a..b]);
+        for (index, building) in self.buildings.iter().enumerate() {
+            let parts = self.parts(index);
+            match (building.stiffness_matrix(), parts[1].is_empty()) {
+                (StiffnessMatrix::Dense(k), false) => multiply_parts(k, &parts, u, out),
+                (matrix, _) => matrix.multiply(&u[parts[0].clone()], &mut out[parts[0].clone()]),
+            }
         }
+        self.damping_forces(v, scratch);
+        out[self.with_mass()..].fill(0.0);
         for (o, s) in out.iter_mut().zip(scratch.iter()) {
             *o = -(*o + *s);
         }
+    }
+
+    /// Damping forces (N) at these velocities.
+    pub(crate) fn damping_forces(&self, v: &[f64], out: &mut [f64]) {
+        for (index, building) in self.buildings.iter().enumerate() {
+            let parts = self.parts(index);
+            match (building.damping_matrix(), parts[1].is_empty()) {
+                (DampingMatrix::Dense(c), false) => multiply_parts(c, &parts, v, out),
+                (_, _) => {
+                    let floors = parts[0].clone();
+                    building.apply_damping(&v[floors.clone()], &mut out[floors]);
+                }
+            }
+        }
+        out[self.with_mass()..].fill(0.0);
+    }
+
+    /// Degrees of freedom of a building: its floors, and its other coordinates.
+    pub(crate) fn parts(&self, building: usize) -> [std::ops::Range<usize>; 2] {
+        let floors = self.offsets[building]..self.offsets[building + 1];
+        [floors, self.further_coordinates(building)]
     }
 
     /// Row `i` of `K u + C v` alone, which calls for no more of `u` and `v` than it needs.
@@ -448,13 +752,13 @@ impl System {
     /// Recoverable energy in the linear storeys, and of gravity through P-Delta (J).
     pub(crate) fn strain_energy(&self, u: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for (building, range) in self.buildings.iter().zip(self.offsets.windows(2)) {
+        for (index, building) in self.buildings.iter().enumerate() {
             let mut below = 0.0;
-            let range = range[0]..range[1];
+            let [range, further] = self.parts(index);
             if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
-                let u = &u[range];
-                for (column, x) in k.column_iter().zip(u) {
-                    let force: f64 = column.iter().zip(u).map(|(k, u)| k * u).sum();
+                let all = || u[range.clone()].iter().chain(&u[further.clone()]);
+                for (column, x) in k.column_iter().zip(all()) {
+                    let force: f64 = column.iter().zip(all()).map(|(k, u)| k * u).sum();
                     sum += 0.5 * force * x;
                 }
                 continue;
@@ -470,7 +774,8 @@ impl System {
 
     /// Kinetic energy relative to the ground (J).
     pub(crate) fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
+        let mass = &self.mass[..self.with_mass()];
+        mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 }
 
@@ -482,11 +787,37 @@ impl ContactLevel {
 
     /// The same, which calls for no more of the quantity than it needs.
     pub(crate) fn relative_of(&self, x: impl Fn(usize) -> f64) -> f64 {
-        match (self.left, self.right) {
+        let of_floors = match (self.left, self.right) {
             (Some(l), Some(r)) => x(l) - x(r),
             (Some(l), None) => x(l),
             (None, Some(r)) => -x(r),
             (None, None) => 0.0,
+        };
+        if self.terms.is_empty() {
+            return of_floors;
+        }
+        of_floors + self.terms.sum_of(x)
+    }
+}
+
+/// Product of a building's matrix with its floors and its other coordinates.
+fn multiply_parts(
+    matrix: &DMatrix<f64>,
+    [floors, further]: &[std::ops::Range<usize>; 2],
+    x: &[f64],
+    out: &mut [f64],
+) {
+    let count = floors.len();
+    out[floors.clone()].fill(0.0);
+    out[further.clone()].fill(0.0);
+    let all = floors.clone().chain(further.clone());
+    for (column, i) in matrix.column_iter().zip(all) {
+        let (x, entries) = (x[i], column.as_slice());
+        for (o, c) in out[floors.clone()].iter_mut().zip(&entries[..count]) {
+            *o += c * x;
+        }
+        for (o, c) in out[further.clone()].iter_mut().zip(&entries[count..]) {
+            *o += c * x;
         }
     }
 }

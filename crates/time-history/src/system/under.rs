@@ -5,8 +5,9 @@ use std::sync::Arc;
 use super::{GroundAcceleration, System};
 
 impl System {
-    /// The same buildings and gaps under another ground motion. With the same time step,
-    /// what depends on the buildings alone stays shared with this system.
+    /// The same buildings and gaps under another ground motion, which takes the place of the
+    /// first one wherever and whenever this moves the ground; other motions stay. With the same
+    /// time step, what depends on the buildings alone stays shared with this system.
     #[must_use]
     pub fn under(&self, ground: GroundAcceleration) -> Self {
         // Constants of contact-free motion belong to one time step.
@@ -17,6 +18,7 @@ impl System {
             } else {
                 Arc::default()
             },
+            motions: (self.motions.as_ref()).map(|m| Arc::new(m.with_first(&self.ground, &ground))),
             ground,
             ..self.clone()
         }

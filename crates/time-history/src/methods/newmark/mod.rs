@@ -166,16 +166,17 @@ impl Newmark {
             self.predictor[i] = u[i] + h * v[i] + h * h * (0.5 - beta) * a;
             self.velocity_predictor[i] = v[i] + h * (1.0 - gamma) * a;
         }
-        let ground =
-            weight * context.segment.ground(tau + h) - self.alpha * context.segment.ground(tau);
+        let segment = context.segment;
+        let ends = [segment.ground(tau), segment.ground(tau + h)];
         system.internal_forces(
             &self.predictor,
             &self.velocity_predictor,
             &mut self.load,
             &mut self.scratch,
         );
-        for (load, m) in self.load.iter_mut().zip(system.mass()) {
-            *load = weight * *load - m * ground;
+        for (i, (load, m)) in self.load.iter_mut().zip(system.mass()).enumerate() {
+            let [start, end] = ends.map(|ground| system.ground_on(i, ground));
+            *load = weight * *load - m * (weight * end - self.alpha * start);
         }
         if self.alpha != 0.0 {
             system.internal_forces(u, v, &mut self.last, &mut self.scratch);
@@ -211,16 +212,16 @@ impl Newmark {
             new[n + i] = self.velocity_predictor[i] + self.gamma * h * self.last[i];
         }
         new[2 * n..].copy_from_slice(&state[2 * n..]);
-        let ground = 0.5 * (context.segment.ground(tau) + context.segment.ground(tau + h));
+        let segment = context.segment;
+        let ends = [segment.ground(tau), segment.ground(tau + h)];
         for i in 0..n {
             self.predictor[i] = 0.5 * (state[n + i] + new[n + i]);
         }
-        for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
-            let (a, b) = (range[0], range[1]);
-            building.apply_damping(&self.predictor[a..b], &mut self.scratch[a..b]);
-        }
+        system.damping_forces(&self.predictor, &mut self.scratch);
         let (mut input, mut viscous) = (0.0, 0.0);
-        for i in 0..n {
+        for i in 0..system.with_mass() {
+            let [start, end] = ends.map(|ground| system.ground_on(i, ground));
+            let ground = 0.5 * (start + end);
             let moved = new[i] - state[i];
             input -= system.mass()[i] * moved * ground;
             viscous += moved * self.scratch[i];
@@ -233,6 +234,15 @@ impl Newmark {
             let closed_in = level.relative(&new[..n]) - level.relative(&state[..n]);
             new[layout.work(l)] += mean * closed_in;
             new[layout.impulse(l)] += mean * h;
+            new[layout.input()] += mean * level.terms.ground_of(|i| new[i] - state[i]);
+        }
+        let closed = context.contacts.closed().len();
+        for (k, element) in system.elements().iter().enumerate() {
+            let moved = element.terms.ground_of(|i| new[i] - state[i]);
+            if moved != 0.0 {
+                let k = closed + k;
+                new[layout.input()] += 0.5 * (self.start_forces[k] + self.unknowns[k]) * moved;
+            }
         }
     }
 }

@@ -1,0 +1,78 @@
+//! Coordinates of a building that are no floors, and responses that are sums over all of them.
+
+use nalgebra::DMatrix;
+
+use crate::damping::Damping;
+
+/// Which component of the ground motion accelerates the ground under a coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Excitation {
+    /// None: a rotation, for which a shift of the ground is no motion.
+    None,
+    /// The one along the row of buildings, as of floors.
+    Along,
+    /// The one across it.
+    Across,
+}
+
+/// A coordinate of a building that is no floor: the sway or the rotation of a foundation, a
+/// point of a column, a floor's displacement across the row or its rotation in plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coordinate {
+    /// What it is, in words for messages.
+    pub name: String,
+    /// Mass (kg), or moment of inertia of a rotation (kg m2).
+    pub inertia: f64,
+    /// The ground motion that it is relative to.
+    pub excitation: Excitation,
+}
+
+/// What the sum of a [`ResponseRow`] runs over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ResponseKind {
+    /// Coordinates.
+    Displacement,
+    /// Absolute accelerations of the coordinates.
+    Acceleration,
+}
+
+/// A response of a building with a name: a sum over its coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseRow {
+    /// Name in results: lower case with underscores, such as `foundation_rotation`.
+    pub name: String,
+    /// SI unit of the response, such as `rad`.
+    pub unit: &'static str,
+    /// Of what.
+    pub kind: ResponseKind,
+    /// One a coordinate, floors first.
+    pub weights: Vec<f64>,
+}
+
+/// A building of floors and other coordinates with full matrices; see
+/// [`crate::ShearBuilding::with_coordinates`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct GeneralBuilding {
+    /// Name.
+    pub name: String,
+    /// Floor masses (kg), bottom first.
+    pub mass: Vec<f64>,
+    /// Storey heights (m), bottom first.
+    pub height: Vec<f64>,
+    /// Coordinates after the floors.
+    pub further: Vec<Coordinate>,
+    /// Stiffness of all coordinates, floors first (N/m; N m/rad on the diagonal of rotations).
+    pub stiffness: DMatrix<f64>,
+    /// Damping of all coordinates.
+    pub damping: Damping,
+    /// Drift of every storey (m) as a sum over the coordinates; `None` where it is the
+    /// difference of the floors at both its ends.
+    pub drifts: Option<Vec<Vec<f64>>>,
+    /// Shear of every storey (N), bottom first, then the overturning moment at the base
+    /// (N m), as sums over the coordinates.
+    pub sections: Vec<Vec<f64>>,
+    /// Further responses.
+    pub responses: Vec<ResponseRow>,
+}

@@ -80,6 +80,19 @@ pub fn all_digits(value: f64) -> String {
     }
 }
 
+/// Factor and unit in which a quantity with this SI unit is shown to an engineer; the SI unit
+/// itself where there is no other.
+#[must_use]
+pub fn shown_unit(si: &str) -> (f64, &str) {
+    match si {
+        "m" => (1.0e3, "mm"),
+        "N" => (1.0e-3, "kN"),
+        "N m" => (1.0e-3, "kN m"),
+        "rad" => (1.0e3, "mrad"),
+        other => (1.0, other),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -23,6 +23,6 @@ pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_re
 pub use loops::cycle_cells;
 pub use page::page;
 pub use result::{
-    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult,
-    RunResult, StoreyPeaks, Table,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
+    LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,
 };

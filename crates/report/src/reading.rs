@@ -8,11 +8,14 @@ use pounding_results::{ResultFile, number, read_all, text, texts, value, values}
 
 use crate::error::ReportError;
 use crate::result::{
-    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, LinkResult,
-    RunResult, StoreyPeaks, Table,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
+    LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
+
+/// Names of responses with their units.
+type NamesAndUnits = Vec<(String, String)>;
 
 impl RunResult {
     /// Reads a result file whose checksum matches; one without a checksum only if that is
@@ -183,6 +186,7 @@ impl Reader {
             shear_peaks: of("storey_shear")?,
             acceleration_peaks: of("acceleration_absolute")?,
             base_moment: self.base_moment(&peaks)?,
+            responses: self.responses(&peaks)?,
             ductility: ductility.transpose()?,
             period: self.column(group, "period")?,
             damping_ratio: self.column(group, "damping_ratio")?,
@@ -214,6 +218,65 @@ impl Reader {
             time: one("base_moment_time")?,
             isolated: one("isolated_base_moment")?,
         }))
+    }
+
+    /// Peaks of the responses with names of a building.
+    fn responses(&self, peaks: &Group) -> Outcome<Vec<NamedResponse>> {
+        let Some((group, names)) = self.names_of_responses(peaks, "response")? else {
+            return Ok(Vec::new());
+        };
+        let one = |name: &str| -> Outcome<f64> {
+            value(&group, name).map_err(self.failed(&format!("{}/{name}", group.name())))
+        };
+        let made = names.into_iter().map(|(name, unit)| {
+            Ok(NamedResponse {
+                unit,
+                value: one(&name)?,
+                time: one(&format!("{name}_time"))?,
+                isolated: one(&format!("isolated_{name}"))?,
+                name,
+            })
+        });
+        made.collect()
+    }
+
+    /// Peaks of the responses of levels, by name.
+    fn level_responses(&self, gap: &Group) -> Outcome<Vec<LevelResponses>> {
+        let Some((group, names)) = self.names_of_responses(gap, "response/peak")? else {
+            return Ok(Vec::new());
+        };
+        let made = names.into_iter().map(|(name, unit)| {
+            Ok(LevelResponses {
+                unit,
+                value: self.column(&group, &name)?,
+                time: self.column(&group, &format!("{name}_time"))?,
+                name,
+            })
+        });
+        made.collect()
+    }
+
+    /// The group of that path, with names and units of what has a peak there; `None` if there is
+    /// no such group.
+    fn names_of_responses(
+        &self,
+        parent: &Group,
+        path: &str,
+    ) -> Outcome<Option<(Group, NamesAndUnits)>> {
+        if !parent.link_exists("response") {
+            return Ok(None);
+        }
+        let group = self.group(parent, path)?;
+        let members = group.member_names().map_err(self.failed(&group.name()))?;
+        let timed = members.iter().filter_map(|name| name.strip_suffix("_time"));
+        let names = timed.filter(|name| !name.starts_with("isolated_"));
+        let mut found = Vec::new();
+        for name in names {
+            let object = format!("{}/{name}", group.name());
+            let data = group.dataset(name).map_err(self.failed(&object))?;
+            found.push((name.to_owned(), self.text(&data, "units")?));
+        }
+        Ok(Some((group, found)))
     }
 
     /// Levels of a gap or a link.
@@ -262,13 +325,15 @@ impl Reader {
             width: self.column(group, "width")?,
             penetration: self.table(group, "penetration")?,
             impacts: impacts().map_err(self.failed(&object))?,
+            responses: self.level_responses(group)?,
             levels,
         };
         let levels = gap.levels.len();
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
         let fits = gap.width.len() == levels
             && gap.penetration.columns == levels
-            && gap.impacts.iter().all(known);
+            && gap.impacts.iter().all(known)
+            && (gap.responses.iter()).all(|r| r.value.len() == levels && r.time.len() == levels);
         self.fits(group, fits)?;
         Ok(gap)
     }

@@ -43,6 +43,34 @@ pub struct BaseMoment {
     pub isolated: f64,
 }
 
+/// The peak of a response with a name of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedResponse {
+    /// Name in the file, such as `foundation_rotation`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// Peak magnitude.
+    pub value: f64,
+    /// When (s).
+    pub time: f64,
+    /// Peak magnitude in the isolated building.
+    pub isolated: f64,
+}
+
+/// Peaks of a response of the levels of a gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LevelResponses {
+    /// Name in the file, such as `column_shear_below`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// Peak magnitude of every level, bottom first; NaN where a level has no such response.
+    pub value: Vec<f64>,
+    /// When (s).
+    pub time: Vec<f64>,
+}
+
 /// One building.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildingResult {
@@ -62,6 +90,8 @@ pub struct BuildingResult {
     pub acceleration_peaks: StoreyPeaks,
     /// Peak overturning moment at the base, of a building with a stiffness matrix.
     pub base_moment: Option<BaseMoment>,
+    /// Responses with names of their own.
+    pub responses: Vec<NamedResponse>,
     /// Ductility of every storey (-), where any has a law; NaN where there is no yield force.
     pub ductility: Option<Vec<f64>>,
     /// Natural periods (s).
@@ -139,6 +169,8 @@ pub struct GapResult {
     pub penetration: Table,
     /// Impacts in order of closure.
     pub impacts: Vec<ImpactResult>,
+    /// What its levels bear beside contact forces.
+    pub responses: Vec<LevelResponses>,
 }
 
 impl GapResult {

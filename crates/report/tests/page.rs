@@ -3,8 +3,8 @@
 
 use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
-    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResult, ReportError,
-    RunResult, StoreyPeaks, Table, page,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
+    LevelResult, NamedResponse, ReportError, RunResult, StoreyPeaks, Table, page,
 };
 
 fn peaks(value: [f64; 2], isolated: [f64; 2]) -> StoreyPeaks {
@@ -57,6 +57,7 @@ fn result() -> RunResult {
         shear_peaks: peaks([2.0e5, 1.0e5], [1.0e5, 1.0e5]),
         acceleration_peaks: peaks([4.0, 9.0], [3.0, 3.0]),
         base_moment: None,
+        responses: Vec::new(),
         ductility: None,
         period: vec![0.61, 0.2],
         damping_ratio: vec![0.05, 0.05],
@@ -86,6 +87,7 @@ fn result() -> RunResult {
             width: vec![0.02, 0.02],
             penetration: table(&wave),
             impacts: vec![impact(2, 1.271e6), impact(1, 3.0e5), impact(2, 8.0e5)],
+            responses: Vec::new(),
         }],
         links: Vec::new(),
         energy: EnergyHistory {
@@ -165,6 +167,36 @@ fn base_moments_stand_in_the_page() {
     let html = page(&result, "pair.h5").unwrap();
     assert!(!html.contains("moment at the base \u{2013}") && !html.contains("NaN"));
     assert!(html.contains("<td>4.321</td><td>\u{2013}</td><td>\u{2013}</td>"));
+}
+
+#[test]
+fn responses_with_names_stand_in_the_page() {
+    let mut result = result();
+    result.buildings[0].responses = vec![NamedResponse {
+        name: "foundation_rotation".to_owned(),
+        unit: "rad".to_owned(),
+        value: 1.234e-3,
+        time: 5.6,
+        isolated: 0.617e-3,
+    }];
+    result.gaps[0].responses = vec![LevelResponses {
+        name: "column_shear_below".to_owned(),
+        unit: "N".to_owned(),
+        value: vec![f64::NAN, 432.1e3],
+        time: vec![f64::NAN, 7.8],
+    }];
+    let html = page(&result, "pair.h5").unwrap();
+    is_whole(&html);
+    for text in ["foundation rotation (mrad)", "1.234", "0.617", "2.00"] {
+        assert!(html.contains(text), "{text}");
+    }
+    for text in ["column shear below (kN)", "432.1", "7.800"] {
+        assert_eq!(
+            html.matches(&format!("<td>{text}</td>")).count(),
+            1,
+            "{text}"
+        );
+    }
 }
 
 #[test]

@@ -219,6 +219,9 @@ pub struct LevelOutcome {
     /// By how much plastic deformation widened the gap (m), where the separation
     /// rule has it.
     pub gap_widening: f64,
+    /// Responses of the level ([`crate::System::add_level_response`]).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub responses: Vec<NamedPeak>,
 }
 
 /// What happened in one gap, levels from the bottom.
@@ -308,9 +311,11 @@ impl Outcome {
         }
         for building in &mut outcome.buildings {
             building.base_moment = building.base_moment.map(|_| unknown);
-            for response in &mut building.responses {
-                response.peak = unknown;
-            }
+        }
+        let buildings = outcome.buildings.iter_mut().flat_map(|b| &mut b.responses);
+        let levels = outcome.gaps.iter_mut().flat_map(|g| &mut g.levels);
+        for response in buildings.chain(levels.flat_map(|l| &mut l.responses)) {
+            response.peak = unknown;
         }
         outcome
     }

@@ -22,6 +22,8 @@ pub(crate) struct Peaks {
     pub base_moment: Vec<Peak>,
     /// Responses with names, of all buildings.
     pub named: Vec<Peak>,
+    /// Responses of contact levels.
+    pub of_levels: Vec<Peak>,
     /// Maximum force of each level during its present impact (N).
     pub force: Vec<Peak>,
     /// Maximum penetration of each level during its present impact (m).
@@ -56,6 +58,7 @@ impl Peaks {
             storeys: vec![StoreyPeaks::default(); system.floors()],
             base_moment: vec![Peak::default(); buildings.len()],
             named: vec![Peak::default(); system.named_responses()],
+            of_levels: vec![Peak::default(); system.level_rows().len()],
             force: vec![Peak::default(); layout.levels],
             penetration: vec![Peak::default(); layout.levels],
             elements: vec![ElementPeaks::default(); system.elements().len()],
@@ -102,6 +105,10 @@ impl Peaks {
             let own = |i: usize| self.acceleration[0][i] + system.ground_on(i, ground);
             let sum: f64 = row.terms().map(|(i, w)| w * own(i)).sum();
             self.raise_section(row.place, sum.abs(), 0.0);
+        }
+        for (row, peak) in system.level_rows().iter().zip(&mut self.of_levels) {
+            let sum: f64 = row.terms.iter().map(|(i, w)| w * u[*i]).sum();
+            peak.raise(sum.abs(), 0.0);
         }
         for (index, element) in system.elements().iter().enumerate() {
             let force = context
@@ -178,12 +185,50 @@ impl Peaks {
         for row in system.acceleration_rows() {
             self.acceleration_row(context, method, row, place);
         }
+        for index in 0..system.level_rows().len() {
+            self.level_row(context, method, finder, index, place);
+        }
         for k in 0..context.contacts.closed().len() {
             let level = context.contacts.closed()[k];
             self.contact(context, method, finder, level, place);
         }
         for index in 0..self.elements.len() {
             self.element(context, method, index, place);
+        }
+    }
+
+    /// A response of a contact level, with the contact force at the nodes of a fit.
+    fn level_row(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        finder: &mut Finder,
+        index: usize,
+        (tau, step): (f64, f64),
+    ) {
+        let row = &context.dynamics.system.level_rows()[index];
+        let mut sum = Polynomial::default();
+        for (i, weight) in &row.terms {
+            for (sum, c) in sum.iter_mut().zip(method.polynomial(*i)) {
+                *sum += weight * c;
+            }
+        }
+        if row.by_force != 0.0 && context.contacts.contact(row.level).is_some() {
+            let (delta, rate) = (
+                penetration(context, method, row.level),
+                velocity(context, method, row.level),
+            );
+            let forces = fit_nodes().map(|theta| {
+                let at = (value(&delta, theta), value(&rate, theta));
+                force_of(context, method, finder, row.level, (tau, step, theta), at)
+            });
+            for (sum, c) in sum.iter_mut().zip(fit(&forces)) {
+                *sum += row.by_force * c;
+            }
+        }
+        let peak = &mut self.of_levels[index];
+        if let Some((theta, top)) = absolute_maximum(&sum, peak.value) {
+            peak.raise(top, context.segment.start + tau + theta * step);
         }
     }
 
@@ -403,19 +448,9 @@ impl Peaks {
             self.penetration[l].raise(top, start + theta * step);
         }
         let rate = velocity(context, method, l);
-        let stuck = context.contacts.contact(l).is_some_and(|c| c.is_stuck());
         let mut force = |theta: f64| -> f64 {
-            if stuck {
-                return finder.force_at(context, method, l, (tau, step, theta));
-            }
-            context.contacts.contact(l).map_or(0.0, |c| {
-                c.force(
-                    &context.dynamics.system.levels()[l],
-                    value(&delta, theta),
-                    value(&rate, theta),
-                )
-                .value
-            })
+            let at = (value(&delta, theta), value(&rate, theta));
+            force_of(context, method, finder, l, (tau, step, theta), at)
         };
         let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
@@ -428,6 +463,25 @@ impl Peaks {
         }
         if let Some((theta, _)) = maximum_above(&fitted, peak.value * NEAR) {
             peak.raise(force(theta), start + theta * step);
+        }
+    }
+}
+
+/// Force of a closed level at a place in the step, with its penetration and their rate there.
+fn force_of(
+    context: &mut Context<'_, '_>,
+    method: &dyn Method,
+    finder: &mut Finder,
+    level: usize,
+    place: (f64, f64, f64),
+    (delta, rate): (f64, f64),
+) -> f64 {
+    match context.contacts.contact(level) {
+        None => 0.0,
+        Some(contact) if contact.is_stuck() => finder.force_at(context, method, level, place),
+        Some(contact) => {
+            let level = &context.dynamics.system.levels()[level];
+            contact.force(level, delta, rate).value
         }
     }
 }

@@ -41,7 +41,8 @@ pub struct Sample {
     /// floors ([`pounding_shear_building::ShearBuilding::drifts`]), from the left.
     pub drift: Vec<f64>,
     /// Responses with names of all buildings, from the left
-    /// ([`pounding_shear_building::ShearBuilding::responses`]).
+    /// ([`pounding_shear_building::ShearBuilding::responses`]), then those of all contact levels
+    /// in the order in which they were added ([`System::add_level_response`]).
     pub response: Vec<f64>,
     /// Deformation of every element (m), in the order of [`System::elements`].
     pub element_deformation: Vec<f64>,
@@ -242,6 +243,10 @@ pub(crate) fn fill(
     out.drift.clear();
     out.response.clear();
     out.response.resize(system.named_responses(), 0.0);
+    for row in system.level_rows() {
+        let sum: f64 = row.terms.iter().map(|(i, w)| w * u[*i]).sum();
+        out.response.push(sum + row.by_force * out.force[row.level]);
+    }
     let mut sections = system.sections().iter();
     for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
         let mut below = 0.0;
@@ -352,7 +357,7 @@ pub struct History {
     pub base_moment: Vec<f64>,
     /// Drift of every storey (m) of buildings whose drifts are rows of their own.
     pub drift: Vec<f64>,
-    /// Responses with names of all buildings.
+    /// Responses with names of all buildings, then of all contact levels.
     pub response: Vec<f64>,
     /// Deformation of every element (m).
     pub element_deformation: Vec<f64>,

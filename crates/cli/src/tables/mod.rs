@@ -6,7 +6,7 @@ mod width;
 use comfy_table::{CellAlignment, Row};
 use pounding_assembly::Assembly;
 use pounding_case::Case;
-use pounding_catalogue::numbers::fixed;
+use pounding_catalogue::numbers::{fixed, shown_unit};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
@@ -131,8 +131,16 @@ fn building(run: &Run<'_>, index: usize) -> String {
         let moment = cell(a, b, 1e-3, 1);
         format!("overturning moment at the base (kN m): {moment}\n")
     });
+    let responses = with.responses.iter().zip(&isolated.responses);
+    let responses: String = responses
+        .map(|(a, b)| {
+            let (factor, unit) = shown_unit(a.unit);
+            let peak = cell(a.peak, b.peak, factor, 3);
+            format!("{} ({unit}): {peak}\n", a.name.replace('_', " "))
+        })
+        .collect();
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}",
+        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}{responses}",
         with.name
     )
 }
@@ -186,6 +194,25 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
     }
     text.push_str(&held_and_widened(&outcome.levels, levels));
+    text.push_str(&level_responses(&outcome.levels, levels));
+    text
+}
+
+/// What the levels bear beside contact forces, the top first.
+fn level_responses(levels: &[LevelOutcome], places: &[ContactLevel]) -> String {
+    let mut text = String::new();
+    for (l, at) in levels.iter().zip(places).rev() {
+        for response in &l.responses {
+            let ((factor, unit), peak) = (shown_unit(response.unit), response.peak);
+            text.push_str(&format!(
+                "Level {}: {} {} {unit} at {:.2} s\n",
+                at.place,
+                response.name.replace('_', " "),
+                decimal(peak.value * factor, 1),
+                peak.time
+            ));
+        }
+    }
     text
 }
 

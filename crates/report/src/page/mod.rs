@@ -50,6 +50,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         let mut inside = tables::modes(building);
         inside.push_str(&tables::storeys(building));
         inside.push_str(&tables::base_moment(building));
+        inside.push_str(&tables::responses(building));
         inside.push_str(&figures::profiles(result, building)?);
         inside.push_str(&figures::roof(result, index)?);
         let title = format!("Building {}", building.name);
@@ -58,6 +59,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
     for gap in &result.gaps {
         let mut inside = words::gap(gap);
         inside.push_str(&tables::levels(gap));
+        inside.push_str(&tables::level_responses(gap));
         inside.push_str(&figures::gap(result, gap)?);
         inside.push_str(&tables::hardest(gap, HARDEST));
         body.push_str(&section(&format!("Gap {}", gap.name), &inside));

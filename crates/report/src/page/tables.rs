@@ -1,6 +1,8 @@
 //! Tables of the page.
 
-use super::html::table;
+use pounding_catalogue::numbers::shown_unit;
+
+use super::html::{escaped, table};
 use super::numbers::{figures, ratio};
 use crate::result::{BuildingResult, GapResult, ImpactResult, LinkResult, StoreyPeaks};
 
@@ -85,6 +87,47 @@ pub(super) fn base_moment(building: &BuildingResult) -> String {
         ratio(moment.value, moment.isolated),
     ];
     table(&headings, std::iter::once(row))
+}
+
+/// Peaks of the responses with names of a building; nothing if it has none.
+pub(super) fn responses(building: &BuildingResult) -> String {
+    if building.responses.is_empty() {
+        return String::new();
+    }
+    let headings = ["response", "peak", "at (s)", "without", "ratio"];
+    let rows = building.responses.iter().map(|r| {
+        let (factor, unit) = shown_unit(&r.unit);
+        vec![
+            format!("{} ({unit})", r.name.replace('_', " ")),
+            figures(factor * r.value),
+            figures(r.time),
+            figures(factor * r.isolated),
+            ratio(r.value, r.isolated),
+        ]
+    });
+    table(&headings, rows)
+}
+
+/// What the levels of a gap bear beside contact forces, the top first; nothing if that is
+/// nothing.
+pub(super) fn level_responses(gap: &GapResult) -> String {
+    if gap.responses.is_empty() {
+        return String::new();
+    }
+    let headings = ["level", "response", "peak", "at (s)"];
+    let rows = (0..gap.levels.len()).rev().flat_map(|l| {
+        let known = gap.responses.iter().filter(move |r| r.value[l].is_finite());
+        known.map(move |r| {
+            let (factor, unit) = shown_unit(&r.unit);
+            vec![
+                gap.levels[l].label.clone(),
+                format!("{} ({unit})", r.name.replace('_', " ")),
+                figures(factor * r.value[l]),
+                figures(r.time[l]),
+            ]
+        })
+    });
+    table(&headings, rows)
 }
 
 /// The levels of a gap, the top first.
@@ -213,5 +256,5 @@ pub(super) fn link(link: &LinkResult) -> String {
             figures(1.0e-3 * at(&link.energy_dissipated)),
         ]
     });
-    format!("<p>Law: {}</p>\n", super::html::escaped(&link.law)) + &table(&headings, rows)
+    format!("<p>Law: {}</p>\n", escaped(&link.law)) + &table(&headings, rows)
 }

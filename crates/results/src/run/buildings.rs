@@ -23,6 +23,7 @@ pub(super) fn begin(
     time: &Dataset,
 ) -> Result<()> {
     let all = file.create_group("building")?;
+    let (mut drifts, mut responses) = (0, 0);
     for (index, building) in system.buildings().iter().enumerate() {
         let group = all.create_group(building.name())?;
         share_time(&group)?;
@@ -36,6 +37,15 @@ pub(super) fn begin(
         )?;
         dimension_scales::make_scale(&storey, "storey")?;
         let of_floors = |list| Content::Columns(list, range.clone());
+        let height = building.height().to_vec();
+        let of_drifts = match building.drifts() {
+            None => Content::DriftRatios(range.clone(), height),
+            Some(rows) => {
+                let own = drifts..drifts + rows.len();
+                drifts = own.end;
+                Content::OverHeights(own, height)
+            }
+        };
         for (names, content) in [
             (
                 (
@@ -59,7 +69,7 @@ pub(super) fn begin(
             ),
             (
                 ("drift_ratio", "1", "storey drift over storey height"),
-                Content::DriftRatios(range.clone(), building.height().to_vec()),
+                of_drifts,
             ),
             (
                 (
@@ -79,6 +89,11 @@ pub(super) fn begin(
             let data = tables.add(&group, names, Content::Column(|h| &h.base_moment, column))?;
             dimension_scales::attach(&data, time, 0)?;
         }
+        let first = responses;
+        responses += building.responses().len();
+        let rows = building.responses().iter();
+        let rows = rows.map(|row| (row.name.as_str(), row.unit)).zip(first..);
+        super::responses::begin(&group, rows, tables, time)?;
         elements::begin_storeys(&group, system, index, tables, (time, &storey))?;
         let modes = building.modes();
         let period = series(&group, "period", "s", "natural periods", &modes.period)?;
@@ -108,6 +123,7 @@ pub(super) fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>)
             if let Some(moment) = building.base_moment {
                 base_moment(&peaks, prefix, moment)?;
             }
+            super::responses::finish(&peaks, prefix, &building.responses)?;
         }
         elements::finish_storeys((&group, &peaks), &ending.outcome.buildings[index], &storey)?;
     }
@@ -166,7 +182,7 @@ fn base_moment(group: &Group, prefix: &str, peak: Peak) -> Result<()> {
 }
 
 /// What long names of peaks say of the run that they are of.
-fn without(prefix: &str) -> &'static str {
+pub(super) fn without(prefix: &str) -> &'static str {
     match prefix {
         "" => "",
         _ => " without pounding",

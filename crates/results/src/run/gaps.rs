@@ -5,7 +5,7 @@ use pounding_time_history::{Impact, LevelPlace, Outcome, System};
 
 use super::datasets::{series, table as rows_of};
 use super::tables::{Content, Tables};
-use super::{Result, levels, share_time};
+use super::{Result, levels, responses, share_time};
 use crate::attributes::text;
 use crate::dimension_scales;
 
@@ -93,6 +93,7 @@ pub(super) fn begin(
             text(&group, "separation", first.model.separation().name())?;
         }
         text(&group, "between", &gap.between.join(" | "))?;
+        responses::begin_levels(&group, system, gap, tables, (time, &level))?;
     }
     Ok(())
 }
@@ -107,6 +108,7 @@ pub(super) fn finish(file: &hdf5::File, system: &System, outcome: &Outcome) -> R
         let long_name = "widening of the gap by plastic deformation over the run";
         let widening = series(&group, "widening", "m", long_name, &widened)?;
         dimension_scales::attach(&widening, &level, 0)?;
+        responses::finish_levels(&group, &outcome.gaps[index].levels, &level)?;
         let impacts = outcome.impacts.iter().filter(|i| i.gap == index);
         let rows: Vec<ImpactRow> = impacts.map(ImpactRow::new).collect();
         let impacts = rows_of(&group, "impacts", &rows)?;

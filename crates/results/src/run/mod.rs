@@ -9,6 +9,7 @@ mod datasets;
 mod elements;
 mod gaps;
 mod levels;
+mod responses;
 mod size;
 mod tables;
 

@@ -27,6 +27,8 @@ pub(super) enum Content {
     Chosen(fn(&History) -> &[f64], Vec<Option<usize>>),
     /// Drift ratios of a building: its floors, its storey heights (m).
     DriftRatios(Range<usize>, Vec<f64>),
+    /// The same from drifts that are columns of their own.
+    OverHeights(Range<usize>, Vec<f64>),
     /// A part of the energy ledger.
     Energy(fn(&Energy) -> f64),
 }
@@ -117,7 +119,9 @@ impl Content {
     fn columns(&self) -> Option<usize> {
         match self {
             Self::Number(_) | Self::Column(..) | Self::Energy(_) => None,
-            Self::Columns(_, range) | Self::DriftRatios(range, _) => Some(range.len()),
+            Self::Columns(_, range) | Self::DriftRatios(range, _) | Self::OverHeights(range, _) => {
+                Some(range.len())
+            }
             Self::Chosen(_, columns) => Some(columns.len()),
         }
     }
@@ -135,6 +139,15 @@ impl Content {
                 let value = |row: &[f64], c: &Option<usize>| c.map_or(0.0, |c| row[c]);
                 rows.flat_map(|row| columns.iter().map(move |c| value(row, c)))
                     .collect()
+            }
+            Self::OverHeights(range, height) => {
+                let mut values = block.columns(&block.drift, range.clone());
+                for row in values.chunks_exact_mut(range.len().max(1)) {
+                    for (drift, h) in row.iter_mut().zip(height) {
+                        *drift *= 1.0 / h;
+                    }
+                }
+                values
             }
             Self::DriftRatios(range, height) => {
                 let mut values = block.columns(&block.displacement, range.clone());

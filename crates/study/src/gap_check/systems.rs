@@ -23,5 +23,8 @@ pub(crate) fn rebuilt(
         let (between, tolerance) = (gap.between.clone(), gap.elevation_tolerance);
         other.add_gap_with_tolerance(&gap.name, between, pairs.collect(), tolerance)?;
     }
+    for (level, response) in system.level_responses() {
+        other.add_level_response(level, response.clone())?;
+    }
     Ok(other)
 }

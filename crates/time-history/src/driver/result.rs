@@ -74,7 +74,14 @@ impl Driver<'_> {
             })
             .collect();
         let links = self.elements(&mut buildings);
-        let (levels, impacts) = self.log.into_outcome();
+        let (mut levels, impacts) = self.log.into_outcome();
+        for (row, peak) in self.system.level_rows().iter().zip(&self.peaks.of_levels) {
+            levels[row.level].responses.push(NamedPeak {
+                name: row.given.name.clone(),
+                unit: row.given.unit,
+                peak: *peak,
+            });
+        }
         let warnings = Warning::after(self.system, self.options, (&buildings, &levels));
         let gaps = self
             .system

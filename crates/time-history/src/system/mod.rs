@@ -1,6 +1,7 @@
 //! What is integrated: buildings in a row, contact levels between them, ground motion.
 
 mod level_place;
+mod level_response;
 mod links;
 mod motions;
 mod place;
@@ -17,6 +18,8 @@ use pounding_shear_building::{
 use std::sync::{Arc, OnceLock};
 
 pub use level_place::LevelPlace;
+pub use level_response::LevelResponse;
+use level_response::LevelRow;
 use links::storeys;
 pub use links::{Link, LinkedPair};
 pub(crate) use motions::Grounds;
@@ -117,6 +120,7 @@ pub struct System {
     acceleration_rows: Vec<SectionForce>,
     links: Vec<Link>,
     points: Vec<BuildingPoint>,
+    level_rows: Vec<LevelRow>,
     bands: Option<Bands>,
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with
     /// these buildings and this step.
@@ -152,6 +156,7 @@ impl System {
             acceleration_rows,
             links: Vec::new(),
             points: Vec::new(),
+            level_rows: Vec::new(),
             ground,
             motions: None,
             further_offsets,
@@ -351,6 +356,7 @@ impl System {
             gaps: Vec::new(),
             levels: Vec::new(),
             weighted_levels: false,
+            level_rows: Vec::new(),
             elements: storeys(&self.buildings, &self.offsets).1,
             links: Vec::new(),
             ..self.clone()
@@ -364,6 +370,7 @@ impl System {
         Self {
             gaps: Vec::new(),
             levels: Vec::new(),
+            level_rows: Vec::new(),
             ..self.clone()
         }
     }
@@ -453,7 +460,10 @@ impl System {
     /// Whether all degrees of freedom are floors under one ground motion, and all contacts
     /// between two of them or a floor and a wall.
     pub(crate) fn is_plain(&self) -> bool {
-        self.motions.is_none() && self.mass.len() == self.floors() && !self.weighted_levels
+        self.motions.is_none()
+            && self.mass.len() == self.floors()
+            && !self.weighted_levels
+            && self.level_rows.is_empty()
     }
 
     /// Acceleration of the ground that degree of freedom `i` is relative to, as the equation

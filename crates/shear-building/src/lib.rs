@@ -6,10 +6,12 @@
 //! act on one another, is a building with a full matrix instead ([`LateralStiffness`]).
 
 mod building;
+mod column;
 mod damping;
 mod dense;
 mod elevation;
 mod error;
+mod foundation;
 mod lateral;
 mod modes;
 mod names;
@@ -18,11 +20,16 @@ mod tridiagonal;
 mod tridiagonal_eigen;
 
 pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
+pub use column::{ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, HitColumn, NEAR_FLOOR};
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
 };
 pub use error::ShearBuildingError;
+pub use foundation::{
+    BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
+    SoilSprings, SpringDashpot,
+};
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, is_name};

@@ -174,7 +174,7 @@ fn refuse_unequal_floors(case: &Case, gap: &Gap, system: &System) -> Result<(), 
         return Ok(());
     };
     let same = |l: &&pounding_case::ContactLevel| {
-        [l.left, l.right].map(|s| s.map(|s| s + 1)) == first.place.storeys
+        [l.left, l.right].map(|side| side.floor().map(|s| s + 1)) == first.place.storeys
     };
     let place = gap.levels.iter().find(same);
     let place = place.map_or(gap.model.span.clone(), |l| l.place.clone());

@@ -1,7 +1,7 @@
 //! Columns of a case that floors of the neighbour hit.
 
 use pounding_case::{Building, Case, CaseError, ContactLevel, Facing, Gap, Located, Side};
-use pounding_shear_building::{ColumnError, HitColumn};
+use pounding_shear_building::{ColumnError, HitColumn, decimal};
 
 /// The column of a level of a gap, if it has one.
 pub(super) fn column(
@@ -41,7 +41,7 @@ pub(super) fn column(
         let help = match e {
             ColumnError::NearFloor { .. } => format!(
                 "let these floors touch: raise `elevation_tolerance` above their difference of {} m, or name the pair of floors with `floor_to_floor = true`",
-                above_floor.min(b.height[storey] - above_floor)
+                decimal(above_floor.min(b.height[storey] - above_floor))
             ),
             _ => "correct the value".to_owned(),
         };

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
-use pounding_shear_building::{ELEVATION_TOLERANCE, floor_without_partner, level_pairs};
+use pounding_shear_building::{ELEVATION_TOLERANCE, decimal, floor_without_partner, level_pairs};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Unexpected, Visitor};
@@ -403,7 +403,7 @@ fn column_at(floors: &[f64], elevation: f64) -> Option<Facing> {
     let below = if storey == 0 { 0.0 } else { floors[storey - 1] };
     (storey < floors.len()).then_some(Facing::Column {
         storey,
-        above_floor: elevation - below,
+        above_floor: decimal(elevation - below),
     })
 }
 

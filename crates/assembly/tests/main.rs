@@ -1,4 +1,5 @@
 //! Assembly of cases: records and buildings.
 
+mod columns;
 mod excitation;
 mod lateral;

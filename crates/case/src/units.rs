@@ -47,6 +47,14 @@ impl Dimension {
     pub const DASHPOT: Self = Self::new(1.0, 0.0, -1.0);
     /// Energy, J.
     pub const ENERGY: Self = Self::new(1.0, 2.0, -2.0);
+    /// Density, kg/m3.
+    pub const DENSITY: Self = Self::new(1.0, -3.0, 0.0);
+    /// Rotational inertia, kg m2.
+    pub const ROTATIONAL_INERTIA: Self = Self::new(1.0, 2.0, 0.0);
+    /// Rotational stiffness, N m/rad: that of an energy, as angles are numbers.
+    pub const ROTATIONAL_STIFFNESS: Self = Self::ENERGY;
+    /// Dashpot coefficient of a rotation, N m s/rad.
+    pub const ROTATIONAL_DASHPOT: Self = Self::new(1.0, 2.0, -1.0);
     /// Pressure, Pa.
     pub const PRESSURE: Self = Self::new(1.0, -1.0, -2.0);
 
@@ -99,7 +107,16 @@ impl fmt::Display for Dimension {
             (Self::FLEXIBILITY, "a flexibility (m/N)"),
             (Self::FLEXURAL_RIGIDITY, "a flexural rigidity (N m2)"),
             (Self::DASHPOT, "a dashpot coefficient (N s/m)"),
-            (Self::ENERGY, "an energy (J)"),
+            (
+                Self::ENERGY,
+                "a moment, an energy or a rotational stiffness (N m)",
+            ),
+            (Self::DENSITY, "a density (kg/m3)"),
+            (Self::ROTATIONAL_INERTIA, "a rotational inertia (kg m2)"),
+            (
+                Self::ROTATIONAL_DASHPOT,
+                "a dashpot coefficient of a rotation (N m s)",
+            ),
             // Also the contact stiffness of a law with exponent 2.
             (Self::PRESSURE, "a pressure (Pa = N/m^2)"),
         ];

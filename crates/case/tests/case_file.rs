@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use pounding_case::{Case, CaseTree, Damping, Dimension, Side, parse_quantity, schema};
+use pounding_case::{Case, CaseTree, Damping, Dimension, Facing, Side, parse_quantity, schema};
 use pounding_ground_motion::processing::Scale;
 use proptest::prelude::*;
 use toml::de::DeTable;
@@ -162,7 +162,13 @@ fn a_wall_and_named_levels() {
         .iter()
         .map(|l| (l.left, l.right))
         .collect();
-    assert_eq!(levels, [(Some(1), None), (Some(2), None)]);
+    assert_eq!(
+        levels,
+        [
+            (Facing::Floor(1), Facing::Wall),
+            (Facing::Floor(2), Facing::Wall)
+        ]
+    );
     let inside = EXAMPLE.replace("[\"light\", \"heavy\"]", "[\"light\", \"wall\"]");
     assert!(parse(&inside).is_err());
 }

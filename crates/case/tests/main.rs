@@ -2,7 +2,9 @@
 
 mod bad_input;
 mod case_file;
+mod column;
 mod document;
+mod foundation;
 mod ground_motion;
 mod lateral;
 mod separation;

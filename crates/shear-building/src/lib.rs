@@ -6,11 +6,13 @@
 //! act on one another, is a building with a full matrix instead ([`LateralStiffness`]).
 
 mod building;
+mod column;
 mod coordinates;
 mod damping;
 mod dense;
 mod elevation;
 mod error;
+mod foundation;
 mod lateral;
 mod modes;
 mod names;
@@ -19,12 +21,17 @@ mod tridiagonal;
 mod tridiagonal_eigen;
 
 pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
+pub use column::{ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, HitColumn, NEAR_FLOOR};
 pub use coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow};
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
 };
 pub use error::ShearBuildingError;
+pub use foundation::{
+    BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
+    SoilSprings, SpringDashpot,
+};
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, is_name};

@@ -323,5 +323,6 @@ fn plain_building() -> Building {
             value: Damping::MassProportional { ratio: 0.0 },
             span: nowhere,
         },
+        foundation: None,
     }
 }

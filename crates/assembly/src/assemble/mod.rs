@@ -1,6 +1,8 @@
 //! Buildings, models, gaps, links and options of a case, put together.
 
 mod again;
+mod column;
+mod foundation;
 mod lateral;
 mod laws;
 
@@ -8,7 +10,7 @@ pub use again::{assemble_with_record, regap};
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Errors, Gap, Located, Side};
+use pounding_case::{Building, Case, CaseError, Errors, Facing, Gap, Located, Side};
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::suggestion;
 use pounding_gap_element::{
@@ -106,6 +108,7 @@ impl Parts {
         let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
         let options = errors.all([options(case)]);
         errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
+        errors.or_default(errors.all(unfinished(case).into_iter().map(Err::<(), _>)));
         let parts = buildings.and_then(|buildings| {
             Ok(Self {
                 buildings,
@@ -115,6 +118,38 @@ impl Parts {
         });
         errors.finish(parts)
     }
+}
+
+/// What is read and checked, but not put together.
+fn unfinished(case: &Case) -> Vec<CaseError> {
+    let refused = |span: &std::ops::Range<usize>, what: &str| {
+        case.error(span.clone(), format!("{what} cannot be run"), None)
+    };
+    let mut found = Vec::new();
+    for b in &case.buildings {
+        if let Some(given) = &b.foundation {
+            let made = foundation::foundation(case, given);
+            found.push(
+                made.err()
+                    .unwrap_or_else(|| refused(&given.span, "foundations")),
+            );
+        }
+    }
+    for gap in &case.gaps {
+        for level in &gap.levels {
+            match column::column(case, gap, level) {
+                Ok(None) => {}
+                Ok(Some(_)) => found.push(refused(&level.place, "columns that are hit")),
+                Err(e) => found.push(e),
+            }
+        }
+    }
+    for link in &case.links {
+        if let Some(motion) = &link.foundations {
+            found.push(refused(&motion.span, "links between foundations"));
+        }
+    }
+    found
 }
 
 /// The impact model of each gap.
@@ -137,8 +172,8 @@ fn with_gaps(
     mut system: System,
 ) -> Result<System, AssemblyError> {
     for (gap, model) in case.gaps.iter().zip(models) {
-        let floor = |side: Side, storey: Option<usize>| match (side, storey) {
-            (Side::Building(b), Some(s)) => Floor::Storey(b, s),
+        let floor = |side: Side, facing: Facing| match (side, facing) {
+            (Side::Building(b), Facing::Floor(s)) => Floor::Storey(b, s),
             _ => Floor::Wall,
         };
         let pairs = gap
@@ -174,7 +209,7 @@ fn refuse_unequal_floors(case: &Case, gap: &Gap, system: &System) -> Result<(), 
         return Ok(());
     };
     let same = |l: &&pounding_case::ContactLevel| {
-        [l.left, l.right].map(|s| s.map(|s| s + 1)) == first.place.storeys
+        [l.left, l.right].map(|side| side.floor().map(|s| s + 1)) == first.place.storeys
     };
     let place = gap.levels.iter().find(same);
     let place = place.map_or(gap.model.span.clone(), |l| l.place.clone());

@@ -31,9 +31,10 @@ pub use entries::{
 };
 pub use error::Fault;
 pub use numbers::{
-    AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Dimensioned, Flexibility,
-    FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Positive, Ratio, Scalar,
-    Signed, Stiffness, Time, Velocity, Within, Written,
+    AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Density, Dimensioned, Flexibility,
+    FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Poisson, Positive,
+    Ratio, RotationalDashpot, RotationalInertia, RotationalStiffness, Scalar, Signed, Stiffness,
+    Time, Velocity, Within, Written,
 };
 pub use schema::schema_of;
 

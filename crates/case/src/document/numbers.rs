@@ -235,6 +235,10 @@ dimensions! {
     Flexibility FLEXIBILITY "Flexibility, m/N.";
     FlexuralRigidity FLEXURAL_RIGIDITY "Flexural rigidity, N m2.";
     Dashpot DASHPOT "Dashpot coefficient, N s/m.";
+    Density DENSITY "Density, kg/m3.";
+    RotationalInertia ROTATIONAL_INERTIA "Rotational inertia, kg m2.";
+    RotationalStiffness ROTATIONAL_STIFFNESS "Rotational stiffness, N m/rad.";
+    RotationalDashpot ROTATIONAL_DASHPOT "Dashpot coefficient of a rotation, N m s/rad.";
 }
 
 /// The values that a number may have.
@@ -274,6 +278,10 @@ ranges! {
     BelowOne "A damping ratio." &[("minimum", 0.0), ("exclusiveMaximum", 1.0)],
         |value| (0.0..1.0).contains(&value),
         format!("damping ratio {value} is not in 0..1"), "5 % of critical is 0.05 or \"5 %\"";
+    BelowHalf "A Poisson's ratio of soil." &[("minimum", 0.0), ("exclusiveMaximum", 0.5)],
+        |value| (0.0..0.5).contains(&value),
+        format!(" = {value} must be a Poisson's ratio from 0 to below 0.5"),
+        "soils have 0.25 to 0.45; for saturated clay write 0.49";
 }
 
 /// A quantity of a dimension within a range, in SI units.
@@ -291,6 +299,8 @@ pub type Positive<D> = Amount<D, AboveZero>;
 pub type NotNegative<D> = Amount<D, FromZero>;
 /// A damping ratio.
 pub type Ratio = Amount<Number, BelowOne>;
+/// A Poisson's ratio of soil.
+pub type Poisson = Amount<Number, BelowHalf>;
 
 impl<D, R> From<Amount<D, R>> for f64 {
     fn from(amount: Amount<D, R>) -> Self {

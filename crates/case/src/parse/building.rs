@@ -6,6 +6,7 @@ use pounding_catalogue::wording::counted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::foundation::FoundationTable;
 use super::lateral::{CantileverTable, FishboneTable, MatrixValue, matrix, rows};
 use super::law::{LawTable, storey_laws};
 use super::{check_name, spread};
@@ -65,8 +66,10 @@ pub(super) struct BuildingTable {
     /// Whether gravity acts through the drift: takes weight above over height off every
     /// storey stiffness
     p_delta: Optional<bool>,
-    /// Viscous damping, one of its kinds
+    /// Viscous damping, one of its kinds; on a foundation, of the building on a fixed base
     damping: Field<Kinds<DampingTable>>,
+    /// Foundation that sways and rocks on the soil; by default a fixed base
+    foundation: Optional<FoundationTable>,
 }
 
 /// Viscous damping, one of its kinds
@@ -207,6 +210,11 @@ impl BuildingTable {
             Some(elevations) => heights(reader, elevations, storeys)?,
             None => each(self.height, storeys, 1.0),
         };
+        let foundation = self.foundation.map(|given| {
+            let read = given.located();
+            let read = read.and_then(|given| given.value.read(reader, given.span));
+            read.unwrap_or_else(|| FoundationTable::stand_in(name.span.clone()))
+        });
         let displaced = self.initial_displacement.span();
         let building = Building {
             initial_displacement: Located {
@@ -225,6 +233,7 @@ impl BuildingTable {
             laws,
             p_delta: self.p_delta.value().unwrap_or_default() && sound,
             damping,
+            foundation,
         };
         Some((building, !heights_wrong))
     }

@@ -6,12 +6,13 @@ use pounding_shear_building::ELEVATION_TOLERANCE;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::column::ColumnTables;
 use super::levels::{Between, Faces, Levels};
 use super::{Row, name, spread};
 use crate::document::{
     Entry, Field, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{ContactLevel, Gap, Parameter, Side};
+use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side};
 use crate::units::Quantity;
 
 /// A gap between neighbours, or to a rigid wall
@@ -24,15 +25,19 @@ pub(super) struct GapTable {
     between: Field<Between>,
     /// Width at rest (m), one for all levels or a list, bottom first
     width: Field<Widths>,
-    /// Pairs of storey numbers that may touch, or "matching" for the floors at equal
-    /// elevation only
-    levels: Optional<Levels>,
+    /// Pairs of storey numbers that may touch, [1, { storey = 2 }] where a floor hits columns;
+    /// "matching" for the floors at equal elevation only, or "all_floors" for each floor and
+    /// the floor or the columns at its elevation
+    levels: Optional<Levels<true>>,
     /// Floors this close in elevation are level (m), by default 0.01; named pairs that are
     /// not level are refused
     elevation_tolerance: Optional<Positive<Length>>,
     /// Lets named pairs of floors at different elevations act on each other as if they were
     /// level, with a warning; by default false
     floor_to_floor: Optional<bool>,
+    /// Columns that floors of the neighbour hit between floors, or a list of them for both
+    /// buildings
+    column: Optional<ColumnTables>,
     /// Impact model, author_year
     model: Field<String>,
     /// zero_penetration, no_tension, no_tension_latched or gap_shift, where the model offers
@@ -59,6 +64,7 @@ impl GapTable {
             between: self.between,
             levels: self.levels,
             tolerance: self.elevation_tolerance,
+            columns: self.column,
         };
         let placed = placed(reader, faces, self.width, self.floor_to_floor, row);
         let model = self.model.located()?;
@@ -76,6 +82,7 @@ impl GapTable {
             levels: Vec::new(),
             tolerance: ELEVATION_TOLERANCE,
             floor_to_floor: false,
+            columns: [None, None],
         });
         let gap = Gap {
             name: name.unwrap_or_else(|| placed.names.join("-")),
@@ -83,6 +90,7 @@ impl GapTable {
             levels: placed.levels,
             elevation_tolerance: placed.tolerance,
             floor_to_floor: placed.floor_to_floor,
+            columns: placed.columns,
             model,
             separation: self.separation.located(),
             parameters,
@@ -98,12 +106,13 @@ struct Placed {
     levels: Vec<ContactLevel>,
     tolerance: f64,
     floor_to_floor: bool,
+    columns: [Option<Located<HitColumns>>; 2],
 }
 
 /// Where a gap lies, with the place of its `between`.
 fn placed(
     reader: &Reader<'_>,
-    faces: Faces,
+    faces: Faces<true>,
     width: Field<Widths>,
     floor_to_floor: Optional<bool>,
     row: &Row,
@@ -128,20 +137,50 @@ fn placed(
     let widths: Vec<f64> = spread(reader, width.located()?, faced.pairs.len(), "contact level")?;
     let pairs = faced.pairs.into_iter().zip(widths);
     let mut levels: Vec<ContactLevel> = pairs
-        .map(|(((left, right), place), width)| ContactLevel {
+        .map(|(([left, right], place), width)| ContactLevel {
             left,
             right,
             width,
             place,
         })
         .collect();
-    levels.sort_by_key(|level| (level.left, level.right));
+    let elevations = faced.between.map(|side| match side {
+        Side::Building(building) => row.elevations[building].as_slice(),
+        Side::Wall => &[],
+    });
+    levels.sort_by(|one, other| {
+        let [one, other] = [one, other].map(|l| elevations_of([l.left, l.right], elevations));
+        one[0]
+            .total_cmp(&other[0])
+            .then(one[1].total_cmp(&other[1]))
+    });
     let placed = Placed {
         between: faced.between,
         names: faced.names,
         levels,
         tolerance: faced.tolerance,
         floor_to_floor,
+        columns: faced.columns,
     };
     Some((faced.place, placed))
+}
+
+/// Elevations of both sides of a level (m).
+fn elevations_of(sides: [Facing; 2], floors: [&[f64]; 2]) -> [f64; 2] {
+    let of = |side: usize| match sides[side] {
+        Facing::Floor(storey) => floors[side][storey],
+        Facing::Column {
+            storey,
+            above_floor,
+        } => {
+            above_floor
+                + if storey == 0 {
+                    0.0
+                } else {
+                    floors[side][storey - 1]
+                }
+        }
+        Facing::Wall => 0.0,
+    };
+    [of(0), of(1)]
 }

@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
+use pounding_shear_building::ELEVATION_TOLERANCE;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::levels::{Between, Faced, Faces, Levels, useless_tolerance};
+use super::levels::{Between, Faced, Faces, Levels, sides, useless_tolerance};
 use super::{Row, name, spread};
 use crate::document::{
     Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{LawParameter, Link, Located, Side, StoreyLaw};
+use crate::types::{Facing, FoundationMotion, LawParameter, Link, Located, Side, StoreyLaw};
 use crate::units::Quantity;
 
 /// Law of some storeys
@@ -46,12 +47,21 @@ pub(super) struct LinkTable {
     model: Field<String>,
     /// Pairs of storey numbers that are joined, or "matching" for the floors at equal
     /// elevation only
-    levels: Optional<Levels>,
+    levels: Optional<Levels<false>>,
+    /// Joins the foundations through the soil in the place of floors: "sway" or "rocking"
+    foundations: Optional<Motion>,
     /// Floors this close in elevation are level (m), by default 0.01
     elevation_tolerance: Optional<Positive<Length>>,
     /// Parameters of the law, one for all levels or a list, bottom first
     #[serde(rename = "*")]
     parameters: FreeKeys<Values>,
+}
+
+#[derive(Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum Motion {
+    Sway,
+    Rocking,
 }
 
 /// The laws of a building of so many storeys.
@@ -144,12 +154,32 @@ impl LinkTable {
         row: &Row,
     ) -> Option<(Link, Option<Range<usize>>)> {
         let name = name(reader, self.name, "link");
-        let faces = Faces {
-            between: self.between,
-            levels: self.levels,
-            tolerance: self.elevation_tolerance,
+        let (placed, foundations) = match self.foundations {
+            None => {
+                let faces = Faces {
+                    between: self.between,
+                    levels: self.levels,
+                    tolerance: self.elevation_tolerance,
+                    columns: None,
+                };
+                (placed(reader, faces, row), None)
+            }
+            Some(motion) => {
+                let others = [
+                    ("levels", self.levels.span()),
+                    ("elevation_tolerance", self.elevation_tolerance.span()),
+                ];
+                let motion = motion.located();
+                let placed = motion
+                    .clone()
+                    .and_then(|motion| at_foundations(reader, self.between, others, &motion, row));
+                let motion = motion.map(|given| Located {
+                    value: FoundationMotion::from(given.value),
+                    span: given.span,
+                });
+                (placed, motion)
+            }
         };
-        let placed = placed(reader, faces, row);
         let levels = placed.as_ref().map(|p| p.pairs.len());
         let (parameters, whole) = parameters(reader, self.parameters, levels);
         let model = self.model.located()?;
@@ -159,7 +189,10 @@ impl LinkTable {
         let place = placed.as_ref().map(|p| p.place.clone());
         let (between, names, levels) = match placed {
             Some(faced) => {
-                let mut levels: Vec<_> = faced.pairs.into_iter().map(|(pair, _)| pair).collect();
+                let floors = faced.pairs.into_iter();
+                let mut levels: Vec<_> = floors
+                    .map(|([left, right], _)| (left.floor(), right.floor()))
+                    .collect();
                 levels.sort_unstable();
                 (faced.between, faced.names, levels)
             }
@@ -170,13 +203,79 @@ impl LinkTable {
             between,
             parameters,
             levels,
+            foundations,
             model,
         };
         Some((link, place))
     }
 }
 
-fn placed(reader: &Reader<'_>, faces: Faces, row: &Row) -> Option<Faced> {
+impl From<Motion> for FoundationMotion {
+    fn from(motion: Motion) -> Self {
+        match motion {
+            Motion::Sway => Self::Sway,
+            Motion::Rocking => Self::Rocking,
+        }
+    }
+}
+
+/// A link between the foundations of two buildings, beside keys that say of which floors it
+/// would be otherwise.
+fn at_foundations(
+    reader: &Reader<'_>,
+    between: Field<Between>,
+    others: [(&str, Option<Range<usize>>); 2],
+    motion: &Located<Motion>,
+    row: &Row,
+) -> Option<Faced> {
+    let given = between.located()?;
+    let (between, names) = sides(reader, &given, row.names.as_deref()?)?;
+    for (key, span) in others {
+        if let Some(span) = span {
+            return reader.refuse(
+                span,
+                format!("`{key}` has no meaning beside `foundations`: no floors are joined"),
+                "leave one of them out",
+            );
+        }
+    }
+    let buildings = row.buildings()?;
+    for (side, name) in between.iter().zip(&names) {
+        let moves = match side {
+            Side::Wall => false,
+            Side::Building(b) => {
+                // Of a foundation that is wrong nothing can be said.
+                let support = buildings[*b].foundation.as_ref().map(|f| &f.value.support);
+                support.is_some_and(|support| match motion.value {
+                    Motion::Sway => support.sways(),
+                    Motion::Rocking => support.rocks(),
+                })
+            }
+        };
+        if !moves {
+            let motion = match motion.value {
+                Motion::Sway => "sways",
+                Motion::Rocking => "rocks",
+            };
+            return reader.refuse(
+                given.span.clone(),
+                format!("\"{name}\" has no foundation that {motion}"),
+                "add [building.foundation] with `soil`, or join floors",
+            );
+        }
+    }
+    Some(Faced {
+        pairs: vec![([Facing::Wall; 2], given.span.clone())],
+        place: given.span,
+        between,
+        names,
+        listed: true,
+        tolerance: ELEVATION_TOLERANCE,
+        columns: [None, None],
+    })
+}
+
+fn placed(reader: &Reader<'_>, faces: Faces<false>, row: &Row) -> Option<Faced> {
     let tolerance = faces.tolerance.span();
     let faced = faces.read(reader, row)?;
     match tolerance {

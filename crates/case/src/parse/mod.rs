@@ -20,6 +20,8 @@ use separation::SeparationTable;
 
 mod analysis;
 mod building;
+mod column;
+mod foundation;
 mod gap;
 mod ground_motion;
 mod lateral;

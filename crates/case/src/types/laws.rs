@@ -33,8 +33,20 @@ pub struct Link {
     /// Storeys of the left and the right building that are joined, from zero; `None`
     /// for a wall.
     pub levels: Vec<(Option<usize>, Option<usize>)>,
+    /// The motion of the foundations of both buildings that it joins, in the place of floors,
+    /// at its key; there is one level then, without storeys.
+    pub foundations: Option<Located<FoundationMotion>>,
     /// Law.
     pub model: Located<String>,
     /// All other keys, for the law to judge; one value per level.
     pub parameters: Vec<LawParameter>,
+}
+
+/// A motion of a foundation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FoundationMotion {
+    /// Displacement.
+    Sway,
+    /// Rotation.
+    Rocking,
 }

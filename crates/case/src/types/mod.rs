@@ -14,8 +14,8 @@ use serde::Deserialize;
 use crate::error::CaseError;
 use crate::units::Quantity;
 
-pub use laws::{LawParameter, Link, StoreyLaw};
-pub use pounding_shear_building::Damping;
+pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
+pub use pounding_shear_building::{ColumnEnds, Damping, Soil, SpringDashpot};
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -95,8 +95,52 @@ pub struct Building {
     pub laws: Vec<StoreyLaw>,
     /// Whether gravity acts through the drift (P-Delta).
     pub p_delta: bool,
-    /// Damping.
+    /// Damping; where there is a foundation, of the building on a fixed base.
     pub damping: Located<Damping>,
+    /// The foundation, if it sways or rocks.
+    pub foundation: Option<Located<Foundation>>,
+}
+
+/// A foundation that sways or rocks on the soil.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Foundation {
+    /// Mass (kg); zero where it is not given, which a foundation that sways does not allow.
+    pub mass: f64,
+    /// Rotational inertia of foundation and floors about their own axes (kg m2); zero where it
+    /// is not given, which a foundation that rocks does not allow.
+    pub rotational_inertia: f64,
+    /// What holds it.
+    pub support: Support,
+    /// Length along the motion (m), if it is known.
+    pub length: Option<f64>,
+}
+
+/// What holds a foundation.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Support {
+    /// The soil, from which springs and dashpots follow.
+    Soil(Soil),
+    /// Springs and dashpots; one left out is rigid.
+    Springs {
+        /// Of the displacement (N/m, N s/m).
+        sway: Option<SpringDashpot>,
+        /// Of the rotation (N m/rad, N m s/rad).
+        rocking: Option<SpringDashpot>,
+    },
+}
+
+impl Support {
+    /// Whether the foundation sways.
+    #[must_use]
+    pub fn sways(&self) -> bool {
+        !matches!(self, Self::Springs { sway: None, .. })
+    }
+
+    /// Whether the foundation rocks.
+    #[must_use]
+    pub fn rocks(&self) -> bool {
+        !matches!(self, Self::Springs { rocking: None, .. })
+    }
 }
 
 /// What resists the lateral motion of a frame or a wall.
@@ -166,13 +210,61 @@ impl Building {
     }
 }
 
-/// A pair of floors that may touch.
+/// One side of a contact level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Facing {
+    /// A floor, by its storey from zero.
+    Floor(usize),
+    /// Columns between floors.
+    Column {
+        /// Their storey, from zero.
+        storey: usize,
+        /// Height of the hit above the floor below, or the base (m).
+        above_floor: f64,
+    },
+    /// A rigid wall.
+    Wall,
+}
+
+impl Facing {
+    /// The storey of a floor, from zero.
+    #[must_use]
+    pub fn floor(self) -> Option<usize> {
+        match self {
+            Self::Floor(storey) => Some(storey),
+            Self::Column { .. } | Self::Wall => None,
+        }
+    }
+
+    /// Whether columns are hit here.
+    #[must_use]
+    pub fn is_column(self) -> bool {
+        matches!(self, Self::Column { .. })
+    }
+}
+
+/// Columns that floors of the neighbour hit between floors, all together as one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HitColumns {
+    /// E I of all of them (N m2).
+    pub flexural_rigidity: f64,
+    /// kappa G A of all of them (N), if they deform in shear.
+    pub shear_rigidity: Option<f64>,
+    /// How floors hold their ends.
+    pub ends: ColumnEnds,
+    /// Mass that a hit sets in motion (kg), if any.
+    pub contact_mass: Option<f64>,
+    /// Shear capacity (N) to compare the demand with.
+    pub shear_capacity: Option<f64>,
+}
+
+/// What may touch: two floors, a floor and columns, or a floor and a wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactLevel {
-    /// Storey of the left building, from zero; `None` for a wall.
-    pub left: Option<usize>,
-    /// Storey of the right building, from zero; `None` for a wall.
-    pub right: Option<usize>,
+    /// On the left.
+    pub left: Facing,
+    /// On the right.
+    pub right: Facing,
     /// Width (m).
     pub width: f64,
     /// Where it is named in `levels`, else the `between` of its gap.
@@ -192,6 +284,9 @@ pub struct Gap {
     pub elevation_tolerance: f64,
     /// Whether floors that are not level act on each other as if they were.
     pub floor_to_floor: bool,
+    /// Columns of the left and of the right building that floors of the other may hit, at
+    /// their table.
+    pub columns: [Option<Located<HitColumns>>; 2],
     /// Impact model.
     pub model: Located<String>,
     /// Separation rule.

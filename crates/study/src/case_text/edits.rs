@@ -163,13 +163,14 @@ fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> bool {
 }
 
 /// Keys that every gap understands, whatever its model.
-const OF_ANY_GAP: [&str; 7] = [
+const OF_ANY_GAP: [&str; 8] = [
     "name",
     "between",
     "width",
     "levels",
     "elevation_tolerance",
     "floor_to_floor",
+    "column",
     "model",
 ];
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_case::{Case, CaseError, Located, SpectrumFile};
+use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumFile};
 use pounding_ground_motion::processing::{process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
@@ -16,14 +16,25 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
     scale_record(case, read_record(case)?)
 }
 
+/// The same of a record that one building has for itself.
+pub(crate) fn own_accelerogram(
+    case: &Case,
+    motion: &GroundMotion,
+) -> Result<Accelerogram, AssemblyError> {
+    scaled(case, motion, read(case, motion)?)
+}
+
 /// Reads and processes the record of a case; its scale is not applied.
 ///
 /// # Errors
 /// An unknown unit or format, with its place in the case, or a record that cannot be
 /// read or processed.
 pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
-    let motion = &case.ground_motion;
-    let options = read_options(case)?;
+    read(case, &case.ground_motion)
+}
+
+fn read(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
+    let options = read_options(case, motion)?;
     let file = case.resolve(&motion.file.value);
     let mut record = pounding_ground_motion::read(&file, &options)?;
     if let Some(rotation) = &motion.rotation {
@@ -50,7 +61,15 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
 /// # Errors
 /// A target spectrum that cannot be read, or a scale that the record does not allow.
 pub fn scale_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, AssemblyError> {
-    let Some(scale) = &case.ground_motion.scale else {
+    scaled(case, &case.ground_motion, record)
+}
+
+fn scaled(
+    case: &Case,
+    motion: &GroundMotion,
+    record: Accelerogram,
+) -> Result<Accelerogram, AssemblyError> {
+    let Some(scale) = &motion.scale else {
         return Ok(record);
     };
     let made = scale.value.with_target(|spectrum| target(case, spectrum))?;
@@ -83,8 +102,7 @@ pub fn read_target(
     TargetSpectrum::read(&resolve(&spectrum.file.value), spectrum.damping)
 }
 
-fn read_options(case: &Case) -> Result<ReadOptions, CaseError> {
-    let motion = &case.ground_motion;
+fn read_options(case: &Case, motion: &GroundMotion) -> Result<ReadOptions, CaseError> {
     Ok(ReadOptions {
         format: known(case, motion.format.as_ref(), format)?,
         time_step: motion.time_step,

@@ -324,5 +324,6 @@ fn plain_building() -> Building {
             span: nowhere,
         },
         foundation: None,
+        ground: None,
     }
 }

@@ -43,7 +43,7 @@ pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{
-    BuildingPoint, ContactLevel, Floor, Gap, GroundAcceleration, GroundMotion, LevelPlace,
-    LevelResponse, Link, LinkedPair, Support, System, UnequalFloors, more_pairs,
+    BuildingPoint, ContactLevel, Floor, Gap, GroundAcceleration, GroundMotion, LevelMotion,
+    LevelPlace, LevelResponse, Link, LinkedPair, Support, System, UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

@@ -108,7 +108,7 @@ impl Peaks {
         }
         for (row, peak) in system.level_rows().iter().zip(&mut self.of_levels) {
             let sum: f64 = row.terms.iter().map(|(i, w)| w * u[*i]).sum();
-            peak.raise(sum.abs(), 0.0);
+            peak.raise(if row.one_sided { sum } else { sum.abs() }, 0.0);
         }
         for (index, element) in system.elements().iter().enumerate() {
             let force = context
@@ -227,7 +227,11 @@ impl Peaks {
             }
         }
         let peak = &mut self.of_levels[index];
-        if let Some((theta, top)) = absolute_maximum(&sum, peak.value) {
+        let found = match row.one_sided {
+            true => maximum_above(&sum, peak.value),
+            false => absolute_maximum(&sum, peak.value),
+        };
+        if let Some((theta, top)) = found {
             peak.raise(top, context.segment.start + tau + theta * step);
         }
     }

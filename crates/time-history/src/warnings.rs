@@ -55,6 +55,16 @@ pub enum Warning {
         /// Storey height (m).
         height: f64,
     },
+    /// Ground on both sides of a gap that ends far from where it began.
+    GroundOffset {
+        /// Name of the gap.
+        gap: String,
+        /// Displacement of the ground at the left less that at the right when the motions
+        /// end (m).
+        offset: f64,
+        /// Width of the gap at rest (m).
+        width: f64,
+    },
     /// Floors at different elevations that act on each other, as the case asks for.
     UnequalFloors {
         /// Name of the gap.
@@ -129,6 +139,13 @@ impl fmt::Display for Warning {
                 "gap {gap}: a width of {} m is more than the {} m of a storey beside it: is its unit right (mm, not m)?",
                 short(*width),
                 short(*height)
+            ),
+            Self::GroundOffset { gap, offset, width } => write!(
+                f,
+                "gap {gap}: when the ground motions end, the ground on both sides has moved {} m apart, {} % of the width of {} m: where the records have no baseline correction, that is an error of the records; correct them with `process`",
+                short(offset.abs()),
+                short(100.0 * offset.abs() / width),
+                short(*width)
             ),
             Self::UnequalFloors {
                 gap,
@@ -315,6 +332,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
             });
         }
     }
+    warnings.extend(ground_offsets(system));
     warnings.extend(system.unequal_floor_warnings());
     let further = system.ground_motions().iter().map(|m| &m.acceleration);
     let samples = [system.ground()]
@@ -331,6 +349,26 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
         warnings.push(Warning::ManySteps { steps, limit });
     }
     warnings
+}
+
+/// Part of the width of a gap from which an offset of the ground is told.
+const OFFSET: f64 = 0.1;
+
+/// Gaps between two ground motions that end far from where they began.
+fn ground_offsets(system: &System) -> impl Iterator<Item = Warning> {
+    system.gaps().iter().filter_map(|gap| {
+        let levels = gap.first_level..gap.first_level + gap.levels;
+        let found = levels.filter_map(|l| {
+            let width = system.levels()[l].width;
+            let offset = system.ground_offset_at_end(l)?;
+            (offset.abs() > OFFSET * width).then(|| Warning::GroundOffset {
+                gap: gap.name.clone(),
+                offset,
+                width,
+            })
+        });
+        found.take(1).next()
+    })
 }
 
 /// Height (m) of the lower of the storeys on both sides.

@@ -2,7 +2,6 @@
 //! coordinates, damping that couples modes, several ground motions. Each case is a converged
 //! reference of two independent codes; its file in `data/structures` says which.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
@@ -17,6 +16,7 @@ use pounding_time_history::{
 };
 use serde::Deserialize;
 
+use super::reference::Reference;
 use crate::yielding::setup::el_centro;
 
 #[derive(Deserialize)]
@@ -52,39 +52,6 @@ struct OutputRow {
     name: String,
     kind: usize,
     s: Vec<f64>,
-}
-
-#[derive(Deserialize)]
-struct Reference {
-    outputs: BTreeMap<String, Output>,
-    contacts: Vec<Contact>,
-    impacts: Vec<Impact>,
-    energy: BTreeMap<String, f64>,
-}
-
-#[derive(Deserialize)]
-struct Output {
-    peak: f64,
-    time: f64,
-}
-
-#[derive(Deserialize)]
-struct Contact {
-    impacts: usize,
-    first_contact: f64,
-    peak_force: f64,
-    peak_force_time: f64,
-}
-
-#[derive(Deserialize)]
-struct Impact {
-    contact: usize,
-    t_close: f64,
-    t_open: f64,
-    approach_velocity: f64,
-    peak_force: f64,
-    impulse: f64,
-    energy_dissipated: f64,
 }
 
 /// A building by the numbers of its coordinates in the matrices.
@@ -241,80 +208,6 @@ impl Case {
         run(&self.system(), &options, &mut [], &mut |_| {}).unwrap()
     }
 
-    /// All that the reference says, within this relative error of values.
-    fn agrees(&self, outcome: &Outcome, allowed: f64) {
-        let reference = &self.file.reference;
-        let near = |what: &str, found: f64, expected: f64, size: f64| {
-            let error = (found - expected).abs() / size.abs();
-            assert!(
-                error <= allowed,
-                "{what}: {found} against {expected} ({error:e})"
-            );
-        };
-        let mut compared = 0;
-        for response in outcome.buildings.iter().flat_map(|b| &b.responses) {
-            let expected = &reference.outputs[&response.name];
-            near(
-                &response.name,
-                response.peak.value,
-                expected.peak,
-                expected.peak,
-            );
-            // The value is flat around its peak.
-            let off = (response.peak.time - expected.time).abs();
-            assert!(off < 100.0 * allowed.sqrt(), "{}: {off:e} s", response.name);
-            compared += 1;
-        }
-        assert!(compared + 1 >= reference.outputs.len(), "{compared}");
-        for (level, expected) in outcome.gaps[0].levels.iter().zip(&reference.contacts) {
-            assert_eq!(level.impacts, expected.impacts);
-            near(
-                "force",
-                level.peak_force.value,
-                expected.peak_force,
-                expected.peak_force,
-            );
-            let first = level.first_contact.unwrap();
-            near("first contact", first, expected.first_contact, 1.0);
-            assert!((level.peak_force.time - expected.peak_force_time).abs() < 1e-6);
-        }
-        assert_eq!(outcome.impacts.len(), reference.impacts.len());
-        for (found, expected) in outcome.impacts.iter().zip(&reference.impacts) {
-            assert_eq!(found.level, expected.contact);
-            near("closed", found.time_closed, expected.t_close, 1.0);
-            near("opened", found.time_opened, expected.t_open, 1.0);
-            let speed = expected.approach_velocity;
-            near("approach", found.approach_velocity, speed, speed);
-            near(
-                "impact",
-                found.peak_force.value,
-                expected.peak_force,
-                expected.peak_force,
-            );
-            near("impulse", found.impulse, expected.impulse, expected.impulse);
-            let (lost, size) = (expected.energy_dissipated, reference.energy["input"]);
-            near("loss", found.energy_dissipated, lost, size);
-        }
-        let (end, energy) = (outcome.energy.end, &reference.energy);
-        for (name, found) in [
-            ("input", end.input),
-            ("kinetic", end.kinetic),
-            ("strain", end.strain),
-            ("viscous", end.viscous),
-            ("impact", end.impact),
-        ] {
-            let expected = energy[name]
-                + if name == "input" {
-                    energy["ground_gap"]
-                } else {
-                    0.0
-                };
-            near(name, found, expected, energy["input"]);
-        }
-        let residual = outcome.energy.residual_ratio;
-        assert!(residual < 1e-9, "{residual:e}");
-    }
-
     fn agrees_by_two_methods(&self, allowed: f64) {
         for method in [
             MethodChoice::EventDriven {
@@ -324,7 +217,7 @@ impl Case {
                 relative_tolerance: 1e-11,
             },
         ] {
-            self.agrees(&self.run(method), allowed);
+            self.file.reference.agrees(&self.run(method), allowed);
         }
     }
 }

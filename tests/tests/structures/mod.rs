@@ -6,3 +6,5 @@ mod abutment;
 mod base_moments;
 mod condensed_stiffness;
 mod general;
+mod motions;
+mod reference;

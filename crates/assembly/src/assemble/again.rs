@@ -5,7 +5,8 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{RunOptions, System};
 
-use super::{Assembly, Parts, ground, models, options, with_gaps};
+use super::motions::on_their_ground;
+use super::{Assembly, Parts, models, options, with_gaps};
 use crate::error::AssemblyError;
 
 /// Builds the system of a case under this motion, which is taken as it is: neither the
@@ -22,7 +23,7 @@ pub fn assemble_with_record(
         models,
         options,
     } = Parts::of(case)?;
-    let system = System::new(buildings, ground(accelerogram));
+    let system = on_their_ground(case, buildings, accelerogram)?;
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {

@@ -5,6 +5,7 @@ mod column;
 mod foundation;
 mod lateral;
 mod laws;
+mod motions;
 
 pub use again::{assemble_with_record, regap};
 
@@ -19,13 +20,14 @@ use pounding_gap_element::{
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
-    DEFAULT_RELATIVE_TOLERANCE, Floor, GroundAcceleration, MethodChoice, RunOptions, System,
-    Warning, more_pairs,
+    DEFAULT_RELATIVE_TOLERANCE, Floor, LevelMotion, MethodChoice, RunOptions, System, Warning,
+    more_pairs,
 };
 
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::accelerogram;
+use motions::on_their_ground;
 
 /// All that a run needs, made from a case.
 #[derive(Debug, Clone)]
@@ -80,7 +82,8 @@ pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
         models,
         options,
     } = parts;
-    let system = with_gaps(case, &models, System::new(buildings, ground(&accelerogram)))?;
+    let system = on_their_ground(case, buildings, &accelerogram)?;
+    let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {
         system,
@@ -157,13 +160,6 @@ fn models(case: &Case) -> Result<Models, CaseError> {
     case.gaps.iter().map(|gap| model(case, gap)).collect()
 }
 
-fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
-    GroundAcceleration {
-        samples: accelerogram.samples().into(),
-        time_step: accelerogram.time_step(),
-    }
-}
-
 /// Puts the gaps of a case between buildings that have none, and lets them go from
 /// where the case says.
 fn with_gaps(
@@ -174,6 +170,7 @@ fn with_gaps(
     for (gap, model) in case.gaps.iter().zip(models) {
         let floor = |side: Side, facing: Facing| match (side, facing) {
             (Side::Building(b), Facing::Floor(s)) => Floor::Storey(b, s),
+            _ if gap.fixed_wall => Floor::FixedWall,
             _ => Floor::Wall,
         };
         let pairs = gap
@@ -189,7 +186,16 @@ fn with_gaps(
             Side::Building(b) => case.buildings[b].name.value.clone(),
             Side::Wall => "wall".to_owned(),
         });
+        let first = system.levels().len();
         system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance)?;
+        for level in first..system.levels().len() {
+            if gap.seat.is_some() {
+                system.add_level_motion(level, LevelMotion::Opening)?;
+            }
+            if system.ground_offset_at_end(level).is_some() {
+                system.add_level_motion(level, LevelMotion::RelativeGroundDisplacement)?;
+            }
+        }
         if !gap.floor_to_floor {
             refuse_unequal_floors(case, gap, &system)?;
         }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::foundation::FoundationTable;
+use super::ground_motion::GroundTable;
 use super::lateral::{CantileverTable, FishboneTable, MatrixValue, matrix, rows};
 use super::law::{LawTable, storey_laws};
 use super::{check_name, spread};
@@ -70,6 +71,8 @@ pub(super) struct BuildingTable {
     damping: Field<Kinds<DampingTable>>,
     /// Foundation that sways and rocks on the soil; by default a fixed base
     foundation: Optional<FoundationTable>,
+    /// How the ground under this building moves, where not as [ground_motion] says
+    ground: Optional<GroundTable>,
 }
 
 /// Viscous damping, one of its kinds
@@ -215,6 +218,13 @@ impl BuildingTable {
             let read = read.and_then(|given| given.value.read(reader, given.span));
             read.unwrap_or_else(|| FoundationTable::stand_in(name.span.clone()))
         });
+        let ground = self.ground.located().and_then(|given| {
+            let value = given.value.read(reader, &given.span)?;
+            Some(Located {
+                value,
+                span: given.span,
+            })
+        });
         let displaced = self.initial_displacement.span();
         let building = Building {
             initial_displacement: Located {
@@ -234,6 +244,7 @@ impl BuildingTable {
             p_delta: self.p_delta.value().unwrap_or_default() && sound,
             damping,
             foundation,
+            ground,
         };
         Some((building, !heights_wrong))
     }

@@ -38,6 +38,12 @@ pub(super) struct GapTable {
     /// Columns that floors of the neighbour hit between floors, or a list of them for both
     /// buildings
     column: Optional<ColumnTables>,
+    /// moving, a wall that moves with the ground as by default, or fixed, one that stands still
+    /// in space
+    wall: Optional<Wall>,
+    /// Seat width (m) of a deck that spans the joint: how far it opens is then reported, and
+    /// whether the deck falls
+    seat: Optional<Positive<Length>>,
     /// Impact model, author_year
     model: Field<String>,
     /// zero_penetration, no_tension, no_tension_latched or gap_shift, where the model offers
@@ -46,6 +52,16 @@ pub(super) struct GapTable {
     /// Parameters of the model: stiffness (N/m^n), restitution, exponent, ...
     #[serde(rename = "*")]
     parameters: FreeKeys<Quantity>,
+}
+
+/// How the wall of a gap moves
+#[derive(Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", expecting = "a text in quotes")]
+enum Wall {
+    /// With the ground
+    Moving,
+    /// Not at all
+    Fixed,
 }
 
 type Widths = OneOrEach<NotNegative<Length>>;
@@ -67,6 +83,20 @@ impl GapTable {
             columns: self.column,
         };
         let placed = placed(reader, faces, self.width, self.floor_to_floor, row);
+        if let (Some((_, placed)), Some(span)) = (&placed, self.wall.span())
+            && !placed.between.contains(&Side::Wall)
+        {
+            reader.refuse::<()>(
+                span,
+                "`wall` has no meaning in a gap between two buildings",
+                "leave it out, or name \"wall\" in `between`",
+            );
+        }
+        let fixed_wall = self.wall.value() == Some(Wall::Fixed);
+        let seat = self.seat.located().map(|seat| Located {
+            value: seat.value.into(),
+            span: seat.span,
+        });
         let model = self.model.located()?;
         let mut parameters = Vec::new();
         for (key, value) in self.parameters.0 {
@@ -91,6 +121,8 @@ impl GapTable {
             elevation_tolerance: placed.tolerance,
             floor_to_floor: placed.floor_to_floor,
             columns: placed.columns,
+            fixed_wall,
+            seat,
             model,
             separation: self.separation.located(),
             parameters,

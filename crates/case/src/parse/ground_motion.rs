@@ -1,5 +1,6 @@
 //! The record of a case.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use pounding_ground_motion::Offset;
@@ -9,10 +10,10 @@ use serde::Deserialize;
 use super::process::Process;
 use super::scale::{FilePath, ScaleValue, scale_of};
 use crate::document::{
-    Acceleration, Count, Dimensioned, Entry, Fault, Field, Optional, Positive, Reader, Time,
-    Written,
+    Acceleration, Count, Dimensioned, Entry, Fault, Field, Length, NotNegative, Optional, Positive,
+    Reader, Time, Velocity, Written,
 };
-use crate::types::{GroundMotion, Located, Rotation};
+use crate::types::{BuildingGround, GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
 
 /// The recorded motion
@@ -58,6 +59,105 @@ pub(super) struct MotionTable {
     process: Optional<Process>,
     /// A factor, or a table such as { pga = "0.35 g" }
     scale: Optional<ScaleValue>,
+}
+
+/// How the ground under one building moves
+#[derive(Clone, Deserialize, JsonSchema)]
+#[serde(
+    rename = "ground",
+    expecting = "a table\nfor example { delay = \"0.13 s\" }, or { distance = \"60 m\", wave_speed = \"460 m/s\" }"
+)]
+pub(super) struct GroundTable {
+    /// Time by which it moves later than the others (s)
+    delay: Optional<NotNegative<Time>>,
+    /// Distance from where the motion arrives first (m), for `wave_speed`
+    distance: Optional<NotNegative<Length>>,
+    /// Apparent speed of the waves along the row (m/s)
+    wave_speed: Optional<Positive<Velocity>>,
+    /// A record of its own, relative to the folder of the case file; by default that of
+    /// [ground_motion]
+    file: Optional<FilePath>,
+    /// Name of its format; found from the content by default
+    format: Optional<String>,
+    /// Time step (s), for files that do not state it
+    time_step: Optional<Positive<Time>>,
+    /// Unit of the values, for files that do not state it
+    unit: Optional<String>,
+    /// Component to use: its name in the file, its azimuth, or its channel number
+    component: Optional<String>,
+    /// What is done to this record, in this order, before it is scaled
+    process: Optional<Process>,
+    /// A factor for this record, or a table such as { pga = "0.35 g" }
+    scale: Optional<ScaleValue>,
+}
+
+impl GroundTable {
+    /// The motion under a building; refuses keys that say nothing together.
+    pub(super) fn read(self, reader: &Reader<'_>, place: &Range<usize>) -> Option<BuildingGround> {
+        let by_wave = match (&self.distance, &self.wave_speed) {
+            (None, None) => None,
+            (Some(_), Some(_)) => Some((self.distance.number()?, self.wave_speed.number()?)),
+            (one, _) => {
+                let missing = if one.is_some() {
+                    "wave_speed"
+                } else {
+                    "distance"
+                };
+                return reader.refuse(
+                    place.clone(),
+                    format!("`ground` has no `{missing}`"),
+                    "give both `distance` and `wave_speed`, or a `delay`",
+                );
+            }
+        };
+        if by_wave.is_some() && self.delay.is_some() {
+            return reader.refuse(
+                place.clone(),
+                "`ground` has either `delay` or `distance` and `wave_speed`, not both",
+                "leave one of them out",
+            );
+        }
+        let delay = match by_wave {
+            Some((distance, speed)) => distance / speed,
+            None if self.delay.is_some() => self.delay.number()?,
+            None => 0.0,
+        };
+        let of_record = [
+            ("format", self.format.is_some()),
+            ("time_step", self.time_step.is_some()),
+            ("unit", self.unit.is_some()),
+            ("component", self.component.is_some()),
+            ("process", self.process.is_some()),
+            ("scale", self.scale.is_some()),
+        ];
+        let Some(file) = self.file else {
+            if let Some((key, _)) = of_record.iter().find(|(_, given)| *given) {
+                return reader.refuse(
+                    place.clone(),
+                    format!("`{key}` in `ground` belongs to a record, and there is no `file`"),
+                    "add `file = ...`, or leave it out: without a file the record of [ground_motion] moves this building, too",
+                );
+            }
+            return Some(BuildingGround {
+                delay,
+                motion: None,
+            });
+        };
+        let table = MotionTable {
+            file,
+            format: self.format,
+            time_step: self.time_step,
+            unit: self.unit,
+            component: self.component,
+            process: self.process,
+            scale: self.scale,
+            ..MotionTable::default()
+        };
+        Some(BuildingGround {
+            delay,
+            motion: Some(table.read(reader)),
+        })
+    }
 }
 
 /// JSON Schema of the table `[ground_motion]` of a case, for files whose records have its keys.

@@ -99,6 +99,17 @@ pub struct Building {
     pub damping: Located<Damping>,
     /// The foundation, if it sways or rocks.
     pub foundation: Option<Located<Foundation>>,
+    /// The ground under it, where that does not move as `[ground_motion]` says.
+    pub ground: Option<Located<BuildingGround>>,
+}
+
+/// The motion of the ground under one building.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BuildingGround {
+    /// Time (s) by which it is later.
+    pub delay: f64,
+    /// A record of its own; `None` is that of the case.
+    pub motion: Option<GroundMotion>,
 }
 
 /// A foundation that sways or rocks on the soil.
@@ -287,6 +298,10 @@ pub struct Gap {
     /// Columns of the left and of the right building that floors of the other may hit, at
     /// their table.
     pub columns: [Option<Located<HitColumns>>; 2],
+    /// Whether its wall stands still in space while the ground moves.
+    pub fixed_wall: bool,
+    /// Seat width (m) of what spans the joint, which an opening must not exceed.
+    pub seat: Option<Located<f64>>,
     /// Impact model.
     pub model: Located<String>,
     /// Separation rule.

@@ -23,8 +23,6 @@ pub(crate) fn rebuilt(
         let (between, tolerance) = (gap.between.clone(), gap.elevation_tolerance);
         other.add_gap_with_tolerance(&gap.name, between, pairs.collect(), tolerance)?;
     }
-    for (level, response) in system.level_responses() {
-        other.add_level_response(level, response.clone())?;
-    }
+    other.take_level_responses(system)?;
     Ok(other)
 }

@@ -24,7 +24,30 @@ pub(crate) struct LevelRow {
     pub level: usize,
     pub terms: Vec<(usize, f64)>,
     pub by_force: f64,
+    /// Whether negative values do not count in the peak.
+    pub one_sided: bool,
     pub given: LevelResponse,
+}
+
+/// A further response of a level that follows from the level itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LevelMotion {
+    /// How far floors move apart beyond the width at rest (m): the seat that a deck needs.
+    Opening,
+    /// Displacement of the ground at the left side less that at the right one (m).
+    RelativeGroundDisplacement,
+}
+
+impl LevelMotion {
+    /// Name in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Opening => "opening",
+            Self::RelativeGroundDisplacement => "relative_ground_displacement",
+        }
+    }
 }
 
 impl System {
@@ -55,8 +78,66 @@ impl System {
             level,
             terms: given.weights.iter().map(|(i, w)| (dof(*i), *w)).collect(),
             by_force: given.by_force,
+            one_sided: false,
             given,
         });
+        Ok(())
+    }
+
+    /// Adds a motion of a contact level to its responses, by its number in [`System::levels`].
+    ///
+    /// # Errors
+    /// A level that does not exist.
+    pub fn add_level_motion(
+        &mut self,
+        level: usize,
+        motion: LevelMotion,
+    ) -> Result<(), TimeHistoryError> {
+        let Some(own) = self.levels.get(level) else {
+            return Err(TimeHistoryError::GapDefinition {
+                gap: motion.name().to_owned(),
+                reason: format!("there is no contact level {level}"),
+            });
+        };
+        let ends = [(own.left, 1.0), (own.right, -1.0)].into_iter();
+        let ends = ends.filter_map(|(i, w)| i.map(|i| (i, w)));
+        let pushed = ends.chain(own.terms.pushed.iter().copied());
+        let ground = own.terms.ground.iter().copied();
+        let terms = match motion {
+            LevelMotion::Opening => pushed.chain(ground).map(|(i, w)| (i, -w)).collect(),
+            LevelMotion::RelativeGroundDisplacement => ground.collect(),
+        };
+        self.level_rows.push(LevelRow {
+            level,
+            terms,
+            by_force: 0.0,
+            one_sided: motion == LevelMotion::Opening,
+            given: LevelResponse {
+                name: motion.name().to_owned(),
+                unit: "m",
+                building: 0,
+                weights: Vec::new(),
+                by_force: 0.0,
+            },
+        });
+        Ok(())
+    }
+
+    /// Takes over the responses of the levels of a system with the same buildings and levels.
+    ///
+    /// # Errors
+    /// As [`System::add_level_response`].
+    pub fn take_level_responses(&mut self, from: &Self) -> Result<(), TimeHistoryError> {
+        for row in &from.level_rows {
+            let all = [
+                LevelMotion::Opening,
+                LevelMotion::RelativeGroundDisplacement,
+            ];
+            match all.into_iter().find(|m| m.name() == row.given.name) {
+                Some(motion) => self.add_level_motion(row.level, motion)?,
+                None => self.add_level_response(row.level, row.given.clone())?,
+            }
+        }
         Ok(())
     }
 

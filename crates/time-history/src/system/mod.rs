@@ -18,8 +18,8 @@ use pounding_shear_building::{
 use std::sync::{Arc, OnceLock};
 
 pub use level_place::LevelPlace;
-pub use level_response::LevelResponse;
 use level_response::LevelRow;
+pub use level_response::{LevelMotion, LevelResponse};
 use links::storeys;
 pub use links::{Link, LinkedPair};
 pub(crate) use motions::Grounds;
@@ -352,7 +352,7 @@ impl System {
     /// a sweep over gaps should make its systems by this and [`System::add_gap`].
     #[must_use]
     pub fn isolated(&self) -> Self {
-        Self {
+        let mut this = Self {
             gaps: Vec::new(),
             levels: Vec::new(),
             weighted_levels: false,
@@ -360,6 +360,23 @@ impl System {
             elements: storeys(&self.buildings, &self.offsets).1,
             links: Vec::new(),
             ..self.clone()
+        };
+        this.forget_moving_ground();
+        this
+    }
+
+    /// Removes the displacements of the ground, on which nothing depends.
+    fn forget_moving_ground(&mut self) {
+        let (kept, n) = (self.with_mass(), self.mass.len());
+        if kept == n {
+            return;
+        }
+        self.initial.truncate(n + kept);
+        self.initial.drain(kept..n);
+        self.mass.truncate(kept);
+        self.moving_ground.clear();
+        if let Some(motions) = &mut self.motions {
+            Arc::make_mut(motions).loads.truncate(kept);
         }
     }
 
@@ -613,6 +630,18 @@ impl System {
         self.motions.as_ref().map_or(&[], |m| &m.motions)
     }
 
+    /// Displacement of the ground at the left side of a contact level less that at the right
+    /// one when the last ground motion ends (m); `None` where it is the same by definition.
+    #[must_use]
+    pub fn ground_offset_at_end(&self, level: usize) -> Option<f64> {
+        let (motions, terms) = (self.motions.as_ref()?, &self.levels[level].terms);
+        let first = self.with_mass();
+        let of = |(dof, weight): &(usize, f64)| {
+            weight * motions.displacement_at_end(self.moving_ground[dof - first])
+        };
+        (!terms.ground.is_empty()).then(|| terms.ground.iter().map(of).sum())
+    }
+
     /// Ground motion along the row under a building, by its number in
     /// [`System::ground_motions`].
     pub(crate) fn motion_under(&self, building: usize) -> usize {
@@ -684,7 +713,12 @@ impl System {
         scratch: &mut [f64],
     ) {
         if let Some(bands) = &self.bands {
-            bands.internal_forces(u, v, out, scratch);
+            let floors = self.floors();
+            let (out, moving) = out.split_at_mut(floors);
+            let (scratch, still) = scratch.split_at_mut(floors);
+            bands.internal_forces(&u[..floors], &v[..floors], out, scratch);
+            moving.fill(0.0);
+            still.fill(0.0);
             return;
         }
         for (index, building) in self.buildings.iter().enumerate() {

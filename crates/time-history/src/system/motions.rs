@@ -126,6 +126,20 @@ impl Motions {
         }
     }
 
+    /// Displacement (m) of a motion at the end of the last one, from rest.
+    pub(super) fn displacement_at_end(&self, motion: usize) -> f64 {
+        let (mut x, mut v) = (0.0, 0.0);
+        for Interval {
+            length: h, loads, ..
+        } in &self.intervals
+        {
+            let [a, slope] = loads[motion];
+            x += h * (v + h * (0.5 * a + h * slope / 6.0));
+            v += h * (a + 0.5 * h * slope);
+        }
+        x
+    }
+
     /// End of the last motion (s).
     pub(super) fn duration(&self) -> f64 {
         let ends = self

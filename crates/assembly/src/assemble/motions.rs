@@ -1,0 +1,66 @@
+//! Buildings on the ground motions that move them.
+
+use std::sync::Arc;
+
+use pounding_case::Case;
+use pounding_ground_motion::Accelerogram;
+use pounding_shear_building::ShearBuilding;
+use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
+
+use crate::error::AssemblyError;
+use crate::excitation::own_accelerogram;
+
+/// A record as the time history takes it.
+pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
+    GroundAcceleration {
+        samples: accelerogram.samples().into(),
+        time_step: accelerogram.time_step(),
+    }
+}
+
+/// The buildings of a case without gaps, each on its ground: that of the record given, now or
+/// later, or of a record of its own.
+pub(super) fn on_their_ground(
+    case: &Case,
+    buildings: Vec<Arc<ShearBuilding>>,
+    accelerogram: &Accelerogram,
+) -> Result<System, AssemblyError> {
+    let first = ground(accelerogram);
+    let mut motions = vec![GroundMotion {
+        acceleration: first.clone(),
+        delay: 0.0,
+    }];
+    let mut supports = Vec::new();
+    for building in &case.buildings {
+        let mut along = 0;
+        if let Some(given) = &building.ground {
+            let (delay, own) = (given.value.delay, &given.value.motion);
+            let same = |m: &GroundMotion| {
+                m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &first.samples)
+            };
+            let known = motions.iter().position(same).filter(|_| own.is_none());
+            along = match (known, own) {
+                (Some(known), _) => known,
+                (None, own) => {
+                    let acceleration = match own {
+                        None => first.clone(),
+                        Some(motion) => ground(&own_accelerogram(case, motion)?),
+                    };
+                    motions.push(GroundMotion {
+                        acceleration,
+                        delay,
+                    });
+                    motions.len() - 1
+                }
+            };
+        }
+        supports.push(Support {
+            along,
+            across: None,
+        });
+    }
+    if motions.len() == 1 {
+        return Ok(System::new(buildings, first));
+    }
+    Ok(System::with_motions(buildings, motions, supports)?)
+}

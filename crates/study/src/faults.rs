@@ -325,5 +325,6 @@ fn plain_building() -> Building {
         },
         foundation: None,
         ground: None,
+        plan: None,
     }
 }

@@ -8,3 +8,4 @@ mod condensed_stiffness;
 mod general;
 mod motions;
 mod reference;
+mod torsion;

@@ -6,6 +6,7 @@ mod foundation;
 mod lateral;
 mod laws;
 mod motions;
+mod plan;
 
 pub use again::{assemble_with_record, regap};
 
@@ -173,15 +174,25 @@ fn with_gaps(
             _ if gap.fixed_wall => Floor::FixedWall,
             _ => Floor::Wall,
         };
-        let pairs = gap
-            .levels
-            .iter()
-            .map(|l| {
-                let left = floor(gap.between[0], l.left);
-                let right = floor(gap.between[1], l.right);
-                (left, right, l.width, Arc::clone(model))
-            })
-            .collect();
+        let points = plan::points(case, gap)?;
+        let mut pairs = Vec::new();
+        for l in &gap.levels {
+            let sides = [
+                floor(gap.between[0], l.left),
+                floor(gap.between[1], l.right),
+            ];
+            let mut add = |[left, right]: [Floor; 2]| {
+                pairs.push((left, right, l.width, Arc::clone(model)));
+            };
+            match &points {
+                None => add(sides),
+                Some(points) => {
+                    for y in points {
+                        add(sides.map(|side| plan::point(case, &mut system, side, *y)));
+                    }
+                }
+            }
+        }
         let names = gap.between.map(|side| match side {
             Side::Building(b) => case.buildings[b].name.value.clone(),
             Side::Wall => "wall".to_owned(),
@@ -256,6 +267,9 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
 fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
     let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
     let (name, mass, height) = (b.name.value.clone(), b.mass.clone(), b.height.clone());
+    if let Some(given) = &b.plan {
+        return plan::building(case, b, given);
+    }
     let damping = b.damping.value.clone();
     let made = match &b.lateral {
         None => {

@@ -30,6 +30,17 @@ pub(super) fn on_their_ground(
         acceleration: first.clone(),
         delay: 0.0,
     }];
+    let turns = |building: &pounding_case::Building| building.plan.is_some();
+    let across = match &case.ground_motion.across {
+        None => None,
+        Some(given) if !case.buildings.iter().any(turns) => {
+            let message = "a record across the row has nothing to move: no building turns in plan";
+            let help = "leave `across` out, or give a building a `plan`".to_owned();
+            let error = case.error(given.span.clone(), message.to_owned(), Some(help));
+            return Err(error.into());
+        }
+        Some(given) => Some(ground(&own_accelerogram(case, &given.value)?)),
+    };
     let mut supports = Vec::new();
     for building in &case.buildings {
         let mut along = 0;
@@ -54,10 +65,23 @@ pub(super) fn on_their_ground(
                 }
             };
         }
-        supports.push(Support {
-            along,
-            across: None,
-        });
+        let across = across
+            .as_ref()
+            .filter(|_| turns(building))
+            .map(|acceleration| {
+                let delay = motions[along].delay;
+                let same = |m: &GroundMotion| {
+                    m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &acceleration.samples)
+                };
+                motions.iter().position(same).unwrap_or_else(|| {
+                    motions.push(GroundMotion {
+                        acceleration: acceleration.clone(),
+                        delay,
+                    });
+                    motions.len() - 1
+                })
+            });
+        supports.push(Support { along, across });
     }
     if motions.len() == 1 {
         return Ok(System::new(buildings, first));

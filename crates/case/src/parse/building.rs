@@ -10,6 +10,7 @@ use super::foundation::FoundationTable;
 use super::ground_motion::GroundTable;
 use super::lateral::{CantileverTable, FishboneTable, MatrixValue, matrix, rows};
 use super::law::{LawTable, storey_laws};
+use super::plan::PlanTable;
 use super::{check_name, spread};
 use crate::document::{
     Count, Dashpot, Dimensioned, Entry, Field, Flexibility, Frequency, Kinds, Length, Mass,
@@ -26,7 +27,8 @@ use crate::types::{Building, Damping, Lateral, Located};
         {"required": ["stiffness_matrix"]},
         {"required": ["flexibility_matrix"]},
         {"required": ["cantilever"]},
-        {"required": ["fishbone"]}
+        {"required": ["fishbone"]},
+        {"required": ["plan"]}
     ]},
     {"oneOf": [{"required": ["height"]}, {"required": ["elevations"]}]}
 ]))]
@@ -71,6 +73,8 @@ pub(super) struct BuildingTable {
     damping: Field<Kinds<DampingTable>>,
     /// Foundation that sways and rocks on the soil; by default a fixed base
     foundation: Optional<FoundationTable>,
+    /// Plan with frames in the place of storey stiffnesses, for floors that turn
+    plan: Optional<PlanTable>,
     /// How the ground under this building moves, where not as [ground_motion] says
     ground: Optional<GroundTable>,
 }
@@ -181,7 +185,16 @@ impl BuildingTable {
             (self.stiffness_matrix, self.flexibility_matrix),
             (self.cantilever, self.fishbone),
         );
-        let stiffness_wrong = stiffness_wrong || !by_storeys && lateral.is_none();
+        // Floors that turn have three coordinates each.
+        let modes = if self.plan.is_some() {
+            3 * storeys
+        } else {
+            storeys
+        };
+        let plan = self.plan.located();
+        let plan = plan.and_then(|given| given.value.read(reader, given.span, storeys));
+        let resisted = by_storeys || lateral.is_some() || plan.is_some();
+        let stiffness_wrong = stiffness_wrong || !resisted;
         let sound = sound && !stiffness_wrong;
         let laws = self.law.value();
         let laws = laws.map_or_else(Vec::new, |laws| storey_laws(reader, laws, storeys));
@@ -193,7 +206,7 @@ impl BuildingTable {
         }
         let damping = self.damping.located().and_then(|damping| {
             Some(Located {
-                value: damping.value.0.read(reader, storeys)?,
+                value: damping.value.0.read(reader, storeys, modes)?,
                 span: damping.span,
             })
         });
@@ -245,6 +258,7 @@ impl BuildingTable {
             damping,
             foundation,
             ground,
+            plan,
         };
         Some((building, !heights_wrong))
     }
@@ -263,6 +277,7 @@ impl BuildingTable {
             stated("flexibility_matrix", &self.flexibility_matrix),
             stated("cantilever", &self.cantilever),
             stated("fishbone", &self.fishbone),
+            stated("plan", &self.plan),
         ];
         keys.into_iter().flatten().collect()
     }
@@ -364,7 +379,7 @@ fn resists(reader: &Reader<'_>, given: &[Stated], place: &Range<usize>) -> bool 
             reader.refuse::<()>(
                 place.clone(),
                 "[[building]] has no `stiffness`",
-                "add `stiffness = ...`; for a frame or a wall `stiffness_matrix`, `flexibility_matrix`, `cantilever` or `fishbone`",
+                "add `stiffness = ...`; for a frame or a wall `stiffness_matrix`, `flexibility_matrix`, `cantilever` or `fishbone`, for floors that turn `plan`",
             );
         }
         [first, second, ..] => {
@@ -468,11 +483,13 @@ fn each<T: Into<f64>>(list: impl Entry<OneOrEach<T>>, storeys: usize, stand_in: 
 }
 
 impl DampingTable {
-    fn read(self, reader: &Reader<'_>, storeys: usize) -> Option<Damping> {
+    /// `modes` is the number of modes of the building.
+    fn read(self, reader: &Reader<'_>, storeys: usize, modes: usize) -> Option<Damping> {
+        let count = modes;
         Some(match self {
             Self::Ratio { ratio, modes } => Damping::RayleighRatio {
                 ratio: ratio.into(),
-                modes: two_modes(reader, modes, storeys)?,
+                modes: two_modes(reader, modes, count)?,
             },
             Self::Rayleigh { rayleigh } => Damping::Rayleigh {
                 alpha: rayleigh.alpha.into(),
@@ -489,7 +506,7 @@ impl DampingTable {
                 ratio: ratio.into(),
             },
             Self::Modal { modal } => Damping::Modal {
-                ratios: spread(reader, modal, storeys, "mode")?,
+                ratios: spread(reader, modal, count, "mode")?,
             },
             Self::Dashpots { dashpots } => Damping::Dashpots {
                 coefficients: spread(reader, dashpots, storeys, "storey")?,
@@ -498,12 +515,12 @@ impl DampingTable {
     }
 }
 
-fn two_modes(reader: &Reader<'_>, modes: Located<Modes>, storeys: usize) -> Option<[usize; 2]> {
+fn two_modes(reader: &Reader<'_>, modes: Located<Modes>, count: usize) -> Option<[usize; 2]> {
     match modes.value.0.as_slice() {
-        [Count(a), Count(b)] if a != b && *a <= storeys && *b <= storeys => Some([*a, *b]),
+        [Count(a), Count(b)] if a != b && *a <= count && *b <= count => Some([*a, *b]),
         _ => reader.refuse(
             modes.span,
-            format!("`modes` must be two different modes from 1 to {storeys}"),
+            format!("`modes` must be two different modes from 1 to {count}"),
             "for a single storey use { mass_proportional = ... }",
         ),
     }

@@ -10,7 +10,7 @@ use super::column::ColumnTables;
 use super::levels::{Between, Faces, Levels};
 use super::{Row, name, spread};
 use crate::document::{
-    Entry, Field, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
+    Entry, Field, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader, Signed,
 };
 use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side};
 use crate::units::Quantity;
@@ -41,6 +41,9 @@ pub(super) struct GapTable {
     /// moving, a wall that moves with the ground as by default, or fixed, one that stands still
     /// in space
     wall: Optional<Wall>,
+    /// Positions across the row (m) of the contact points of floors that turn in plan, one or a
+    /// list; by default both ends of the edge that they share
+    points: Optional<OneOrEach<Signed<Length>>>,
     /// Seat width (m) of a deck that spans the joint: how far it opens is then reported, and
     /// whether the deck falls
     seat: Optional<Positive<Length>>,
@@ -92,6 +95,10 @@ impl GapTable {
                 "leave it out, or name \"wall\" in `between`",
             );
         }
+        let points = self.points.located().map(|points| Located {
+            value: points.value.spread(1),
+            span: points.span,
+        });
         let fixed_wall = self.wall.value() == Some(Wall::Fixed);
         let seat = self.seat.located().map(|seat| Located {
             value: seat.value.into(),
@@ -122,6 +129,7 @@ impl GapTable {
             floor_to_floor: placed.floor_to_floor,
             columns: placed.columns,
             fixed_wall,
+            points,
             seat,
             model,
             separation: self.separation.located(),

@@ -38,6 +38,9 @@ pub(super) struct MotionTable {
     /// Angle (degrees, a plain number) by which two components at right angles are turned,
     /// first towards second; the first is used
     rotate: Optional<Degrees>,
+    /// The record across the row, a table with a file of its own, for buildings that turn in
+    /// plan
+    across: Optional<GroundTable>,
     /// acceleration, the only quantity that excites buildings
     quantity: Optional<String>,
     /// Plain columns: lines to skip at the start
@@ -219,6 +222,10 @@ impl MotionTable {
             layout: self.layout.value(),
             component: self.component.value(),
             rotation: rotation(reader, self.second_component, self.rotate),
+            across: self
+                .across
+                .located()
+                .and_then(|given| across(reader, given)),
             quantity: self.quantity.located(),
             skip_lines: count(self.skip_lines),
             skip_columns: count(self.skip_columns),
@@ -237,6 +244,25 @@ impl MotionTable {
                 span: scale.span,
             }),
         }
+    }
+}
+
+/// The record across the row.
+fn across(reader: &Reader<'_>, given: Located<GroundTable>) -> Option<Located<Box<GroundMotion>>> {
+    let span = given.span;
+    match given.value.read(reader, &span)? {
+        BuildingGround {
+            delay: 0.0,
+            motion: Some(motion),
+        } => Some(Located {
+            value: Box::new(motion),
+            span,
+        }),
+        _ => reader.refuse(
+            span,
+            "`across` is a record of its own, without a delay",
+            "write across = { file = \"...\" }; a delay stands in `ground` of a building, for both components",
+        ),
     }
 }
 

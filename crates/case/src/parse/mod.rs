@@ -27,6 +27,7 @@ mod ground_motion;
 mod lateral;
 mod law;
 mod levels;
+mod plan;
 mod process;
 mod scale;
 mod separation;

@@ -101,6 +101,35 @@ pub struct Building {
     pub foundation: Option<Located<Foundation>>,
     /// The ground under it, where that does not move as `[ground_motion]` says.
     pub ground: Option<Located<BuildingGround>>,
+    /// Its plan, if its floors turn.
+    pub plan: Option<Located<Plan>>,
+}
+
+/// The plan of a building with rigid floors that turn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Length of the floors along the row (m).
+    pub length: f64,
+    /// Width of the floors across the row (m).
+    pub width: f64,
+    /// Position of the mass centre across the row (m).
+    pub mass_centre: f64,
+    /// Rotational inertia of every floor about its mass centre (kg m2); `None` is that of a
+    /// rectangle.
+    pub rotational_inertia: Option<Vec<f64>>,
+    /// Frames along the row, at positions across it.
+    pub along: Vec<Frame>,
+    /// Frames across the row, at positions along it.
+    pub across: Vec<Frame>,
+}
+
+/// A frame or wall line of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Distance from the mass centre (m).
+    pub at: f64,
+    /// Stiffness of every storey (N/m), bottom first.
+    pub stiffness: Vec<f64>,
 }
 
 /// The motion of the ground under one building.
@@ -300,6 +329,9 @@ pub struct Gap {
     pub columns: [Option<Located<HitColumns>>; 2],
     /// Whether its wall stands still in space while the ground moves.
     pub fixed_wall: bool,
+    /// Positions across the row (m) at which floors that turn may touch; `None` for both ends of
+    /// the edge that they share.
+    pub points: Option<Located<Vec<f64>>>,
     /// Seat width (m) of what spans the joint, which an opening must not exceed.
     pub seat: Option<Located<f64>>,
     /// Impact model.
@@ -337,6 +369,8 @@ pub struct GroundMotion {
     /// The other component and the angle (degrees) by which both are turned, first
     /// towards second.
     pub rotation: Option<Rotation>,
+    /// The record across the row, for buildings that turn in plan.
+    pub across: Option<Located<Box<GroundMotion>>>,
     /// Quantity to use: only an acceleration excites buildings.
     pub quantity: Option<Located<String>>,
     /// Lines to skip.

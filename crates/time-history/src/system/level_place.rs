@@ -12,13 +12,19 @@ pub struct LevelPlace {
     pub storeys: [Option<usize>; 2],
     /// Elevations (m).
     pub elevations: [Option<f64>; 2],
+    /// Position across the row (m), of floors that turn in plan.
+    pub across: Option<f64>,
 }
 
 impl LevelPlace {
     /// Short name: left and right storey, `3-3`, or `3-wall`.
     #[must_use]
     pub fn label(&self) -> String {
-        self.storeys.map(or_wall).join("-")
+        let storeys = self.storeys.map(or_wall).join("-");
+        match self.across {
+            None => storeys,
+            Some(across) => format!("{storeys} at {across} m across"),
+        }
     }
 
     /// Left and right elevation (m), `9 / 9`, or `9 / wall`.
@@ -83,6 +89,7 @@ mod tests {
         let place = LevelPlace {
             storeys: [Some(4), Some(1)],
             elevations: [Some(12.0), Some(3.06)],
+            across: None,
         };
         assert_eq!(place.label(), "4-1");
         assert_eq!(place.elevations_label(), "12 / 3.06");
@@ -91,8 +98,14 @@ mod tests {
         let wall = LevelPlace {
             storeys: [None, Some(2)],
             elevations: [None, Some(6.0)],
+            across: None,
         };
         assert_eq!(wall.to_string(), "wall-2 (wall | 6 m)");
         assert!(wall.is_level(0.0) && wall.elevation() == 6.0);
+        let point = LevelPlace {
+            across: Some(-5.0),
+            ..place
+        };
+        assert_eq!(point.label(), "4-1 at -5 m across");
     }
 }

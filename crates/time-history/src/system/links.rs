@@ -67,6 +67,7 @@ impl System {
                 level_place: Some(LevelPlace {
                     storeys: [row.place.storeys[1], row.place.storeys[0]],
                     elevations: [row.place.elevations[1], row.place.elevations[0]],
+                    across: row.place.across,
                 }),
                 law: pair.law,
                 yield_deformation: pair.yield_deformation,

@@ -119,7 +119,8 @@ pub struct System {
     /// Responses that are sums of absolute accelerations.
     acceleration_rows: Vec<SectionForce>,
     links: Vec<Link>,
-    points: Vec<BuildingPoint>,
+    /// Points of buildings, with positions across the row (m) where these matter.
+    points: Vec<(BuildingPoint, Option<f64>)>,
     level_rows: Vec<LevelRow>,
     bands: Option<Bands>,
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with

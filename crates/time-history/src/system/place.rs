@@ -43,12 +43,21 @@ struct Side {
     weights: Vec<(usize, f64)>,
     place: Option<(usize, f64)>,
     building: Option<usize>,
+    /// Position across the row (m), where it matters.
+    across: Option<f64>,
 }
 
 impl System {
     /// Adds a point of a building, on which gaps and links may then act.
     pub fn add_point(&mut self, point: BuildingPoint) -> Floor {
-        self.points.push(point);
+        self.points.push((point, None));
+        Floor::Point(self.points.len() - 1)
+    }
+
+    /// The same with its position across the row (m), which becomes part of the names of its
+    /// levels.
+    pub fn add_point_across(&mut self, point: BuildingPoint, across: f64) -> Floor {
+        self.points.push((point, Some(across)));
         Floor::Point(self.points.len() - 1)
     }
 
@@ -58,7 +67,7 @@ impl System {
         match floor {
             Floor::Storey(building, storey) => Some((building, storey)),
             Floor::Point(number) => {
-                let point = self.points.get(number)?;
+                let (point, _) = self.points.get(number)?;
                 Some((point.building, point.storey))
             }
             Floor::Wall | Floor::FixedWall => None,
@@ -89,6 +98,7 @@ impl System {
             right,
             terms,
             place: LevelPlace {
+                across: sides.iter().find_map(|s| s.across),
                 storeys: [0, 1].map(|k| sides[k].place.map(|p| p.0)),
                 elevations: [0, 1].map(|k| sides[k].place.map(|p| p.1)),
             },
@@ -125,15 +135,18 @@ impl System {
                 weights: Vec::new(),
                 place: None,
                 building: None,
+                across: None,
             }),
             Floor::Storey(b, s) => Ok(Side {
                 weights: vec![(self.offsets[b.min(self.buildings.len())] + s, 1.0)],
                 place: Some((s + 1, found(b, s)?.elevations()[s])),
                 building: Some(b),
+                across: None,
             }),
             Floor::Point(number) => {
                 let point = self.points.get(number);
-                let point = point.ok_or_else(|| format!("there is no point {number}"))?;
+                let found_point = point.ok_or_else(|| format!("there is no point {number}"));
+                let (point, across) = found_point?;
                 let b = point.building;
                 let building = found(b, point.storey)?;
                 let parts = self.parts(b);
@@ -155,6 +168,7 @@ impl System {
                     weights,
                     place: Some((point.storey + 1, point.elevation)),
                     building: Some(b),
+                    across: *across,
                 })
             }
         }

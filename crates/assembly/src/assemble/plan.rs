@@ -1,0 +1,247 @@
+//! Buildings whose floors turn in plan: rigid floors on frames along and across the row.
+
+use nalgebra::DMatrix;
+use pounding_case::{Building, Case, CaseError, Frame, Gap, Located, Plan, Side};
+use pounding_shear_building::{
+    Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow, ShearBuilding,
+    ShearBuildingError,
+};
+use pounding_time_history::{BuildingPoint, Floor, System};
+
+/// Coordinates of a floor: along the row, across it, rotation anticlockwise; those of all floors
+/// along come first.
+const OF_A_FLOOR: usize = 3;
+
+/// The building with its floors, masses and damping.
+pub(super) fn building(
+    case: &Case,
+    b: &Building,
+    given: &Located<Plan>,
+) -> Result<ShearBuilding, CaseError> {
+    let refused = |message: &str, help: &str| {
+        let message = format!("building {}: {message}", b.name.value);
+        case.error(given.span.clone(), message, Some(help.to_owned()))
+    };
+    if b.p_delta {
+        return Err(refused(
+            "gravity through the drift is not known for floors that turn",
+            "leave `p_delta` out",
+        ));
+    }
+    if b.foundation.is_some() {
+        return Err(refused(
+            "a building that turns in plan stands on a fixed base",
+            "leave `foundation` or `plan` out",
+        ));
+    }
+    let general = general(b, &given.value);
+    if general.stiffness.clone().cholesky().is_none() {
+        return Err(refused(
+            "its frames do not hold the floors",
+            "give frames in both directions, at least two of one direction apart from one another: a single line in each cannot resist rotation",
+        ));
+    }
+    ShearBuilding::with_coordinates(general).map_err(|e| {
+        let place = match e {
+            ShearBuildingError::Damping { .. } => &b.damping.span,
+            _ => &given.span,
+        };
+        let help = "give ratios, such as { ratio = 0.05, modes = [1, 3] }, with modes of all three coordinates of a floor".to_owned();
+        case.error(place.clone(), e.to_string(), Some(help))
+    })
+}
+
+fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
+    let n = b.mass.len();
+    let all = OF_A_FLOOR * n;
+    let mut stiffness = DMatrix::zeros(all, all);
+    let mut shears = vec![vec![0.0; all]; n];
+    for (frames, direction) in [(&plan.along, 0), (&plan.across, 1)] {
+        for (storey, shear) in shears.iter_mut().enumerate() {
+            for Frame { at, stiffness: k } in frames {
+                let row = deformation(n, storey, direction, *at);
+                for (i, x) in &row {
+                    for (j, y) in &row {
+                        stiffness[(*i, *j)] += k[storey] * x * y;
+                    }
+                    if direction == 0 {
+                        shear[*i] += k[storey] * x;
+                    }
+                }
+            }
+        }
+    }
+    let mut moment = vec![0.0; all];
+    for (shear, height) in shears.iter().zip(&b.height) {
+        for (sum, k) in moment.iter_mut().zip(shear) {
+            *sum += height * k;
+        }
+    }
+    let rectangle = (plan.length.powi(2) + plan.width.powi(2)) / 12.0;
+    let inertia = |i: usize| match &plan.rotational_inertia {
+        Some(given) => given[i],
+        None => b.mass[i] * rectangle,
+    };
+    let coordinate = |kind: &str, i: usize, inertia: f64, excitation| Coordinate {
+        name: format!("{kind} of floor {}", i + 1),
+        inertia,
+        excitation,
+    };
+    let across = (0..n).map(|i| coordinate("motion across", i, b.mass[i], Excitation::Across));
+    let rotation = (0..n).map(|i| coordinate("rotation", i, inertia(i), Excitation::None));
+    GeneralBuilding {
+        name: b.name.value.clone(),
+        mass: b.mass.clone(),
+        height: b.height.clone(),
+        further: across.chain(rotation).collect(),
+        stiffness,
+        damping: b.damping.value.clone(),
+        drifts: None,
+        sections: shears.into_iter().chain([moment]).collect(),
+        responses: (0..n).flat_map(|i| responses(plan, n, i)).collect(),
+    }
+}
+
+/// Deformation of a frame in a storey, as a sum over the coordinates: of one `at` a distance from
+/// the mass centre, along the row (0) or across it (1).
+fn deformation(n: usize, storey: usize, direction: usize, at: f64) -> Vec<(usize, f64)> {
+    let arm = [-at, at][direction];
+    let floor = |i: usize, sign: f64| [(direction * n + i, sign), (2 * n + i, sign * arm)];
+    let mut row = floor(storey, 1.0).to_vec();
+    if storey > 0 {
+        row.extend(floor(storey - 1, -1.0));
+    }
+    row
+}
+
+/// What is told of a floor beside its motion along the row.
+fn responses(plan: &Plan, n: usize, floor: usize) -> Vec<ResponseRow> {
+    let row = |name: &str, unit, kind, terms: &[(usize, f64)]| {
+        let mut weights = vec![0.0; OF_A_FLOOR * n];
+        for (i, w) in terms {
+            weights[*i] = *w;
+        }
+        ResponseRow {
+            name: format!("{name}_{}", floor + 1),
+            unit,
+            kind,
+            weights,
+        }
+    };
+    let (across, rotation) = (n + floor, 2 * n + floor);
+    let edge = |y: f64| [(floor, 1.0), (rotation, -y)];
+    let half = 0.5 * plan.width;
+    vec![
+        row(
+            "displacement_across",
+            "m",
+            ResponseKind::Displacement,
+            &[(across, 1.0)],
+        ),
+        row(
+            "rotation",
+            "rad",
+            ResponseKind::Displacement,
+            &[(rotation, 1.0)],
+        ),
+        row(
+            "displacement_of_lower_edge",
+            "m",
+            ResponseKind::Displacement,
+            &edge(-half),
+        ),
+        row(
+            "displacement_of_upper_edge",
+            "m",
+            ResponseKind::Displacement,
+            &edge(half),
+        ),
+        row(
+            "acceleration_across",
+            "m/s2",
+            ResponseKind::Acceleration,
+            &[(across, 1.0)],
+        ),
+        row(
+            "rotational_acceleration",
+            "rad/s2",
+            ResponseKind::Acceleration,
+            &[(rotation, 1.0)],
+        ),
+    ]
+}
+
+/// Positions across the row (m) at which a level of the gap touches; `None` where neither side
+/// turns.
+pub(super) fn points(case: &Case, gap: &Gap) -> Result<Option<Vec<f64>>, CaseError> {
+    let plans = gap.between.map(|side| match side {
+        Side::Building(b) => case.buildings[b].plan.as_ref(),
+        Side::Wall => None,
+    });
+    let edges = || {
+        plans.iter().flatten().map(|plan| {
+            let (centre, half) = (plan.value.mass_centre, 0.5 * plan.value.width);
+            (centre - half, centre + half)
+        })
+    };
+    let shared = edges().reduce(|a, b| (a.0.max(b.0), a.1.min(b.1)));
+    match (shared, &gap.points) {
+        (None, None) => Ok(None),
+        (None, Some(given)) => Err(case.error(
+            given.span.clone(),
+            format!(
+                "gap {}: `points` have no meaning between buildings that do not turn",
+                gap.name
+            ),
+            Some("leave `points` out, or give a building a `plan`".to_owned()),
+        )),
+        (Some((low, high)), None) if low < high => Ok(Some(vec![low, high])),
+        (Some(_), None) => Err(case.error(
+            gap.model.span.clone(),
+            format!(
+                "gap {}: both buildings have no edge in common across the row",
+                gap.name
+            ),
+            Some("correct `mass_centre` or `width` of a plan, or give `points`".to_owned()),
+        )),
+        (Some((low, high)), Some(given)) => {
+            let mut points = given.value.clone();
+            points.sort_by(f64::total_cmp);
+            points.dedup();
+            let beyond = points.iter().find(|y| !(low..=high).contains(*y));
+            match beyond {
+                None => Ok(Some(points)),
+                Some(y) => Err(case.error(
+                    given.span.clone(),
+                    format!(
+                        "gap {}: the point at {y} m is not on the edge that both sides share, from {low} m to {high} m",
+                        gap.name
+                    ),
+                    Some("give positions across the row within the plans of both sides".to_owned()),
+                )),
+            }
+        }
+    }
+}
+
+/// The place of a floor at a position across the row (m).
+pub(super) fn point(case: &Case, system: &mut System, floor: Floor, across: f64) -> Floor {
+    let Floor::Storey(b, storey) = floor else {
+        return floor;
+    };
+    let Some(plan) = &case.buildings[b].plan else {
+        return floor;
+    };
+    let building = &case.buildings[b];
+    let n = building.mass.len();
+    let point = BuildingPoint {
+        building: b,
+        storey,
+        elevation: building.elevations()[storey],
+        weights: vec![
+            (storey, 1.0),
+            (2 * n + storey, plan.value.mass_centre - across),
+        ],
+    };
+    system.add_point_across(point, across)
+}

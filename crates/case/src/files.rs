@@ -9,16 +9,23 @@ impl Case {
     /// its path resolved against the folder of the case file. They are not looked for.
     #[must_use]
     pub fn files(&self) -> Vec<(&'static str, PathBuf)> {
-        let GroundMotion {
-            file,
-            process,
-            scale,
-            ..
-        } = &self.ground_motion;
-        let steps = process.iter().filter_map(|step| step.value.target());
-        let targets = steps.chain(scale.as_ref().and_then(|scale| scale.value.target()));
-        let mut files = vec![("record", self.resolve(&file.value))];
-        files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
+        let mut files = Vec::new();
+        let mut add = |what, motion: &GroundMotion| {
+            files.push((what, self.resolve(&motion.file.value)));
+            let steps = motion.process.iter().filter_map(|step| step.value.target());
+            let scale = motion.scale.as_ref();
+            let targets = steps.chain(scale.and_then(|scale| scale.value.target()));
+            files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
+        };
+        add("record", &self.ground_motion);
+        if let Some(across) = &self.ground_motion.across {
+            add("further record", &across.value);
+        }
+        for ground in self.buildings.iter().filter_map(|b| b.ground.as_ref()) {
+            if let Some(motion) = &ground.value.motion {
+                add("further record", motion);
+            }
+        }
         let lateral = self.buildings.iter().filter_map(|b| b.lateral.as_ref());
         let matrices = lateral.filter_map(|l| l.value.file());
         files.extend(matrices.map(|f| ("matrix", self.resolve(&f.value))));

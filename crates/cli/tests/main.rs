@@ -21,6 +21,7 @@ mod plausibility;
 mod report;
 mod sizes;
 mod stiffness;
+mod structure_examples;
 mod studies;
 mod support;
 mod tables;

@@ -4,7 +4,8 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    Ledger, LevelOutcome, LinkLevelOutcome, Outcome, Peak, Statistics, StoreyPeaks, YieldingStorey,
+    Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics, StoreyPeaks,
+    YieldingStorey,
 };
 use crate::system::{LevelPlace, System};
 
@@ -35,6 +36,10 @@ struct Building<'a> {
     isolated: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolated_base_moment: Option<Peak>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    responses: &'a [NamedPeak],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    isolated_responses: &'a [NamedPeak],
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -89,6 +94,8 @@ impl<'a> Summary<'a> {
             yielding: &with.yielding,
             isolated: &without.storeys,
             isolated_base_moment: without.base_moment,
+            responses: &with.responses,
+            isolated_responses: &without.responses,
         });
         let gaps = outcome.gaps.iter().zip(system.gaps()).map(|(gap, place)| {
             let levels = system.levels_of(place);

@@ -12,7 +12,7 @@ use pounding_shear_building::{Damping, DampingMatrix, Modes, ShearBuilding};
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome};
-use crate::system::{ContactLevel, System, more_pairs};
+use crate::system::{ContactLevel, LevelMotion, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
@@ -54,6 +54,17 @@ pub enum Warning {
         width: f64,
         /// Storey height (m).
         height: f64,
+    },
+    /// A joint that opens further than its seat is wide.
+    Unseating {
+        /// Gap and level, in words.
+        place: String,
+        /// Greatest opening (m).
+        opening: f64,
+        /// Seat width (m).
+        seat: f64,
+        /// When the joint opens most (s).
+        time: f64,
     },
     /// Ground on both sides of a gap that ends far from where it began.
     GroundOffset {
@@ -139,6 +150,18 @@ impl fmt::Display for Warning {
                 "gap {gap}: a width of {} m is more than the {} m of a storey beside it: is its unit right (mm, not m)?",
                 short(*width),
                 short(*height)
+            ),
+            Self::Unseating {
+                place,
+                opening,
+                seat,
+                time,
+            } => write!(
+                f,
+                "gap {place}: the joint opens by {} m at {} s, more than its seat of {} m: the deck falls",
+                short(*opening),
+                short(*time),
+                short(*seat)
             ),
             Self::GroundOffset { gap, offset, width } => write!(
                 f,
@@ -289,6 +312,7 @@ impl Warning {
             (velocity > 0.0).then_some(velocity)
         };
         warnings.extend(coarse_step(system, &options.method, (met, true)));
+        warnings.extend(unseated(system, levels));
         for (outcome, building) in buildings.iter().zip(system.buildings()) {
             let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
             let most = ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -349,6 +373,29 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
         warnings.push(Warning::ManySteps { steps, limit });
     }
     warnings
+}
+
+/// Joints that opened further than their seats are wide.
+fn unseated(system: &System, levels: &[LevelOutcome]) -> Vec<Warning> {
+    let mut found = Vec::new();
+    for gap in system.gaps() {
+        let Some(seat) = gap.seat else { continue };
+        for level in gap.first_level..gap.first_level + gap.levels {
+            let own = levels[level].responses.iter();
+            let opening = own.filter(|r| r.name == LevelMotion::Opening.name());
+            found.extend(
+                opening
+                    .filter(|r| r.peak.value > seat)
+                    .map(|r| Warning::Unseating {
+                        place: system.name_of_level(level),
+                        opening: r.peak.value,
+                        seat,
+                        time: r.peak.time,
+                    }),
+            );
+        }
+    }
+    found
 }
 
 /// Part of the width of a gap from which an offset of the ground is told.

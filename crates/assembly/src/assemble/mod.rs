@@ -199,10 +199,10 @@ fn with_gaps(
         });
         let first = system.levels().len();
         system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance)?;
+        if let Some(seat) = &gap.seat {
+            system.seat(seat.value)?;
+        }
         for level in first..system.levels().len() {
-            if gap.seat.is_some() {
-                system.add_level_motion(level, LevelMotion::Opening)?;
-            }
             if system.ground_offset_at_end(level).is_some() {
                 system.add_level_motion(level, LevelMotion::RelativeGroundDisplacement)?;
             }

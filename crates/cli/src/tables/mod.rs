@@ -131,14 +131,16 @@ fn building(run: &Run<'_>, index: usize) -> String {
         let moment = cell(a, b, 1e-3, 1);
         format!("overturning moment at the base (kN m): {moment}\n")
     });
-    let responses = with.responses.iter().zip(&isolated.responses);
-    let responses: String = responses
-        .map(|(a, b)| {
-            let (factor, unit) = shown_unit(a.unit);
-            let peak = cell(a.peak, b.peak, factor, 3);
-            format!("{} ({unit}): {peak}\n", a.name.replace('_', " "))
-        })
-        .collect();
+    let mut responses = new_long_table(["response", "unit", "peak"]);
+    for (a, b) in with.responses.iter().zip(&isolated.responses) {
+        let (factor, unit) = shown_unit(a.unit);
+        let peak = cell(a.peak, b.peak, factor, 3);
+        responses.add_row([a.name.replace('_', " "), unit.to_owned(), peak]);
+    }
+    let responses = match with.responses.is_empty() {
+        true => String::new(),
+        false => format!("{responses}\n"),
+    };
     format!(
         "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}{responses}",
         with.name

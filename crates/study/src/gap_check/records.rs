@@ -220,6 +220,8 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
         layout: None,
         component: None,
         quantity: None,
+        // A suite exchanges the record along the row.
+        across: case.ground_motion.across.clone(),
         rotation: None,
         skip_lines: 0,
         skip_columns: 0,

@@ -268,7 +268,8 @@ impl<'s> Runner<'s> {
 fn named_files(study: &Study) -> Vec<String> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (what, path) in study.files() {
-        if matches!(what, "matrix" | "target spectrum") && !paths.contains(&path) {
+        if matches!(what, "matrix" | "target spectrum" | "further record") && !paths.contains(&path)
+        {
             paths.push(path);
         }
     }

@@ -57,12 +57,13 @@ impl serde::Serialize for LevelPlace {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
 
-        let mut place = serializer.serialize_struct("LevelPlace", 5)?;
+        let mut place = serializer.serialize_struct("LevelPlace", 6)?;
         place.serialize_field("level", &self.label())?;
         place.serialize_field("left_storey", &self.storeys[0])?;
         place.serialize_field("right_storey", &self.storeys[1])?;
         place.serialize_field("left_elevation", &self.elevations[0])?;
         place.serialize_field("right_elevation", &self.elevations[1])?;
+        place.serialize_field("across", &self.across)?;
         place.end()
     }
 }

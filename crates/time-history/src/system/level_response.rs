@@ -123,11 +123,38 @@ impl System {
         Ok(())
     }
 
+    /// Gives the last gap a seat of this width (m): the opening of its levels is a response, and
+    /// one beyond the seat a warning.
+    ///
+    /// # Errors
+    /// No gap, or a width that is not positive and finite.
+    pub fn seat(&mut self, width: f64) -> Result<(), TimeHistoryError> {
+        let sound = width.is_finite() && width > 0.0;
+        let Some(gap) = self.gaps.last_mut().filter(|_| sound) else {
+            return Err(TimeHistoryError::GapDefinition {
+                gap: self
+                    .gaps
+                    .last()
+                    .map_or_else(String::new, |g| g.name.clone()),
+                reason: format!("a seat of {width} m"),
+            });
+        };
+        gap.seat = Some(width);
+        let levels = gap.first_level..gap.first_level + gap.levels;
+        for level in levels {
+            self.add_level_motion(level, LevelMotion::Opening)?;
+        }
+        Ok(())
+    }
+
     /// Takes over the responses of the levels of a system with the same buildings and levels.
     ///
     /// # Errors
     /// As [`System::add_level_response`].
     pub fn take_level_responses(&mut self, from: &Self) -> Result<(), TimeHistoryError> {
+        for (gap, other) in self.gaps.iter_mut().zip(&from.gaps) {
+            gap.seat = other.seat;
+        }
         for row in &from.level_rows {
             let all = [
                 LevelMotion::Opening,

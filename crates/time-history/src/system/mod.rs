@@ -75,6 +75,8 @@ pub struct Gap {
     pub levels: usize,
     /// Floors whose elevations differ by no more than this are level (m).
     pub elevation_tolerance: f64,
+    /// Seat width (m) of what spans the joint, which an opening must not exceed.
+    pub seat: Option<f64>,
 }
 
 /// A ground acceleration, linear between equally spaced samples and zero after
@@ -295,6 +297,7 @@ impl System {
             first_level,
             levels: count,
             elevation_tolerance,
+            seat: None,
         });
         Ok(())
     }

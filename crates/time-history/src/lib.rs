@@ -21,6 +21,7 @@ mod options;
 mod outcome;
 mod peaks;
 mod polynomial;
+mod propagation;
 mod rates;
 mod recorder;
 mod relative_displacement;

@@ -1,6 +1,7 @@
 //! Leaving contact-free motion to the exact step of the modes.
 
 use super::contact_episode::Open;
+use super::whole_intervals::WholeIntervals;
 use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
 use crate::dense_output::Observers;
@@ -22,6 +23,9 @@ impl Driver<'_> {
     pub(super) fn ready_for_contact_free(mut self) -> Self {
         if self.method.flies() && !is_cheaper_by_series(self.system) {
             self.open = Open::new(self.system, &self.options.method);
+        }
+        if self.method.flies() && self.system.contact_free().is_none() {
+            self.whole = WholeIntervals::new(self.system);
         }
         self
     }

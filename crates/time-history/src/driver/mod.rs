@@ -8,6 +8,7 @@ mod result;
 mod rigid_impacts;
 mod stepped_impacts;
 mod watch;
+mod whole_intervals;
 
 use pounding_hysteresis::History;
 
@@ -26,6 +27,7 @@ use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use rigid_impacts::RigidImpacts;
+use whole_intervals::WholeIntervals;
 
 /// Events closer together than this (s) are one event.
 const SIMULTANEOUS: f64 = 1.0e-12;
@@ -159,6 +161,8 @@ struct Driver<'a> {
     series_terms: u64,
     /// Space for the history of an element on trial.
     spare: Option<History>,
+    /// Exact steps over whole intervals, where modes are coupled.
+    whole: Option<WholeIntervals>,
 }
 
 impl<'a> Driver<'a> {
@@ -201,6 +205,7 @@ impl<'a> Driver<'a> {
             open: None,
             series_terms: 0,
             spare: None,
+            whole: None,
             dynamics,
         }
         .ready_for_contact_free()
@@ -244,6 +249,9 @@ impl<'a> Driver<'a> {
             self.method.restart(true);
         }
         self.last_ground = Some(segment.ground(segment.length));
+        if from == 0.0 && self.whole_interval(segment, duration, recorders)? {
+            return Ok(());
+        }
         let mut tau = from;
         while tau < segment.length {
             let context = Context {

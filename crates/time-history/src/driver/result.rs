@@ -56,7 +56,8 @@ impl Driver<'_> {
             });
         }
         let counts = self.method.counts();
-        self.statistics.evaluations = counts.evaluations + self.evaluations_in_modes();
+        let recording = self.whole.as_ref().map_or(0, |whole| whole.recording);
+        self.statistics.evaluations = counts.evaluations - recording + self.evaluations_in_modes();
         self.statistics.newton_iterations = counts.newton_iterations;
         let mut named = self.peaks.named.iter();
         let mut buildings: Vec<BuildingOutcome> = self

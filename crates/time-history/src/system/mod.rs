@@ -38,6 +38,7 @@ use crate::contact_free::ContactFree;
 use crate::dynamics::Segment;
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
+use crate::propagation::Propagation;
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
 #[derive(Debug, Clone)]
@@ -128,6 +129,8 @@ pub struct System {
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with
     /// these buildings and this step.
     contact_free: Arc<OnceLock<Option<ContactFree>>>,
+    /// The same of exact steps of buildings that are no sums of oscillators.
+    propagation: Arc<OnceLock<Option<Propagation>>>,
 }
 
 impl System {
@@ -167,6 +170,7 @@ impl System {
             initial: vec![0.0; 2 * mass.len()],
             bands: Bands::of(&buildings),
             contact_free: Arc::default(),
+            propagation: Arc::default(),
             buildings,
             mass,
         };
@@ -409,6 +413,16 @@ impl System {
         constants.as_ref()
     }
 
+    /// Exact steps over whole intervals; `None` for large buildings, and where elements have a
+    /// memory.
+    pub(crate) fn propagation(&self) -> Option<&Propagation> {
+        if !self.elements.is_empty() {
+            return None;
+        }
+        let made = self.propagation.get_or_init(|| Propagation::new(self));
+        made.as_ref()
+    }
+
     /// Buildings from the left.
     #[must_use]
     pub fn buildings(&self) -> &[Arc<ShearBuilding>] {
@@ -595,6 +609,20 @@ impl System {
             slope: (b - a) / whole,
             interval: sample,
         })
+    }
+
+    /// Lengths (s) of the intervals in which every ground acceleration is linear.
+    pub(crate) fn interval_lengths(&self) -> Vec<f64> {
+        match &self.motions {
+            None => vec![self.ground.time_step],
+            Some(motions) => motions.intervals.iter().map(|i| i.length).collect(),
+        }
+    }
+
+    /// Whether two degrees of freedom are relative to the same ground.
+    pub(crate) fn same_load(&self, i: usize, j: usize) -> bool {
+        let motions = self.motions.as_ref();
+        motions.is_none_or(|motions| motions.loads[i] == motions.loads[j])
     }
 
     /// Ground accelerations at time zero.

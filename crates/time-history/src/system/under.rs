@@ -19,6 +19,10 @@ impl System {
                 Arc::default()
             },
             motions: (self.motions.as_ref()).map(|m| Arc::new(m.with_first(&self.ground, &ground))),
+            propagation: match same_step && self.motions.is_none() {
+                true => Arc::clone(&self.propagation),
+                false => Arc::default(),
+            },
             ground,
             ..self.clone()
         }

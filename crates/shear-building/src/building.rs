@@ -211,7 +211,7 @@ impl ShearBuilding {
             let Some(StoreyLaw { law, .. }) = law else {
                 continue;
             };
-            if law.descriptor().rate_dependent {
+            if !law.holds_static_load() {
                 return Err(ShearBuildingError::Law {
                     building: self.name,
                     storey: i + 1,

@@ -1,7 +1,7 @@
 //! How fast buildings, contacts and elements can move by themselves.
 
 use pounding_hysteresis::History;
-use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_shear_building::{DampingMatrix, ShearBuilding};
 use std::sync::Arc;
 
 use crate::dynamics::Layout;
@@ -32,13 +32,13 @@ impl Rates {
             let frequencies = b.modes().circular_frequency.iter();
             frequencies.copied().fold(0.0, f64::max)
         });
-        let damping = buildings.iter().map(|b| match b.damping() {
-            Damping::Dashpots { .. } => damping_rate(b),
-            _ => {
-                let modes = b.modes();
-                let pairs = modes.circular_frequency.iter().zip(&modes.damping_ratio);
-                pairs.map(|(w, zeta)| 2.0 * w * zeta).fold(0.0, f64::max)
+        let damping = buildings.iter().map(|b| {
+            if b.damping().couples_modes() {
+                return damping_rate(b);
             }
+            let modes = b.modes();
+            let pairs = modes.circular_frequency.iter().zip(&modes.damping_ratio);
+            pairs.map(|(w, zeta)| 2.0 * w * zeta).fold(0.0, f64::max)
         });
         Self {
             buildings: fastest_rate(buildings),
@@ -129,9 +129,12 @@ impl Rates {
 /// damping it is the maximum circular frequency; above it a mode forgets its velocity
 /// faster than it would swing.
 pub(crate) fn fastest_rate(buildings: &[Arc<ShearBuilding>]) -> f64 {
-    let rates = buildings.iter().map(|b| match b.damping() {
-        Damping::Dashpots { .. } => coupled(b),
-        _ => uncoupled(b),
+    let rates = buildings.iter().map(|b| {
+        if b.damping().couples_modes() {
+            coupled(b)
+        } else {
+            uncoupled(b)
+        }
     });
     rates.fold(0.0, f64::max)
 }
@@ -158,7 +161,11 @@ fn damping_rate(building: &ShearBuilding) -> f64 {
     let (n, mass) = (building.storeys(), building.mass());
     let entry = |i: usize, j: usize| building.damping_matrix().entry(i, j);
     let row = |i: usize| -> f64 {
-        (i.saturating_sub(1)..n.min(i + 2))
+        let columns = match building.damping_matrix() {
+            DampingMatrix::Tridiagonal(_) => i.saturating_sub(1)..n.min(i + 2),
+            DampingMatrix::Dense(_) => 0..n,
+        };
+        columns
             .map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())
             .sum()
     };

@@ -344,7 +344,7 @@ fn lower_storey(system: &System, level: &ContactLevel) -> Option<f64> {
 fn braked_isolator(building: &ShearBuilding) -> Option<Warning> {
     let proportional = !matches!(
         building.damping(),
-        Damping::Modal { .. } | Damping::Dashpots { .. }
+        Damping::Modal { .. } | Damping::Dashpots { .. } | Damping::Isolated { .. }
     );
     let above = *building.stiffness().get(1)?;
     let soft = |stiffness: f64| stiffness <= ISOLATOR.0 * above;

@@ -1,6 +1,6 @@
 //! What contact-free motion needs to know of the buildings: made once, shared by all runs.
 
-use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_shear_building::ShearBuilding;
 
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
@@ -54,8 +54,8 @@ impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
     /// couples its modes.
     pub(crate) fn new(system: &System, step: f64) -> Option<Self> {
-        let classical = |b: &ShearBuilding| !matches!(b.damping(), Damping::Dashpots { .. });
-        if !system.buildings().iter().all(|b| classical(b)) || !(step > 0.0) {
+        let coupled = |b: &ShearBuilding| b.damping().couples_modes();
+        if system.buildings().iter().any(|b| coupled(b)) || !(step > 0.0) {
             return None;
         }
         let mut this = Self::with_step(system, step);

@@ -217,12 +217,13 @@ impl Damping {
         let n = mass.len();
         let column = |j: usize| (0..n - 1).map(|i| relative.entry(i, j)).sum::<f64>();
         let sums: Vec<f64> = (0..n - 1).map(column).collect();
-        Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |i, j| {
-            match (i.checked_sub(1), j.checked_sub(1)) {
-                (None, None) => isolators + sums.iter().sum::<f64>(),
-                (Some(k), None) | (None, Some(k)) => -sums[k],
-                (Some(i), Some(j)) => relative.entry(i, j),
-            }
+        Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |i, j| match (
+            i.checked_sub(1),
+            j.checked_sub(1),
+        ) {
+            (None, None) => isolators + sums.iter().sum::<f64>(),
+            (Some(k), None) | (None, Some(k)) => -sums[k],
+            (Some(i), Some(j)) => relative.entry(i, j),
         })))
     }
 }

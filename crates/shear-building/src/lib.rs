@@ -10,6 +10,7 @@ mod damping;
 mod dense;
 mod elevation;
 mod error;
+mod isolator;
 mod lateral;
 mod modes;
 mod names;
@@ -23,6 +24,9 @@ pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
 };
 pub use error::ShearBuildingError;
+pub use isolator::{
+    Isolator, IsolatorError, IsolatorKind, IsolatorProperties, PostYield, Strength,
+};
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, is_name};

@@ -33,7 +33,7 @@ pub use error::Fault;
 pub use numbers::{
     AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Dimensioned, Flexibility,
     FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Positive, Ratio, Scalar,
-    Signed, Stiffness, Time, Velocity, Within, Written,
+    Signed, Slowness, Stiffness, Time, Velocity, Within, Written,
 };
 pub use schema::schema_of;
 

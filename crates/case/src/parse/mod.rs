@@ -22,6 +22,7 @@ mod analysis;
 mod building;
 mod gap;
 mod ground_motion;
+mod isolator;
 mod lateral;
 mod law;
 mod levels;

@@ -15,7 +15,7 @@ use crate::error::CaseError;
 use crate::units::Quantity;
 
 pub use laws::{LawParameter, Link, StoreyLaw};
-pub use pounding_shear_building::Damping;
+pub use pounding_shear_building::{Damping, Isolator, IsolatorKind, PostYield, Strength};
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -80,8 +80,11 @@ pub struct Building {
     pub name: Located<String>,
     /// Floor masses (kg).
     pub mass: Vec<f64>,
-    /// Storey stiffnesses (N/m); none where `lateral` says what resists.
+    /// Storey stiffnesses (N/m); none where `lateral` says what resists; with an isolator,
+    /// which is the first storey, those of the storeys above.
     pub stiffness: Vec<f64>,
+    /// Isolators under the building, at their table.
+    pub isolator: Option<Located<Isolator>>,
     /// What resists the lateral motion of a building that is no chain of storeys, at its
     /// key.
     pub lateral: Option<Located<Lateral>>,
@@ -95,7 +98,7 @@ pub struct Building {
     pub laws: Vec<StoreyLaw>,
     /// Whether gravity acts through the drift (P-Delta).
     pub p_delta: bool,
-    /// Damping.
+    /// Damping; with an isolator that of the storeys above it.
     pub damping: Located<Damping>,
 }
 

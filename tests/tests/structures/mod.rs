@@ -5,3 +5,4 @@
 mod abutment;
 mod base_moments;
 mod condensed_stiffness;
+mod isolation;

@@ -56,6 +56,7 @@ fn result() -> RunResult {
         drift_peaks: peaks([0.016, 0.017], [0.02, 0.01]),
         shear_peaks: peaks([2.0e5, 1.0e5], [1.0e5, 1.0e5]),
         acceleration_peaks: peaks([4.0, 9.0], [3.0, 3.0]),
+        isolator: None,
         base_moment: None,
         ductility: None,
         period: vec![0.61, 0.2],
@@ -81,7 +82,9 @@ fn result() -> RunResult {
             name: "light-heavy".to_owned(),
             between: "light | heavy".to_owned(),
             model: "jankowski_2005".to_owned(),
-            separation: "zero_penetration".to_owned(),
+            separation: "zero_clearance: None,
+            penetration"
+                .to_owned(),
             levels: vec![level("1-1", 3.0), level("2-2", 6.0)],
             width: vec![0.02, 0.02],
             penetration: table(&wave),

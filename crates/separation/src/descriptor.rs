@@ -32,7 +32,7 @@ impl Place {
 pub enum Basis {
     /// Computed displacements.
     Displacement,
-    /// Heights and kinds of structure alone.
+    /// What the code itself takes of structures, such as heights, kinds or isolators.
     Prescriptive,
 }
 

@@ -120,6 +120,7 @@ impl ImpactLog {
             achieved_restitution: None,
             sticks: 0,
             gap_widening: 0.0,
+            clearance: None,
         };
         Self {
             impacts: Vec::with_capacity(IMPACTS),

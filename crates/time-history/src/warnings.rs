@@ -274,7 +274,12 @@ impl Warning {
         warnings.extend(coarse_step(system, &options.method, (met, true)));
         for (outcome, building) in buildings.iter().zip(system.buildings()) {
             let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
-            let most = ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+            // Isolators are there to be displaced, and have a height that means nothing.
+            let isolators = usize::from(building.isolator().is_some());
+            let most = ratios
+                .enumerate()
+                .skip(isolators)
+                .max_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((storey, ratio)) = most.filter(|m| m.1 > DRIFT_RATIO) {
                 warnings.push(Self::Drift {
                     building: outcome.name.clone(),

@@ -334,6 +334,18 @@ pub struct Separation {
     pub design_ground_acceleration: Option<f64>,
     /// `alpha_h` of the Indian code.
     pub seismic_coefficient: Option<f64>,
+    /// `S_M1` of ASCE 7 (m/s2).
+    pub spectral_acceleration_1s: Option<f64>,
+    /// `T_M` of ASCE 7 (s).
+    pub isolation_period: Option<Vec<f64>>,
+    /// `B_M` of ASCE 7.
+    pub isolation_damping_coefficient: Option<Vec<f64>>,
+    /// Longest dimensions in plan (m).
+    pub plan_length: Option<Vec<f64>>,
+    /// Shortest dimensions in plan (m).
+    pub plan_width: Option<Vec<f64>>,
+    /// Eccentricities in plan (m).
+    pub plan_eccentricity: Option<Vec<f64>>,
     /// Names of the provisions to apply; all by default.
     pub provisions: Option<Vec<Located<String>>>,
 }
@@ -369,6 +381,16 @@ impl Separation {
                 .design_ground_acceleration
                 .or(self.design_ground_acceleration),
             seismic_coefficient: other.seismic_coefficient.or(self.seismic_coefficient),
+            spectral_acceleration_1s: other
+                .spectral_acceleration_1s
+                .or(self.spectral_acceleration_1s),
+            isolation_period: other.isolation_period.or(self.isolation_period),
+            isolation_damping_coefficient: other
+                .isolation_damping_coefficient
+                .or(self.isolation_damping_coefficient),
+            plan_length: other.plan_length.or(self.plan_length),
+            plan_width: other.plan_width.or(self.plan_width),
+            plan_eccentricity: other.plan_eccentricity.or(self.plan_eccentricity),
             provisions: other.provisions.or(self.provisions),
         }
     }

@@ -184,6 +184,7 @@ impl<'a> Inputs<'a> {
             soil_zone: self.soil_zone,
             design_ground_acceleration: s.design_ground_acceleration,
             seismic_coefficient: s.seismic_coefficient,
+            spectral_acceleration_1s: s.spectral_acceleration_1s,
         }
     }
 
@@ -209,6 +210,11 @@ impl<'a> Inputs<'a> {
             importance: of(&self.separation.importance),
             yield_amplification: of(&self.separation.yield_amplification),
             system: systems.and_then(|l| l.get(index)).copied(),
+            isolation_period: of(&self.separation.isolation_period),
+            isolation_damping_coefficient: of(&self.separation.isolation_damping_coefficient),
+            plan_length: of(&self.separation.plan_length),
+            plan_width: of(&self.separation.plan_width),
+            plan_eccentricity: of(&self.separation.plan_eccentricity),
         }
     }
 }

@@ -1,11 +1,14 @@
 //! The end of a run.
 
+use pounding_shear_building::ShearBuilding;
+
 use super::Driver;
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
-    BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak, YieldingStorey,
+    BuildingOutcome, GapOutcome, IsolatorOutcome, LinkLevelOutcome, LinkOutcome, Outcome, Peak,
+    StoreyPeaks, YieldingStorey,
 };
 use crate::recorder::Recorder;
 use crate::warnings::Warning;
@@ -52,6 +55,7 @@ impl Driver<'_> {
                 storeys: self.peaks.storeys[range[0]..range[1]].to_vec(),
                 base_moment: b.stiffness().is_empty().then_some(*base_moment),
                 yielding: vec![None; b.storeys()],
+                isolator: isolator(b, &self.peaks.storeys[range[0]]),
             })
             .collect();
         let links = self.elements(&mut buildings);
@@ -128,4 +132,17 @@ impl Driver<'_> {
         }
         links
     }
+}
+
+/// What the isolators under a building went through, from the peaks of its first storey.
+fn isolator(building: &ShearBuilding, first: &StoreyPeaks) -> Option<IsolatorOutcome> {
+    let (isolator, properties) = building.isolator()?;
+    let (period, damping) = properties.effective(first.displacement.value);
+    Some(IsolatorOutcome {
+        model: isolator.name(),
+        displacement: first.displacement,
+        force: first.storey_shear,
+        effective_period: period,
+        effective_damping_ratio: damping,
+    })
 }

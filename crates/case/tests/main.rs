@@ -4,6 +4,7 @@ mod bad_input;
 mod case_file;
 mod document;
 mod ground_motion;
+mod isolator;
 mod lateral;
 mod separation;
 mod several_errors;

@@ -133,8 +133,13 @@ fn building(run: &Run<'_>, index: usize) -> String {
         let moment = cell(a, b, 1e-3, 1);
         format!("overturning moment at the base (kN m): {moment}\n")
     });
+    let other = match with.isolator {
+        // Here that word says something else.
+        Some(_) => "the building without gaps and links",
+        None => "the isolated building",
+    };
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}",
+        "\nBuilding {}: peak @time (s), x ratio to {other}\n{table}\n{base}",
         with.name
     )
 }

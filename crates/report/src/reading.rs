@@ -209,9 +209,7 @@ impl Reader {
         }
         let group = self.group(building, "isolator")?;
         let one = |name: &str| -> Outcome<f64> {
-            let values = self.column(&group, name)?;
-            self.fits(&group, values.len() == 1)?;
-            Ok(values[0])
+            value(&group, name).map_err(self.failed(&format!("{}/{name}", group.name())))
         };
         Ok(Some(IsolatorResult {
             model: self.text(&group, "model")?,

@@ -233,8 +233,9 @@ impl Isolator {
         let properties = self.properties(mass)?;
         let (name, parameters) = match self.kind {
             IsolatorKind::LeadRubber {
-                stiffness_ratio, ..
-            } if stiffness_ratio == 1.0 => return Ok(None),
+                stiffness_ratio: 1.0,
+                ..
+            } => return Ok(None),
             IsolatorKind::LeadRubber {
                 strength,
                 stiffness_ratio,

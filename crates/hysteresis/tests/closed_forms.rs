@@ -413,7 +413,7 @@ fn a_friction_pendulum_slides_as_its_closed_form() {
         ("radius", radius),
         ("friction_fast", friction),
         ("friction_slow", friction),
-        ("rate", 50.0),
+        ("friction_rate", 50.0),
         ("yield_displacement", y),
     ];
     let pendulum = law("friction_pendulum", &parameters);
@@ -446,7 +446,7 @@ fn the_friction_of_a_pendulum_grows_with_the_speed() {
         ("radius", 1.0e9),
         ("friction_fast", 0.10),
         ("friction_slow", 0.04),
-        ("rate", 20.0),
+        ("friction_rate", 20.0),
         ("yield_displacement", 0.001),
     ];
     let pendulum = law("friction_pendulum", &parameters);

@@ -82,9 +82,8 @@ fn result() -> RunResult {
             name: "light-heavy".to_owned(),
             between: "light | heavy".to_owned(),
             model: "jankowski_2005".to_owned(),
-            separation: "zero_clearance: None,
-            penetration"
-                .to_owned(),
+            separation: "zero_penetration".to_owned(),
+            clearance: None,
             levels: vec![level("1-1", 3.0), level("2-2", 6.0)],
             width: vec![0.02, 0.02],
             penetration: table(&wave),

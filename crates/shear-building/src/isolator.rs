@@ -264,7 +264,7 @@ impl Isolator {
                     ("radius", radius),
                     ("friction_fast", friction_fast),
                     ("friction_slow", friction_slow),
-                    ("rate", rate),
+                    ("friction_rate", rate),
                     ("yield_displacement", yield_displacement),
                 ];
                 ("friction_pendulum", parameters)

@@ -36,7 +36,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         )
         .within((0.0, false), (1.0, false)),
         positive(
-            "rate",
+            "friction_rate",
             ParameterUnit::SecondPerMetre,
             "Rate a at which the friction grows with the speed, usually 20 to 100 s/m",
         ),
@@ -55,7 +55,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ("radius", 2.0),
         ("friction_fast", 0.08),
         ("friction_slow", 0.04),
-        ("rate", 30.0),
+        ("friction_rate", 30.0),
         ("yield_displacement", 0.0025),
     ],
     example_amplitude: 0.03,
@@ -100,7 +100,7 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
         radius: get("radius")?,
         fast,
         slow,
-        rate: get("rate")?,
+        rate: get("friction_rate")?,
         yield_displacement: get("yield_displacement")?,
     }))
 }

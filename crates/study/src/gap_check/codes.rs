@@ -278,13 +278,18 @@ fn unknown(
     }
 }
 
-/// Provisions that the case names; all without a list.
+/// Provisions that the case names; without a list all, but those for isolated structures where
+/// there is none.
 pub(crate) fn chosen(
     case: &Case,
     separation: &Separation,
 ) -> Result<Vec<&'static ProvisionDescriptor>, CheckError> {
     let Some(names) = &separation.provisions else {
-        return Ok(descriptors().to_vec());
+        let isolated = case.buildings.iter().any(|b| b.isolator.is_some());
+        let all = descriptors().iter().copied();
+        return Ok(all
+            .filter(|d| isolated || !d.is_of_isolated_structures())
+            .collect());
     };
     names.iter().map(|name| provision_of(case, name)).collect()
 }

@@ -114,6 +114,27 @@ fn the_gap_check_says_demand_clearance_and_force() {
     }
 }
 
+/// What is given for all buildings makes no isolated one of a neighbour.
+#[test]
+fn a_neighbour_without_isolators_has_no_isolation_clearance() {
+    let neighbour = "[[building]]\nname = \"next\"\nmass = [\"200 t\"]\nstiffness = \"90 MN/m\"\nheight = 3.6\ndamping = { modal = 0.05 }\n\n[[gap]]\nname = \"left wall\"";
+    let changes = [
+        ("[[gap]]\nname = \"left wall\"", neighbour),
+        (
+            "[\"office\", \"wall\"]\nlevels = [1]",
+            "[\"office\", \"next\"]\nlevels = \"matching\"",
+        ),
+    ];
+    let (_folder, case) = changed(&changes);
+    let check = json(&["gap", "--points", "0"], &case);
+    let provision = |gap: usize| check["gaps"][gap]["provisions"][0].clone();
+    assert_eq!(provision(0)["name"], "asce_7_16_isolation_boundary");
+    assert!(provision(0)["refusal"].is_null());
+    let refusal = provision(1)["refusal"].as_str().unwrap().to_owned();
+    assert!(refusal.contains("needs isolation_period"), "{refusal}");
+    assert!(refusal.ends_with("of next"), "{refusal}");
+}
+
 #[test]
 fn check_says_what_the_isolators_are() {
     let understood = json(&["check"], &example());

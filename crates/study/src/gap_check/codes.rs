@@ -159,6 +159,9 @@ pub(crate) struct Inputs<'a> {
     separation: &'a Separation,
     systems: Option<Vec<StructuralSystem>>,
     soil_zone: Option<SoilZone>,
+    /// Whether the case says which buildings stand on isolators: those alone have their
+    /// properties then, whatever is given for all.
+    isolators: bool,
 }
 
 impl<'a> Inputs<'a> {
@@ -169,6 +172,7 @@ impl<'a> Inputs<'a> {
         Ok(Self {
             systems: systems.transpose()?,
             soil_zone: zone.map(|name| zone_of(case, name)).transpose()?,
+            isolators: case.buildings.iter().any(|b| b.isolator.is_some()),
             separation,
         })
     }
@@ -196,6 +200,7 @@ impl<'a> Inputs<'a> {
     ) -> Structure {
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
+        let on_isolators = building.isolator().is_some() || !self.isolators;
         Structure {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
@@ -210,7 +215,7 @@ impl<'a> Inputs<'a> {
             importance: of(&self.separation.importance),
             yield_amplification: of(&self.separation.yield_amplification),
             system: systems.and_then(|l| l.get(index)).copied(),
-            isolation_period: of(&self.separation.isolation_period),
+            isolation_period: of(&self.separation.isolation_period).filter(|_| on_isolators),
             isolation_damping_coefficient: of(&self.separation.isolation_damping_coefficient),
             plan_length: of(&self.separation.plan_length),
             plan_width: of(&self.separation.plan_width),

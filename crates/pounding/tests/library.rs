@@ -619,6 +619,7 @@ fn what_a_stiffness_matrix_cannot_have() {
     assert!(format!("{:?}", error.unwrap_err()).contains("mechanism"));
 }
 
+#[cfg(feature = "toml")]
 fn lead_rubber() -> Isolator {
     Isolator {
         kind: IsolatorKind::LeadRubber {

@@ -6,6 +6,7 @@ mod column;
 mod document;
 mod foundation;
 mod ground_motion;
+mod isolator;
 mod lateral;
 mod separation;
 mod several_errors;

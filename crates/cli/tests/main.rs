@@ -12,6 +12,7 @@ mod files;
 mod gap;
 mod hysteresis;
 mod impact;
+mod isolation;
 mod levels;
 mod links_and_rows;
 mod messages;

@@ -87,6 +87,12 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         0.0
     }
 
+    /// Whether the element at rest keeps up a lasting load. A storey needs that: one whose
+    /// force is due to the speed alone sinks away under it.
+    fn holds_static_load(&self) -> bool {
+        !self.descriptor().rate_dependent
+    }
+
     /// Number of internal variables, at most
     /// [`crate::MAXIMUM_INTERNAL_VARIABLES`].
     fn internal_variables(&self) -> usize {

@@ -6,13 +6,16 @@ pub(crate) use pounding_catalogue::{non_negative, optional_positive, positive};
 use crate::descriptor::{ParameterDescriptor, ParameterUnit};
 
 /// Deformation (m) at which an element of initial stiffness `stiffness` (N/m) begins to yield or
-/// slip: its yield or friction force over that stiffness. `None` for a law without such a force.
+/// slip: its yield displacement, or its yield or friction force over that stiffness. `None` for a
+/// law without one of them.
 #[must_use]
 pub fn yield_deformation(parameters: &LawParameters, stiffness: f64) -> Option<f64> {
-    ["yield_force", "friction_force"]
+    let force = ["yield_force", "friction_force"]
         .iter()
-        .find_map(|name| parameters.given(name))
-        .map(|force| force / stiffness)
+        .find_map(|name| parameters.given(name));
+    let displacement = parameters.given("yield_displacement");
+    displacement
+        .or(force.map(|force| force / stiffness))
         .filter(|x| x.is_finite() && *x > 0.0)
 }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, history};
-use pounding_hysteresis::{HysteresisLaw, LawParameters, build};
+use pounding_hysteresis::{HysteresisLaw, LawParameters, Motion, build};
 
 fn law(name: &str, parameters: &[(&str, f64)]) -> Box<dyn HysteresisLaw> {
     build(name, &LawParameters::from_pairs(parameters)).unwrap()
@@ -401,4 +401,86 @@ fn backfill_that_cannot_be_is_refused() {
     assert!(refused(&[("force_limit", 2.5)]).contains("never reaches"));
     assert!(refused(&[("failure_ratio", 1.0)]).contains("failure_ratio"));
     assert!(refused(&[("ultimate_force", 0.0)]).contains("ultimate_force"));
+}
+
+/// A sliding pendulum: forces by hand on straight paths, along which `z` is a hyperbolic
+/// tangent, and the loss of a cycle, a little less than the rectangle `4 mu W A`.
+#[test]
+fn a_friction_pendulum_slides_as_its_closed_form() {
+    let (weight, radius, friction, y) = (8.0e6, 2.0, 0.06, 0.002);
+    let parameters = [
+        ("weight", weight),
+        ("radius", radius),
+        ("friction_fast", friction),
+        ("friction_slow", friction),
+        ("friction_rate", 50.0),
+        ("yield_displacement", y),
+    ];
+    let pendulum = law("friction_pendulum", &parameters);
+    let force = |x: f64, z: f64| weight * x / radius + friction * weight * z;
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * weight, "{a} {b}");
+    let top = 0.1;
+    // Unloading goes straight to z = 0, one Y back, and on as a hyperbolic tangent.
+    let path = [0.001, top, top - 0.5 * y, top - 2.0 * y, -top, top];
+    let points = history(pendulum.as_ref(), &path, 1.0);
+    let z = [0.5_f64.tanh(), 1.0, 0.5, -(1.0_f64.tanh()), -1.0, 1.0];
+    for ((point, x), z) in points.iter().zip(path).zip(z) {
+        close(point.force, force(x, z));
+    }
+    // From z = 1 at the top and back: the work of the friction over both ways, each of them
+    // Y straight down and ln cosh of the rest.
+    let rest = 2.0 * top / y - 1.0;
+    let one_way = -0.5 + rest + (0.5 * (1.0 + (-2.0 * rest).exp())).ln();
+    let expected = 2.0 * friction * weight * y * one_way;
+    let lost = points[5].dissipated - points[1].dissipated;
+    assert!((lost / expected - 1.0).abs() < 1e-12, "{lost} {expected}");
+    let rectangle = 4.0 * friction * weight * top;
+    assert!(lost < rectangle && lost > 0.97 * rectangle);
+}
+
+/// Friction at a constant speed; at rest it keeps up a load.
+#[test]
+fn the_friction_of_a_pendulum_grows_with_the_speed() {
+    let parameters = [
+        ("weight", 1.0),
+        ("radius", 1.0e9),
+        ("friction_fast", 0.10),
+        ("friction_slow", 0.04),
+        ("friction_rate", 20.0),
+        ("yield_displacement", 0.001),
+    ];
+    let pendulum = law("friction_pendulum", &parameters);
+    assert!(
+        pendulum.holds_static_load()
+            && !law("maxwell", &[("stiffness", 1.0), ("damping", 1.0)]).holds_static_load()
+    );
+    let mut candidate = pendulum.virgin();
+    for speed in [0.0, 0.01, 0.05, 1.0, -0.05] {
+        let end = Motion {
+            deformation: f64::copysign(0.1, speed),
+            velocity: speed,
+        };
+        let response = pendulum.trial(&pendulum.virgin(), &mut candidate, end, 1.0);
+        let friction = 0.10 - 0.06 * (-20.0 * f64::abs(speed)).exp();
+        let expected = f64::copysign(friction, speed);
+        assert!(
+            (response.force - expected).abs() < 1e-9,
+            "{speed}: {response:?}"
+        );
+    }
+}
+
+#[test]
+fn friction_that_cannot_be_is_refused() {
+    let refused = |name: &str, value: f64| {
+        let parameters = pounding_hysteresis::find("friction_pendulum").unwrap();
+        let parameters = parameters.example_parameters().with(name, value);
+        let error = build("friction_pendulum", &parameters).unwrap_err();
+        assert!(error.help().is_some());
+        error.to_string()
+    };
+    assert!(refused("friction_slow", 0.09).contains("above its friction_fast"));
+    assert!(refused("friction_fast", 1.0).contains("friction_fast"));
+    assert!(refused("radius", 0.0).contains("radius"));
+    assert!(refused("yield_displacement", -1.0).contains("yield_displacement"));
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pounding_catalogue::STANDARD_GRAVITY;
-use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding, StoreyLaw};
+use pounding_shear_building::{Damping, Isolator, LateralStiffness, ShearBuilding, StoreyLaw};
 
 use crate::error::Error;
 use crate::law::Law;
@@ -34,6 +34,7 @@ pub struct Floor {
 #[derive(Debug, Clone)]
 pub struct Building {
     name: String,
+    isolator: Option<Isolator>,
     /// Stiffness of all floors together, in the place of those of the storeys.
     matrix: Option<LateralStiffness>,
     floors: Vec<Floor>,
@@ -53,6 +54,7 @@ impl Building {
     pub fn shear(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
+            isolator: None,
             matrix: None,
             floors: Vec::new(),
             stiffness: Vec::new(),
@@ -87,6 +89,18 @@ impl Building {
         self.floors.extend(std::iter::repeat_n(floor, count));
         self.stiffness.extend(std::iter::repeat_n(None, count));
         self
+    }
+
+    /// A building on isolators, which are its first storey, below its base slab, the first
+    /// floor; storeys come on top. [`Building::damping`] then damps those as if the slab were
+    /// fixed. A slab without storeys needs none.
+    #[must_use]
+    pub fn isolated(name: impl Into<String>, slab: Floor, isolator: Isolator) -> Self {
+        Self {
+            isolator: Some(isolator),
+            ..Self::shear(name)
+        }
+        .floor(slab)
     }
 
     /// Adds a storey on top.
@@ -177,7 +191,10 @@ impl Building {
 
     pub(crate) fn build(&self) -> Result<Arc<ShearBuilding>, Error> {
         let each = |of: fn(&Floor) -> f64| self.floors.iter().map(of).collect();
-        let damping = self.damping.clone().ok_or_else(|| Error::NoDamping {
+        let bare = self.isolator.is_some() && self.floors.len() == 1;
+        let none = || bare.then_some(Damping::MassProportional { ratio: 0.0 });
+        let damping = self.damping.clone().or_else(none);
+        let damping = damping.ok_or_else(|| Error::NoDamping {
             building: self.name.clone(),
         })?;
         let gravity = if self.p_delta { STANDARD_GRAVITY } else { 0.0 };
@@ -196,15 +213,29 @@ impl Building {
                     k.map(|k| k.si())
                         .ok_or_else(|| self.stiffness_of(storey, false))
                 };
-                let stiffness = self.stiffness.iter().enumerate().map(known);
-                let stiffness = stiffness.collect::<Result<_, _>>()?;
-                ShearBuilding::under_gravity(name, mass, stiffness, height, damping, gravity)?
+                let slab = usize::from(self.isolator.is_some());
+                let stiffness = self.stiffness.iter().enumerate().skip(slab).map(known);
+                let stiffness: Vec<f64> = stiffness.collect::<Result<_, _>>()?;
+                match self.isolator {
+                    Some(_) if self.p_delta => {
+                        return Err(Error::GravityOnIsolators {
+                            building: self.name.clone(),
+                        });
+                    }
+                    Some(isolator) => ShearBuilding::on_isolators(
+                        name, mass, &stiffness, height, damping, isolator,
+                    )?,
+                    None => ShearBuilding::under_gravity(
+                        name, mass, stiffness, height, damping, gravity,
+                    )?,
+                }
             }
         };
         if self.laws.is_empty() {
             return Ok(Arc::new(building));
         }
-        Ok(Arc::new(building.with_laws(self.storey_laws()?)?))
+        let laws = self.storey_laws(building.laws().to_vec())?;
+        Ok(Arc::new(building.with_laws(laws)?))
     }
 
     /// A storey, from zero, with a stiffness beside a matrix, or with neither.
@@ -216,13 +247,16 @@ impl Building {
         }
     }
 
-    /// The law of each storey, if it has one.
-    fn storey_laws(&self) -> Result<Vec<Option<StoreyLaw>>, Error> {
+    /// The law of each storey, if it has one, beside those that are there already.
+    fn storey_laws(
+        &self,
+        mut laws: Vec<Option<StoreyLaw>>,
+    ) -> Result<Vec<Option<StoreyLaw>>, Error> {
         let of = format!("building {}", self.name);
         let count = self.floors.len();
-        let mut laws = vec![None; count];
+        let isolators = usize::from(self.isolator.is_some());
         for (storeys, law) in &self.laws {
-            let all = || (1..=count).collect();
+            let all = || (1 + isolators..=count).collect();
             for storey in storeys.clone().unwrap_or_else(all) {
                 let refused = |reason| Error::LawOfStorey {
                     building: self.name.clone(),
@@ -233,6 +267,9 @@ impl Building {
                 let index = index.ok_or_else(|| refused("there is no such storey"))?;
                 if self.matrix.is_some() {
                     return Err(refused("a stiffness matrix has no storeys of its own"));
+                }
+                if index < isolators {
+                    return Err(refused("the isolators have their own"));
                 }
                 if laws[index].is_some() {
                     return Err(refused("it has a law already"));

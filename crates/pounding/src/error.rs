@@ -29,6 +29,14 @@ pub enum Error {
         /// Whether the building has a matrix.
         matrix: bool,
     },
+    /// P-Delta of a building on isolators.
+    #[error(
+        "building {building}: P-Delta does not go with isolators, whose law holds what the weight does at their displacement"
+    )]
+    GravityOnIsolators {
+        /// Name of the building.
+        building: String,
+    },
     /// A building that is not said to be damped, nor to be undamped.
     #[error("building {building} has no damping")]
     NoDamping {
@@ -193,6 +201,8 @@ impl Error {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
+            Self::GravityOnIsolators { .. } => Some("leave `.p_delta()` out".to_owned()),
+            Self::Building(ShearBuildingError::Isolator { source, .. }) => source.help(),
             Self::Building(_) | Self::LateralStiffness(_) | Self::Twice { .. } => None,
             Self::StiffnessOfStorey { .. } => Some(
                 "`Building::shear(...)` takes storeys, `Building::stiffness_matrix(...)` floors"

@@ -194,7 +194,9 @@ pub use pounding_time_history as time_history;
 
 /// What most programs need.
 pub mod prelude {
-    pub use pounding_shear_building::{Damping, LateralStiffness};
+    pub use pounding_shear_building::{
+        Damping, Isolator, IsolatorKind, LateralStiffness, PostYield, Strength,
+    };
     pub use pounding_time_history::{
         GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink, Summary,
     };

@@ -618,3 +618,60 @@ fn what_a_stiffness_matrix_cannot_have() {
     let error = LateralStiffness::from_rows(&mechanism).map_err(Error::from);
     assert!(format!("{:?}", error.unwrap_err()).contains("mechanism"));
 }
+
+#[cfg(feature = "toml")]
+fn lead_rubber() -> Isolator {
+    Isolator {
+        kind: IsolatorKind::LeadRubber {
+            post_yield: PostYield::Stiffness(5.053e6),
+            strength: Some(Strength::YieldForce(4.71e5)),
+            stiffness_ratio: 10.0,
+        },
+        dashpot: 2.0e5,
+    }
+}
+
+/// The example of an isolated building, built by code: its case file, to the last bit.
+#[cfg(feature = "toml")]
+#[test]
+fn an_isolated_building_is_that_of_its_case_file() {
+    let slab = Floor {
+        mass: Mass::tonnes(200.0),
+        height: Length::metres(0.6),
+    };
+    let office = Building::isolated("office", slab, lead_rubber())
+        .storey(storey(200.0, 400.0))
+        .storey(storey(200.0, 350.0))
+        .storey(storey(200.0, 300.0))
+        .damping(Damping::Dashpots {
+            coefficients: vec![1.2e6, 1.0e6, 8.0e5],
+        });
+    let file = root().join("examples/isolated_building/case.toml");
+    let case = pounding::case::Case::read(&file).unwrap();
+    let assembled = pounding::assembly::assemble(&case).unwrap();
+    let read = &assembled.system.buildings()[0];
+    let simulation = Simulation::of([office.clone()]).ground_motion(el_centro());
+    let system = simulation.build().unwrap().system().clone();
+    let built = &system.buildings()[0];
+    assert_eq!(built.stiffness(), read.stiffness());
+    assert_eq!(built.damping_matrix(), read.damping_matrix());
+    assert_eq!(built.isolator(), read.isolator());
+    assert_eq!(built.modes().period, read.modes().period);
+    let refused = |building: Building, words: [&str; 2]| {
+        let error = Simulation::of([building]).ground_motion(el_centro()).run();
+        let error = format!("{:?}", error.unwrap_err());
+        for word in words {
+            assert!(error.contains(word), "{error}");
+        }
+    };
+    let gravity = office.clone().p_delta();
+    refused(gravity, ["P-Delta does not go with isolators", "leave"]);
+    let law = office.law_of_storeys([1], "bouc_wen", [("yield_force", 1.0e6)]);
+    refused(law, ["the isolators have their own", "numbered from 1"]);
+    let mut strong = lead_rubber();
+    if let IsolatorKind::LeadRubber { strength, .. } = &mut strong.kind {
+        *strength = Some(Strength::OfWeight(1.5));
+    }
+    let slab = Building::isolated("slab", slab, strong);
+    refused(slab, ["building slab: the isolators have", "usual are"]);
+}

@@ -8,8 +8,8 @@ use pounding_results::{ResultFile, number, read_all, text, texts, value, values}
 
 use crate::error::ReportError;
 use crate::result::{
-    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
-    LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,
+    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, IsolatorResult,
+    LevelResponses, LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
@@ -187,6 +187,7 @@ impl Reader {
             acceleration_peaks: of("acceleration_absolute")?,
             base_moment: self.base_moment(&peaks)?,
             responses: self.responses(&peaks)?,
+            isolator: self.isolator(group)?,
             ductility: ductility.transpose()?,
             period: self.column(group, "period")?,
             damping_ratio: self.column(group, "damping_ratio")?,
@@ -203,6 +204,26 @@ impl Reader {
             storeys > 0 && building.displacement.columns == storeys && peaks.iter().all(whole);
         self.fits(group, fits)?;
         Ok(building)
+    }
+
+    /// The isolators, of a building that has some.
+    fn isolator(&self, building: &Group) -> Outcome<Option<IsolatorResult>> {
+        if !building.link_exists("isolator") {
+            return Ok(None);
+        }
+        let group = self.group(building, "isolator")?;
+        let one = |name: &str| -> Outcome<f64> {
+            value(&group, name).map_err(self.failed(&format!("{}/{name}", group.name())))
+        };
+        Ok(Some(IsolatorResult {
+            model: self.text(&group, "model")?,
+            displacement: one("displacement")?,
+            isolated_displacement: one("isolated_displacement")?,
+            force: one("force")?,
+            isolated_force: one("isolated_force")?,
+            effective_period: one("effective_period")?,
+            effective_damping_ratio: one("effective_damping_ratio")?,
+        }))
     }
 
     /// The peak of the base moment, of a building that has one.
@@ -317,12 +338,16 @@ impl Reader {
         };
         let impacts = || values::<ImpactResult>(group, "impacts");
         let object = format!("{}/impacts", group.name());
+        let clearance = group
+            .link_exists("clearance")
+            .then(|| self.column(group, "clearance"));
         let gap = GapResult {
             name,
             between: self.text(group, "between")?,
             model: word("model")?,
             separation: word("separation")?,
             width: self.column(group, "width")?,
+            clearance: clearance.transpose()?,
             penetration: self.table(group, "penetration")?,
             impacts: impacts().map_err(self.failed(&object))?,
             responses: self.level_responses(group)?,
@@ -332,6 +357,7 @@ impl Reader {
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
         let fits = gap.width.len() == levels
             && gap.penetration.columns == levels
+            && gap.clearance.as_ref().is_none_or(|c| c.len() == levels)
             && gap.impacts.iter().all(known)
             && (gap.responses.iter()).all(|r| r.value.len() == levels && r.time.len() == levels);
         self.fits(group, fits)?;

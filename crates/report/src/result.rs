@@ -71,6 +71,25 @@ pub struct LevelResponses {
     pub time: Vec<f64>,
 }
 
+/// What the isolators under a building went through, with and without gaps and links.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IsolatorResult {
+    /// Name of their kind.
+    pub model: String,
+    /// Peak displacement (m).
+    pub displacement: f64,
+    /// The same of the building without gaps and links.
+    pub isolated_displacement: f64,
+    /// Peak force of their law (N).
+    pub force: f64,
+    /// The same of the building without gaps and links.
+    pub isolated_force: f64,
+    /// Period of the secant stiffness at the peak displacement (s).
+    pub effective_period: f64,
+    /// Damping ratio of a loop to it (-).
+    pub effective_damping_ratio: f64,
+}
+
 /// One building.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildingResult {
@@ -92,6 +111,8 @@ pub struct BuildingResult {
     pub base_moment: Option<BaseMoment>,
     /// Responses with names of their own.
     pub responses: Vec<NamedResponse>,
+    /// The isolators that it stands on.
+    pub isolator: Option<IsolatorResult>,
     /// Ductility of every storey (-), where any has a law; NaN where there is no yield force.
     pub ductility: Option<Vec<f64>>,
     /// Natural periods (s).
@@ -165,6 +186,9 @@ pub struct GapResult {
     pub levels: Vec<LevelResult>,
     /// Width at rest (m).
     pub width: Vec<f64>,
+    /// Clearance left at every level (m), beside a building on isolators; NaN at levels that
+    /// are not beside it.
+    pub clearance: Option<Vec<f64>>,
     /// Penetration (m), negative while the gap is open.
     pub penetration: Table,
     /// Impacts in order of closure.

@@ -32,7 +32,7 @@ impl Place {
 pub enum Basis {
     /// Computed displacements.
     Displacement,
-    /// Heights and kinds of structure alone.
+    /// What the code itself takes of structures, such as heights, kinds or isolators.
     Prescriptive,
 }
 
@@ -97,6 +97,12 @@ impl Descriptor for ProvisionDescriptor {
 }
 
 impl ProvisionDescriptor {
+    /// Whether the rule is one for isolated structures, and says nothing of others.
+    #[must_use]
+    pub fn is_of_isolated_structures(&self) -> bool {
+        self.inputs.contains(&Input::IsolationPeriod)
+    }
+
     /// What the rule measures.
     #[must_use]
     pub fn place(&self) -> Place {

@@ -27,11 +27,23 @@ pub enum Input {
     DesignGroundAcceleration,
     /// `alpha_h` of the Indian code.
     SeismicCoefficient,
+    /// `S_M1` of ASCE 7.
+    SpectralAccelerationAtOneSecond,
+    /// `T_M`: effective period of isolators.
+    IsolationPeriod,
+    /// `B_M`: what their damping divides displacements by.
+    IsolationDampingCoefficient,
+    /// Longest dimension in plan.
+    PlanLength,
+    /// Shortest dimension in plan.
+    PlanWidth,
+    /// Eccentricity in plan.
+    PlanEccentricity,
 }
 
 impl Input {
     /// All inputs.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 18] = [
         Self::Displacement,
         Self::ResponseModification,
         Self::DisplacementAmplification,
@@ -44,6 +56,12 @@ impl Input {
         Self::SoilZone,
         Self::DesignGroundAcceleration,
         Self::SeismicCoefficient,
+        Self::SpectralAccelerationAtOneSecond,
+        Self::IsolationPeriod,
+        Self::IsolationDampingCoefficient,
+        Self::PlanLength,
+        Self::PlanWidth,
+        Self::PlanEccentricity,
     ];
 
     /// Name, which is its key in the table `[separation]` of a case.
@@ -62,6 +80,12 @@ impl Input {
             Self::SoilZone => "soil_zone",
             Self::DesignGroundAcceleration => "design_ground_acceleration",
             Self::SeismicCoefficient => "seismic_coefficient",
+            Self::SpectralAccelerationAtOneSecond => "spectral_acceleration_1s",
+            Self::IsolationPeriod => "isolation_period",
+            Self::IsolationDampingCoefficient => "isolation_damping_coefficient",
+            Self::PlanLength => "plan_length",
+            Self::PlanWidth => "plan_width",
+            Self::PlanEccentricity => "plan_eccentricity",
         }
     }
 
@@ -81,6 +105,16 @@ impl Input {
             Self::SoilZone => "I, II or III of Mexico City",
             Self::DesignGroundAcceleration => "a_g S, m/s2",
             Self::SeismicCoefficient => "alpha_h, -",
+            Self::SpectralAccelerationAtOneSecond => {
+                "S_M1 of the maximum considered earthquake, m/s2"
+            }
+            Self::IsolationPeriod => "effective period T_M of the isolators at D_M, s",
+            Self::IsolationDampingCoefficient => "B_M of the damping of the isolators at D_M, -",
+            Self::PlanLength => "longest dimension in plan d, m",
+            Self::PlanWidth => "shortest dimension in plan b, m",
+            Self::PlanEccentricity => {
+                "eccentricity e of mass and isolators with the accidental 5 % of the plan length, m"
+            }
         }
     }
 }
@@ -191,6 +225,17 @@ pub struct Structure {
     pub yield_amplification: Option<f64>,
     /// Kind of structure.
     pub system: Option<StructuralSystem>,
+    /// `T_M`: effective period of its isolators at the displacement `D_M` (s).
+    pub isolation_period: Option<f64>,
+    /// `B_M`: what the damping of the isolators divides that displacement by (-).
+    pub isolation_damping_coefficient: Option<f64>,
+    /// Longest dimension in plan (m).
+    pub plan_length: Option<f64>,
+    /// Shortest dimension in plan (m).
+    pub plan_width: Option<f64>,
+    /// Eccentricity of the mass above the isolators and their centre of rigidity, with the
+    /// accidental one (m).
+    pub plan_eccentricity: Option<f64>,
 }
 
 /// What both structures share.
@@ -208,6 +253,9 @@ pub struct Site {
     pub design_ground_acceleration: Option<f64>,
     /// `alpha_h` (-).
     pub seismic_coefficient: Option<f64>,
+    /// `S_M1`: spectral acceleration of the maximum considered earthquake at one second, damped
+    /// by 5 % (m/s2).
+    pub spectral_acceleration_1s: Option<f64>,
 }
 
 /// Two structures at one level where they could touch.

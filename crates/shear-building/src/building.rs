@@ -9,6 +9,7 @@ use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
+use crate::isolator::{Isolator, IsolatorProperties};
 use crate::lateral::LateralStiffness;
 use crate::modes::{Modes, Undamped, undamped, undamped_dense};
 use crate::stiffness::StiffnessMatrix;
@@ -39,6 +40,7 @@ pub struct ShearBuilding {
     asymmetry: f64,
     height: Vec<f64>,
     laws: Vec<Option<StoreyLaw>>,
+    isolator: Option<(Isolator, IsolatorProperties)>,
     geometric: Vec<f64>,
     elevations: Vec<f64>,
     damping: Damping,
@@ -109,6 +111,49 @@ impl ShearBuilding {
         let undamped = undamped(&parts.mass, &lateral, &chain);
         let matrices = (StiffnessMatrix::Tridiagonal(chain), None);
         Self::finish(parts, stiffness, matrices, undamped)
+    }
+
+    /// A building on isolators, which are its first storey, below the base slab: `mass` and
+    /// `height` have the slab as their first floor, `stiffness` the storeys above it, one
+    /// fewer. `superstructure` damps those as if the slab were fixed
+    /// ([`Damping::Isolated`]).
+    ///
+    /// # Errors
+    /// As [`ShearBuilding::new`], and isolators that cannot be.
+    pub fn on_isolators(
+        name: String,
+        mass: Vec<f64>,
+        stiffness: &[f64],
+        height: Vec<f64>,
+        superstructure: Damping,
+        isolator: Isolator,
+    ) -> Result<Self, ShearBuildingError> {
+        let refused = |source| ShearBuildingError::Isolator {
+            building: name.clone(),
+            source,
+        };
+        let whole = mass.iter().sum();
+        let properties = isolator.properties(whole).map_err(refused)?;
+        let law = isolator.law(whole).map_err(refused)?;
+        let initial = match &law {
+            Some(law) => law.law.initial_stiffness(),
+            None => properties.initial_stiffness,
+        };
+        let storeys = std::iter::once(&initial).chain(stiffness).copied();
+        let damping = Damping::Isolated {
+            superstructure: Box::new(superstructure),
+            isolators: isolator.dashpot,
+        };
+        let mut building = Self::new(name, mass, storeys.collect(), height, damping)?;
+        building.laws[0] = law;
+        building.isolator = Some((isolator, properties));
+        Ok(building)
+    }
+
+    /// The isolators that the building stands on, with what they are under its weight.
+    #[must_use]
+    pub fn isolator(&self) -> Option<&(Isolator, IsolatorProperties)> {
+        self.isolator.as_ref()
     }
 
     /// A building whose floors all act on one another: a frame or a wall, condensed to the
@@ -274,6 +319,7 @@ impl ShearBuilding {
             sections: None,
             responses: Vec::new(),
             laws: vec![None; mass.len()],
+            isolator: None,
             geometric,
             name,
             mass,
@@ -308,7 +354,7 @@ impl ShearBuilding {
             let Some(StoreyLaw { law, .. }) = law else {
                 continue;
             };
-            if law.descriptor().rate_dependent {
+            if !law.holds_static_load() {
                 return Err(ShearBuildingError::Law {
                     building: self.name,
                     storey: i + 1,

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 use nalgebra::DMatrix;
 
 use crate::dense::multiply;
-use crate::modes::{LARGE, Undamped};
+use crate::modes::{LARGE, Undamped, undamped};
 use crate::stiffness::StiffnessMatrix;
 use crate::tridiagonal::SymmetricTridiagonal;
 
@@ -51,14 +51,17 @@ pub enum Damping {
         /// One row a coordinate, floors first (N s/m; N m s/rad on the diagonal of rotations).
         matrix: DMatrix<f64>,
     },
-}
-
-impl Damping {
-    /// Whether the undamped modes do not decouple: motion is then no sum of oscillators.
-    #[must_use]
-    pub fn couples_modes(&self) -> bool {
-        matches!(self, Self::Dashpots { .. } | Self::Matrix { .. })
-    }
+    /// A building on isolators, which are its first storey: the storeys above are damped as
+    /// if their base slab, the first floor, were fixed, and the isolators by a dashpot.
+    /// Ratios are those of the modes above the fixed slab, and the matrix acts on velocities
+    /// relative to the slab, so that nothing of it brakes the isolators (Ryan and Polanco,
+    /// Journal of Structural Engineering 134 (2008) 1780): `C = T' C_s T + c e1 e1'`.
+    Isolated {
+        /// Damping of the storeys above the slab.
+        superstructure: Box<Damping>,
+        /// Dashpot of all isolators together (N s/m).
+        isolators: f64,
+    },
 }
 
 /// The damping matrix of a building (N s/m).
@@ -93,6 +96,16 @@ impl DampingMatrix {
 }
 
 impl Damping {
+    /// Whether the damping forces of one mode may move others: no ratios of the modes say
+    /// then all of it.
+    #[must_use]
+    pub fn couples_modes(&self) -> bool {
+        matches!(
+            self,
+            Self::Dashpots { .. } | Self::Isolated { .. } | Self::Matrix { .. }
+        )
+    }
+
     /// The damping matrix, or the reason why there is none.
     pub(crate) fn matrix(
         &self,
@@ -170,7 +183,65 @@ impl Damping {
                     coefficients,
                 )))
             }
+            Self::Isolated {
+                superstructure,
+                isolators,
+            } => {
+                let StiffnessMatrix::Tridiagonal(k) = stiffness else {
+                    return Err("isolators are the first of a chain of storeys, and a stiffness matrix has no storeys".to_owned());
+                };
+                not_negative("the dashpot of the isolators", *isolators)?;
+                superstructure.above_isolators(*isolators, mass, k)
+            }
         }
+    }
+
+    /// The matrix of a building on isolators, of the damping of the storeys above its slab.
+    fn above_isolators(
+        &self,
+        isolators: f64,
+        mass: &[f64],
+        chain: &SymmetricTridiagonal,
+    ) -> Result<DampingMatrix, String> {
+        let storeys: Vec<f64> = chain.off_diagonal.iter().map(|k| -k).collect();
+        let dashpots = |above: Vec<f64>| {
+            let all: Vec<f64> = std::iter::once(isolators).chain(above).collect();
+            DampingMatrix::Tridiagonal(SymmetricTridiagonal::chain(&all))
+        };
+        let above = &mass[1..];
+        if above.is_empty() {
+            return Ok(dashpots(Vec::new()));
+        }
+        let fixed = SymmetricTridiagonal::chain(&storeys);
+        let modes = undamped(above, &storeys, &fixed);
+        // What acts on drifts alone stays a chain.
+        match self {
+            Self::Isolated { .. } => return Err("isolators are the first storey alone".to_owned()),
+            Self::Dashpots { coefficients } if coefficients.len() == storeys.len() => {
+                for c in coefficients {
+                    not_negative("dashpot", *c)?;
+                }
+                return Ok(dashpots(coefficients.clone()));
+            }
+            Self::StiffnessProportional { ratio } => {
+                check_ratio(*ratio)?;
+                let beta = 2.0 * ratio / modes.circular_frequency[0];
+                return Ok(dashpots(storeys.iter().map(|k| beta * k).collect()));
+            }
+            _ => {}
+        }
+        let relative = self.matrix(above, &StiffnessMatrix::Tridiagonal(fixed), &modes)?;
+        let n = mass.len();
+        let column = |j: usize| (0..n - 1).map(|i| relative.entry(i, j)).sum::<f64>();
+        let sums: Vec<f64> = (0..n - 1).map(column).collect();
+        Ok(DampingMatrix::Dense(DMatrix::from_fn(n, n, |i, j| match (
+            i.checked_sub(1),
+            j.checked_sub(1),
+        ) {
+            (None, None) => isolators + sums.iter().sum::<f64>(),
+            (Some(k), None) | (None, Some(k)) => -sums[k],
+            (Some(i), Some(j)) => relative.entry(i, j),
+        })))
     }
 }
 

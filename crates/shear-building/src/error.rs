@@ -68,6 +68,14 @@ pub enum ShearBuildingError {
         /// What is wrong.
         reason: String,
     },
+    /// Isolators that cannot be.
+    #[error("building {building}: {source}")]
+    Isolator {
+        /// Name of the building.
+        building: String,
+        /// What is wrong.
+        source: crate::isolator::IsolatorError,
+    },
     /// A storey law that cannot carry the storey.
     #[error("building {building}, storey {storey}: law {law}: {reason}")]
     Law {

@@ -13,6 +13,7 @@ mod dense;
 mod elevation;
 mod error;
 mod foundation;
+mod isolator;
 mod lateral;
 mod modes;
 mod names;
@@ -31,6 +32,9 @@ pub use error::ShearBuildingError;
 pub use foundation::{
     BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
     SoilSprings, SpringDashpot,
+};
+pub use isolator::{
+    Isolator, IsolatorError, IsolatorKind, IsolatorProperties, PostYield, Strength,
 };
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;

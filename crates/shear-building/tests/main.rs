@@ -1,4 +1,5 @@
 //! Storeys, damping and modes.
 
+mod isolators;
 mod properties;
 mod textbook_frame;

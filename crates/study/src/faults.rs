@@ -311,6 +311,7 @@ fn plain_building() -> Building {
         mass: vec![1.0],
         stiffness: vec![1.0e3],
         lateral: None,
+        isolator: None,
         height: vec![3.0],
         initial_displacement: Located {
             value: vec![0.0],

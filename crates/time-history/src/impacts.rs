@@ -121,6 +121,7 @@ impl ImpactLog {
             sticks: 0,
             gap_widening: 0.0,
             responses: Vec::new(),
+            clearance: None,
         };
         Self {
             impacts: Vec::with_capacity(IMPACTS),

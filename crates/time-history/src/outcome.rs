@@ -56,6 +56,26 @@ pub struct BuildingOutcome {
     pub responses: Vec<NamedPeak>,
     /// What storeys with a law went through, from the bottom; `None` for the others.
     pub yielding: Vec<Option<YieldingStorey>>,
+    /// What the isolators under the building went through; `None` for one without.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub isolator: Option<IsolatorOutcome>,
+}
+
+/// What the isolators under a building went through, all of them together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct IsolatorOutcome {
+    /// Name of their kind.
+    pub model: &'static str,
+    /// Maximum displacement of the base slab relative to the ground (m).
+    pub displacement: Peak,
+    /// Maximum force of their law (N), without that of a dashpot beside them.
+    pub force: Peak,
+    /// Period (s) of the secant stiffness at that displacement.
+    pub effective_period: f64,
+    /// Damping ratio (-) of a loop to that displacement, without the dashpot.
+    pub effective_damping_ratio: f64,
 }
 
 /// Peak magnitude of a response with a name.
@@ -222,6 +242,10 @@ pub struct LevelOutcome {
     /// Responses of the level ([`crate::System::add_level_response`]).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub responses: Vec<NamedPeak>,
+    /// Clearance left (m) beside a building on isolators: the width of the gap less the
+    /// maximum approach, zero where the gap closed. `None` beside others.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub clearance: Option<f64>,
 }
 
 /// What happened in one gap, levels from the bottom.
@@ -311,6 +335,13 @@ impl Outcome {
         }
         for building in &mut outcome.buildings {
             building.base_moment = building.base_moment.map(|_| unknown);
+            building.isolator = building.isolator.map(|isolator| IsolatorOutcome {
+                displacement: unknown,
+                force: unknown,
+                effective_period: f64::NAN,
+                effective_damping_ratio: f64::NAN,
+                ..isolator
+            });
         }
         let buildings = outcome.buildings.iter_mut().flat_map(|b| &mut b.responses);
         let levels = outcome.gaps.iter_mut().flat_map(|g| &mut g.levels);

@@ -32,13 +32,13 @@ impl Rates {
             let frequencies = b.modes().circular_frequency.iter();
             frequencies.copied().fold(0.0, f64::max)
         });
-        let damping = buildings.iter().map(|b| match b.damping().couples_modes() {
-            true => damping_rate(b),
-            false => {
-                let modes = b.modes();
-                let pairs = modes.circular_frequency.iter().zip(&modes.damping_ratio);
-                pairs.map(|(w, zeta)| 2.0 * w * zeta).fold(0.0, f64::max)
+        let damping = buildings.iter().map(|b| {
+            if b.damping().couples_modes() {
+                return damping_rate(b);
             }
+            let modes = b.modes();
+            let pairs = modes.circular_frequency.iter().zip(&modes.damping_ratio);
+            pairs.map(|(w, zeta)| 2.0 * w * zeta).fold(0.0, f64::max)
         });
         Self {
             buildings: fastest_rate(buildings),
@@ -147,9 +147,12 @@ impl Rates {
 /// damping it is the maximum circular frequency; above it a mode forgets its velocity
 /// faster than it would swing.
 pub(crate) fn fastest_rate(buildings: &[Arc<ShearBuilding>]) -> f64 {
-    let rates = buildings.iter().map(|b| match b.damping().couples_modes() {
-        true => coupled(b),
-        false => uncoupled(b),
+    let rates = buildings.iter().map(|b| {
+        if b.damping().couples_modes() {
+            coupled(b)
+        } else {
+            uncoupled(b)
+        }
     });
     rates.fold(0.0, f64::max)
 }
@@ -175,13 +178,13 @@ fn coupled(building: &ShearBuilding) -> f64 {
 fn damping_rate(building: &ShearBuilding) -> f64 {
     let (n, mass) = (building.coordinates(), building.inertia());
     let entry = |i: usize, j: usize| building.damping_matrix().entry(i, j);
-    let tridiagonal = matches!(building.damping_matrix(), DampingMatrix::Tridiagonal(_));
     let row = |i: usize| -> f64 {
-        let near = match tridiagonal {
-            true => i.saturating_sub(1)..n.min(i + 2),
-            false => 0..n,
+        let columns = match building.damping_matrix() {
+            DampingMatrix::Tridiagonal(_) => i.saturating_sub(1)..n.min(i + 2),
+            DampingMatrix::Dense(_) => 0..n,
         };
-        near.map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())
+        columns
+            .map(|j| entry(i, j).abs() / (mass[i] * mass[j]).sqrt())
             .sum()
     };
     (0..n).map(row).fold(0.0, f64::max)

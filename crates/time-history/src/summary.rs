@@ -4,8 +4,8 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics, StoreyPeaks,
-    YieldingStorey,
+    IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics,
+    StoreyPeaks, YieldingStorey,
 };
 use crate::system::{LevelPlace, System};
 
@@ -33,6 +33,8 @@ struct Building<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     base_moment: Option<Peak>,
     yielding: &'a [Option<YieldingStorey>],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    isolator: Option<IsolatorOutcome>,
     isolated: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolated_base_moment: Option<Peak>,
@@ -92,6 +94,7 @@ impl<'a> Summary<'a> {
             storeys: &with.storeys,
             base_moment: with.base_moment,
             yielding: &with.yielding,
+            isolator: with.isolator,
             isolated: &without.storeys,
             isolated_base_moment: without.base_moment,
             responses: &with.responses,

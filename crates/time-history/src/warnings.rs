@@ -315,7 +315,12 @@ impl Warning {
         warnings.extend(unseated(system, levels));
         for (outcome, building) in buildings.iter().zip(system.buildings()) {
             let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
-            let most = ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+            // Isolators are there to be displaced, and have a height that means nothing.
+            let isolators = usize::from(building.isolator().is_some());
+            let most = ratios
+                .enumerate()
+                .skip(isolators)
+                .max_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((storey, ratio)) = most.filter(|m| m.1 > DRIFT_RATIO) {
                 warnings.push(Self::Drift {
                     building: outcome.name.clone(),
@@ -434,7 +439,7 @@ fn lower_storey(system: &System, level: &ContactLevel) -> Option<f64> {
 fn braked_isolator(building: &ShearBuilding) -> Option<Warning> {
     let proportional = !matches!(
         building.damping(),
-        Damping::Modal { .. } | Damping::Dashpots { .. }
+        Damping::Modal { .. } | Damping::Dashpots { .. } | Damping::Isolated { .. }
     );
     let above = *building.stiffness().get(1)?;
     let soft = |stiffness: f64| stiffness <= ISOLATOR.0 * above;

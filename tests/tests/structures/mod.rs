@@ -6,6 +6,7 @@ mod abutment;
 mod base_moments;
 mod condensed_stiffness;
 mod general;
+mod isolation;
 mod motions;
 mod reference;
 mod torsion;

@@ -33,7 +33,7 @@ fn parameters(name: &str) -> LawParameters {
 fn storeys(name: &str) -> Option<System> {
     let law = law(name, &parameters(name));
     let stiffness = law.law.initial_stiffness();
-    if !(stiffness.is_finite() && stiffness > 0.0) || law.law.descriptor().rate_dependent {
+    if !(stiffness.is_finite() && stiffness > 0.0 && law.law.holds_static_load()) {
         return None;
     }
     let mass = stiffness * (0.5 / std::f64::consts::TAU).powi(2) * 0.4;

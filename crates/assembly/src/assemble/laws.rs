@@ -21,7 +21,7 @@ pub(super) fn with_storey_laws(
     let Some(first) = b.laws.first() else {
         return Ok(building);
     };
-    let mut laws: Vec<Option<StoreyLaw>> = vec![None; b.mass.len()];
+    let mut laws = building.laws().to_vec();
     let errors = Errors::default();
     let read = errors.all(b.laws.iter().map(|law| {
         let descriptor = descriptor(case, &law.model)?;
@@ -29,11 +29,11 @@ pub(super) fn with_storey_laws(
         for (place, storey) in law.storeys.iter().enumerate() {
             let mut values = parameters(case, descriptor, &law.parameters, place)?;
             if own && !values.values.contains_key("stiffness") {
-                let stiffness = b.stiffness[*storey];
+                let stiffness = building.stiffness()[*storey];
                 values.values.insert("stiffness".to_owned(), stiffness);
             }
             let built = built(case, &law.model, descriptor, &values)?;
-            check_stiffness(case, b, (*storey, &law.model), &built)?;
+            check_stiffness(case, &building, (*storey, &law.model), &built)?;
             laws[*storey] = Some(built);
         }
         Ok(())
@@ -47,11 +47,11 @@ pub(super) fn with_storey_laws(
 /// Modes and damping belong to the stiffness of the storey: the law must start with it.
 fn check_stiffness(
     case: &Case,
-    b: &Building,
+    building: &ShearBuilding,
     (storey, model): (usize, &Located<String>),
     built: &StoreyLaw,
 ) -> Result<(), CaseError> {
-    let (initial, stated) = (built.law.initial_stiffness(), b.stiffness[storey]);
+    let (initial, stated) = (built.law.initial_stiffness(), building.stiffness()[storey]);
     if (initial - stated).abs() <= 1.0e-6 * stated {
         return Ok(());
     }
@@ -66,7 +66,7 @@ fn check_stiffness(
             "law {} starts with {initial} N/m, but storey {} of \"{}\" has a stiffness of {stated} N/m, to which modes and damping belong",
             model.value,
             storey + 1,
-            b.name.value
+            building.name()
         ),
         Some(remedy),
     ))

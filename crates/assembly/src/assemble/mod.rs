@@ -271,18 +271,22 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
         return plan::building(case, b, given);
     }
     let damping = b.damping.value.clone();
-    let made = match &b.lateral {
-        None => {
+    let made = match (&b.lateral, &b.isolator) {
+        (None, Some(isolator)) => {
+            ShearBuilding::on_isolators(name, mass, &b.stiffness, height, damping, isolator.value)
+        }
+        (None, None) => {
             let stiffness = b.stiffness.clone();
             ShearBuilding::under_gravity(name, mass, stiffness, height, damping, gravity)
         }
-        Some(lateral) => {
+        (Some(lateral), _) => {
             let stiffness = lateral::stiffness(case, b, lateral)?;
             ShearBuilding::with_stiffness_matrix(name, mass, stiffness, height, damping, gravity)
         }
     };
     let building = made.map_err(|e| {
         let at_matrix = b.lateral.as_ref().map_or(&b.name.span, |l| &l.span);
+        let at_isolator = b.isolator.as_ref().map_or(&b.name.span, |i| &i.span);
         let (place, help) = match &e {
             ShearBuildingError::Unstable { .. } => (&b.name.span, None),
             ShearBuildingError::UnstableMatrix { .. } | ShearBuildingError::Length { .. } => {
@@ -296,6 +300,7 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
                 &b.damping.span,
                 Some("give ratios, such as { modal = 0.05 }".to_owned()),
             ),
+            ShearBuildingError::Isolator { source, .. } => (at_isolator, source.help()),
             _ => (&b.damping.span, None),
         };
         case.error(place.clone(), e.to_string(), help)

@@ -33,8 +33,8 @@ pub use error::Fault;
 pub use numbers::{
     AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Density, Dimensioned, Flexibility,
     FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Poisson, Positive,
-    Ratio, RotationalDashpot, RotationalInertia, RotationalStiffness, Scalar, Signed, Stiffness,
-    Time, Velocity, Within, Written,
+    Ratio, RotationalDashpot, RotationalInertia, RotationalStiffness, Scalar, Signed, Slowness,
+    Stiffness, Time, Velocity, Within, Written,
 };
 pub use schema::schema_of;
 

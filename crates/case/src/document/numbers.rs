@@ -229,6 +229,7 @@ dimensions! {
     Time TIME "Time, s.";
     Frequency FREQUENCY "Frequency, 1/s.";
     Velocity VELOCITY "Velocity, m/s.";
+    Slowness SLOWNESS "Slowness, s/m.";
     Acceleration ACCELERATION "Acceleration, m/s2.";
     Force FORCE "Force, N.";
     Stiffness STIFFNESS "Stiffness, N/m.";

@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use super::foundation::FoundationTable;
 use super::ground_motion::GroundTable;
+use super::isolator::IsolatorTable;
 use super::lateral::{CantileverTable, FishboneTable, MatrixValue, matrix, rows};
 use super::law::{LawTable, storey_laws};
 use super::plan::PlanTable;
@@ -16,7 +17,7 @@ use crate::document::{
     Count, Dashpot, Dimensioned, Entry, Field, Flexibility, Frequency, Kinds, Length, Mass,
     NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Time, Velocity,
 };
-use crate::types::{Building, Damping, Lateral, Located};
+use crate::types::{Building, Damping, Isolator, Lateral, Located};
 
 /// A building
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -28,8 +29,10 @@ use crate::types::{Building, Damping, Lateral, Located};
         {"required": ["flexibility_matrix"]},
         {"required": ["cantilever"]},
         {"required": ["fishbone"]},
-        {"required": ["plan"]}
+        {"required": ["plan"]},
+        {"required": ["isolator"], "not": {"required": ["stiffness"]}}
     ]},
+    {"anyOf": [{"required": ["damping"]}, {"required": ["isolator"]}]},
     {"oneOf": [{"required": ["height"]}, {"required": ["elevations"]}]}
 ]))]
 pub(super) struct BuildingTable {
@@ -69,8 +72,12 @@ pub(super) struct BuildingTable {
     /// Whether gravity acts through the drift: takes weight above over height off every
     /// storey stiffness
     p_delta: Optional<bool>,
-    /// Viscous damping, one of its kinds; on a foundation, of the building on a fixed base
-    damping: Field<Kinds<DampingTable>>,
+    /// Isolators, which are then storey 1 below the base slab, floor 1: `mass` and `height`
+    /// have all floors with the slab, `stiffness` the storeys above it, one fewer
+    isolator: Optional<IsolatorTable>,
+    /// Viscous damping, one of its kinds; with an isolator that of the storeys above it on a
+    /// fixed slab, on a foundation of the building on a fixed base
+    damping: Optional<Kinds<DampingTable>>,
     /// Foundation that sways and rocks on the soil; by default a fixed base
     foundation: Optional<FoundationTable>,
     /// Plan with frames in the place of storey stiffnesses, for floors that turn
@@ -152,7 +159,10 @@ impl BuildingTable {
     ) -> Option<(Building, bool)> {
         let keep = reader.errors;
         let given = self.resistances();
-        let stiffness_wrong = !resists(reader, &given, &place);
+        let isolated = self.isolator.is_some();
+        // Of a slab alone on isolators nothing else resists.
+        let bare = isolated && given.is_empty();
+        let stiffness_wrong = !bare && !resists(reader, &given, &place);
         let heights_given = self.heights_given(reader, &place);
         let heights_wrong = !heights_given || self.height.is_wrong() || self.elevations.is_wrong();
         let sound = !(self.mass.is_wrong() || stiffness_wrong || heights_wrong);
@@ -168,7 +178,20 @@ impl BuildingTable {
                 );
             }
         };
-        let by_storeys = given.iter().any(|stated| stated.key == "stiffness");
+        let by_storeys = bare || given.iter().any(|stated| stated.key == "stiffness");
+        let above = storeys - usize::from(isolated);
+        let isolator = match isolated {
+            true => self.isolators(reader, (storeys, &given), &place),
+            false => None,
+        };
+        let undamped = bare && above == 0 && self.damping.is_none();
+        if !undamped && self.damping.is_none() {
+            reader.refuse::<()>(
+                place.clone(),
+                "[[building]] has no `damping`",
+                "add `damping = ...`",
+            );
+        }
         if let (Some(span), Some(stated), false) = (self.law.span(), given.first(), by_storeys) {
             return reader.refuse(
                 span,
@@ -189,27 +212,35 @@ impl BuildingTable {
         let modes = if self.plan.is_some() {
             3 * storeys
         } else {
-            storeys
+            above
         };
         let plan = self.plan.located();
         let plan = plan.and_then(|given| given.value.read(reader, given.span, storeys));
-        let resisted = by_storeys || lateral.is_some() || plan.is_some();
-        let stiffness_wrong = stiffness_wrong || !resisted;
+        let resisted = by_storeys || lateral.is_some() || plan.is_some() || isolated;
+        let stiffness_wrong = stiffness_wrong || !resisted || isolated && isolator.is_none();
         let sound = sound && !stiffness_wrong;
         let laws = self.law.value();
-        let laws = laws.map_or_else(Vec::new, |laws| storey_laws(reader, laws, storeys));
+        let laws = laws.map_or_else(Vec::new, |laws| {
+            storey_laws(reader, laws, (storeys, isolated))
+        });
         if stiffness_wrong {
             // A law is held against the stiffness of its storey.
             for law in &laws {
                 keep.incomplete(law.model.span.clone());
             }
         }
-        let damping = self.damping.located().and_then(|damping| {
-            Some(Located {
-                value: damping.value.0.read(reader, storeys, modes)?,
-                span: damping.span,
-            })
-        });
+        let damping = match undamped {
+            true => Some(Located {
+                value: Damping::MassProportional { ratio: 0.0 },
+                span: place.clone(),
+            }),
+            false => self.damping.located().and_then(|damping| {
+                Some(Located {
+                    value: damping.value.0.read(reader, above, modes)?,
+                    span: damping.span,
+                })
+            }),
+        };
         let name = name.unwrap_or_else(|| Located {
             value: String::new(),
             span: place.clone(),
@@ -248,9 +279,12 @@ impl BuildingTable {
             name,
             mass: each(self.mass, storeys, 1.0),
             stiffness: match by_storeys || stiffness_wrong {
-                true => each(self.stiffness, storeys, 1.0),
+                // Without its isolator a stand-in is the first of the storeys.
+                true if isolator.is_none() && isolated => vec![1.0; storeys],
+                true => each(self.stiffness, above, 1.0),
                 false => Vec::new(),
             },
+            isolator,
             lateral,
             height,
             laws,
@@ -282,6 +316,60 @@ impl BuildingTable {
         keys.into_iter().flatten().collect()
     }
 
+    /// The isolators of a building of so many storeys, with the keys that say what resists
+    /// above them.
+    fn isolators(
+        &self,
+        reader: &Reader<'_>,
+        (storeys, given): (usize, &[Stated]),
+        place: &Range<usize>,
+    ) -> Option<Located<Isolator>> {
+        let Located { value, span } = self.isolator.clone().located()?;
+        if let Some(span) = self
+            .p_delta
+            .span()
+            .filter(|_| self.p_delta.clone().value() == Some(true))
+        {
+            return reader.refuse(
+                span,
+                "`p_delta` does not go with an isolator, whose law holds what the weight does at its displacement",
+                "leave `p_delta` out; a friction pendulum has the stiffness W / R of the weight, and lead rubber its stiffness under the weight",
+            );
+        }
+        match given {
+            [] if storeys > 1 => {
+                return reader.refuse(
+                    place.clone(),
+                    "[[building]] has no `stiffness`",
+                    format!(
+                        "add `stiffness = ...` of the {} above the isolator, which is storey 1",
+                        counted(storeys - 1, "storey")
+                    ),
+                );
+            }
+            [stated, ..] if stated.key != "stiffness" => {
+                return reader.refuse(
+                    stated.span.clone()?,
+                    format!("an isolator is the first of a chain of storeys, but this building has `{}`", stated.key),
+                    "give the storeys above the isolator by `stiffness`",
+                );
+            }
+            [stated, ..] if storeys == 1 => {
+                return reader.refuse(
+                    stated.span.clone()?,
+                    "the building has one floor, the base slab on its isolator, and no storey above for `stiffness`",
+                    "leave `stiffness` out, or give `mass` and `height` of all floors, the slab first",
+                );
+            }
+            _ => {}
+        }
+        let isolator = value.read(reader, &span)?;
+        Some(Located {
+            value: isolator,
+            span,
+        })
+    }
+
     /// Whether one of the two keys, and one alone, says how high the storeys are.
     fn heights_given(&self, reader: &Reader<'_>, place: &Range<usize>) -> bool {
         match (&self.height, &self.elevations) {
@@ -305,6 +393,12 @@ impl BuildingTable {
         }
     }
 
+    /// Storeys that a list of stiffnesses is for: an isolator is one more.
+    fn storeys_of_stiffness(&self) -> Option<(usize, Range<usize>)> {
+        let (values, span) = length(self.stiffness.as_ref())?;
+        Some((values + usize::from(self.isolator.is_some()), span))
+    }
+
     /// The number of storeys, on which `storeys` and all lists must agree; `Some(None)` if
     /// nothing says it.
     fn storeys(&self, reader: &Reader<'_>) -> Option<Option<usize>> {
@@ -314,7 +408,7 @@ impl BuildingTable {
         }
         for (key, list) in [
             ("mass", length(Some(&self.mass))),
-            ("stiffness", length(self.stiffness.as_ref())),
+            ("stiffness", self.storeys_of_stiffness()),
             (
                 "stiffness_matrix",
                 matrix_rows(self.stiffness_matrix.as_ref()),
@@ -336,6 +430,19 @@ impl BuildingTable {
             };
             match known {
                 None => known = Some((key, values)),
+                Some((other, n))
+                    if n != values && key == "stiffness" && self.isolator.is_some() =>
+                {
+                    return reader.refuse(
+                        span,
+                        format!(
+                            "`stiffness` has {}, but `{other}` says {} with the isolator",
+                            counted(values - 1, "value"),
+                            counted(n, "storey")
+                        ),
+                        "the isolator is storey 1 and the base slab floor 1: `mass` and `height` have all floors with the slab, `stiffness` the storeys above it, one fewer",
+                    );
+                }
                 Some((other, n)) if n != values => {
                     return reader.refuse(
                         span,

@@ -64,17 +64,20 @@ enum Motion {
     Rocking,
 }
 
-/// The laws of a building of so many storeys.
+/// The laws of a building of so many storeys, of which the first may be an isolator.
 pub(super) fn storey_laws(
     reader: &Reader<'_>,
     tables: OneOrEach<Field<LawTable>, 0>,
-    storeys: usize,
+    (storeys, isolated): (usize, bool),
 ) -> Vec<StoreyLaw> {
     let mut taken: Vec<Option<Range<usize>>> = vec![None; storeys];
     let mut laws = Vec::new();
     let tables: Vec<Field<LawTable>> = tables.into_list();
     for law in tables {
-        let Some(law) = law.value().and_then(|law| law.read(reader, storeys)) else {
+        let Some(law) = law
+            .value()
+            .and_then(|law| law.read(reader, (storeys, isolated)))
+        else {
             continue;
         };
         for storey in &law.storeys {
@@ -96,12 +99,12 @@ pub(super) fn storey_laws(
 }
 
 impl LawTable {
-    fn read(self, reader: &Reader<'_>, storeys: usize) -> Option<StoreyLaw> {
+    fn read(self, reader: &Reader<'_>, (storeys, isolated): (usize, bool)) -> Option<StoreyLaw> {
         let listed: Option<Vec<usize>> = match self.storeys {
-            None => Some((0..storeys).collect()),
+            None => Some((usize::from(isolated)..storeys).collect()),
             Some(listed) => listed
                 .located()
-                .and_then(|listed| listed_storeys(reader, listed, storeys)),
+                .and_then(|listed| listed_storeys(reader, listed, (storeys, isolated))),
         };
         let count = listed.as_ref().map(Vec::len);
         let (parameters, whole) = parameters(reader, self.parameters, count);
@@ -121,11 +124,18 @@ impl LawTable {
 fn listed_storeys(
     reader: &Reader<'_>,
     given: Located<Storeys>,
-    storeys: usize,
+    (storeys, isolated): (usize, bool),
 ) -> Option<Vec<usize>> {
     let mut listed = Vec::new();
     for Located { value, span } in given.value.0 {
         let Count(storey) = value;
+        if isolated && storey == 1 {
+            return reader.refuse(
+                span,
+                "storey 1 is the isolator, which has its own law",
+                "name the storeys above it, from 2; or leave [building.isolator] out and give storey 1 a law",
+            );
+        }
         if storey > storeys || listed.contains(&(storey - 1)) {
             return reader.refuse(
                 span,

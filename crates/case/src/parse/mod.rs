@@ -24,6 +24,7 @@ mod column;
 mod foundation;
 mod gap;
 mod ground_motion;
+mod isolator;
 mod lateral;
 mod law;
 mod levels;

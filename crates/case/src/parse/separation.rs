@@ -4,7 +4,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::spread;
-use crate::document::{Acceleration, Count, Entry, Number, OneOrEach, Optional, Positive, Reader};
+use crate::document::{
+    Acceleration, Count, Dimensioned, Entry, Length, Number, OneOrEach, Optional, Positive, Reader,
+    Time,
+};
 use crate::error::{CaseError, Errors};
 use crate::types::{Located, Separation};
 
@@ -36,17 +39,41 @@ pub(super) struct SeparationTable {
     design_ground_acceleration: Optional<Positive<Acceleration>>,
     /// alpha_h of the Indian code (-)
     seismic_coefficient: Optional<Positive<Number>>,
+    /// S_M1 of ASCE 7, for isolated buildings: spectral acceleration of the maximum considered
+    /// earthquake at one second (m/s2)
+    spectral_acceleration_1s: Optional<Positive<Acceleration>>,
+    /// T_M of ASCE 7: effective period of the isolators at the maximum displacement (s), one
+    /// for all buildings or a list
+    isolation_period: PerBuilding<Time>,
+    /// B_M of ASCE 7: what the damping of the isolators divides that displacement by (-), one
+    /// for all buildings or a list
+    isolation_damping_coefficient: PerBuilding,
+    /// Longest dimension in plan (m), one for all buildings or a list
+    plan_length: PerBuilding<Length>,
+    /// Shortest dimension in plan (m), one for all buildings or a list
+    plan_width: PerBuilding<Length>,
+    /// Eccentricity of mass and isolators with the accidental one (m), one for all buildings or
+    /// a list
+    plan_eccentricity: PerBuilding<Length>,
     /// Provisions to apply, by default all that apply
     provisions: Optional<Texts>,
 }
 
-type PerBuilding = Optional<OneOrEach<Positive<Number>>>;
+type PerBuilding<D = Number> = Optional<OneOrEach<Positive<D>>>;
 type Texts = OneOrEach<Located<String>, 0>;
 
 impl SeparationTable {
     /// For so many buildings.
     pub(super) fn read(self, reader: &Reader<'_>, buildings: usize) -> Separation {
-        let numbers = |list: PerBuilding| spread(reader, list.located()?, buildings, "building");
+        fn each<D: Dimensioned>(
+            reader: &Reader<'_>,
+            list: PerBuilding<D>,
+            buildings: usize,
+        ) -> Option<Vec<f64>> {
+            spread(reader, list.located()?, buildings, "building")
+        }
+        let numbers = |list: PerBuilding| each(reader, list, buildings);
+        let lengths = |list: PerBuilding<Length>| each(reader, list, buildings);
         let systems = self.structural_system.located();
         Separation {
             response_modification: numbers(self.response_modification),
@@ -61,6 +88,12 @@ impl SeparationTable {
             soil_zone: self.soil_zone.located(),
             design_ground_acceleration: self.design_ground_acceleration.number(),
             seismic_coefficient: self.seismic_coefficient.number(),
+            spectral_acceleration_1s: self.spectral_acceleration_1s.number(),
+            isolation_period: each(reader, self.isolation_period, buildings),
+            isolation_damping_coefficient: numbers(self.isolation_damping_coefficient),
+            plan_length: lengths(self.plan_length),
+            plan_width: lengths(self.plan_width),
+            plan_eccentricity: lengths(self.plan_eccentricity),
             provisions: self.provisions.value().map(|names| names.into_list()),
         }
     }

@@ -15,7 +15,9 @@ use crate::error::CaseError;
 use crate::units::Quantity;
 
 pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
-pub use pounding_shear_building::{ColumnEnds, Damping, Soil, SpringDashpot};
+pub use pounding_shear_building::{
+    ColumnEnds, Damping, Isolator, IsolatorKind, PostYield, Soil, SpringDashpot, Strength,
+};
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -80,8 +82,11 @@ pub struct Building {
     pub name: Located<String>,
     /// Floor masses (kg).
     pub mass: Vec<f64>,
-    /// Storey stiffnesses (N/m); none where `lateral` says what resists.
+    /// Storey stiffnesses (N/m); none where `lateral` says what resists; with an isolator,
+    /// which is the first storey, those of the storeys above.
     pub stiffness: Vec<f64>,
+    /// Isolators under the building, at their table.
+    pub isolator: Option<Located<Isolator>>,
     /// What resists the lateral motion of a building that is no chain of storeys, at its
     /// key.
     pub lateral: Option<Located<Lateral>>,
@@ -95,7 +100,8 @@ pub struct Building {
     pub laws: Vec<StoreyLaw>,
     /// Whether gravity acts through the drift (P-Delta).
     pub p_delta: bool,
-    /// Damping; where there is a foundation, of the building on a fixed base.
+    /// Damping; with an isolator that of the storeys above it, where there is a foundation that
+    /// of the building on a fixed base.
     pub damping: Located<Damping>,
     /// The foundation, if it sways or rocks.
     pub foundation: Option<Located<Foundation>>,
@@ -475,6 +481,18 @@ pub struct Separation {
     pub design_ground_acceleration: Option<f64>,
     /// `alpha_h` of the Indian code.
     pub seismic_coefficient: Option<f64>,
+    /// `S_M1` of ASCE 7 (m/s2).
+    pub spectral_acceleration_1s: Option<f64>,
+    /// `T_M` of ASCE 7 (s).
+    pub isolation_period: Option<Vec<f64>>,
+    /// `B_M` of ASCE 7.
+    pub isolation_damping_coefficient: Option<Vec<f64>>,
+    /// Longest dimensions in plan (m).
+    pub plan_length: Option<Vec<f64>>,
+    /// Shortest dimensions in plan (m).
+    pub plan_width: Option<Vec<f64>>,
+    /// Eccentricities in plan (m).
+    pub plan_eccentricity: Option<Vec<f64>>,
     /// Names of the provisions to apply; all by default.
     pub provisions: Option<Vec<Located<String>>>,
 }
@@ -510,6 +528,16 @@ impl Separation {
                 .design_ground_acceleration
                 .or(self.design_ground_acceleration),
             seismic_coefficient: other.seismic_coefficient.or(self.seismic_coefficient),
+            spectral_acceleration_1s: other
+                .spectral_acceleration_1s
+                .or(self.spectral_acceleration_1s),
+            isolation_period: other.isolation_period.or(self.isolation_period),
+            isolation_damping_coefficient: other
+                .isolation_damping_coefficient
+                .or(self.isolation_damping_coefficient),
+            plan_length: other.plan_length.or(self.plan_length),
+            plan_width: other.plan_width.or(self.plan_width),
+            plan_eccentricity: other.plan_eccentricity.or(self.plan_eccentricity),
             provisions: other.provisions.or(self.provisions),
         }
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use pounding_assembly::Assembly;
 use pounding_catalogue::wording::counted;
+use pounding_shear_building::ShearBuilding;
 use pounding_time_history::LevelPlace;
 use serde::Serialize;
 
@@ -58,8 +59,39 @@ struct Building<'a> {
     period: &'a [f64],
     geometric_stiffness: &'a [f64],
     laws: Vec<Option<&'static str>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    isolator: Option<Isolator>,
     damping_ratio: &'a [f64],
     effective_mass: &'a [f64],
+}
+
+/// The isolators under a building.
+#[derive(Serialize)]
+struct Isolator {
+    model: &'static str,
+    weight: f64,
+    initial_stiffness: f64,
+    post_yield_stiffness: f64,
+    post_yield_period: f64,
+    strength: f64,
+    yield_displacement: f64,
+    damping: f64,
+}
+
+impl Isolator {
+    fn of(building: &ShearBuilding) -> Option<Self> {
+        let (isolator, properties) = building.isolator()?;
+        Some(Self {
+            model: isolator.name(),
+            weight: properties.weight,
+            initial_stiffness: properties.initial_stiffness,
+            post_yield_stiffness: properties.post_yield_stiffness,
+            post_yield_period: properties.post_yield_period(),
+            strength: properties.strength,
+            yield_displacement: properties.yield_displacement,
+            damping: isolator.dashpot,
+        })
+    }
 }
 
 /// A gap with its contact levels.
@@ -123,6 +155,7 @@ impl<'a> Understood<'a> {
                 .iter()
                 .map(|l| l.as_ref().map(|l| l.law.descriptor().name))
                 .collect(),
+            isolator: Isolator::of(b),
             damping_ratio: &b.modes().damping_ratio,
             effective_mass: &b.modes().effective_mass,
         });

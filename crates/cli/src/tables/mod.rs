@@ -1,6 +1,7 @@
 //! Tables that an engineer can read.
 
 mod elements;
+mod isolators;
 mod width;
 
 use comfy_table::{CellAlignment, Row};
@@ -52,6 +53,7 @@ pub fn report(run: &Run<'_>) -> String {
     for index in 0..run.outcome.buildings.len() {
         text.push_str(&building(run, index));
         text.push_str(&elements::storeys(run, index));
+        text.push_str(&isolators::run(run, index));
     }
     for index in 0..run.outcome.gaps.len() {
         text.push_str(&gap(run, index));
@@ -141,8 +143,13 @@ fn building(run: &Run<'_>, index: usize) -> String {
         true => String::new(),
         false => format!("{responses}\n"),
     };
+    let other = match with.isolator {
+        // Here that word says something else.
+        Some(_) => "the building without gaps and links",
+        None => "the isolated building",
+    };
     format!(
-        "\nBuilding {}: peak @time (s), x ratio to the isolated building\n{table}\n{base}{responses}",
+        "\nBuilding {}: peak @time (s), x ratio to {other}\n{table}\n{base}{responses}",
         with.name
     )
 }
@@ -155,7 +162,11 @@ fn gap(run: &Run<'_>, index: usize) -> String {
     let model = levels.first().map_or("", |l| l.model.descriptor().name);
     let total: usize = outcome.levels.iter().map(|l| l.impacts).sum();
     if total == 0 {
-        return format!("\nGap {} ({model}): the buildings do not touch\n", gap.name);
+        return format!(
+            "\nGap {} ({model}): the buildings do not touch\n{}",
+            gap.name,
+            isolators::clearances(&outcome.levels, levels)
+        );
     }
     let rigid = levels.iter().any(|l| l.model.rigid_restitution().is_some());
     let mut table = new_table([
@@ -196,6 +207,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
     }
     text.push_str(&held_and_widened(&outcome.levels, levels));
+    text.push_str(&isolators::clearances(&outcome.levels, levels));
     text.push_str(&level_responses(&outcome.levels, levels));
     text
 }
@@ -332,6 +344,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             text.push_str("stiffness matrix: every floor acts on every other; K_ii is its diagonal, all of it is in --json\n");
         }
         text.push_str(&elements::laws(b));
+        text.push_str(&isolators::understood(b));
     }
     for gap in assembly.system.gaps() {
         let mut table = new_table([

@@ -8,6 +8,7 @@ pub(crate) mod bouc_wen;
 pub(crate) mod coulomb_friction;
 pub(crate) mod elastic_perfectly_plastic;
 pub(crate) mod elastoplastic_gap;
+pub(crate) mod friction_pendulum;
 pub(crate) mod gap_hook;
 pub(crate) mod hyperbolic_gap;
 pub(crate) mod ibarra_medina_krawinkler_2005_bilinear;
@@ -43,6 +44,7 @@ pub(crate) static ALL: &[&LawDescriptor] = &[
     &ibarra_medina_krawinkler_2005_peak_oriented::DESCRIPTOR,
     &ibarra_medina_krawinkler_2005_pinching::DESCRIPTOR,
     &coulomb_friction::DESCRIPTOR,
+    &friction_pendulum::DESCRIPTOR,
     &viscous_damper::DESCRIPTOR,
     &maxwell::DESCRIPTOR,
     &gap_hook::DESCRIPTOR,

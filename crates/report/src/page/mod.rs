@@ -51,6 +51,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         inside.push_str(&tables::storeys(building));
         inside.push_str(&tables::base_moment(building));
         inside.push_str(&tables::responses(building));
+        inside.push_str(&tables::isolator(building));
         inside.push_str(&figures::profiles(result, building)?);
         inside.push_str(&figures::roof(result, index)?);
         let title = format!("Building {}", building.name);

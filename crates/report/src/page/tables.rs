@@ -130,6 +130,36 @@ pub(super) fn level_responses(gap: &GapResult) -> String {
     table(&headings, rows)
 }
 
+/// What the isolators went through; nothing for a building without.
+pub(super) fn isolator(building: &BuildingResult) -> String {
+    let Some(isolator) = &building.isolator else {
+        return String::new();
+    };
+    let headings = [
+        "isolators (storey 1)",
+        "displacement (mm)",
+        "without",
+        "ratio",
+        "force (kN)",
+        "without",
+        "ratio",
+        "effective period (s)",
+        "effective damping (%)",
+    ];
+    let row = vec![
+        escaped(&isolator.model),
+        figures(1.0e3 * isolator.displacement),
+        figures(1.0e3 * isolator.isolated_displacement),
+        ratio(isolator.displacement, isolator.isolated_displacement),
+        figures(1.0e-3 * isolator.force),
+        figures(1.0e-3 * isolator.isolated_force),
+        ratio(isolator.force, isolator.isolated_force),
+        figures(isolator.effective_period),
+        figures(100.0 * isolator.effective_damping_ratio),
+    ];
+    table(&headings, std::iter::once(row))
+}
+
 /// The levels of a gap, the top first.
 pub(super) fn levels(gap: &GapResult) -> String {
     let headings = [
@@ -143,7 +173,9 @@ pub(super) fn levels(gap: &GapResult) -> String {
         "fastest approach (m/s)",
         "restitution",
         "dissipated (kJ)",
+        "clearance left (mm)",
     ];
+    let headings = &headings[..headings.len() - usize::from(gap.clearance.is_none())];
     let rows = (0..gap.levels.len()).rev().map(|l| {
         let here: Vec<&ImpactResult> = gap
             .impacts
@@ -171,7 +203,7 @@ pub(super) fn levels(gap: &GapResult) -> String {
             .map(|i| i.energy_dissipated)
             .filter(|e| e.is_finite())
             .sum();
-        vec![
+        let mut row = vec![
             gap.levels[l].label.clone(),
             figures(gap.levels[l].elevations[0]),
             figures(gap.levels[l].elevations[1]),
@@ -182,9 +214,13 @@ pub(super) fn levels(gap: &GapResult) -> String {
             figures(fastest),
             figures(restitution),
             figures(1.0e-3 * dissipated),
-        ]
+        ];
+        if let Some(clearance) = &gap.clearance {
+            row.push(figures(1.0e3 * clearance[l]));
+        }
+        row
     });
-    table(&headings, rows)
+    table(headings, rows)
 }
 
 /// The hardest impacts of a gap, by force, or by impulse where a model has no force.

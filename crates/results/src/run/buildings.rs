@@ -1,11 +1,12 @@
 //! Storey responses, peaks and modes of every building.
 
 use hdf5::{Dataset, Group};
-use pounding_time_history::{Peak, StoreyPeaks, System};
+use pounding_time_history::{IsolatorOutcome, Peak, StoreyPeaks, System};
 
 use super::datasets::{series, single};
 use super::tables::{Content, Tables};
 use super::{Result, RunEnding, elements, share_time};
+use crate::attributes::text;
 use crate::dimension_scales;
 
 /// Names of the buildings whose base moment is known, those with a stiffness matrix.
@@ -125,6 +126,10 @@ pub(super) fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>)
             }
             super::responses::finish(&peaks, prefix, &building.responses)?;
         }
+        if let Some(isolator) = &ending.outcome.buildings[index].isolator {
+            let isolated = ending.isolated.buildings[index].isolator;
+            isolators(&group, isolator, isolated.as_ref())?;
+        }
         elements::finish_storeys((&group, &peaks), &ending.outcome.buildings[index], &storey)?;
     }
     Ok(())
@@ -178,6 +183,62 @@ fn base_moment(group: &Group, prefix: &str, peak: Peak) -> Result<()> {
     single(group, &name, "N m", &long_name, peak.value)?;
     let long_name = format!("time of peak overturning moment at the base{without}");
     single(group, &format!("{name}_time"), "s", &long_name, peak.time)?;
+    Ok(())
+}
+
+/// Model, peaks and effective properties of the isolators under a building.
+fn isolators(
+    group: &Group,
+    with: &IsolatorOutcome,
+    isolated: Option<&IsolatorOutcome>,
+) -> Result<()> {
+    let group = group.create_group("isolator")?;
+    text(&group, "model", with.model)?;
+    for (prefix, isolator) in [("", Some(with)), ("isolated_", isolated)] {
+        let Some(isolator) = isolator else { continue };
+        let without = without(prefix);
+        for (name, unit, what, value) in [
+            (
+                "displacement",
+                "m",
+                "peak displacement of the isolators",
+                isolator.displacement.value,
+            ),
+            (
+                "displacement_time",
+                "s",
+                "time of peak displacement of the isolators",
+                isolator.displacement.time,
+            ),
+            (
+                "force",
+                "N",
+                "peak force of the law of the isolators",
+                isolator.force.value,
+            ),
+            (
+                "force_time",
+                "s",
+                "time of peak force of the isolators",
+                isolator.force.time,
+            ),
+            (
+                "effective_period",
+                "s",
+                "period of the secant stiffness at the peak displacement",
+                isolator.effective_period,
+            ),
+            (
+                "effective_damping_ratio",
+                "1",
+                "damping ratio of a loop to the peak displacement, without dashpots",
+                isolator.effective_damping_ratio,
+            ),
+        ] {
+            let long_name = format!("{what}{without}");
+            single(&group, &format!("{prefix}{name}"), unit, &long_name, value)?;
+        }
+    }
     Ok(())
 }
 

@@ -109,6 +109,14 @@ pub(super) fn finish(file: &hdf5::File, system: &System, outcome: &Outcome) -> R
         let widening = series(&group, "widening", "m", long_name, &widened)?;
         dimension_scales::attach(&widening, &level, 0)?;
         responses::finish_levels(&group, &outcome.gaps[index].levels, &level)?;
+        let levels = outcome.gaps[index].levels.iter();
+        let clearance: Vec<Option<f64>> = levels.map(|l| l.clearance).collect();
+        if clearance.iter().any(Option::is_some) {
+            let values: Vec<f64> = clearance.iter().map(|c| c.unwrap_or(f64::NAN)).collect();
+            let long_name = "clearance left beside a building on isolators, zero where the gap closed; NaN beside others";
+            let clearance = series(&group, "clearance", "m", long_name, &values)?;
+            dimension_scales::attach(&clearance, &level, 0)?;
+        }
         let impacts = outcome.impacts.iter().filter(|i| i.gap == index);
         let rows: Vec<ImpactRow> = impacts.map(ImpactRow::new).collect();
         let impacts = rows_of(&group, "impacts", &rows)?;

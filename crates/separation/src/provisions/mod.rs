@@ -5,6 +5,7 @@ use crate::descriptor::{ProvisionDescriptor, Unavailable};
 mod as_1170_4;
 mod asce_41;
 mod asce_7;
+mod asce_7_isolation;
 mod e_030;
 mod eak_2000;
 mod eurocode_8;
@@ -30,6 +31,9 @@ pub(crate) static ALL: &[&ProvisionDescriptor] = &[
     &asce_7::ASCE_7_16_BETWEEN,
     &asce_7::ASCE_7_22_BOUNDARY,
     &asce_7::ASCE_7_22_BETWEEN,
+    &asce_7_isolation::ASCE_7_10,
+    &asce_7_isolation::ASCE_7_16,
+    &asce_7_isolation::ASCE_7_22,
     &asce_7::IBC_2009_BOUNDARY,
     &asce_7::IBC_2009_BETWEEN,
     &asce_7::KDS_BOUNDARY,
@@ -136,6 +140,11 @@ mod tests {
             importance: Some(1.0),
             yield_amplification: Some(1.0),
             system: Some(StructuralSystem::Frame),
+            isolation_period: Some(3.0),
+            isolation_damping_coefficient: Some(1.5),
+            plan_length: Some(40.0),
+            plan_width: Some(20.0),
+            plan_eccentricity: Some(2.0),
         }
     }
 
@@ -152,6 +161,7 @@ mod tests {
                 soil_zone: Some(SoilZone::Two),
                 design_ground_acceleration: Some(2.5),
                 seismic_coefficient: Some(0.12),
+                spectral_acceleration_1s: Some(8.0),
             },
         }
     }
@@ -166,6 +176,11 @@ mod tests {
                 Input::Importance => b.importance = None,
                 Input::YieldAmplification => b.yield_amplification = None,
                 Input::StructuralSystem => b.system = None,
+                Input::IsolationPeriod => b.isolation_period = None,
+                Input::IsolationDampingCoefficient => b.isolation_damping_coefficient = None,
+                Input::PlanLength => b.plan_length = None,
+                Input::PlanWidth => b.plan_width = None,
+                Input::PlanEccentricity => b.plan_eccentricity = None,
                 _ => {}
             }
         }
@@ -176,6 +191,7 @@ mod tests {
             Input::SoilZone => s.site.soil_zone = None,
             Input::DesignGroundAcceleration => s.site.design_ground_acceleration = None,
             Input::SeismicCoefficient => s.site.seismic_coefficient = None,
+            Input::SpectralAccelerationAtOneSecond => s.site.spectral_acceleration_1s = None,
             _ => {}
         }
         s
@@ -335,7 +351,7 @@ mod tests {
 
     #[test]
     fn every_provision_says_whether_it_multiplies_elastic_displacements() {
-        assert_eq!(ALL.len(), 55);
+        assert_eq!(ALL.len(), 58);
         for descriptor in ALL {
             let multiplied = MULTIPLIED.iter().find(|m| m.0 == descriptor.name);
             let factor = multiplied.map(|m| m.1);

@@ -154,6 +154,9 @@ pub(crate) struct Inputs<'a> {
     separation: &'a Separation,
     systems: Option<Vec<StructuralSystem>>,
     soil_zone: Option<SoilZone>,
+    /// Whether the case says which buildings stand on isolators: those alone have their
+    /// properties then, whatever is given for all.
+    isolators: bool,
 }
 
 impl<'a> Inputs<'a> {
@@ -164,6 +167,7 @@ impl<'a> Inputs<'a> {
         Ok(Self {
             systems: systems.transpose()?,
             soil_zone: zone.map(|name| zone_of(case, name)).transpose()?,
+            isolators: case.buildings.iter().any(|b| b.isolator.is_some()),
             separation,
         })
     }
@@ -179,6 +183,7 @@ impl<'a> Inputs<'a> {
             soil_zone: self.soil_zone,
             design_ground_acceleration: s.design_ground_acceleration,
             seismic_coefficient: s.seismic_coefficient,
+            spectral_acceleration_1s: s.spectral_acceleration_1s,
         }
     }
 
@@ -190,6 +195,7 @@ impl<'a> Inputs<'a> {
     ) -> Structure {
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
+        let on_isolators = building.isolator().is_some() || !self.isolators;
         Structure {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
@@ -204,6 +210,11 @@ impl<'a> Inputs<'a> {
             importance: of(&self.separation.importance),
             yield_amplification: of(&self.separation.yield_amplification),
             system: systems.and_then(|l| l.get(index)).copied(),
+            isolation_period: of(&self.separation.isolation_period).filter(|_| on_isolators),
+            isolation_damping_coefficient: of(&self.separation.isolation_damping_coefficient),
+            plan_length: of(&self.separation.plan_length),
+            plan_width: of(&self.separation.plan_width),
+            plan_eccentricity: of(&self.separation.plan_eccentricity),
         }
     }
 }
@@ -267,13 +278,18 @@ fn unknown(
     }
 }
 
-/// Provisions that the case names; all without a list.
+/// Provisions that the case names; without a list all, but those for isolated structures where
+/// there is none.
 pub(crate) fn chosen(
     case: &Case,
     separation: &Separation,
 ) -> Result<Vec<&'static ProvisionDescriptor>, CheckError> {
     let Some(names) = &separation.provisions else {
-        return Ok(descriptors().to_vec());
+        let isolated = case.buildings.iter().any(|b| b.isolator.is_some());
+        let all = descriptors().iter().copied();
+        return Ok(all
+            .filter(|d| isolated || !d.is_of_isolated_structures())
+            .collect());
     };
     names.iter().map(|name| provision_of(case, name)).collect()
 }

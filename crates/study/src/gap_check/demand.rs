@@ -16,6 +16,8 @@ pub struct GapLevel {
     pub place: LevelPlace,
     /// Provided width (m).
     pub width: f64,
+    /// The building on isolators beside it, if there is one.
+    pub on_isolators: Option<String>,
 }
 
 /// Peaks with pounding over peaks of the isolated building, of one storey (-); infinite
@@ -72,6 +74,15 @@ impl RecordDemand {
         self.demand[gap][level].value > width
     }
 
+    /// Peak contact force (N) at a level in the run at the provided widths; `None` if that run
+    /// failed, and where impacts are jumps of the velocity.
+    #[must_use]
+    pub fn peak_force(&self, gap: usize, level: usize) -> Option<f64> {
+        let (_, gaps) = self.pounding.as_ref().ok()?;
+        let force = gaps[gap].levels[level].peak_force.value;
+        force.is_finite().then_some(force)
+    }
+
     /// Amplification of each building and storey at the provided widths; `None` if that
     /// run failed.
     #[must_use]
@@ -92,6 +103,7 @@ pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {
         .map(|l| GapLevel {
             place: l.place,
             width: l.width,
+            on_isolators: system.isolated_beside(l).map(|b| b.name().to_owned()),
         })
         .collect()
 }

@@ -54,8 +54,8 @@ impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
     /// couples its modes.
     pub(crate) fn new(system: &System, step: f64) -> Option<Self> {
-        let classical = |b: &ShearBuilding| !b.damping().couples_modes();
-        if !system.buildings().iter().all(|b| classical(b)) || !(step > 0.0) {
+        let coupled = |b: &ShearBuilding| b.damping().couples_modes();
+        if system.buildings().iter().any(|b| coupled(b)) || !(step > 0.0) {
             return None;
         }
         let mut this = Self::with_step(system, step);

@@ -11,6 +11,8 @@ mod watch;
 mod whole_intervals;
 
 use pounding_hysteresis::History;
+use pounding_shear_building::ShearBuilding;
+use std::sync::Arc;
 
 use crate::contact::Contacts;
 use crate::dense_output::Observers;
@@ -24,6 +26,7 @@ use crate::options::RunOptions;
 use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
 use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
+use crate::relative_displacement::RelativeDisplacement;
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use rigid_impacts::RigidImpacts;
@@ -61,6 +64,36 @@ const CHATTER: usize = 10_000;
 /// without progress, an open energy ledger, or a recorder's error; each with
 /// time and place.
 pub fn run(
+    system: &System,
+    options: &RunOptions,
+    recorders: &mut [&mut dyn Recorder],
+    progress: &mut dyn FnMut(f64),
+) -> Result<Outcome, TimeHistoryError> {
+    let on_isolators = |b: &Arc<ShearBuilding>| b.isolator().is_some();
+    if system.levels().is_empty() || !system.buildings().iter().any(on_isolators) {
+        return integrate(system, options, recorders, progress);
+    }
+    // Who has isolators asks how far the building came towards its walls.
+    let mut approach = RelativeDisplacement::of_levels(system);
+    let mut all: Vec<&mut dyn Recorder> = Vec::with_capacity(recorders.len() + 1);
+    for recorder in recorders {
+        all.push(&mut **recorder);
+    }
+    all.push(&mut approach);
+    let mut outcome = integrate(system, options, &mut all, progress)?;
+    for (gap, place) in outcome.gaps.iter_mut().zip(system.gaps()) {
+        let range = place.first_level..place.first_level + place.levels;
+        let levels = system.levels_of(place).iter().zip(&approach.peaks()[range]);
+        for (level, (contact, approach)) in gap.levels.iter_mut().zip(levels) {
+            let left = (contact.width - approach.value).max(0.0);
+            let left = if level.impacts > 0 { 0.0 } else { left };
+            level.clearance = system.isolated_beside(contact).map(|_| left);
+        }
+    }
+    Ok(outcome)
+}
+
+fn integrate(
     system: &System,
     options: &RunOptions,
     recorders: &mut [&mut dyn Recorder],

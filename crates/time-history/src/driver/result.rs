@@ -1,14 +1,15 @@
 //! The end of a run.
 
-use super::Driver;
 use pounding_shear_building::ShearBuilding;
+
+use super::Driver;
 
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
-    BuildingOutcome, GapOutcome, LinkLevelOutcome, LinkOutcome, NamedPeak, Outcome, Peak,
-    YieldingStorey,
+    BuildingOutcome, GapOutcome, IsolatorOutcome, LinkLevelOutcome, LinkOutcome, NamedPeak,
+    Outcome, Peak, StoreyPeaks, YieldingStorey,
 };
 use crate::recorder::Recorder;
 use crate::warnings::Warning;
@@ -72,6 +73,7 @@ impl Driver<'_> {
                 responses: responses(b, named.by_ref()),
                 base_moment: b.stiffness().is_empty().then_some(*base_moment),
                 yielding: vec![None; b.storeys()],
+                isolator: isolator(b, &self.peaks.storeys[range[0]]),
             })
             .collect();
         let links = self.elements(&mut buildings);
@@ -155,4 +157,17 @@ impl Driver<'_> {
         }
         links
     }
+}
+
+/// What the isolators under a building went through, from the peaks of its first storey.
+fn isolator(building: &ShearBuilding, first: &StoreyPeaks) -> Option<IsolatorOutcome> {
+    let (isolator, properties) = building.isolator()?;
+    let (period, damping) = properties.effective(first.displacement.value);
+    Some(IsolatorOutcome {
+        model: isolator.name(),
+        displacement: first.displacement,
+        force: first.storey_shear,
+        effective_period: period,
+        effective_damping_ratio: damping,
+    })
 }

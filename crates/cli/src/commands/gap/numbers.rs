@@ -155,8 +155,36 @@ struct Gap<'c> {
 struct Level<'c> {
     width: f64,
     demand: Vec<Peak>,
+    /// Beside a building on isolators.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    isolation: Option<Isolation<'c>>,
     #[serde(flatten)]
     place: &'c LevelPlace,
+}
+
+/// A building on isolators beside a level.
+#[derive(Serialize)]
+struct Isolation<'c> {
+    building: &'c str,
+    /// Width less demand under each record; negative where it falls short.
+    clearance: Vec<f64>,
+    /// Peak force on the wall or the neighbour under each record; `null` where the run failed
+    /// or impacts are jumps of the velocity.
+    force: Vec<Option<f64>>,
+}
+
+impl<'c> Isolation<'c> {
+    fn of(check: &'c GapCheck, index: usize, l: usize) -> Option<Self> {
+        let level = &check.gaps[index].levels[l];
+        let building = level.on_isolators.as_deref()?;
+        let records = check.records.iter();
+        let demand = records.clone().map(|r| r.demand[index][l].value);
+        Some(Self {
+            building,
+            clearance: demand.map(|demand| level.width - demand).collect(),
+            force: records.map(|r| r.peak_force(index, l)).collect(),
+        })
+    }
 }
 
 /// The width that the target probability asks for.
@@ -187,6 +215,7 @@ impl<'c> Gap<'c> {
                 .iter()
                 .map(|r| Peak::of(&r.demand[index][l]))
                 .collect(),
+            isolation: Isolation::of(check, index, l),
             place: &level.place,
         };
         let fit = gap.required.lognormal.as_ref();

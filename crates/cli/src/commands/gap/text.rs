@@ -28,6 +28,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     text.push_str(&warning_lines(&check.warnings));
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
+        text.push_str(&isolation(check, gap));
         text.push_str(&codes(check, &check.gaps[gap], all));
         text.push_str(&required(check, &check.gaps[gap]));
     }
@@ -78,6 +79,39 @@ fn demand(check: &GapCheck, index: usize) -> String {
         "\nGap {}: demand, the maximum approach of the buildings without contact, @time (s)\n{table}\n",
         gap.name
     )
+}
+
+/// Demand of a building on isolators against the clearance of each level, with the force on
+/// what stops it.
+fn isolation(check: &GapCheck, index: usize) -> String {
+    let mut text = String::new();
+    for (l, level) in check.gaps[index].levels.iter().enumerate() {
+        let Some(building) = &level.on_isolators else {
+            continue;
+        };
+        let demands = check.records.iter().map(|r| (r, r.demand[index][l].value));
+        let Some((record, demand)) = demands.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            continue;
+        };
+        let (width, demand) = (level.width * 1e3, demand * 1e3);
+        let left = match width - demand {
+            left if left < 0.0 => format!("{:.2} mm short", -left),
+            left => format!("{left:.2} mm left"),
+        };
+        let forces = check.records.iter().filter_map(|r| r.peak_force(index, l));
+        let force = match forces.fold(0.0, f64::max) {
+            0.0 => String::new(),
+            force => format!(
+                "; maximum contact force at this clearance {:.1} kN",
+                force * 1e-3
+            ),
+        };
+        text.push_str(&format!(
+            "Level {}: {building} on isolators demands {demand:.2} mm ({}), clearance {width:.1} mm: {left}{force}\n",
+            level.place, record.name
+        ));
+    }
+    text
 }
 
 /// Stands in place of a judgement by a rule for elastic displacements where buildings

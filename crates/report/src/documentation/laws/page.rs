@@ -22,9 +22,10 @@ pub fn page(example: &Example) -> String {
 }
 
 /// Whether a storey can have this law: it starts with a stiffness, to which modes and
-/// damping belong, and does not depend on the rate.
+/// damping belong, and holds a static load.
 pub fn carries_a_storey(d: &'static LawDescriptor) -> bool {
-    initial_stiffness(d).is_some() && !d.rate_dependent
+    let law = build(d.name, &d.example_parameters());
+    initial_stiffness(d).is_some() && law.is_ok_and(|law| law.holds_static_load())
 }
 
 /// Initial stiffness (N/m) of the example, if it has one.
@@ -94,7 +95,7 @@ fn usage(example: &Example) -> String {
             storey_keys(specimen)
         )),
         None => text.push_str(
-            "It starts without a stiffness or depends on the rate, so that it serves as a link, not as a storey.\n\n",
+            "It starts without a stiffness or holds no static load, so that it serves as a link, not as a storey.\n\n",
         ),
     }
     let amplitudes: Vec<_> = example

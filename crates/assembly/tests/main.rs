@@ -3,3 +3,4 @@
 mod columns;
 mod excitation;
 mod lateral;
+mod plan;

@@ -228,7 +228,13 @@ fn the_schema_stands_by_itself() {
     };
     let matrices = ["stiffness_matrix", "flexibility_matrix"];
     let helpers = ["cantilever", "fishbone"];
-    let resist = [&["stiffness"][..], &matrices, &helpers, &["isolator"]].concat();
+    let resist = [
+        &["stiffness"][..],
+        &matrices,
+        &helpers,
+        &["plan", "isolator"],
+    ]
+    .concat();
     assert_eq!(one_of(0), resist);
     assert_eq!(one_of(2), ["height", "elevations"]);
     assert_eq!(building["additionalProperties"], false);

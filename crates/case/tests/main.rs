@@ -5,6 +5,7 @@ mod case_file;
 mod column;
 mod document;
 mod foundation;
+mod ground;
 mod ground_motion;
 mod isolator;
 mod lateral;

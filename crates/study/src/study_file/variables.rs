@@ -527,7 +527,9 @@ fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
         .filter(|w| w.parse::<usize>().is_err())
         .collect();
     let key = *words.last()?;
-    if tried.path.table() == "gap" && !matches!(key, "width" | "elevation_tolerance") {
+    if tried.path.table() == "gap"
+        && !matches!(key, "width" | "elevation_tolerance" | "seat" | "points")
+    {
         let gap = tried.base.gaps.iter().find(|g| {
             let name = &g.name;
             text.contains(name.as_str())
@@ -548,10 +550,19 @@ fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
     Some(match key {
         "mass" => Dimension::MASS,
         "stiffness" => Dimension::STIFFNESS,
-        "width" | "height" | "initial_displacement" | "elevation_tolerance" => Dimension::LENGTH,
-        "initial_velocity" => Dimension::VELOCITY,
+        "width"
+        | "height"
+        | "initial_displacement"
+        | "elevation_tolerance"
+        | "seat"
+        | "points"
+        | "distance"
+        | "length"
+        | "mass_centre"
+        | "at" => Dimension::LENGTH,
+        "initial_velocity" | "wave_speed" => Dimension::VELOCITY,
         "pga" => Dimension::ACCELERATION,
-        "duration" | "step" | "output_step" | "time_step" => Dimension::TIME,
+        "duration" | "step" | "output_step" | "time_step" | "delay" => Dimension::TIME,
         _ => Dimension::NUMBER,
     })
 }

@@ -2,7 +2,7 @@
 //! oscillators.
 
 use super::{Driver, Mute};
-use crate::dynamics::Segment;
+use crate::dynamics::{Layout, Segment};
 use crate::error::TimeHistoryError;
 use crate::methods::Context;
 use crate::propagation::{Ends, Propagation};
@@ -21,6 +21,8 @@ pub(super) struct WholeIntervals {
     accelerations: Vec<Bounded>,
     responses: Vec<Bounded>,
     levels: Vec<Bounded>,
+    /// Space for the state while recorders are served.
+    saved: Vec<f64>,
     /// Work counts of the method for steps that serve recorders alone.
     pub recording: u64,
 }
@@ -143,6 +145,7 @@ impl WholeIntervals {
                 .map(|r| rows(r.terms.clone()))
                 .collect(),
             levels: levels.collect(),
+            saved: Vec::with_capacity(Layout::of(system).dimension()),
             recording: 0,
         })
     }
@@ -295,7 +298,8 @@ impl Driver<'_> {
         if !recorders.iter().any(|r| r.next_time() <= end) {
             return Ok(());
         }
-        let before = (self.state.clone(), self.method.counts(), self.statistics);
+        whole.saved.clone_from(&self.state);
+        let before = (self.method.counts(), self.statistics);
         self.method.restart(true);
         let mut tau = 0.0;
         while tau < segment.length {
@@ -328,8 +332,9 @@ impl Driver<'_> {
             std::mem::swap(&mut self.state, &mut self.new_state);
             tau = if at_end { segment.length } else { tau + step };
         }
-        let (state, counts, statistics) = before;
-        (self.state, self.statistics) = (state, statistics);
+        let (counts, statistics) = before;
+        self.statistics = statistics;
+        self.state.copy_from_slice(&whole.saved);
         whole.recording += self.method.counts().evaluations - counts.evaluations;
         Ok(())
     }

@@ -1,0 +1,95 @@
+//! Buildings that turn in plan: what cannot be put together.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_assembly::{AssemblyError, assemble};
+use pounding_case::Case;
+
+fn refused(building: &str, gap: &str, motion: &str) -> AssemblyError {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let text = format!(
+        "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\n{building}\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\n{gap}\n[ground_motion]\nfile = \"{record}\"\n{motion}\n"
+    );
+    assemble(&Case::parse(&text, Path::new("case.toml")).unwrap()).unwrap_err()
+}
+
+const DAMPED: &str = "damping = { mass_proportional = 0.05 }\n";
+const PLAN: &str = "plan = { length = 12, width = 10, frames_along = [{ at = -5, stiffness = 3e7 }, { at = 5, stiffness = 1e7 }], frames_across = [{ at = 0, stiffness = 2e7 }] }";
+
+#[test]
+fn each_with_its_remedy() {
+    let sound = format!("{DAMPED}{PLAN}");
+    let one_line = "plan = { length = 12, width = 10, frames_along = [{ at = 0, stiffness = 3e7 }], frames_across = [{ at = 0, stiffness = 2e7 }] }";
+    for (building, gap, motion, message, remedy) in [
+        (
+            format!("{DAMPED}{one_line}"),
+            "",
+            "",
+            "its frames do not hold the floors",
+            "at least two of one direction",
+        ),
+        (
+            format!("p_delta = true\n{sound}"),
+            "",
+            "",
+            "gravity through the drift",
+            "leave `p_delta` out",
+        ),
+        (
+            format!("damping = {{ dashpots = 1e5 }}\n{PLAN}"),
+            "",
+            "",
+            "dashpots",
+            "give ratios",
+        ),
+        (
+            format!("{sound}\nfoundation = {{ mass = 1e5, sway = {{ stiffness = 1e9 }} }}"),
+            "",
+            "",
+            "stands on a fixed base",
+            "leave `foundation` or `plan` out",
+        ),
+        (
+            sound.clone(),
+            "points = [-6, 0]",
+            "",
+            "the point at -6 m is not on the edge",
+            "within the plans",
+        ),
+        (
+            format!("{DAMPED}stiffness = 1e8"),
+            "points = 0",
+            "",
+            "`points` have no meaning between buildings that do not turn",
+            "give a building a `plan`",
+        ),
+        (
+            format!("{DAMPED}stiffness = 1e8"),
+            "",
+            "across = { file = \"none.csv\" }",
+            "a record across the row has nothing to move",
+            "leave `across` out",
+        ),
+        (
+            format!("{DAMPED}stiffness = 1e8\nground = {{ file = \"none.csv\" }}"),
+            "",
+            "",
+            "none.csv",
+            "",
+        ),
+    ] {
+        let error = refused(&building, gap, motion);
+        let said = error.to_string();
+        assert!(said.contains(message), "{building}: {said}");
+        if let AssemblyError::Case(error) = &error {
+            let help = error.help.clone().unwrap_or_default();
+            assert!(help.contains(remedy), "{help}");
+        } else {
+            assert!(remedy.is_empty(), "{said}");
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! The ground under single buildings, walls, seats, and plans: what is read, and what is refused
+//! where.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_case::{Case, CaseError};
+
+/// Two buildings, `b` with these lines, and their gap with others.
+fn parse(b: &str, gap: &str, motion: &str) -> Result<Case, CaseError> {
+    Case::parse(&text(b, gap, motion), Path::new("case.toml"))
+}
+
+const PLAN: &str = "plan = { length = \"12 m\", width = \"10 m\", frames_along = [{ at = \"-5 m\", stiffness = [3e7, \"20 MN/m\"] }, { at = 5, stiffness = 1e7 }], frames_across = [{ at = 0, stiffness = 2e7 }] }";
+
+#[test]
+fn the_ground_of_a_building_is_read() {
+    let ground = |text: &str| {
+        let case = parse(text, "", "").unwrap();
+        case.buildings[1].ground.clone().unwrap().value
+    };
+    assert_eq!(ground("ground = { delay = \"130 ms\" }").delay, 0.13);
+    let wave = ground("ground = { distance = \"60 m\", wave_speed = \"500 m/s\" }");
+    assert_eq!((wave.delay, wave.motion), (0.12, None));
+    let own = ground("ground = { file = \"s.csv\", scale = 1.1, component = \"ew\", delay = 2 }");
+    let motion = own.motion.unwrap();
+    assert_eq!(own.delay, 2.0);
+    assert_eq!(motion.file.value, Path::new("s.csv"));
+    assert_eq!(motion.component.as_deref(), Some("ew"));
+    assert!(motion.scale.is_some());
+    let case = parse("ground = { file = \"s.csv\" }", "", "").unwrap();
+    let files: Vec<_> = case.files().into_iter().map(|f| f.0).collect();
+    assert_eq!(files, ["record", "further record"]);
+}
+
+#[test]
+fn plans_are_read() {
+    let case = parse(
+        PLAN,
+        "points = [\"-4 m\", 0, 4]",
+        "across = { file = \"s.csv\" }",
+    )
+    .unwrap();
+    let plan = case.buildings[1].plan.clone().unwrap().value;
+    assert_eq!(
+        (plan.length, plan.width, plan.mass_centre),
+        (12.0, 10.0, 0.0)
+    );
+    assert_eq!(plan.along[0].stiffness, [3e7, 2e7]);
+    assert_eq!(plan.along[1].stiffness, [1e7, 1e7]);
+    assert_eq!(plan.across[0].at, 0.0);
+    assert_eq!(case.gaps[0].points.clone().unwrap().value, [-4.0, 0.0, 4.0]);
+    assert!(case.ground_motion.across.is_some());
+    // Floors that turn have three modes each.
+    let modes = PLAN.replace("plan", "damping = { ratio = 0.05, modes = [1, 6] }\nplan");
+    let text = "[[building]]\nname = \"a\"\nmass = [1, 1]\nheight = 3\nXX\n[ground_motion]\nfile = \"r\"\n";
+    let case = Case::parse(&text.replace("XX", &modes), Path::new("c.toml")).unwrap();
+    assert_eq!(case.buildings.len(), 1);
+}
+
+/// Each with its message, the line's text at its place, and a word of the remedy.
+#[test]
+fn what_cannot_be_is_refused_at_its_place() {
+    for (b, gap, motion, message, remedy) in [
+        (
+            "ground = { distance = 60 }",
+            "",
+            "",
+            "`ground` has no `wave_speed`",
+            "both `distance` and `wave_speed`",
+        ),
+        (
+            "ground = { wave_speed = 600 }",
+            "",
+            "",
+            "`ground` has no `distance`",
+            "or a `delay`",
+        ),
+        (
+            "ground = { delay = 1, distance = 60, wave_speed = 600 }",
+            "",
+            "",
+            "either `delay` or `distance` and `wave_speed`",
+            "leave one of them out",
+        ),
+        ("ground = { delay = -1 }", "", "", "`delay`", ""),
+        ("ground = { delay = \"3 m\" }", "", "", "a time", ""),
+        (
+            "ground = { scale = 2 }",
+            "",
+            "",
+            "`scale` in `ground` belongs to a record",
+            "add `file = ...`",
+        ),
+        (
+            "ground = { file = \"\" }",
+            "",
+            "",
+            "empty",
+            "relative to the folder",
+        ),
+        ("ground = { speed = 3 }", "", "", "speed", ""),
+        (
+            "",
+            "wall = \"fixed\"",
+            "",
+            "`wall` has no meaning in a gap between two buildings",
+            "name \"wall\" in `between`",
+        ),
+        ("", "wall = \"standing\"", "", "wall", "fixed"),
+        ("", "seat = 0", "", "`seat`", ""),
+        (
+            "",
+            "",
+            "across = { delay = 1 }",
+            "`across` is a record of its own, without a delay",
+            "stands in `ground`",
+        ),
+        (
+            "",
+            "",
+            "across = { file = \"s.csv\", delay = 1 }",
+            "`across` is a record of its own, without a delay",
+            "",
+        ),
+        (
+            "plan = { length = 12, width = 10, frames_along = [], frames_across = [{ at = 0, stiffness = 1 }] }",
+            "",
+            "",
+            "there is no frame",
+            "at least one frame in each direction",
+        ),
+        (
+            "plan = { length = 12, frames_along = [{ at = 0, stiffness = 1 }], frames_across = [{ at = 0, stiffness = 1 }] }",
+            "",
+            "",
+            "width",
+            "",
+        ),
+        (
+            "plan = { length = 12, width = 10, frames_along = [{ stiffness = 1 }], frames_across = [{ at = 0, stiffness = 1 }] }",
+            "",
+            "",
+            "at",
+            "",
+        ),
+        (
+            "plan = { length = 12, width = 10, frames_along = [{ at = 0, stiffness = [1, 2, 3] }], frames_across = [{ at = 0, stiffness = 1 }] }",
+            "",
+            "",
+            "3 values where there are 2 storeys",
+            "one value per storey",
+        ),
+        (
+            "plan = { length = 12, width = 10, rotational_inertia = -1, frames_along = [{ at = 0, stiffness = 1 }], frames_across = [{ at = 0, stiffness = 1 }] }",
+            "",
+            "",
+            "rotational_inertia",
+            "",
+        ),
+    ] {
+        let error = parse(b, gap, motion).unwrap_err();
+        assert!(error.message.contains(message), "{b}{gap}{motion}: {error}");
+        let help = error.help.clone().unwrap_or_default();
+        assert!(help.contains(remedy), "{b}{gap}{motion}: {help}");
+        let source = [b, gap, motion].concat();
+        let line = source.lines().next().unwrap();
+        let at = &text(b, gap, motion)[error.span.clone()];
+        assert!(
+            line.contains(at.lines().next().unwrap_or("")),
+            "{line}: {at}"
+        );
+    }
+}
+
+fn text(b: &str, gap: &str, motion: &str) -> String {
+    let common = "mass = [1e5, 1e5]\nheight = 3\ndamping = { mass_proportional = 0.05 }";
+    let stiffness = if b.contains("plan") {
+        ""
+    } else {
+        "stiffness = 1e8"
+    };
+    format!(
+        "[[building]]\nname = \"a\"\n{common}\nstiffness = 1e8\n[[building]]\nname = \"b\"\n{common}\n{stiffness}\n{b}\n[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\n{gap}\n[ground_motion]\nfile = \"r.csv\"\n{motion}\n"
+    )
+}

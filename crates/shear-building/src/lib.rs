@@ -13,6 +13,7 @@ mod dense;
 mod elevation;
 mod error;
 mod foundation;
+mod founded;
 mod lateral;
 mod modes;
 mod names;
@@ -32,6 +33,7 @@ pub use foundation::{
     BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
     SoilSprings, SpringDashpot,
 };
+pub use founded::{OVERTURNING_RATIO, OnFoundation};
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, is_name};

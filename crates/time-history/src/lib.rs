@@ -44,6 +44,6 @@ pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 pub use summary::Summary;
 pub use system::{
     BuildingPoint, ContactLevel, Floor, Gap, GroundAcceleration, GroundMotion, LevelPlace,
-    LevelResponse, Link, LinkedPair, Support, System, UnequalFloors, more_pairs,
+    LevelResponse, Link, LinkedMotion, LinkedPair, Support, System, UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

@@ -4,9 +4,10 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    Ledger, LevelOutcome, LinkLevelOutcome, Outcome, Peak, Statistics, StoreyPeaks, YieldingStorey,
+    Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics, StoreyPeaks,
+    YieldingStorey,
 };
-use crate::system::{LevelPlace, System};
+use crate::system::{LevelPlace, LinkedMotion, System};
 
 /// A run beside that of the same buildings without gaps: what `pounding run --json` prints.
 ///
@@ -31,10 +32,14 @@ struct Building<'a> {
     storeys: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     base_moment: Option<Peak>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    responses: &'a [NamedPeak],
     yielding: &'a [Option<YieldingStorey>],
     isolated: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolated_base_moment: Option<Peak>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    isolated_responses: &'a [NamedPeak],
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -59,6 +64,7 @@ struct Level<'a> {
 struct Link<'a> {
     name: &'a str,
     law: &'static str,
+    joins: &'static str,
     levels: Vec<LinkLevel<'a>>,
 }
 
@@ -86,9 +92,11 @@ impl<'a> Summary<'a> {
             elevation: building.elevations(),
             storeys: &with.storeys,
             base_moment: with.base_moment,
+            responses: &with.responses,
             yielding: &with.yielding,
             isolated: &without.storeys,
             isolated_base_moment: without.base_moment,
+            isolated_responses: &without.responses,
         });
         let gaps = outcome.gaps.iter().zip(system.gaps()).map(|(gap, place)| {
             let levels = system.levels_of(place);
@@ -114,6 +122,11 @@ impl<'a> Summary<'a> {
             Link {
                 name: &link.name,
                 law: link.law,
+                joins: match system.links()[index].joins {
+                    LinkedMotion::Floors => "floors",
+                    LinkedMotion::FoundationSway => "foundation_sway",
+                    LinkedMotion::FoundationRotation => "foundation_rotation",
+                },
                 levels: levels
                     .map(|(outcome, place)| LinkLevel { outcome, place })
                     .collect(),

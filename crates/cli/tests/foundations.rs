@@ -488,11 +488,12 @@ fn a_stiff_soil_is_a_fixed_base() {
         let line = format!("{line}\n");
         match key {
             "[building.foundation]" => stiff.push_str(&line),
-            "rotational_inertia" => stiff.push_str(&line),
+            // Heavy foundations vibrate slowly, and need fewer steps.
+            "rotational_inertia" => stiff.push_str("rotational_inertia = 1.5e8\n"),
             "sway" => stiff.push_str("sway = { stiffness = 1.5e15 }\n"),
             "rocking" => stiff.push_str("rocking = { stiffness = 1.5e17 }\n"),
             _ if line.starts_with("mass = 150000") || line.starts_with("mass = 250000") => {
-                stiff.push_str(&line);
+                stiff.push_str("mass = 2e6\n");
             }
             _ => {
                 stiff.push_str(&line);
@@ -501,7 +502,8 @@ fn a_stiff_soil_is_a_fixed_base() {
         }
     }
     let run = |case: &str| {
-        let case = case.replace("duration = 25", "duration = 1.8");
+        let case = case.replace("duration = 25", "duration = 1.5");
+        let case = case.replace("width = 0.025", "width = 0.005");
         Bench::with(&case).json("run case.toml --no-output")
     };
     let (fixed, stiff) = (run(&fixed), run(&stiff));
@@ -524,13 +526,19 @@ fn a_stiff_soil_is_a_fixed_base() {
             }
         }
     }
+    let mut met = 0;
     for level in 0..3 {
         let of = |told: &Value| told["gaps"][0]["levels"][level].clone();
         let (stiff, fixed) = (of(&stiff), of(&fixed));
         assert_eq!(stiff["impacts"], fixed["impacts"]);
+        if fixed["impacts"] == 0 {
+            continue;
+        }
+        met += 1;
         near(&stiff["peak_force"]["peak"], &fixed["peak_force"]["peak"]);
         near(&stiff["first_contact"], &fixed["first_contact"]);
     }
+    assert!(met > 0);
 }
 
 /// Rigid storeys on a rocking spring turn as one pendulum, which the mass of the foundation

@@ -478,6 +478,63 @@ fn a_link_between_foundations_is_a_spring_of_each() {
     }
 }
 
+/// Angles and moments stand in tables, file and page as such.
+#[test]
+fn a_link_between_rotations_has_units_of_its_own() {
+    let link = "[[link]]\nname = \"soil\"\nbetween = [\"A\", \"B\"]\nfoundations = \"rocking\"\nmodel = \"bilinear\"\nstiffness = \"5 GN m/rad\"\nyield_force = \"1 MN m\"\n";
+    let case = by_soil().replace("\"25 s\"", "\"6 s\"");
+    let bench = Bench::with(&format!("{case}{link}"));
+    let understood = bench.text("check case.toml");
+    for words in [
+        "rotation of foundations",
+        "initial stiffness (N m/rad)",
+        "yields at (mrad)",
+        "0.200",
+    ] {
+        assert!(understood.contains(words), "{understood}");
+    }
+    let shown = bench.text("run case.toml -o case.h5");
+    let link = shown.split("\nLink soil (bilinear)").nth(1).unwrap();
+    for words in [
+        "deformation (mrad)",
+        "moment (kN m)",
+        "rotation of foundations",
+    ] {
+        assert!(link.contains(words), "{link}");
+    }
+    bench.text("report case.h5");
+    let page = bench.read("case.html");
+    for words in [
+        "peak deformation (mrad)",
+        "peak moment (kN m)",
+        "rotation of foundations",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let file = hdf5::File::open(bench.folder().join("case.h5")).unwrap();
+    for (name, unit) in [
+        ("deformation", "rad"),
+        ("force", "N m"),
+        ("peak/deformation", "rad"),
+        ("peak/force", "N m"),
+        ("energy_dissipated", "J"),
+    ] {
+        let data = file.dataset(&format!("link/soil/{name}")).unwrap();
+        let units = data.attr("units").unwrap();
+        let units: hdf5::types::VarLenUnicode = units.read_scalar().unwrap();
+        assert_eq!(units.as_str(), unit, "{name}");
+    }
+    // The rotation of the right foundation less that of the left.
+    let history = |name: &str| file.dataset(name).unwrap().read_1d::<f64>().unwrap();
+    let [left, right] =
+        ["A", "B"].map(|b| history(&format!("building/{b}/response/foundation_rotation")));
+    let deformation = file.dataset("link/soil/deformation").unwrap();
+    let deformation = deformation.read_2d::<f64>().unwrap();
+    for ((l, r), d) in left.iter().zip(&right).zip(deformation.column(0)) {
+        assert!((r - l - d).abs() < 1e-15);
+    }
+}
+
 /// Springs far stiffer than the building leave the building on a fixed base.
 #[test]
 fn a_stiff_soil_is_a_fixed_base() {

@@ -217,3 +217,107 @@ fn general(
         responses,
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use pounding_hysteresis::{LawParameters, build};
+
+    use super::*;
+    use crate::building::StoreyLaw;
+    use crate::foundation::SpringDashpot;
+
+    fn fixed(gravity: f64) -> ShearBuilding {
+        let damping = Damping::Modal { ratios: vec![0.05] };
+        let (mass, stiffness) = (vec![1.0e5, 8.0e4], vec![6.0e7, 5.0e7]);
+        let name = "a".to_owned();
+        ShearBuilding::under_gravity(name, mass, stiffness, vec![3.0, 4.0], damping, gravity)
+            .unwrap()
+    }
+
+    fn spring(stiffness: f64) -> Option<SpringDashpot> {
+        Some(SpringDashpot {
+            stiffness,
+            dashpot: 0.0,
+        })
+    }
+
+    /// Without rocking the moment at the base takes the place of that of the foundation.
+    #[test]
+    fn a_foundation_that_only_sways_may_overturn() {
+        let foundation = Foundation::new(5.0e4, 0.0, spring(1.0e9), None).unwrap();
+        let building = fixed(0.0)
+            .on_foundation(foundation, Some(8.0), 10.0)
+            .unwrap();
+        let names: Vec<&str> = (building.responses().iter())
+            .map(|r| r.name.as_str())
+            .collect();
+        let expected = ["foundation_sway", "foundation_shear", OVERTURNING_RATIO];
+        assert_eq!(names, expected);
+        // Half of 2.3 MN times 8 m.
+        let on = building.foundation().unwrap();
+        assert_eq!(on.moment_of_uplift(), Some(9.2e6));
+        let ratio = &building.responses()[2].weights;
+        for (ratio, moment) in ratio.iter().zip(on.matrices().base_moment()) {
+            assert!((ratio * 9.2e6 - moment).abs() <= 1e-14 * moment.abs());
+        }
+        assert_eq!(building.coordinates(), 3);
+        assert_eq!(building.further_coordinates()[0].inertia, 5.0e4);
+    }
+
+    /// Stiffness and damping of the building itself do no work in a motion with its foundation.
+    #[test]
+    fn the_building_rides_on_its_foundation() {
+        let foundation = Foundation::new(5.0e4, 1.0e6, spring(1.0e9), spring(1.0e10)).unwrap();
+        let building = fixed(0.0).on_foundation(foundation, None, 10.0).unwrap();
+        // A sway of 1 and a rotation of 2, with floors at 3 and 7 m.
+        let motion = [1.0 + 3.0 * 2.0, 1.0 + 7.0 * 2.0, 1.0, 2.0];
+        let mut force = [0.0; 4];
+        building.stiffness_matrix().multiply(&motion, &mut force);
+        for (found, expected) in force.into_iter().zip([0.0, 0.0, 1.0e9, 2.0e10]) {
+            assert!((found - expected).abs() < 1e-6 * 1e9, "{force:?}");
+        }
+        building.apply_damping(&motion, &mut force);
+        assert!(force.iter().all(|f| f.abs() < 1e-6), "{force:?}");
+        for row in building.drifts().unwrap() {
+            let drift: f64 = row.iter().zip(motion).map(|(w, u)| w * u).sum();
+            assert!(drift.abs() < 1e-14);
+        }
+        let on = building.foundation().unwrap();
+        assert!(on.period_lengthening().unwrap() > 1.0 && on.length().is_none());
+        assert_eq!(on.fixed_base().stiffness(), [6.0e7, 5.0e7]);
+    }
+
+    #[test]
+    fn what_cannot_stand_is_refused() {
+        let on = |building: ShearBuilding, rocking: f64| {
+            let foundation = Foundation::new(0.0, 1.0e6, None, spring(rocking)).unwrap();
+            let made = building.on_foundation(foundation, None, 10.0);
+            made.map(|_| ()).map_err(|e| e.to_string())
+        };
+        assert_eq!(on(fixed(9.8), 1.0e10), Ok(()));
+        // Gravity takes some 8 MN m/rad off the rocking spring.
+        let error = on(fixed(9.8), 1.0e6).unwrap_err();
+        assert!(error.contains("it cannot stand"), "{error}");
+        assert_eq!(on(fixed(0.0), 1.0e6), Ok(()));
+
+        let mut values = LawParameters::default();
+        for (name, value) in [("stiffness", 6.0e7), ("yield_force", 1.0e6)] {
+            values.values.insert(name.to_owned(), value);
+        }
+        let law = StoreyLaw {
+            law: Arc::from(build("bilinear", &values).unwrap()),
+            yield_drift: None,
+        };
+        let yields = fixed(0.0).with_laws(vec![Some(law), None]).unwrap();
+        let error = on(yields, 1.0e10).unwrap_err();
+        assert!(error.contains("storey 1: law bilinear"), "{error}");
+
+        let foundation = Foundation::new(0.0, 1.0e6, None, spring(1.0e10)).unwrap();
+        let twice = fixed(0.0).on_foundation(foundation, None, 10.0).unwrap();
+        let error = on(twice, 1.0e10).unwrap_err();
+        assert!(error.contains("3 values for 2"), "{error}");
+    }
+}

@@ -43,12 +43,32 @@ pub(crate) fn parameter_value<D: Descriptor>(
     exponent: Option<f64>,
     help: impl Fn(DefinitionError) -> Option<String>,
 ) -> Result<f64, CaseError> {
+    parameter_value_as(
+        case,
+        of,
+        (key, value),
+        exponent,
+        |dimension| dimension,
+        help,
+    )
+}
+
+/// The same, where the law is not that of a force and a displacement: `turned` makes of the
+/// dimension of a parameter the one that it must have.
+pub(crate) fn parameter_value_as<D: Descriptor>(
+    case: &Case,
+    of: &D,
+    (key, value): (&Located<String>, &Located<Quantity>),
+    exponent: Option<f64>,
+    turned: impl Fn(Dimension) -> Dimension,
+    help: impl Fn(DefinitionError) -> Option<String>,
+) -> Result<f64, CaseError> {
     let refused = |span: &std::ops::Range<usize>, error: DefinitionError| {
         case.error(span.clone(), error.to_string(), help(error))
     };
     let (name, quantity) = (&key.value, &value.value);
     let parameter = of.parameter(name).map_err(|e| refused(&key.span, e))?;
-    let wanted = parameter_dimension(of, parameter, exponent);
+    let wanted = turned(parameter_dimension(of, parameter, exponent));
     if let Some(found) = quantity.dimension.filter(|found| *found != wanted) {
         return Err(case.error(
             value.span.clone(),

@@ -75,6 +75,13 @@ impl Dimension {
         Self::new(1.0, 1.0 - exponent, exponent - 2.0)
     }
 
+    /// The dimension of a law of forces and displacements, where the law is one of moments and
+    /// rotations: N becomes N m, and m a pure number.
+    #[must_use]
+    pub fn of_rotation(self) -> Self {
+        Self::new(self.mass, 2.0 * self.mass, self.time)
+    }
+
     fn plus(self, other: Self, power: f64) -> Self {
         Self::new(
             self.mass + power * other.mass,

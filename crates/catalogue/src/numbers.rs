@@ -89,6 +89,7 @@ pub fn shown_unit(si: &str) -> (f64, &str) {
         "N" => (1.0e-3, "kN"),
         "N m" => (1.0e-3, "kN m"),
         "rad" => (1.0e3, "mrad"),
+        "1" => (1.0, "-"),
         other => (1.0, other),
     }
 }

@@ -2,11 +2,9 @@
 //! their overturning moments at the base wherever peaks are shown.
 #![allow(clippy::unwrap_used)]
 
-use std::path::Path;
-use std::process::{Command, Output};
-
 use serde_json::Value;
-use tempfile::TempDir;
+
+use crate::support::Bench;
 
 const CASE: &str = r#"
 [[building]]
@@ -59,60 +57,9 @@ file = "MOTIONS/el_centro_1940_ns.csv"
 duration = "6 s"
 "#;
 
-/// A folder with the case, and studies of it.
-struct Bench(TempDir);
-
-impl Bench {
-    fn new() -> Self {
-        let bench = Self(tempfile::tempdir().unwrap());
-        bench.write("case.toml", CASE);
-        bench
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        let motions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ground_motions");
-        let text = text.replace("MOTIONS", motions.to_str().unwrap());
-        std::fs::write(self.0.path().join(name), text).unwrap();
-    }
-
-    fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.0.path().join(name)).unwrap()
-    }
-
-    fn output(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_pounding"))
-            .env("NO_COLOR", "1")
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .output()
-            .unwrap()
-    }
-
-    fn text(&self, arguments: &str) -> String {
-        let output = self.output(arguments);
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{arguments}: {errors}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.text(&format!("{arguments} --json"))).unwrap()
-    }
-
-    fn refused(&self, arguments: &str, words: &[&str]) {
-        let output = self.output(arguments);
-        let errors = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
-        let errors = errors.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(output.status.code(), Some(2), "{errors}");
-        for word in words {
-            assert!(errors.contains(word), "{errors}");
-        }
-    }
-}
-
 #[test]
 fn check_shows_the_matrix_as_what_it_is() {
-    let bench = Bench::new();
+    let bench = Bench::with(CASE);
     let told = bench.json("check case.toml");
     let [core, chain, frame] = ["core", "chain", "frame"].map(|name| {
         let buildings = told["buildings"].as_array().unwrap().iter();
@@ -186,12 +133,12 @@ fn figures(x: f64) -> String {
 /// The same numbers in the object, the table, the file and the page.
 #[test]
 fn run_and_page_show_the_moment_of_the_file() {
-    let bench = Bench::new();
+    let bench = Bench::with(CASE);
     let told = bench.json("run case.toml -o case.h5");
     let shown = bench.text("run case.toml -o case.h5");
     bench.text("report case.h5");
     let page = bench.read("case.html");
-    let file = hdf5::File::open(bench.0.path().join("case.h5")).unwrap();
+    let file = hdf5::File::open(bench.folder().join("case.h5")).unwrap();
     let mut seen = 0;
     for building in told["buildings"].as_array().unwrap() {
         let name = building["name"].as_str().unwrap();
@@ -246,7 +193,7 @@ fn run_and_page_show_the_moment_of_the_file() {
 
 #[test]
 fn sweep_and_merge_hold_a_column_for_each_building() {
-    let bench = Bench::new();
+    let bench = Bench::with(CASE);
     bench.write(
         "study.toml",
         "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"8 mm\", \"1 m\"]\n[output]\nchunk = 1\n",
@@ -256,7 +203,7 @@ fn sweep_and_merge_hold_a_column_for_each_building() {
         bench.text(&format!("sweep study.toml -o {shard}.h5 --shard {shard}/2"));
     }
     bench.text("merge 1.h5 2.h5 -o merged.h5");
-    let bytes = |name: &str| std::fs::read(bench.0.path().join(name)).unwrap();
+    let bytes = |name: &str| std::fs::read(bench.folder().join(name)).unwrap();
     assert!(bytes("all.h5") == bytes("merged.h5"));
     let told = bench.json("run case.toml --no-output");
     let table = bench.read("all.csv");
@@ -276,7 +223,7 @@ fn sweep_and_merge_hold_a_column_for_each_building() {
     }
     assert!(!table.contains("peak_base_moment: chain"));
     // The dimension has the names, and no variable can.
-    let file = hdf5::File::open(bench.0.path().join("all.h5")).unwrap();
+    let file = hdf5::File::open(bench.folder().join("all.h5")).unwrap();
     assert_eq!(file.dataset("peak_base_moment").unwrap().shape(), [2, 2]);
     let names = pounding_results::texts(&file, "building").unwrap();
     assert_eq!(names, ["core", "frame"]);
@@ -305,7 +252,7 @@ fn a_changed_file_is_another_study() {
         (by_matrix, "K.csv", matrix, ("1.8e8", "1.9e8")),
         (by_spectrum, "S.csv", spectrum, ("0.7", "0.9")),
     ] {
-        let bench = Bench::new();
+        let bench = Bench::with(CASE);
         bench.write("case.toml", &case);
         bench.write(file, contents);
         let study =
@@ -335,7 +282,7 @@ fn a_changed_file_is_another_study() {
 
 #[test]
 fn fragilities_ask_for_the_moment() {
-    let bench = Bench::new();
+    let bench = Bench::with(CASE);
     let ida = |limit: &str| {
         let text = format!(
             "case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"1 m/s^2\", \"3 m/s^2\", \"5 m/s^2\"]\n[ida]\n[[ida.limit]]\nname = \"state\"\ndemand = \"base_moment\"\n{limit}\n"
@@ -380,7 +327,7 @@ fn fragilities_ask_for_the_moment() {
 /// Gap checks and comparisons take such buildings as any other; comparisons show the moment.
 #[test]
 fn gap_and_compare() {
-    let bench = Bench::new();
+    let bench = Bench::with(CASE);
     let output = bench.output("gap case.toml --points 0 --json");
     assert_eq!(output.status.code(), Some(1), "they touch");
     let told: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -60,6 +60,37 @@ fn wall_and_frame() {
     close(&levels[2]["peak_force"]["peak"], 504_958.384_377, 1e-8);
 }
 
+/// Against two independent codes (`tests/data/structures`); `foundations` compares all of it.
+#[test]
+fn soil_pair() {
+    let result = run_example("soil_pair");
+    let (a, b) = (&result["buildings"][0], &result["buildings"][1]);
+    close(
+        &a["storeys"][2]["displacement"]["peak"],
+        0.080_739_861_642_221,
+        1e-8,
+    );
+    close(
+        &b["storeys"][0]["storey_shear"]["peak"],
+        3_715_711.386_534_45,
+        1e-8,
+    );
+    let response = |name: &str| {
+        let mut responses = b["responses"].as_array().unwrap().iter();
+        responses.find(|r| r["name"] == name).unwrap()["peak"].clone()
+    };
+    close(&response("foundation_sway"), 0.001_696_914_552_541, 1e-8);
+    close(
+        &response("foundation_rotation"),
+        0.000_244_592_149_100_57,
+        1e-8,
+    );
+    let levels = &result["gaps"][0]["levels"];
+    let impacts = [0, 1, 2].map(|l: usize| levels[l]["impacts"].as_u64().unwrap());
+    assert_eq!(impacts, [1, 6, 10]);
+    close(&levels[2]["peak_force"]["peak"], 2_564_748.385_678_4, 1e-8);
+}
+
 fn close(value: &Value, expected: f64, relative: f64) {
     let value = value.as_f64().unwrap();
     assert!(

@@ -9,6 +9,7 @@ mod compare;
 mod documents;
 mod examples;
 mod files;
+mod foundations;
 mod gap;
 mod hysteresis;
 mod impact;

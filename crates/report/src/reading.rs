@@ -378,7 +378,13 @@ impl Reader {
         let dissipated = self.table(group, "energy_dissipated")?;
         let columns = 0..dissipated.columns;
         let last = |i: usize| dissipated.column(i).last().unwrap_or(f64::NAN);
+        let unit = |name: &str| {
+            let object = format!("{}/{name}", group.name());
+            let data = group.dataset(name).map_err(self.failed(&object))?;
+            self.text(&data, "units")
+        };
         Ok(LinkResult {
+            units: [unit("deformation")?, unit("force")?],
             name,
             law: self.text(group, "law")?,
             levels: self.levels(group)?,

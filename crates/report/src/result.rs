@@ -229,9 +229,11 @@ pub struct LinkResult {
     pub law: String,
     /// Its levels, bottom first.
     pub levels: Vec<LevelResult>,
-    /// Peak deformation (m).
+    /// SI units of deformation and force.
+    pub units: [String; 2],
+    /// Peak deformation.
     pub deformation: Vec<f64>,
-    /// Peak force (N).
+    /// Peak force, or moment between rotations.
     pub force: Vec<f64>,
     /// Energy dissipated by the end (J).
     pub energy_dissipated: Vec<f64>,

@@ -9,6 +9,7 @@ use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
+use crate::founded::OnFoundation;
 use crate::isolator::{Isolator, IsolatorProperties};
 use crate::lateral::LateralStiffness;
 use crate::modes::{Modes, Undamped, undamped, undamped_dense};
@@ -54,6 +55,7 @@ pub struct ShearBuilding {
     /// Given storey shears and base moment of a building with further coordinates.
     sections: Option<Vec<Vec<f64>>>,
     responses: Vec<ResponseRow>,
+    foundation: Option<Box<OnFoundation>>,
 }
 
 impl ShearBuilding {
@@ -318,6 +320,7 @@ impl ShearBuilding {
             drifts: None,
             sections: None,
             responses: Vec::new(),
+            foundation: None,
             laws: vec![None; mass.len()],
             isolator: None,
             geometric,
@@ -530,6 +533,37 @@ impl ShearBuilding {
     #[must_use]
     pub fn responses(&self) -> &[ResponseRow] {
         &self.responses
+    }
+
+    /// The foundation that the building stands on, if it sways or rocks
+    /// ([`ShearBuilding::on_foundation`]).
+    #[must_use]
+    pub fn foundation(&self) -> Option<&OnFoundation> {
+        self.foundation.as_deref()
+    }
+
+    /// The same building, made of another one on this foundation.
+    pub(crate) fn standing_on(self, foundation: OnFoundation) -> Self {
+        let fixed = foundation.fixed_base();
+        Self {
+            geometric: fixed.geometric.clone(),
+            asymmetry: fixed.asymmetry,
+            foundation: Some(Box::new(foundation)),
+            ..self
+        }
+    }
+
+    /// Stiffness matrix of the floors (N/m) without what gravity takes off; `None` for a
+    /// building of floors and other coordinates.
+    pub(crate) fn elastic_matrix(&self) -> Option<DMatrix<f64>> {
+        if self.sections.is_some() {
+            return None;
+        }
+        Some(self.elastic.clone().unwrap_or_else(|| {
+            let chain = SymmetricTridiagonal::chain(&self.stiffness);
+            let n = self.storeys();
+            DMatrix::from_fn(n, n, |i, j| chain.entry(i, j))
+        }))
     }
 
     /// `out = C v` (N); one value a storey.

@@ -1,5 +1,7 @@
 //! What can be wrong with a building.
 
+use crate::foundation::FoundationError;
+
 /// A building that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -113,6 +115,22 @@ pub enum ShearBuildingError {
     UnstableMatrix {
         /// Name of the building.
         building: String,
+    },
+    /// The same for a building on a foundation that sways or rocks.
+    #[error(
+        "building {building}: gravity acting through the drift and the rotation of its foundation takes more stiffness off than building and soil have: it cannot stand"
+    )]
+    Overturned {
+        /// Name of the building.
+        building: String,
+    },
+    /// A foundation that cannot carry the building.
+    #[error("building {building}: {reason}")]
+    Foundation {
+        /// Name of the building.
+        building: String,
+        /// What is wrong.
+        reason: FoundationError,
     },
     /// Masses or stiffnesses so far apart that double precision cannot resolve a mode.
     #[error(

@@ -13,6 +13,7 @@ mod dense;
 mod elevation;
 mod error;
 mod foundation;
+mod founded;
 mod isolator;
 mod lateral;
 mod modes;
@@ -33,6 +34,7 @@ pub use foundation::{
     BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
     SoilSprings, SpringDashpot,
 };
+pub use founded::{OVERTURNING_RATIO, OnFoundation};
 pub use isolator::{
     Isolator, IsolatorError, IsolatorKind, IsolatorProperties, PostYield, Strength,
 };

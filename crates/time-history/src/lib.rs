@@ -45,6 +45,7 @@ pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 pub use summary::Summary;
 pub use system::{
     BuildingPoint, ContactLevel, Floor, Gap, GroundAcceleration, GroundMotion, LevelMotion,
-    LevelPlace, LevelResponse, Link, LinkedPair, Support, System, UnequalFloors, more_pairs,
+    LevelPlace, LevelResponse, Link, LinkedMotion, LinkedPair, Support, System, UnequalFloors,
+    more_pairs,
 };
 pub use warnings::Warning;

@@ -7,7 +7,7 @@ use crate::outcome::{
     IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics,
     StoreyPeaks, YieldingStorey,
 };
-use crate::system::{LevelPlace, System};
+use crate::system::{LevelPlace, LinkedMotion, System};
 
 /// A run beside that of the same buildings without gaps: what `pounding run --json` prints.
 ///
@@ -32,14 +32,14 @@ struct Building<'a> {
     storeys: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     base_moment: Option<Peak>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    responses: &'a [NamedPeak],
     yielding: &'a [Option<YieldingStorey>],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolator: Option<IsolatorOutcome>,
     isolated: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolated_base_moment: Option<Peak>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    responses: &'a [NamedPeak],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     isolated_responses: &'a [NamedPeak],
 }
@@ -66,6 +66,7 @@ struct Level<'a> {
 struct Link<'a> {
     name: &'a str,
     law: &'static str,
+    joins: &'static str,
     levels: Vec<LinkLevel<'a>>,
 }
 
@@ -93,11 +94,11 @@ impl<'a> Summary<'a> {
             elevation: building.elevations(),
             storeys: &with.storeys,
             base_moment: with.base_moment,
+            responses: &with.responses,
             yielding: &with.yielding,
             isolator: with.isolator,
             isolated: &without.storeys,
             isolated_base_moment: without.base_moment,
-            responses: &with.responses,
             isolated_responses: &without.responses,
         });
         let gaps = outcome.gaps.iter().zip(system.gaps()).map(|(gap, place)| {
@@ -124,6 +125,11 @@ impl<'a> Summary<'a> {
             Link {
                 name: &link.name,
                 law: link.law,
+                joins: match system.links()[index].joins {
+                    LinkedMotion::Floors => "floors",
+                    LinkedMotion::FoundationSway => "foundation_sway",
+                    LinkedMotion::FoundationRotation => "foundation_rotation",
+                },
                 levels: levels
                     .map(|(outcome, place)| LinkLevel { outcome, place })
                     .collect(),

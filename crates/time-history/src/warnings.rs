@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
-use pounding_shear_building::{Damping, DampingMatrix, Modes, ShearBuilding};
+use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding};
 
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
@@ -134,6 +134,13 @@ pub enum Warning {
         /// Whether gravity acts through the drift.
         second_order: bool,
     },
+    /// A moment on a foundation that lifts its edge off the soil.
+    Uplift {
+        /// Name of the building.
+        building: String,
+        /// The moment over half of weight times length of the foundation (-).
+        ratio: f64,
+    },
     /// The event-driven method left a run to the adaptive pair.
     AdaptiveInPlace {
         /// The first storey or link whose law is not linear between changes of branch.
@@ -247,6 +254,10 @@ impl fmt::Display for Warning {
                     ""
                 }
             ),
+            Self::Uplift { building, ratio } => write!(
+                f,
+                "{building}: the moment on the foundation is {ratio:.2} times half of weight times length: its edge lifts off the soil, which is not modelled; springs that hold it down make the rotation, and with it the displacement of floors, too small, and the moment too large"
+            ),
             Self::AdaptiveInPlace { place } => write!(
                 f,
                 "{place} follows a law that is not linear between changes of branch: in place of exact steps the whole run was made by the adaptive pair 8(5,3), which locates every event as well"
@@ -327,6 +338,14 @@ impl Warning {
                     storey: storey + 1,
                     ratio,
                     second_order: building.geometric_stiffness().iter().any(|k| *k > 0.0),
+                });
+            }
+            let mut responses = outcome.responses.iter();
+            let overturning = responses.find(|r| r.name == OVERTURNING_RATIO);
+            if let Some(found) = overturning.filter(|r| r.peak.value > 1.0) {
+                warnings.push(Self::Uplift {
+                    building: outcome.name.clone(),
+                    ratio: found.peak.value,
                 });
             }
         }

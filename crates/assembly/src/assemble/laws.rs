@@ -2,14 +2,19 @@
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Errors, LawParameter, Link, Located, Side};
+use pounding_case::{
+    Building, Case, CaseError, Dimension, Errors, FoundationMotion, LawParameter, Link, Located,
+    Side,
+};
+use pounding_catalogue::DefinitionError;
 use pounding_hysteresis::{
     HysteresisError, LawDescriptor, LawParameters, build, find, yield_deformation,
 };
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 use pounding_time_history::{Floor, LinkedPair, System};
 
-use crate::dimension::parameter_value;
+use super::foundation;
+use crate::dimension::parameter_value_as;
 use crate::error::AssemblyError;
 
 /// Puts the laws of the case into the storeys of a building.
@@ -27,7 +32,7 @@ pub(super) fn with_storey_laws(
         let descriptor = descriptor(case, &law.model)?;
         let own = descriptor.parameters.iter().any(|p| p.name == "stiffness");
         for (place, storey) in law.storeys.iter().enumerate() {
-            let mut values = parameters(case, descriptor, &law.parameters, place)?;
+            let mut values = parameters(case, descriptor, &law.parameters, place, |d| d)?;
             if own && !values.values.contains_key("stiffness") {
                 let stiffness = building.stiffness()[*storey];
                 values.values.insert("stiffness".to_owned(), stiffness);
@@ -79,6 +84,14 @@ pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<
         (Side::Building(b), Some(s)) => Floor::Storey(b, s),
         _ => Floor::Wall,
     };
+    let names = link.between.map(|side| match side {
+        Side::Building(b) => case.buildings[b].name.value.clone(),
+        Side::Wall => "wall".to_owned(),
+    });
+    if let Some(motion) = &link.foundations {
+        foundation::add_link(link, names, motion.value, laws, system)?;
+        return Ok(());
+    }
     let levels = link.levels.iter().zip(laws);
     let pairs = levels
         .map(
@@ -90,19 +103,20 @@ pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<
             },
         )
         .collect();
-    let names = link.between.map(|side| match side {
-        Side::Building(b) => case.buildings[b].name.value.clone(),
-        Side::Wall => "wall".to_owned(),
-    });
     Ok(system.add_link(&link.name, names, pairs)?)
 }
 
 /// The law of each level of a link.
 fn laws_of_link(case: &Case, link: &Link) -> Result<Vec<StoreyLaw>, CaseError> {
     let descriptor = descriptor(case, &link.model)?;
+    let motion = link.foundations.as_ref().map(|f| f.value);
     (0..link.levels.len())
         .map(|place| {
-            let values = parameters(case, descriptor, &link.parameters, place)?;
+            let turned = |dimension: Dimension| match motion {
+                Some(FoundationMotion::Rocking) => dimension.of_rotation(),
+                _ => dimension,
+            };
+            let values = parameters(case, descriptor, &link.parameters, place, turned)?;
             built(case, &link.model, descriptor, &values)
         })
         .collect()
@@ -136,6 +150,7 @@ fn parameters(
     descriptor: &'static LawDescriptor,
     given: &[LawParameter],
     place: usize,
+    turned: impl Fn(Dimension) -> Dimension,
 ) -> Result<LawParameters, CaseError> {
     let exponent = given
         .iter()
@@ -144,7 +159,8 @@ fn parameters(
     let errors = Errors::default();
     let read = errors.all(given.iter().map(|LawParameter { key, values }| {
         let given = (key, &values[place]);
-        let value = parameter_value(case, descriptor, given, exponent, |e| Some(e.help()))?;
+        let help = |e: DefinitionError| Some(e.help());
+        let value = parameter_value_as(case, descriptor, given, exponent, &turned, help)?;
         Ok((key.value.clone(), value))
     }));
     let mut all = LawParameters::default();

@@ -112,6 +112,7 @@ impl Parts {
         let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
         let options = errors.all([options(case)]);
         errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
+        errors.or_default(errors.all(foundation::columns(case).into_iter().map(Err::<(), _>)));
         errors.or_default(errors.all(unfinished(case).into_iter().map(Err::<(), _>)));
         let parts = buildings.and_then(|buildings| {
             Ok(Self {
@@ -130,15 +131,6 @@ fn unfinished(case: &Case) -> Vec<CaseError> {
         case.error(span.clone(), format!("{what} cannot be run"), None)
     };
     let mut found = Vec::new();
-    for b in &case.buildings {
-        if let Some(given) = &b.foundation {
-            let made = foundation::foundation(case, given);
-            found.push(
-                made.err()
-                    .unwrap_or_else(|| refused(&given.span, "foundations")),
-            );
-        }
-    }
     for gap in &case.gaps {
         for level in &gap.levels {
             match column::column(case, gap, level) {
@@ -146,11 +138,6 @@ fn unfinished(case: &Case) -> Vec<CaseError> {
                 Ok(Some(_)) => found.push(refused(&level.place, "columns that are hit")),
                 Err(e) => found.push(e),
             }
-        }
-    }
-    for link in &case.links {
-        if let Some(motion) = &link.foundations {
-            found.push(refused(&motion.span, "links between foundations"));
         }
     }
     found
@@ -305,7 +292,7 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
         };
         case.error(place.clone(), e.to_string(), help)
     })?;
-    laws::with_storey_laws(case, b, building)
+    foundation::on_foundation(case, b, laws::with_storey_laws(case, b, building)?)
 }
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {

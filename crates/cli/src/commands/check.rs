@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pounding_assembly::Assembly;
 use pounding_catalogue::wording::counted;
-use pounding_shear_building::ShearBuilding;
+use pounding_shear_building::{OnFoundation, ShearBuilding, SpringDashpot};
 use pounding_time_history::LevelPlace;
 use serde::Serialize;
 
@@ -51,6 +51,9 @@ struct Building<'a> {
     name: &'a str,
     mass: &'a [f64],
     stiffness: &'a [f64],
+    /// The foundation, if it sways or rocks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foundation: Option<Foundation>,
     /// Rows, without what gravity takes off; of a building that is no chain of storeys.
     #[serde(skip_serializing_if = "Option::is_none")]
     stiffness_matrix: Option<Vec<Vec<f64>>>,
@@ -91,6 +94,53 @@ impl Isolator {
             yield_displacement: properties.yield_displacement,
             damping: isolator.dashpot,
         })
+    }
+}
+
+/// A foundation with the first mode of building and soil.
+#[derive(Serialize)]
+struct Foundation {
+    mass: f64,
+    rotational_inertia: f64,
+    sway: Option<Spring>,
+    rocking: Option<Spring>,
+    length: Option<f64>,
+    moment_of_uplift: Option<f64>,
+    period: Option<f64>,
+    damping_ratio: Option<f64>,
+    period_lengthening: Option<f64>,
+    fixed_base_period: f64,
+    fixed_base_damping_ratio: f64,
+}
+
+/// Spring and dashpot of a motion.
+#[derive(Serialize)]
+struct Spring {
+    stiffness: f64,
+    dashpot: f64,
+}
+
+impl Foundation {
+    fn of(on: &OnFoundation) -> Self {
+        let spring = |held: SpringDashpot| Spring {
+            stiffness: held.stiffness,
+            dashpot: held.dashpot,
+        };
+        let (foundation, fixed) = (on.foundation(), on.fixed_base().modes());
+        let mode = on.first_mode();
+        Self {
+            mass: foundation.mass(),
+            rotational_inertia: foundation.rotational_inertia(),
+            sway: foundation.sway().map(spring),
+            rocking: foundation.rocking().map(spring),
+            length: on.length(),
+            moment_of_uplift: on.moment_of_uplift(),
+            period: mode.map(|m| m.period),
+            damping_ratio: mode.map(|m| m.damping_ratio),
+            period_lengthening: on.period_lengthening(),
+            fixed_base_period: fixed.period[0],
+            fixed_base_damping_ratio: fixed.damping_ratio[0],
+        }
     }
 }
 
@@ -141,11 +191,13 @@ struct Analysis {
 impl<'a> Understood<'a> {
     fn of(assembly: &'a Assembly) -> Self {
         let system = &assembly.system;
+        let of_floors = |b: &'a ShearBuilding| b.foundation().map_or(b, OnFoundation::fixed_base);
         let buildings = system.buildings().iter().map(|b| Building {
             name: b.name(),
             mass: b.mass(),
-            stiffness: b.stiffness(),
-            stiffness_matrix: b.elastic_stiffness_matrix(),
+            stiffness: of_floors(b).stiffness(),
+            foundation: b.foundation().map(Foundation::of),
+            stiffness_matrix: of_floors(b).elastic_stiffness_matrix(),
             height: b.height(),
             elevation: b.elevations(),
             period: &b.modes().period,

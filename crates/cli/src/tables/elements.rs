@@ -1,10 +1,10 @@
 //! Storeys with laws, and links.
 
 use pounding_case::Case;
-use pounding_catalogue::numbers::fixed;
+use pounding_catalogue::numbers::{fixed, shown_unit};
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Element, Peak, System};
+use pounding_time_history::{Element, LevelPlace, LinkedMotion, Peak, System};
 
 use super::{Run, new_table};
 
@@ -51,27 +51,29 @@ fn ratio(peak: Option<Peak>) -> String {
 pub(super) fn link(run: &Run<'_>, index: usize) -> String {
     let outcome = &run.outcome.links[index];
     let system = run.system();
+    let joins = system.links()[index].joins;
+    let [(length, length_unit), (force, force_unit)] = joins.units().map(shown_unit);
     let mut table = new_table([
-        "level",
-        "elevations (m)",
-        "deformation (mm)",
-        "force (kN)",
-        "ductility",
-        "deformation at the end (mm)",
-        "energy lost (kJ)",
+        "level".to_owned(),
+        "elevations (m)".to_owned(),
+        format!("deformation ({length_unit})"),
+        format!("{} ({force_unit})", of_force(joins)),
+        "ductility".to_owned(),
+        format!("deformation at the end ({length_unit})"),
+        "energy lost (kJ)".to_owned(),
     ]);
     for (l, place) in outcome.levels.iter().zip(system.link_levels(index)).rev() {
         table.add_row([
-            place.label(),
+            level_of_link(joins, &place),
             place.elevations_label(),
             format!(
                 "{:.2} @{:.2}",
-                l.deformation.value * 1e3,
+                l.deformation.value * length,
                 l.deformation.time
             ),
-            format!("{:.1} @{:.2}", l.force.value * 1e-3, l.force.time),
+            format!("{:.1} @{:.2}", l.force.value * force, l.force.time),
             ratio(l.ductility),
-            fixed(l.final_deformation * 1e3, 2),
+            fixed(l.final_deformation * length, 2),
             kilojoules(l.energy_dissipated),
         ]);
     }
@@ -82,6 +84,19 @@ pub(super) fn link(run: &Run<'_>, index: usize) -> String {
         outcome.law,
         sources(descriptors)
     )
+}
+
+/// What a link carries.
+fn of_force(joins: LinkedMotion) -> &'static str {
+    match joins {
+        LinkedMotion::FoundationRotation => "moment",
+        _ => "force",
+    }
+}
+
+/// The label of a level of a link.
+fn level_of_link(joins: LinkedMotion, place: &LevelPlace) -> String {
+    joins.label().map_or_else(|| place.label(), str::to_owned)
 }
 
 fn elements(system: &System, link: usize) -> &[Element] {
@@ -152,14 +167,16 @@ fn gravity(building: &ShearBuilding) -> String {
 /// gravity (-): by the shape of the mode with gravity.
 fn share_of_first_mode(building: &ShearBuilding) -> f64 {
     let shape = building.modes().shape.column(0);
-    let mut below = 0.0;
+    // The base of the first storey moves with the foundation.
+    let sway = building.foundation().and_then(|on| on.matrices().sway());
+    let mut below = sway.map_or(0.0, |i| shape[i]);
     let mut taken = 0.0;
     for (u, k) in shape.iter().zip(building.geometric_stiffness()) {
         taken += k * (u - below) * (u - below);
         below = *u;
     }
     let frequency = building.modes().circular_frequency[0];
-    let masses = shape.iter().zip(building.mass());
+    let masses = shape.iter().zip(building.inertia());
     let mass: f64 = masses.map(|(u, m)| m * u * u).sum();
     taken / (taken + frequency * frequency * mass)
 }
@@ -178,23 +195,26 @@ pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static 
 pub(super) fn links(system: &System) -> String {
     let mut text = String::new();
     for (index, link) in system.links().iter().enumerate() {
+        let joins = link.joins;
+        let [length, force] = joins.units();
+        let (factor, length_unit) = shown_unit(length);
         let mut table = new_table([
-            "level",
-            "elevations (m)",
-            "law",
-            "initial stiffness (N/m)",
-            "yields at (mm)",
+            "level".to_owned(),
+            "elevations (m)".to_owned(),
+            "law".to_owned(),
+            format!("initial stiffness ({force}/{length})"),
+            format!("yields at ({length_unit})"),
         ]);
         let places = system.link_levels(index);
         for (element, place) in elements(system, index).iter().zip(places) {
             table.add_row([
-                place.label(),
+                level_of_link(joins, &place),
                 place.elevations_label(),
                 element.law.descriptor().name.to_owned(),
                 format!("{:.4e}", element.law.initial_stiffness()),
                 element
                     .yield_deformation
-                    .map_or_else(|| "-".to_owned(), |y| format!("{:.3}", y * 1e3)),
+                    .map_or_else(|| "-".to_owned(), |y| format!("{:.3}", y * factor)),
             ]);
         }
         text.push_str(&format!("\nLink {}\n{table}\n", link.name));

@@ -1,6 +1,7 @@
 //! Tables that an engineer can read.
 
 mod elements;
+mod foundation;
 mod isolators;
 mod width;
 
@@ -307,7 +308,9 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     }
     text.push_str(&warning_lines(&assembly.warnings()));
     for b in assembly.system.buildings() {
-        let matrix = b.elastic_stiffness_matrix();
+        let on = b.foundation();
+        let of_floors = on.map_or(&**b, |on| on.fixed_base());
+        let matrix = of_floors.elastic_stiffness_matrix();
         let mut table = new_table([
             "storey",
             "elevation (m)",
@@ -323,16 +326,26 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             "effective mass (%)",
         ]);
         let modes = b.modes();
-        let total: f64 = b.mass().iter().sum();
-        for i in 0..b.storeys() {
+        let total: f64 = b.mass().iter().sum::<f64>() + foundation::mass_along(b);
+        for i in 0..modes.period.len() {
+            let [storey, elevation, mass, stiffness] = match i < b.storeys() {
+                true => [
+                    (i + 1).to_string(),
+                    format!("{}", b.elevations()[i]),
+                    format!("{}", b.mass()[i]),
+                    match &matrix {
+                        Some(rows) => format!("{:.6e}", rows[i][i]),
+                        None => format!("{:e}", of_floors.stiffness()[i]),
+                    },
+                ],
+                // The floors have no more to say than their number.
+                false => Default::default(),
+            };
             table.add_row([
-                (i + 1).to_string(),
-                format!("{}", b.elevations()[i]),
-                format!("{}", b.mass()[i]),
-                match &matrix {
-                    Some(rows) => format!("{:.6e}", rows[i][i]),
-                    None => format!("{:e}", b.stiffness()[i]),
-                },
+                storey,
+                elevation,
+                mass,
+                stiffness,
                 (i + 1).to_string(),
                 decimal(modes.period[i], 5),
                 format!("{:.3}", 100.0 * modes.damping_ratio[i]),
@@ -345,6 +358,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         }
         text.push_str(&elements::laws(b));
         text.push_str(&isolators::understood(b));
+        text.push_str(&foundation::understood(b));
     }
     for gap in assembly.system.gaps() {
         let mut table = new_table([

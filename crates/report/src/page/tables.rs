@@ -273,12 +273,20 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
 
 /// The levels of a link, the top first.
 pub(super) fn link(link: &LinkResult) -> String {
+    let [(length, length_unit), (force, force_unit)] =
+        [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
+    let turns = link.units[0] == "rad";
+    let of = ["force", "moment"][usize::from(turns)];
+    let (deformation_heading, force_heading) = (
+        format!("peak deformation ({length_unit})"),
+        format!("peak {of} ({force_unit})"),
+    );
     let headings = [
         "level",
         "left elevation (m)",
         "right elevation (m)",
-        "peak deformation (mm)",
-        "peak force (kN)",
+        &deformation_heading,
+        &force_heading,
         "dissipated (kJ)",
     ];
     let rows = (0..link.levels.len()).rev().map(|l| {
@@ -287,8 +295,8 @@ pub(super) fn link(link: &LinkResult) -> String {
             link.levels[l].label.clone(),
             figures(link.levels[l].elevations[0]),
             figures(link.levels[l].elevations[1]),
-            figures(1.0e3 * at(&link.deformation)),
-            figures(1.0e-3 * at(&link.force)),
+            figures(length * at(&link.deformation)),
+            figures(force * at(&link.force)),
             figures(1.0e-3 * at(&link.energy_dissipated)),
         ]
     });

@@ -2,7 +2,7 @@
 
 use hdf5::{Dataset, Group};
 use pounding_time_history::{
-    BuildingOutcome, ElementPlace, LinkLevelOutcome, Outcome, Peak, System,
+    BuildingOutcome, ElementPlace, LinkLevelOutcome, LinkedMotion, Outcome, Peak, System,
 };
 
 use super::datasets::series;
@@ -97,19 +97,34 @@ pub(super) fn begin_links(
         let group = all.create_group(&link.name)?;
         let range = link.first_element..link.first_element + link.levels;
         share_time(&group)?;
-        let level = levels::coordinates(&group, &system.link_levels(index))?;
+        let places = system.link_levels(index);
+        let level = match link.joins.label() {
+            Some(label) => levels::named(&group, &[label.to_owned()], &places)?,
+            None => levels::coordinates(&group, &places)?,
+        };
+        let [deformation_unit, force_unit] = link.joins.units();
+        let long_names = match link.joins {
+            LinkedMotion::Floors => [
+                "displacement of the right floor less that of the left",
+                "force of the link, positive in tension",
+            ],
+            LinkedMotion::FoundationRotation => [
+                "rotation of the right foundation less that of the left",
+                "moment of the link",
+            ],
+            _ => [
+                "displacement of the right foundation less that of the left",
+                "force of the link, positive in tension",
+            ],
+        };
         let of_levels = |list| Content::Columns(list, range.clone());
         for (names, content) in [
             (
-                (
-                    "deformation",
-                    "m",
-                    "displacement of the right floor less that of the left",
-                ),
+                ("deformation", deformation_unit, long_names[0]),
                 of_levels(|h| &h.element_deformation),
             ),
             (
-                ("force", "N", "force of the link, positive in tension"),
+                ("force", force_unit, long_names[1]),
                 of_levels(|h| &h.element_force),
             ),
             (
@@ -136,17 +151,24 @@ pub(super) fn finish_links(file: &hdf5::File, system: &System, outcome: &Outcome
         let group = file.group("link")?.group(&link.name)?;
         text(&group, "law", outcome.law)?;
         let level = group.dataset("level")?;
-        link_peaks(&group.create_group("peak")?, &outcome.levels, &level)?;
+        let peaks = group.create_group("peak")?;
+        link_peaks(&peaks, &outcome.levels, link.joins, &level)?;
         group.link_hard("level", "peak/level")?;
     }
     Ok(())
 }
 
-fn link_peaks(group: &Group, levels: &[LinkLevelOutcome], level: &Dataset) -> Result<()> {
+fn link_peaks(
+    group: &Group,
+    levels: &[LinkLevelOutcome],
+    joins: LinkedMotion,
+    level: &Dataset,
+) -> Result<()> {
     type Pick = fn(&LinkLevelOutcome) -> Peak;
+    let [deformation, force] = joins.units();
     let quantities: [(&str, &str, Pick); 2] = [
-        ("deformation", "m", |l| l.deformation),
-        ("force", "N", |l| l.force),
+        ("deformation", deformation, |l| l.deformation),
+        ("force", force, |l| l.force),
     ];
     for (name, units, pick) in quantities {
         let values: Vec<f64> = levels.iter().map(|l| pick(l).value).collect();

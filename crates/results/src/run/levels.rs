@@ -14,12 +14,18 @@ pub(super) const COORDINATES: &str = "left_storey right_storey left_elevation ri
 /// elevations on both sides.
 pub(super) fn coordinates(group: &Group, places: &[LevelPlace]) -> Result<Dataset> {
     let names: Vec<String> = places.iter().map(LevelPlace::label).collect();
+    named(group, &names, places)
+}
+
+/// The same with labels of their own.
+pub(super) fn named(group: &Group, names: &[String], places: &[LevelPlace]) -> Result<Dataset> {
     let long_name = "level: storeys of the left and the right building";
-    let level = labels(group, "level", long_name, &names)?;
+    let level = labels(group, "level", long_name, names)?;
     dimension_scales::make_scale(&level, "level")?;
     for (i, side) in ["left", "right"].into_iter().enumerate() {
         let storeys = places.iter().map(|p| p.storeys[i].unwrap_or(0) as i32);
-        let long_name = format!("storey of the {side} building, from 1; 0 is a wall");
+        let long_name =
+            format!("storey of the {side} building, from 1; 0 is a wall or a foundation");
         let name = format!("{side}_storey");
         let storeys = series(group, &name, "1", &long_name, &storeys.collect::<Vec<_>>())?;
         dimension_scales::attach(&storeys, &level, 0)?;

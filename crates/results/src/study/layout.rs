@@ -1,6 +1,7 @@
 //! The columns of a result: which quantities, of what, in which unit.
 
-use pounding_time_history::{LevelPlace, Outcome, System};
+use pounding_shear_building::OVERTURNING_RATIO;
+use pounding_time_history::{BuildingOutcome, LevelPlace, Outcome, System};
 
 use crate::run::with_base_moment;
 
@@ -13,7 +14,7 @@ pub enum Axis {
     Storey,
     /// Each contact level of each gap.
     Level,
-    /// Each building with a stiffness matrix.
+    /// Each building with a stiffness matrix or a foundation.
     Building,
 }
 
@@ -143,13 +144,86 @@ const ISOLATED_DEMAND: Quantity = quantity(
     "maximum approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
 
-/// The quantity of studies of buildings with a stiffness matrix.
+/// The quantity of studies of buildings with a stiffness matrix or a foundation.
 const BASE_MOMENT: Quantity = quantity(
     Axis::Building,
     "peak_base_moment",
     "N m",
     "maximum overturning moment at the base",
 );
+
+/// A response of buildings with a name, such as the rotation of a foundation, that studies keep.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Response {
+    /// Its name among the responses of a building.
+    pub name: &'static str,
+    /// Its peaks in the results, one a building in [`Layout::buildings`]; NaN where a building has
+    /// no such response.
+    pub peak: Quantity,
+}
+
+impl Response {
+    /// Its peak in the outcome of a building.
+    #[must_use]
+    pub fn of(&self, building: &BuildingOutcome) -> Option<f64> {
+        let mut responses = building.responses.iter();
+        let found = responses.find(|r| r.name == self.name);
+        found.map(|r| r.peak.value)
+    }
+}
+
+const fn response(name: &'static str, peak: Quantity) -> Response {
+    Response { name, peak }
+}
+
+/// The responses that studies keep, where a building has them.
+pub static RESPONSES: [Response; 5] = [
+    response(
+        "foundation_sway",
+        quantity(
+            Axis::Building,
+            "peak_foundation_sway",
+            "m",
+            "maximum displacement of the foundation relative to the ground",
+        ),
+    ),
+    response(
+        "foundation_rotation",
+        quantity(
+            Axis::Building,
+            "peak_foundation_rotation",
+            "rad",
+            "maximum rotation of the foundation",
+        ),
+    ),
+    response(
+        "foundation_shear",
+        quantity(
+            Axis::Building,
+            "peak_foundation_shear",
+            "N",
+            "maximum force of the sway spring of the soil",
+        ),
+    ),
+    response(
+        "foundation_moment",
+        quantity(
+            Axis::Building,
+            "peak_foundation_moment",
+            "N m",
+            "maximum moment of the rocking spring of the soil",
+        ),
+    ),
+    response(
+        OVERTURNING_RATIO,
+        quantity(
+            Axis::Building,
+            "peak_overturning_ratio",
+            "1",
+            "maximum moment on the foundation over half of weight times length",
+        ),
+    ),
+];
 
 /// Whether a name is taken by the results.
 #[must_use]
@@ -170,6 +244,7 @@ pub fn is_result(name: &str) -> bool {
     QUANTITIES
         .iter()
         .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain(RESPONSES.iter().map(|r| &r.peak))
         .any(|q| q.name == name)
         || labels.contains(&name)
 }
@@ -220,7 +295,7 @@ pub struct Layout {
     pub storeys: Vec<Place>,
     /// Contact levels of all gaps, in the order of the case and from the bottom.
     pub levels: Vec<Place>,
-    /// Names of the buildings with a stiffness matrix, from the left.
+    /// Names of the buildings with a stiffness matrix or a foundation, from the left.
     pub buildings: Vec<String>,
     /// Quantities in the order of the columns.
     pub quantities: Vec<Quantity>,
@@ -252,19 +327,27 @@ impl Layout {
         Self::from_places(
             (storeys.collect(), levels.collect()),
             buildings.collect(),
+            |response| {
+                let mut rows = system.buildings().iter().flat_map(|b| b.responses());
+                rows.any(|row| row.name == response.name)
+            },
             isolated_demand,
         )
     }
 
-    /// The shape with these storeys and levels, and these buildings with a base moment.
+    /// The shape with these storeys and levels, these buildings with a base moment, and the
+    /// responses that some of them have.
     pub(super) fn from_places(
         (storeys, levels): (Vec<Place>, Vec<Place>),
         buildings: Vec<String>,
+        has: impl Fn(&Response) -> bool,
         isolated_demand: bool,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
             quantities.push(BASE_MOMENT);
+            let responses = RESPONSES.iter().filter(|r| has(r));
+            quantities.extend(responses.map(|r| r.peak));
         }
         if isolated_demand {
             quantities.push(ISOLATED_DEMAND);
@@ -330,6 +413,13 @@ impl Layout {
         out.push(outcome.energy.residual_ratio);
         let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
         out.extend(moments.map(|m| m.value));
+        for response in RESPONSES
+            .iter()
+            .filter(|r| self.quantities.contains(&r.peak))
+        {
+            let buildings = outcome.buildings.iter().filter(|b| b.base_moment.is_some());
+            out.extend(buildings.map(|b| response.of(b).unwrap_or(f64::NAN)));
+        }
         out.extend(demand);
     }
 

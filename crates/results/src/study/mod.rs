@@ -10,7 +10,7 @@ mod shards;
 mod writing;
 
 pub use error::StudyFileError;
-pub use layout::{Axis, Layout, Place, Quantity, is_result};
+pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};
 pub use shards::{MergeOptions, Shards};

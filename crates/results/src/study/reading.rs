@@ -381,6 +381,7 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
     Ok(Layout::from_places(
         (storeys.collect(), levels.collect()),
         buildings,
+        |response| file.link_exists(response.peak.name),
         file.link_exists("isolated_demand"),
     ))
 }

@@ -3,6 +3,7 @@
 use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
 
 use crate::gap_check::{Amplification, closes};
+use crate::runs::{RESPONSES, Response};
 
 /// Kind of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +16,11 @@ pub enum QuantityKind {
     StoreyShear,
     /// Maximum absolute floor acceleration of a building (m/s2); not of rigid impacts.
     AccelerationAbsolute,
-    /// Maximum overturning moment at the base of a building with a stiffness matrix (N m).
+    /// Maximum overturning moment at the base of a building with a stiffness matrix or a foundation
+    /// (N m).
     BaseMoment,
+    /// Maximum of a response of a building with a name, such as the rotation of its foundation.
+    Response(&'static Response),
     /// Impacts in a gap (-).
     Impacts,
     /// Maximum contact force of a gap (N); not of rigid impacts.
@@ -56,6 +60,7 @@ impl QuantityKind {
             Self::StoreyShear => "storey_shear",
             Self::AccelerationAbsolute => "acceleration_absolute",
             Self::BaseMoment => "base_moment",
+            Self::Response(response) => response.name,
             Self::Impacts => "impacts",
             Self::PeakForce => "peak_force",
             Self::Impulse => "impulse",
@@ -73,6 +78,10 @@ impl QuantityKind {
             Self::StoreyShear | Self::PeakForce => "N",
             Self::AccelerationAbsolute => "m/s2",
             Self::BaseMoment => "N m",
+            Self::Response(response) => match response.peak.unit {
+                "1" => "-",
+                unit => unit,
+            },
             Self::Impulse => "N s",
             Self::ApproachVelocity => "m/s",
             Self::ImpactEnergy => "J",
@@ -89,6 +98,7 @@ impl QuantityKind {
             | Self::StoreyShear
             | Self::AccelerationAbsolute => "maximum over storeys",
             Self::BaseMoment => "at the base",
+            Self::Response(_) => "of the building",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
             Self::PeakForce => "maximum over levels",
             Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
@@ -144,7 +154,11 @@ impl Quantity {
     /// Whether it belongs to a building, and has a value without pounding.
     #[must_use]
     pub fn is_of_building(&self) -> bool {
-        QuantityKind::OF_BUILDINGS.contains(&self.kind) || self.kind == QuantityKind::BaseMoment
+        QuantityKind::OF_BUILDINGS.contains(&self.kind)
+            || matches!(
+                self.kind,
+                QuantityKind::BaseMoment | QuantityKind::Response(_)
+            )
     }
 
     /// Name and owner.
@@ -167,6 +181,9 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
         if b.stiffness().is_empty() {
             all.push(quantity(QuantityKind::BaseMoment, b.name(), index));
         }
+        let has = |r: &&Response| b.responses().iter().any(|row| row.name == r.name);
+        let responses = RESPONSES.iter().filter(has);
+        all.extend(responses.map(|r| quantity(QuantityKind::Response(r), b.name(), index)));
     }
     for (index, g) in system.gaps().iter().enumerate() {
         all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));
@@ -174,10 +191,13 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     all
 }
 
-/// Maximum over the storeys of a building, or that of its base.
+/// Maximum over the storeys of a building, or that of its base or its foundation.
 pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64 {
     if kind == QuantityKind::BaseMoment {
         return building.base_moment.map_or(f64::NAN, |m| m.value);
+    }
+    if let QuantityKind::Response(response) = kind {
+        return response.of(building).unwrap_or(f64::NAN);
     }
     let peaks = building.storeys.iter().filter_map(|s| kind.peak(s));
     peaks.map(|p| p.value).fold(0.0, f64::max)

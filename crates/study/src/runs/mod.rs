@@ -9,6 +9,8 @@ mod varied;
 pub(crate) use engine::run_all;
 pub use motions::RecordReport;
 pub(crate) use motions::motion;
-pub use pounding_results::study::{Axis, Ending, Layout, Place, Quantity, Row};
+pub use pounding_results::study::{
+    Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
+};
 pub(crate) use pounding_results::study::{ID, is_result};
 pub(crate) use runner::{Runner, chosen, factor, wanted, written};

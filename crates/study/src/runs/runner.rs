@@ -189,7 +189,7 @@ impl<'s> Runner<'s> {
         let (found, expected) = (matrices.count(), self.layout.buildings.len());
         if found != expected {
             return Err(format!(
-                "{found} buildings of the run have a stiffness matrix, {expected} of the study"
+                "{found} buildings of the run have a stiffness matrix or a foundation, {expected} of the study"
             ));
         }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {

@@ -9,7 +9,7 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, List, Number, Optional, Positive, Reader, TableOr,
     Within, Written,
 };
-use pounding_case::{Dimension, Located};
+use pounding_case::{Building, Dimension, Located, Support};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
@@ -34,8 +34,19 @@ pub enum DemandKind {
     StoreyShear,
     /// Maximum absolute floor acceleration (m/s2).
     AccelerationAbsolute,
-    /// Maximum overturning moment at the base of a building with a stiffness matrix (N m).
+    /// Maximum overturning moment at the base of a building with a stiffness matrix or a
+    /// foundation (N m).
     BaseMoment,
+    /// Maximum displacement of a foundation relative to the ground (m).
+    FoundationSway,
+    /// Maximum rotation of a foundation (rad).
+    FoundationRotation,
+    /// Maximum force of the sway spring below a foundation (N).
+    FoundationShear,
+    /// Maximum moment of the rocking spring below a foundation (N m).
+    FoundationMoment,
+    /// Maximum moment on a foundation over half of weight times length (-).
+    OverturningRatio,
     /// Maximum contact force (N).
     ContactForce,
     /// Maximum impulse of one impact (N s).
@@ -47,16 +58,52 @@ pub enum DemandKind {
 }
 
 impl DemandKind {
+    /// What it is called, and which buildings have it, of a demand that belongs to the building
+    /// as a whole.
+    fn of_building(self) -> Option<OfBuilding> {
+        type Has = fn(&Building) -> bool;
+        let (name, has, of): (_, Has, _) = match self {
+            Self::BaseMoment => (
+                "the base moment",
+                |b| b.lateral.is_some() || b.foundation.is_some(),
+                "on a foundation or with a stiffness matrix",
+            ),
+            Self::FoundationSway | Self::FoundationShear => (
+                "sway",
+                |b| support(b).is_some_and(Support::sways),
+                "with a foundation that sways",
+            ),
+            Self::FoundationRotation | Self::FoundationMoment => (
+                "rotation",
+                |b| support(b).is_some_and(Support::rocks),
+                "with a foundation that rocks",
+            ),
+            Self::OverturningRatio => (
+                "the overturning ratio",
+                |b| {
+                    let foundation = b.foundation.as_ref();
+                    foundation.is_some_and(|f| f.value.length.is_some())
+                },
+                "with a foundation whose length is known",
+            ),
+            _ => return None,
+        };
+        Some(OfBuilding { name, has, of })
+    }
+
     /// Dimension of its values.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::Displacement | Self::IsolatedDemand => Dimension::LENGTH,
-            Self::DriftRatio | Self::Impacts => Dimension::NUMBER,
-            Self::StoreyShear | Self::ContactForce => Dimension::FORCE,
+            Self::Displacement | Self::IsolatedDemand | Self::FoundationSway => Dimension::LENGTH,
+            Self::DriftRatio
+            | Self::Impacts
+            | Self::FoundationRotation
+            | Self::OverturningRatio => Dimension::NUMBER,
+            Self::StoreyShear | Self::ContactForce | Self::FoundationShear => Dimension::FORCE,
             Self::AccelerationAbsolute => Dimension::ACCELERATION,
             // Of a moment, as of an energy.
-            Self::BaseMoment => Dimension::ENERGY,
+            Self::BaseMoment | Self::FoundationMoment => Dimension::ENERGY,
             Self::Impulse => Dimension {
                 mass: 1.0,
                 length: 1.0,
@@ -64,6 +111,18 @@ impl DemandKind {
             },
         }
     }
+}
+
+/// A demand that belongs to a building as a whole.
+struct OfBuilding {
+    name: &'static str,
+    has: fn(&Building) -> bool,
+    /// Which buildings have it, in words.
+    of: &'static str,
+}
+
+fn support(building: &Building) -> Option<&Support> {
+    Some(&building.foundation.as_ref()?.value.support)
 }
 
 /// A state that counts as reached when a demand exceeds a value.
@@ -327,9 +386,9 @@ impl LimitTable {
             }
         }
         let demand = demand?;
-        if demand == DemandKind::BaseMoment {
+        if let Some(OfBuilding { name, has, of }) = demand.of_building() {
             if let Some(span) = places.1.or(places.2) {
-                let message = "the base moment is of a building, not of a storey or a level";
+                let message = format!("{name} is of a building, not of a storey or a level");
                 return reader.refuse(span, message, "leave it out");
             }
             let buildings = &context.base.as_ref()?.case.buildings;
@@ -337,10 +396,10 @@ impl LimitTable {
                 Some(index) => buildings[index..=index].iter(),
                 None => buildings.iter(),
             };
-            if !asked.any(|b| b.lateral.is_some()) {
+            if !asked.any(has) {
                 let span = places.0.unwrap_or(exceeds_at?);
-                let message = "the base moment is known of buildings with a stiffness matrix only";
-                let help = "ask for `storey_shear`, or for a building with a stiffness matrix";
+                let message = format!("{name} is known of buildings {of} only");
+                let help = format!("ask for `storey_shear`, or for a building {of}");
                 return reader.refuse(span, message, help);
             }
         }

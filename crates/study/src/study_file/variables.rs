@@ -519,6 +519,23 @@ fn unit_of_numbers(places: &[Located<Written>], tried: &Trial<'_>) -> String {
     dimension.map_or_else(String::new, unit_of)
 }
 
+/// Dimension of a key of a foundation, by the words of its path.
+fn dimension_in_foundation(words: &[&str]) -> Dimension {
+    let rocking = words.contains(&"rocking");
+    match words.last().copied().unwrap_or_default() {
+        "mass" => Dimension::MASS,
+        "rotational_inertia" => Dimension::ROTATIONAL_INERTIA,
+        "shear_wave_speed" => Dimension::VELOCITY,
+        "density" => Dimension::DENSITY,
+        "length" | "width" => Dimension::LENGTH,
+        "stiffness" if rocking => Dimension::ROTATIONAL_STIFFNESS,
+        "stiffness" => Dimension::STIFFNESS,
+        "dashpot" if rocking => Dimension::ROTATIONAL_DASHPOT,
+        "dashpot" => Dimension::DASHPOT,
+        _ => Dimension::NUMBER,
+    }
+}
+
 /// Dimension of an entry by its key, for the entries that studies vary most.
 fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
     let text = tried.path.to_string();
@@ -546,6 +563,9 @@ fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
             known,
             exponent.map(|p| p.value.value.value),
         ));
+    }
+    if tried.path.table() == "building" && words.contains(&"foundation") {
+        return Some(dimension_in_foundation(&words));
     }
     Some(match key {
         "mass" => Dimension::MASS,

@@ -20,6 +20,41 @@ pub struct Link {
     pub first_element: usize,
     /// Number of levels.
     pub levels: usize,
+    /// What it joins.
+    pub joins: LinkedMotion,
+}
+
+/// Which motions of two buildings a link joins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LinkedMotion {
+    /// Displacements of floors.
+    Floors,
+    /// Displacements of foundations.
+    FoundationSway,
+    /// Rotations of foundations: moments take the place of forces.
+    FoundationRotation,
+}
+
+impl LinkedMotion {
+    /// SI units of deformation and force.
+    #[must_use]
+    pub fn units(self) -> [&'static str; 2] {
+        match self {
+            Self::Floors | Self::FoundationSway => ["m", "N"],
+            Self::FoundationRotation => ["rad", "N m"],
+        }
+    }
+
+    /// What stands in the place of the level of a link that joins no floors.
+    #[must_use]
+    pub fn label(self) -> Option<&'static str> {
+        match self {
+            Self::Floors => None,
+            Self::FoundationSway => Some("sway of foundations"),
+            Self::FoundationRotation => Some("rotation of foundations"),
+        }
+    }
 }
 
 /// One level of a link, for its definition.
@@ -80,7 +115,31 @@ impl System {
             between,
             first_element,
             levels,
+            joins: LinkedMotion::Floors,
         });
+        Ok(())
+    }
+
+    /// Joins the foundations of two buildings through the soil by a law. Both ends are points
+    /// of these buildings that move with their foundations.
+    ///
+    /// # Errors
+    /// As [`System::add_link`].
+    pub fn add_foundation_link(
+        &mut self,
+        name: &str,
+        between: [String; 2],
+        pair: LinkedPair,
+        joins: LinkedMotion,
+    ) -> Result<(), TimeHistoryError> {
+        self.add_link(name, between, vec![pair])?;
+        if let (Some(link), Some(element)) = (self.links.last_mut(), self.elements.last_mut()) {
+            link.joins = joins;
+            // They lie below all storeys.
+            if let Some(place) = &mut element.level_place {
+                place.storeys = [None, None];
+            }
+        }
         Ok(())
     }
 
@@ -106,11 +165,11 @@ impl System {
                 format!("{} storey {}", self.buildings[building].name(), storey + 1)
             }
             ElementPlace::Link { link, level } => {
-                format!(
-                    "{} level {}",
-                    self.links[link].name,
-                    self.link_levels(link)[level]
-                )
+                let joined = &self.links[link];
+                match joined.joins.label() {
+                    Some(label) => format!("{}, {label}", joined.name),
+                    None => format!("{} level {}", joined.name, self.link_levels(link)[level]),
+                }
             }
         }
     }

@@ -21,7 +21,7 @@ pub use level_place::LevelPlace;
 use level_response::LevelRow;
 pub use level_response::{LevelMotion, LevelResponse};
 use links::storeys;
-pub use links::{Link, LinkedPair};
+pub use links::{Link, LinkedMotion, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
 pub use motions::{GroundMotion, Support};

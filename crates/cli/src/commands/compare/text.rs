@@ -1,6 +1,7 @@
 //! The comparison for people.
 
 use pounding_case::Case;
+use pounding_catalogue::numbers::shown_unit;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
@@ -33,6 +34,10 @@ fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
         QuantityKind::StoreyShear | QuantityKind::PeakForce => ("kN", 1e3, 1),
         QuantityKind::AccelerationAbsolute => ("g", G, 3),
         QuantityKind::BaseMoment => ("kN m", 1e3, 1),
+        QuantityKind::Response(response) => {
+            let (factor, unit) = shown_unit(response.peak.unit);
+            (unit, 1.0 / factor, 3)
+        }
         QuantityKind::Impacts => ("-", 1.0, 0),
         QuantityKind::Impulse => ("kN s", 1e3, 2),
         QuantityKind::ApproachVelocity => ("m/s", 1.0, 3),
@@ -104,7 +109,7 @@ fn values(c: &Comparison, record: usize) -> String {
         .quantities
         .iter()
         .enumerate()
-        .filter(|(_, q)| SHOWN.contains(&q.kind))
+        .filter(|(_, q)| SHOWN.contains(&q.kind) || matches!(q.kind, QuantityKind::Response(_)))
         .collect();
     let mut header = vec!["model".to_owned(), "free restitution".to_owned()];
     header.extend(columns.iter().map(|(_, q)| {

@@ -3,6 +3,7 @@
 use pounding_case::Case;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::{Basis, EffectiveProperties};
+use pounding_shear_building::OVERTURNING_RATIO;
 use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
@@ -25,6 +26,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
             "  links stay in place in all that follows: \"isolated\" means without contact\n",
         );
     }
+    text.push_str(&foundations(case, check));
     text.push_str(&warning_lines(&check.warnings));
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
@@ -38,6 +40,44 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     }
     for gap in &check.gaps {
         text.push_str(&verdict(check, gap));
+    }
+    text
+}
+
+/// What floor displacements hold beside the deformation of the buildings.
+fn foundations(case: &Case, check: &GapCheck) -> String {
+    let founded = case.buildings.iter().filter(|b| b.foundation.is_some());
+    let names: Vec<&str> = founded.map(|b| b.name.value.as_str()).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    let mut text = format!(
+        "  displacements of {} count sway and rotation of the foundation, in demand and in widths by rule\n",
+        names.join(", ")
+    );
+    for name in names {
+        let ratios = check.records.iter().filter_map(|record| {
+            let building = record.isolated.iter().find(|b| b.name == name)?;
+            let mut responses = building.responses.iter();
+            let found = responses.find(|r| r.name == OVERTURNING_RATIO)?;
+            Some((found.peak.value, record.name.as_str()))
+        });
+        let Some((ratio, record)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+            continue;
+        };
+        let lifts = if ratio > 1.0 {
+            "warning: the foundation of"
+        } else {
+            "  the foundation of"
+        };
+        let so = if ratio > 1.0 {
+            ": it lifts off the soil, which is not modelled, and the demand may be greater"
+        } else {
+            ""
+        };
+        text.push_str(&format!(
+            "{lifts} {name} bears up to {ratio:.2} of the moment at which it lifts off, under {record}{so}\n"
+        ));
     }
     text
 }

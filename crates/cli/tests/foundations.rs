@@ -1,0 +1,704 @@
+//! Buildings on foundations that sway and rock, on the command line.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::support::Bench;
+
+/// What two independent codes say of the pair, which agree to 1e-12; the file says of which.
+#[derive(Deserialize)]
+struct File {
+    reference: Reference,
+}
+
+#[derive(Deserialize)]
+struct Reference {
+    outputs: BTreeMap<String, Output>,
+    contacts: Vec<Contact>,
+    energy: BTreeMap<String, f64>,
+}
+
+#[derive(Deserialize)]
+struct Output {
+    peak: f64,
+    time: f64,
+}
+
+#[derive(Deserialize)]
+struct Contact {
+    impacts: u64,
+    first_contact: f64,
+    peak_force: f64,
+}
+
+fn reference() -> Reference {
+    let text = include_str!("../../../tests/data/structures/ssi_sway_rocking_pair.json");
+    serde_json::from_str::<File>(text).unwrap().reference
+}
+
+/// The pair by springs and dashpots, as the reference has them.
+fn by_springs() -> String {
+    let building = |name: &str, mass: f64, stiffness: &str, foundation: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = {:?}\nstiffness = {stiffness}\nheight = [3.2, 3.2, 3.2]\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n[building.foundation]\n{foundation}\n",
+            [mass; 3]
+        )
+    };
+    let a = building(
+        "A",
+        1.0e5,
+        "[60000000.0, 55000000.0, 50000000.0]",
+        "mass = 150000.0\nrotational_inertia = 5400000.0\nsway = { stiffness = 1891460781.5571823, dashpot = 46656000.0 }\nrocking = { stiffness = 74567887107.42413, dashpot = 1111480093.6993349 }",
+    );
+    let b = building(
+        "B",
+        1.8e5,
+        "[350000000.0, 320000000.0, 300000000.0]",
+        "mass = 250000.0\nrotational_inertia = 14812500.0\nsway = { stiffness = 2114717442.16837, dashpot = 58320000.0 }\nrocking = { stiffness = 123196782816.98497, dashpot = 2170859558.0065136 }",
+    );
+    format!(
+        "{a}{b}[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = 0.025\nmodel = \"anagnostopoulos_2004\"\nstiffness = 200000000.0\nrestitution = 0.65\n[ground_motion]\nfile = \"MOTIONS/el_centro_1940_ns.csv\"\n[analysis]\nduration = 25\n"
+    )
+}
+
+/// The pair by its soil, from the example.
+fn by_soil() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/soil_pair/case.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    text.replace("../../ground_motions", "MOTIONS")
+}
+
+/// The largest relative error of all that the reference says of a run.
+fn largest_error(told: &Value) -> f64 {
+    let reference = reference();
+    let mut worst = 0.0_f64;
+    let mut compared = 0;
+    for name in ["A", "B"] {
+        let building = &told["buildings"][usize::from(name == "B")];
+        let mut near = |found: &Value, expected: &str, factor: f64| {
+            let expected = &reference.outputs[&expected.replace('#', name)];
+            let value = found["peak"].as_f64().unwrap() * factor;
+            worst = worst.max((value / expected.peak - 1.0).abs());
+            // The value is flat around its peak.
+            let off = (found["time"].as_f64().unwrap() - expected.time).abs();
+            assert!(off < 2e-3, "{off:e} s");
+            compared += 1;
+        };
+        for floor in 0..3 {
+            let storey = &building["storeys"][floor];
+            let n = floor + 1;
+            near(&storey["displacement"], &format!("U_#{n}"), 1.0);
+            near(&storey["drift_ratio"], &format!("storey_drift_#{n}"), 3.2);
+            near(&storey["acceleration_absolute"], &format!("a_#{n}"), 1.0);
+        }
+        near(&building["storeys"][0]["storey_shear"], "base_shear_#", 1.0);
+        let response = |name: &str| {
+            let responses = building["responses"].as_array().unwrap();
+            responses
+                .iter()
+                .find(|r| r["name"] == name)
+                .unwrap()
+                .clone()
+        };
+        for (ours, theirs) in [
+            ("foundation_sway", "foundation_sway_#"),
+            ("foundation_rotation", "foundation_rotation_#"),
+            ("foundation_shear", "foundation_spring_force_#"),
+            ("foundation_moment", "foundation_spring_moment_#"),
+        ] {
+            near(&response(ours), theirs, 1.0);
+        }
+    }
+    assert_eq!(compared, reference.outputs.len());
+    let levels = told["gaps"][0]["levels"].as_array().unwrap();
+    for (level, expected) in levels.iter().zip(&reference.contacts) {
+        assert_eq!(level["impacts"].as_u64(), Some(expected.impacts));
+        let force = level["peak_force"]["peak"].as_f64().unwrap();
+        worst = worst.max((force / expected.peak_force - 1.0).abs());
+        let first = level["first_contact"].as_f64().unwrap();
+        worst = worst.max((first - expected.first_contact).abs());
+    }
+    let input = reference.energy["input"];
+    for part in ["input", "kinetic", "strain", "viscous", "impact"] {
+        let found = told["energy"][part].as_f64().unwrap();
+        worst = worst.max((found - reference.energy[part]).abs() / input);
+    }
+    worst
+}
+
+#[test]
+fn two_exact_methods_agree_with_two_independent_codes() {
+    let adaptive = "duration = 25\nmethod = \"adaptive\"\nrelative_tolerance = 1e-11";
+    for case in [
+        by_springs(),
+        by_springs().replace("duration = 25", adaptive),
+        by_soil(),
+    ] {
+        let bench = Bench::with(&case);
+        let error = largest_error(&bench.json("run case.toml --no-output"));
+        assert!(error < 1e-8, "{error:e}");
+    }
+}
+
+/// Fixed steps approach the reference with the square of their length.
+#[test]
+fn newmark_converges() {
+    let error = |step: &str| {
+        let method = format!("duration = 6\nmethod = \"newmark\"\nstep = \"{step}\"");
+        let bench = Bench::with(&by_springs().replace("duration = 25", &method));
+        let told = bench.json("run case.toml --no-output");
+        let roof = &told["buildings"][0]["storeys"][2]["displacement"]["peak"];
+        let expected = reference().outputs["U_A3"].peak;
+        (roof.as_f64().unwrap() / expected - 1.0).abs()
+    };
+    let [coarse, fine] = ["0.4 ms", "0.1 ms"].map(error);
+    println!("{coarse:e} {fine:e}");
+    assert!(coarse < 1e-3 && fine < coarse / 4.0, "{coarse:e} {fine:e}");
+}
+
+/// The roots of `det(s^2 M + s C + K)` nearest to the first mode without damping, by the secant
+/// method on the matrices of the reference, apart from the program.
+#[test]
+fn check_tells_the_first_mode_of_building_and_soil() {
+    let bench = Bench::with(&by_soil());
+    let told = bench.json("check case.toml");
+    for (b, period, damping, fixed) in [
+        (
+            0,
+            0.602_688_838_326_779_3,
+            0.050_894_786_699_064_6,
+            0.591_695_538_080_479_4,
+        ),
+        (
+            1,
+            0.352_433_613_564_793_5,
+            0.067_311_076_031_368_1,
+            0.328_257_788_345_479_4,
+        ),
+    ] {
+        let found = &told["buildings"][b]["foundation"];
+        let near = |name: &str, expected: f64| {
+            let value = found[name].as_f64().unwrap();
+            assert!((value / expected - 1.0).abs() < 1e-9, "{name}: {value}");
+        };
+        near("period", period);
+        near("damping_ratio", damping);
+        near("fixed_base_period", fixed);
+        near("period_lengthening", period / fixed);
+        near("fixed_base_damping_ratio", 0.05);
+    }
+    let near = |name: &str, expected: f64| {
+        let value = told["buildings"][0]["foundation"][name].as_f64().unwrap();
+        assert!((value / expected - 1.0).abs() < 1e-12, "{name}: {value}");
+    };
+    near("moment_of_uplift", 450.0e3 * 9.80665 * 6.0);
+    near("length", 12.0);
+    let rocking = &told["buildings"][0]["foundation"]["rocking"];
+    let stiffness = rocking["stiffness"].as_f64().unwrap();
+    assert!((stiffness / 74_567_887_107.424_13 - 1.0).abs() < 1e-12);
+    // Sway and rotation have modes of their own; effective masses sum to all that moves along.
+    let masses = told["buildings"][0]["effective_mass"].as_array().unwrap();
+    let sum: f64 = masses.iter().map(|m| m.as_f64().unwrap()).sum();
+    assert!(masses.len() == 5 && (sum / 450.0e3 - 1.0).abs() < 1e-12);
+    let shown = bench.text("check case.toml");
+    for words in [
+        "period 0.6027 s, 1.0186 times that on a fixed base (0.5917 s); damping 5.09 % (5.00 % on a fixed base)",
+        "the foundation lifts off at a moment of 26478.0 kN m",
+        "rocking 5.40000e6 kg m2, 7.45679e10 N m/rad",
+    ] {
+        assert!(shown.contains(words), "{shown}");
+    }
+}
+
+/// The same numbers in the object, the table, the file and the page, and the warning where the
+/// foundation lifts off.
+#[test]
+fn run_shows_and_keeps_responses_of_foundations() {
+    let strong = by_soil().replace("_ns.csv\"", "_ns.csv\"\nscale = 2.2");
+    assert_ne!(strong, by_soil());
+    let bench = Bench::with(&strong);
+    let told = bench.json("run case.toml -o case.h5");
+    let shown = bench.text("run case.toml -o case.h5");
+    bench.text("report case.h5");
+    let page = bench.read("case.html");
+    let file = hdf5::File::open(bench.folder().join("case.h5")).unwrap();
+    let mut seen = 0;
+    for building in told["buildings"].as_array().unwrap() {
+        let name = building["name"].as_str().unwrap();
+        for (responses, prefix) in [("responses", ""), ("isolated_responses", "isolated_")] {
+            for response in building[responses].as_array().unwrap() {
+                let own = response["name"].as_str().unwrap();
+                let peak = response["peak"].as_f64().unwrap();
+                let path = format!("building/{name}/peak/response/{prefix}{own}");
+                let stored: f64 = file.dataset(&path).unwrap().read_scalar().unwrap();
+                assert!((stored / peak - 1.0).abs() < 1e-14, "{path}");
+                let words = own.replace('_', " ");
+                assert!(shown.contains(&words) && page.contains(&words), "{words}");
+                seen += 1;
+            }
+        }
+        // The moment over half of weight times length, at every instant.
+        let history = |own: &str| {
+            let path = format!("building/{name}/response/{own}");
+            file.dataset(&path).unwrap().read_1d::<f64>().unwrap()
+        };
+        let (moment, ratio) = (history("foundation_moment"), history("overturning_ratio"));
+        let mass = if name == "A" { 450.0e3 } else { 790.0e3 };
+        let length = if name == "A" { 12.0 } else { 15.0 };
+        let lifts = 0.5 * mass * 9.80665 * length;
+        let off = moment.iter().zip(&ratio).map(|(m, r)| m / lifts - r);
+        assert!(off.fold(0.0, |a: f64, x| a.max(x.abs())) < 1e-12);
+    }
+    assert_eq!(seen, 2 * 2 * 5);
+    let warnings = told["warnings"].as_array().unwrap();
+    let lifts: Vec<_> = warnings
+        .iter()
+        .filter(|w| w.as_str().unwrap().contains("its edge lifts off the soil"))
+        .collect();
+    assert_eq!(lifts.len(), 2, "{warnings:?}");
+    let mild = Bench::with(&by_soil()).json("run case.toml --no-output");
+    assert_eq!(mild["warnings"], serde_json::json!([]));
+}
+
+/// Floors move with the foundation: what `gap` demands holds it, and it says so.
+#[test]
+fn the_demand_counts_the_foundations() {
+    let bench = Bench::with(&by_soil());
+    let output = bench.output("gap case.toml --points 0");
+    assert_eq!(output.status.code(), Some(1), "they touch");
+    let shown = String::from_utf8(output.stdout).unwrap();
+    let counts = "displacements of A, B count sway and rotation of the foundation, in demand and in widths by rule";
+    assert!(shown.contains(counts), "{shown}");
+    assert!(shown.contains("  the foundation of A bears up to 0.56 of the moment"));
+    let output = bench.output("gap case.toml --points 0 --json");
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let demand = told["gaps"][0]["required"]["by_count"].as_f64().unwrap();
+    // A gap that wide stays open, one that is a hair narrower closes.
+    for (factor, impacts) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 1)] {
+        let width = format!("width = {}", demand * factor);
+        let bench = Bench::with(&by_soil().replace("width = \"25 mm\"", &width));
+        let told = bench.json("run case.toml --no-output");
+        assert_eq!(told["gaps"][0]["levels"][2]["impacts"], impacts, "{width}");
+    }
+}
+
+#[test]
+fn comparisons_and_studies_take_responses_of_foundations() {
+    let bench = Bench::with(&by_soil().replace("\"25 s\"", "\"6 s\""));
+    let told = bench.json("compare case.toml --models=linear_elastic,jankowski_2005");
+    let run = bench.json("run case.toml --no-output");
+    let quantities = told["quantities"].as_array().unwrap();
+    let named = |name: &str| quantities.iter().filter(|q| q["name"] == name).count();
+    for name in ["foundation_sway", "foundation_moment", "overturning_ratio"] {
+        assert_eq!(named(name), 2, "{name}");
+    }
+    let shown = bench.text("compare case.toml --models=linear_elastic,jankowski_2005");
+    assert!(shown.contains("A foundation rotation (mrad)"), "{shown}");
+
+    // The soil varies; every run has the peaks of a run by itself.
+    bench.write(
+        "study.toml",
+        "case = \"case.toml\"\n[[variable]]\nname = \"soil\"\npath = \"building.A.foundation.soil.shear_wave_speed\"\nvalues = [120, \"180 m/s\"]\n",
+    );
+    bench.text("sweep study.toml -o study.h5 --csv study.csv");
+    let table = bench.read("study.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|l| l.split(',').collect()).collect();
+    let column = |heading: &str| {
+        let found = rows[0].iter().position(|c| c.trim_matches('"') == heading);
+        found.unwrap_or_else(|| panic!("{heading}: {:?}", rows[0]))
+    };
+    assert_eq!(rows[2][column("soil [m s-1]")], "180.0");
+    let responses = run["buildings"][0]["responses"].as_array().unwrap();
+    for (name, unit) in [
+        ("foundation_sway", "m"),
+        ("foundation_rotation", "rad"),
+        ("foundation_shear", "N"),
+        ("foundation_moment", "N m"),
+        ("overturning_ratio", "1"),
+    ] {
+        let of = |b: &str| format!("peak_{name}: {b} [{unit}]").replace(" [1]", "");
+        let found: f64 = rows[2][column(&of("A"))].parse().unwrap();
+        let alone = responses.iter().find(|r| r["name"] == name).unwrap();
+        let alone = alone["peak"].as_f64().unwrap();
+        assert!(
+            (found / alone - 1.0).abs() < 1e-12,
+            "{name}: {found} {alone}"
+        );
+        // Softer soil: more motion of the foundation.
+        if unit == "m" || unit == "rad" {
+            let soft: f64 = rows[1][column(&of("A"))].parse().unwrap();
+            assert!(soft > 1.5 * found, "{name}: {soft} {found}");
+        }
+        assert!(rows[1][column(&of("B"))].parse::<f64>().unwrap() > 0.0);
+    }
+    let again = bench.text("sweep study.toml -o study.h5 --resume");
+    assert!(!again.is_empty());
+
+    let ida = |limit: &str| {
+        bench.write("ida.toml", &format!(
+            "case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"1 m/s^2\", \"3 m/s^2\", \"6 m/s^2\"]\n[ida]\n[[ida.limit]]\nname = \"state\"\n{limit}\n"
+        ));
+    };
+    // Some 0.18 mrad and half of the moment of uplift under 3.1 m/s2.
+    for (limit, expected) in [
+        (
+            "demand = \"foundation_rotation\"\nbuilding = \"A\"\nexceeds = 1.5e-4",
+            [0, 1, 1],
+        ),
+        ("demand = \"overturning_ratio\"\nexceeds = 0.8", [0, 0, 1]),
+        (
+            "demand = \"foundation_moment\"\nbuilding = \"A\"\nexceeds = \"20 MN m\"",
+            [0, 0, 1],
+        ),
+        (
+            "demand = \"foundation_sway\"\nexceeds = \"1 mm\"",
+            [0, 1, 1],
+        ),
+        (
+            "demand = \"foundation_shear\"\nbuilding = \"B\"\nexceeds = \"3 MN\"",
+            [0, 1, 1],
+        ),
+        ("demand = \"base_moment\"\nexceeds = \"20 MN m\"", [0, 1, 1]),
+    ] {
+        ida(limit);
+        let told = bench.json("ida ida.toml -o ida.h5");
+        let states = told["limits"].as_array().unwrap();
+        let state = states.iter().find(|s| s["name"] == "state").unwrap();
+        let counts = state["counts"].as_array().unwrap().iter();
+        let reached: Vec<u64> = counts.map(|c| c["reached"].as_u64().unwrap()).collect();
+        assert_eq!(reached, expected, "{limit}");
+    }
+    for (limit, word) in [
+        (
+            "demand = \"foundation_rotation\"\nbuilding = \"A\"\nstorey = 1\nexceeds = 1",
+            "of a building, not of a storey",
+        ),
+        (
+            "demand = \"foundation_rotation\"\nexceeds = \"2 m\"",
+            "a pure number",
+        ),
+    ] {
+        ida(limit);
+        bench.refused("ida ida.toml -o ida.h5", &[word]);
+    }
+    let sways = by_springs().replace("rotational_inertia = 5400000.0\n", "");
+    let rocking = "rocking = { stiffness = 74567887107.42413, dashpot = 1111480093.6993349 }";
+    bench.write("case.toml", &sways.replace(rocking, ""));
+    for (demand, words) in [
+        (
+            "foundation_rotation",
+            "known of buildings with a foundation that rocks only",
+        ),
+        (
+            "overturning_ratio",
+            "with a foundation whose length is known only",
+        ),
+    ] {
+        ida(&format!(
+            "demand = \"{demand}\"\nbuilding = \"A\"\nexceeds = 1"
+        ));
+        bench.refused("ida ida.toml -o ida.h5", &[words]);
+    }
+}
+
+/// Two equal buildings far apart, let go in opposite directions: a spring between their
+/// foundations acts on each as one of twice its stiffness between foundation and ground.
+#[test]
+fn a_link_between_foundations_is_a_spring_of_each() {
+    let building = |name: &str, start: &str, foundation: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = 2\nmass = \"100 t\"\nstiffness = \"50 MN/m\"\nheight = 3\ndamping = {{ modal = 0.05 }}\ninitial_displacement = [\"{start}10 mm\", \"{start}20 mm\"]\n[building.foundation]\nmass = \"150 t\"\nrotational_inertia = \"3000 t m2\"\n{foundation}\n"
+        )
+    };
+    let case = |foundation: &str, link: &str| {
+        let (a, b) = (
+            building("a", "-", foundation),
+            building("b", "", foundation),
+        );
+        let rest = "[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = \"200 mm\"\nmodel = \"linear_elastic\"\nstiffness = 1e8\n[ground_motion]\nfile = \"rest.csv\"\n[analysis]\nduration = 2\n";
+        let bench = Bench::with(&format!("{a}{b}{link}{rest}"));
+        bench.write("rest.csv", "time_s,acceleration_g\n0,0\n1,0\n2,0\n3,0\n");
+        bench.json("run case.toml --no-output")
+    };
+    let springs = |sway: f64, rocking: f64| {
+        format!(
+            "sway = {{ stiffness = {sway:e}, dashpot = 1e6 }}\nrocking = {{ stiffness = {rocking:e}, dashpot = 1e7 }}"
+        )
+    };
+    let peaks = |told: &Value| -> Vec<f64> {
+        let mut peaks = Vec::new();
+        for building in told["buildings"].as_array().unwrap() {
+            let mut responses = building["responses"].as_array().unwrap().iter();
+            for name in ["foundation_sway", "foundation_rotation"] {
+                let found = responses.clone().find(|r| r["name"] == name).unwrap();
+                peaks.push(found["peak"].as_f64().unwrap());
+            }
+            assert!(responses.next().is_some());
+            let roof = &building["storeys"][1];
+            peaks.push(roof["acceleration_absolute"]["peak"].as_f64().unwrap());
+            peaks.push(roof["drift_ratio"]["peak"].as_f64().unwrap());
+        }
+        peaks
+    };
+    let without = peaks(&case(&springs(3e8, 2e9), ""));
+    for (motion, unit, stiffer, joins) in [
+        ("sway", "1e8", springs(5e8, 2e9), "foundation_sway"),
+        (
+            "rocking",
+            "\"1 GN m/rad\"",
+            springs(3e8, 4e9),
+            "foundation_rotation",
+        ),
+    ] {
+        let link = format!(
+            "[[link]]\nbetween = [\"a\", \"b\"]\nfoundations = \"{motion}\"\nmodel = \"linear\"\nstiffness = {unit}\n"
+        );
+        let told = case(&springs(3e8, 2e9), &link);
+        assert_eq!(told["links"][0]["joins"], joins);
+        let (joined, stiff) = (peaks(&told), peaks(&case(&stiffer, "")));
+        for (joined, stiff) in joined.iter().zip(&stiff) {
+            assert!(
+                (joined / stiff - 1.0).abs() < 1e-9,
+                "{motion}: {joined} {stiff}"
+            );
+        }
+        // Without it the foundations move otherwise.
+        let changed = joined[..2]
+            .iter()
+            .zip(&without)
+            .map(|(a, b)| (a / b - 1.0).abs());
+        assert!(changed.fold(f64::INFINITY, f64::min) > 1e-3, "{motion}");
+        let deformation = told["links"][0]["levels"][0]["deformation"]["peak"].as_f64();
+        let own = joined[usize::from(motion == "rocking")];
+        assert!((deformation.unwrap() / (2.0 * own) - 1.0).abs() < 1e-9);
+    }
+}
+
+/// Angles and moments stand in tables, file and page as such.
+#[test]
+fn a_link_between_rotations_has_units_of_its_own() {
+    let link = "[[link]]\nname = \"soil\"\nbetween = [\"A\", \"B\"]\nfoundations = \"rocking\"\nmodel = \"bilinear\"\nstiffness = \"5 GN m/rad\"\nyield_force = \"1 MN m\"\n";
+    let case = by_soil().replace("\"25 s\"", "\"6 s\"");
+    let bench = Bench::with(&format!("{case}{link}"));
+    let understood = bench.text("check case.toml");
+    for words in [
+        "rotation of foundations",
+        "initial stiffness (N m/rad)",
+        "yields at (mrad)",
+        "0.200",
+    ] {
+        assert!(understood.contains(words), "{understood}");
+    }
+    let shown = bench.text("run case.toml -o case.h5");
+    let link = shown.split("\nLink soil (bilinear)").nth(1).unwrap();
+    for words in [
+        "deformation (mrad)",
+        "moment (kN m)",
+        "rotation of foundations",
+    ] {
+        assert!(link.contains(words), "{link}");
+    }
+    bench.text("report case.h5");
+    let page = bench.read("case.html");
+    for words in [
+        "peak deformation (mrad)",
+        "peak moment (kN m)",
+        "rotation of foundations",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let file = hdf5::File::open(bench.folder().join("case.h5")).unwrap();
+    for (name, unit) in [
+        ("deformation", "rad"),
+        ("force", "N m"),
+        ("peak/deformation", "rad"),
+        ("peak/force", "N m"),
+        ("energy_dissipated", "J"),
+    ] {
+        let data = file.dataset(&format!("link/soil/{name}")).unwrap();
+        let units = data.attr("units").unwrap();
+        let units: hdf5::types::VarLenUnicode = units.read_scalar().unwrap();
+        assert_eq!(units.as_str(), unit, "{name}");
+    }
+    // The rotation of the right foundation less that of the left.
+    let history = |name: &str| file.dataset(name).unwrap().read_1d::<f64>().unwrap();
+    let [left, right] =
+        ["A", "B"].map(|b| history(&format!("building/{b}/response/foundation_rotation")));
+    let deformation = file.dataset("link/soil/deformation").unwrap();
+    let deformation = deformation.read_2d::<f64>().unwrap();
+    for ((l, r), d) in left.iter().zip(&right).zip(deformation.column(0)) {
+        assert!((r - l - d).abs() < 1e-15);
+    }
+}
+
+/// Springs far stiffer than the building leave the building on a fixed base.
+#[test]
+fn a_stiff_soil_is_a_fixed_base() {
+    let case = by_springs();
+    let (mut fixed, mut stiff) = (String::new(), String::new());
+    for line in case.lines() {
+        let key = line.split(' ').next().unwrap_or_default();
+        let line = format!("{line}\n");
+        match key {
+            "[building.foundation]" => stiff.push_str(&line),
+            // Heavy foundations vibrate slowly, and need fewer steps.
+            "rotational_inertia" => stiff.push_str("rotational_inertia = 5e7\n"),
+            "sway" => stiff.push_str("sway = { stiffness = 1.5e15 }\n"),
+            "rocking" => stiff.push_str("rocking = { stiffness = 1.5e17 }\n"),
+            _ if line.starts_with("mass = 150000") || line.starts_with("mass = 250000") => {
+                stiff.push_str("mass = 1e6\n");
+            }
+            _ => {
+                stiff.push_str(&line);
+                fixed.push_str(&line);
+            }
+        }
+    }
+    let run = |case: &str| {
+        let case = case.replace("duration = 25", "duration = 1.5");
+        let case = case.replace("width = 0.025", "width = 0.005");
+        Bench::with(&case).json("run case.toml --no-output")
+    };
+    let (fixed, stiff) = (run(&fixed), run(&stiff));
+    let near = |a: &Value, b: &Value| {
+        let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
+        assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+    };
+    for building in 0..2 {
+        for storey in 0..3 {
+            let of = |told: &Value, name: &str| {
+                told["buildings"][building]["storeys"][storey][name]["peak"].clone()
+            };
+            for name in [
+                "displacement",
+                "drift_ratio",
+                "storey_shear",
+                "acceleration_absolute",
+            ] {
+                near(&of(&stiff, name), &of(&fixed, name));
+            }
+        }
+    }
+    let mut met = 0;
+    for level in 0..3 {
+        let of = |told: &Value| told["gaps"][0]["levels"][level].clone();
+        let (stiff, fixed) = (of(&stiff), of(&fixed));
+        assert_eq!(stiff["impacts"], fixed["impacts"]);
+        if fixed["impacts"] == 0 {
+            continue;
+        }
+        met += 1;
+        near(&stiff["peak_force"]["peak"], &fixed["peak_force"]["peak"]);
+        near(&stiff["first_contact"], &fixed["first_contact"]);
+    }
+    assert!(met > 0);
+}
+
+/// Rigid storeys on a rocking spring turn as one pendulum, which the mass of the foundation
+/// has no part in.
+#[test]
+fn rigid_storeys_that_rock_are_a_pendulum() {
+    let case = "[[building]]\nname = \"a\"\nmass = [\"30 t\", \"20 t\"]\nstiffness = 2e13\nheight = [3, 4]\ndamping = { modal = 0 }\n[building.foundation]\nrotational_inertia = 1e5\nrocking = { stiffness = 2e8, dashpot = 1e6 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = 1\nmodel = \"linear_elastic\"\nstiffness = 1e8\n[ground_motion]\nfile = \"MOTIONS/el_centro_1940_ns.csv\"\n[analysis]\nduration = 3\n";
+    let inertia = 1e5 + 3e4 * 9.0 + 2e4 * 49.0;
+    let bench = Bench::with(case);
+    let told = bench.json("check case.toml");
+    let period = told["buildings"][0]["foundation"]["period"]
+        .as_f64()
+        .unwrap();
+    let expected = std::f64::consts::TAU * (inertia / 2e8_f64).sqrt();
+    assert!(
+        (period / expected - 1.0).abs() < 1e-6,
+        "{period} {expected}"
+    );
+    let mode = &told["buildings"][0]["foundation"]["damping_ratio"];
+    let damping = 1e6 / (2.0 * (2e8_f64 * inertia).sqrt());
+    assert!((mode.as_f64().unwrap() / damping - 1.0).abs() < 1e-6);
+    // An oscillator of that inertia under the moment of the ground: m at height h with
+    // m h^2 = I and m h = 30 t 3 m + 20 t 7 m.
+    let moment: f64 = 3e4 * 3.0 + 2e4 * 7.0;
+    let height = inertia / moment;
+    let oscillator = format!(
+        "[[building]]\nname = \"a\"\nmass = {}\nstiffness = {}\nstoreys = 1\nheight = {height}\ndamping = {{ dashpots = {} }}\n",
+        inertia / (height * height),
+        2e8 / (height * height),
+        1e6 / (height * height)
+    );
+    let rest = case.split_once("[[gap]]").unwrap().1;
+    let other = Bench::with(&format!("{oscillator}[[gap]]{rest}"));
+    let of = |bench: &Bench, storey: usize, elevation: f64| {
+        let told = bench.json("run case.toml --no-output");
+        let peak = &told["buildings"][0]["storeys"][storey]["displacement"]["peak"];
+        peak.as_f64().unwrap() / elevation
+    };
+    let (rotation, expected) = (of(&bench, 1, 7.0), of(&other, 0, height));
+    assert!(
+        (rotation / expected - 1.0).abs() < 1e-6,
+        "{rotation} {expected}"
+    );
+}
+
+/// Each with what its message says, and the remedy.
+#[test]
+fn what_cannot_stand_on_soil_is_refused_at_its_place() {
+    let law = "law = { model = \"bilinear\", yield_force = \"1 MN\", hardening_ratio = 0.1 }\n";
+    let after_damping =
+        |line: &str, more: &str| by_soil().replacen(line, &format!("{more}{line}"), 1);
+    let link = |keys: &str| {
+        format!(
+            "{}[[link]]\nbetween = [\"A\", \"B\"]\nmodel = \"linear\"\n{keys}\n",
+            by_soil()
+        )
+    };
+    let heavy = by_springs()
+        .replacen("damping =", "p_delta = true\ndamping =", 1)
+        .replace("74567887107.42413", "1e7");
+    let overlapping =
+        by_soil().replacen("mass = \"150 t\"", "mass = \"150 t\"\nlength = \"12 m\"", 1);
+    let hit = by_soil()
+        .replacen("height = \"3.2 m\"", "height = \"3 m\"", 1)
+        .replace(
+            "restitution = 0.65",
+            "restitution = 0.65\nlevels = \"all_floors\"\ncolumn = { of = \"B\", flexural_rigidity = \"256 MN m2\", contact_mass = \"2.4 t\" }",
+        );
+    for (case, words) in [
+        (
+            after_damping("damping =", law),
+            [
+                "law bilinear in a storey of \"A\", which stands on a foundation that sways or rocks",
+                "remove `law`, or `foundation`",
+            ],
+        ),
+        (
+            heavy,
+            [
+                "gravity acting through the drift and the rotation of its foundation",
+                "`p_delta = false` leaves gravity out",
+            ],
+        ),
+        (
+            link("foundations = \"rocking\"\nstiffness = \"1 MN/m\""),
+            [
+                "must be a moment, an energy or a rotational stiffness (N m), but \"1 MN/m\" is a stiffness (N/m)",
+                "correct the unit",
+            ],
+        ),
+        (
+            link("foundations = \"sway\"\nstiffness = \"1 GN m/rad\""),
+            ["must be a stiffness (N/m)", "correct the unit"],
+        ),
+        (overlapping, ["`length` stands in `soil`", "remove it here"]),
+        (
+            hit,
+            [
+                "columns of \"B\" are hit, which stands on a foundation that sways or rocks",
+                "remove its `foundation`",
+            ],
+        ),
+    ] {
+        Bench::with(&case).refused("check case.toml", &words);
+    }
+}

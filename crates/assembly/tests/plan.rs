@@ -1,4 +1,4 @@
-//! Buildings that turn in plan: what cannot be put together.
+//! Buildings that turn in plan, and kinds of structure that do not go together.
 #![allow(clippy::unwrap_used)]
 
 use std::path::Path;
@@ -52,6 +52,13 @@ fn each_with_its_remedy() {
             "",
             "stands on a fixed base",
             "leave `foundation` or `plan` out",
+        ),
+        (
+            "stiffness = 1e8\nisolator = { model = \"lead_rubber\", post_yield_period = 2.5, strength = 0.06 }\ndamping = { mass_proportional = 0.05 }\nfoundation = { mass = 1e5, sway = { stiffness = 1e9 } }".to_owned(),
+            "",
+            "",
+            "stands on isolators and on a foundation",
+            "remove `isolator` or `foundation`",
         ),
         (
             sound.clone(),

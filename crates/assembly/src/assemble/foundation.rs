@@ -47,6 +47,14 @@ pub(super) fn on_foundation(
         return Ok(building);
     };
     let foundation = foundation(case, given)?;
+    if let Some(isolator) = &b.isolator {
+        let message = format!(
+            "\"{}\" stands on isolators and on a foundation that sways or rocks: both together are not known",
+            b.name.value
+        );
+        let help = "remove `isolator` or `foundation`; isolators are far softer than most soil";
+        return Err(case.error(isolator.span.clone(), message, Some(help.to_owned())));
+    }
     if let Some(law) = b.laws.first() {
         let message = format!(
             "law {} in a storey of \"{}\", which stands on a foundation that sways or rocks: its storeys are elastic",

@@ -4,5 +4,6 @@
 
 mod abutment;
 mod base_moments;
+mod columns;
 mod condensed_stiffness;
 mod general;

@@ -6,7 +6,7 @@ mod foundation;
 mod lateral;
 mod laws;
 
-pub use again::{assemble_with_record, regap};
+pub use again::{assemble_with_record, assemble_without_gaps, regap};
 
 use std::sync::Arc;
 
@@ -17,12 +17,13 @@ use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{ShearBuilding, ShearBuildingError};
+use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
     DEFAULT_RELATIVE_TOLERANCE, Floor, GroundAcceleration, MethodChoice, RunOptions, System,
     Warning, more_pairs,
 };
 
+use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::accelerogram;
@@ -80,7 +81,8 @@ pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
         models,
         options,
     } = parts;
-    let system = with_gaps(case, &models, System::new(buildings, ground(&accelerogram)))?;
+    let system = System::new(buildings, ground(&accelerogram));
+    let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {
         system,
@@ -102,10 +104,25 @@ struct Parts {
 impl Parts {
     /// Makes all of it, and reports all that is wrong in it.
     fn of(case: &Case) -> Result<Self, CaseError> {
+        Self::with_columns(case, case)
+    }
+
+    /// The same with columns that the gaps of another case, with the same buildings, let
+    /// floors hit.
+    fn with_columns(case: &Case, gaps: &Case) -> Result<Self, CaseError> {
         let errors = Errors::default();
-        let buildings = case.buildings.iter();
-        let buildings = errors.all(buildings.map(|b| building(case, b).map(Arc::new)));
+        let hits = errors.keep(Hits::of(gaps));
+        let points = |b: usize| {
+            hits.as_ref()
+                .map_or_else(Vec::new, |hits| hits.with_mass(b))
+        };
+        let buildings = case.buildings.iter().enumerate();
+        let buildings =
+            errors.all(buildings.map(|(i, b)| building(case, b, &points(i)).map(Arc::new)));
         let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
+        if let (Ok(models), Some(hits), false) = (&models, &hits, case.gaps.is_empty()) {
+            errors.or_default(hits.check_models(models));
+        }
         let options = errors.all([options(case)]);
         errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
         errors.or_default(errors.all(unfinished(case).into_iter().map(Err::<(), _>)));
@@ -135,15 +152,6 @@ fn unfinished(case: &Case) -> Vec<CaseError> {
             );
         }
     }
-    for gap in &case.gaps {
-        for level in &gap.levels {
-            match column::column(case, gap, level) {
-                Ok(None) => {}
-                Ok(Some(_)) => found.push(refused(&level.place, "columns that are hit")),
-                Err(e) => found.push(e),
-            }
-        }
-    }
     for link in &case.links {
         if let Some(motion) = &link.foundations {
             found.push(refused(&motion.span, "links between foundations"));
@@ -171,25 +179,35 @@ fn with_gaps(
     models: &[Arc<dyn ImpactModel>],
     mut system: System,
 ) -> Result<System, AssemblyError> {
-    for (gap, model) in case.gaps.iter().zip(models) {
+    let hits = Hits::of(case)?;
+    for (number, (gap, model)) in case.gaps.iter().zip(models).enumerate() {
         let floor = |side: Side, facing: Facing| match (side, facing) {
             (Side::Building(b), Facing::Floor(s)) => Floor::Storey(b, s),
             _ => Floor::Wall,
         };
-        let pairs = gap
-            .levels
-            .iter()
-            .map(|l| {
-                let left = floor(gap.between[0], l.left);
-                let right = floor(gap.between[1], l.right);
-                (left, right, l.width, Arc::clone(model))
-            })
-            .collect();
+        let (mut pairs, mut responses) = (Vec::new(), Vec::new());
+        let first = system.levels().len();
+        for (place, l) in gap.levels.iter().enumerate() {
+            let mut sides = [
+                floor(gap.between[0], l.left),
+                floor(gap.between[1], l.right),
+            ];
+            let mut model = Arc::clone(model);
+            if let Some(hit) = hits.level(&mut system, (number, place), &model)? {
+                sides[hit.side] = hit.point;
+                model = hit.model;
+                responses.extend(hit.responses.into_iter().map(|r| (first + place, r)));
+            }
+            pairs.push((sides[0], sides[1], l.width, model));
+        }
         let names = gap.between.map(|side| match side {
             Side::Building(b) => case.buildings[b].name.value.clone(),
             Side::Wall => "wall".to_owned(),
         });
         system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance)?;
+        for (level, response) in responses {
+            system.add_level_response(level, response)?;
+        }
         if !gap.floor_to_floor {
             refuse_unequal_floors(case, gap, &system)?;
         }
@@ -247,7 +265,7 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
         })
 }
 
-fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
+fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBuilding, CaseError> {
     let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
     let (name, mass, height) = (b.name.value.clone(), b.mass.clone(), b.height.clone());
     let damping = b.damping.value.clone();
@@ -280,7 +298,12 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
         };
         case.error(place.clone(), e.to_string(), help)
     })?;
-    laws::with_storey_laws(case, b, building)
+    let building = laws::with_storey_laws(case, b, building)?;
+    if points.is_empty() {
+        return Ok(building);
+    }
+    let made = building.with_contact_points(points);
+    made.map_err(|e| case.error(b.name.span.clone(), e.to_string(), None))
 }
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {

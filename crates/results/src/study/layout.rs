@@ -1,6 +1,6 @@
 //! The columns of a result: which quantities, of what, in which unit.
 
-use pounding_time_history::{LevelPlace, Outcome, System};
+use pounding_time_history::{COLUMN_SHEARS, LevelOutcome, LevelPlace, Outcome, System};
 
 use crate::run::with_base_moment;
 
@@ -151,6 +151,14 @@ const BASE_MOMENT: Quantity = quantity(
     "maximum overturning moment at the base",
 );
 
+/// The quantity of studies in which floors hit columns.
+const COLUMN_SHEAR: Quantity = quantity(
+    Axis::Level,
+    "peak_column_shear",
+    "N",
+    "maximum shear of the columns that are hit, below or above the hit, missing where floors hit floors",
+);
+
 /// Whether a name is taken by the results.
 #[must_use]
 pub fn is_result(name: &str) -> bool {
@@ -169,7 +177,7 @@ pub fn is_result(name: &str) -> bool {
     ];
     QUANTITIES
         .iter()
-        .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain([&BASE_MOMENT, &COLUMN_SHEAR, &ISOLATED_DEMAND])
         .any(|q| q.name == name)
         || labels.contains(&name)
 }
@@ -245,22 +253,28 @@ impl Layout {
             })
         });
         let buildings = with_base_moment(system).map(str::to_owned);
+        let mut shears = system.level_responses();
+        let columns = shears.any(|(_, r)| COLUMN_SHEARS.contains(&r.name.as_str()));
         Self::from_places(
             (storeys.collect(), levels.collect()),
             buildings.collect(),
-            isolated_demand,
+            (columns, isolated_demand),
         )
     }
 
-    /// The shape with these storeys and levels, and these buildings with a base moment.
+    /// The shape with these storeys and levels, and these buildings with a base moment;
+    /// whether columns are hit, and whether isolated demands are known.
     pub(super) fn from_places(
         (storeys, levels): (Vec<Place>, Vec<Place>),
         buildings: Vec<String>,
-        isolated_demand: bool,
+        (columns, isolated_demand): (bool, bool),
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
             quantities.push(BASE_MOMENT);
+        }
+        if columns {
+            quantities.push(COLUMN_SHEAR);
         }
         if isolated_demand {
             quantities.push(ISOLATED_DEMAND);
@@ -326,6 +340,10 @@ impl Layout {
         out.push(outcome.energy.residual_ratio);
         let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
         out.extend(moments.map(|m| m.value));
+        if self.quantities.contains(&COLUMN_SHEAR) {
+            let shear = |l: &LevelOutcome| l.column_shear().map_or(f64::NAN, |r| r.peak.value);
+            out.extend(levels().map(shear));
+        }
         out.extend(demand);
     }
 

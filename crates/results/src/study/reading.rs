@@ -381,6 +381,9 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
     Ok(Layout::from_places(
         (storeys.collect(), levels.collect()),
         buildings,
-        file.link_exists("isolated_demand"),
+        (
+            file.link_exists("peak_column_shear"),
+            file.link_exists("isolated_demand"),
+        ),
     ))
 }

@@ -9,7 +9,7 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, List, Number, Optional, Positive, Reader, TableOr,
     Within, Written,
 };
-use pounding_case::{Dimension, Located};
+use pounding_case::{ContactLevel, Dimension, Located};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
@@ -38,6 +38,8 @@ pub enum DemandKind {
     BaseMoment,
     /// Maximum contact force (N).
     ContactForce,
+    /// Maximum shear of columns that are hit (N).
+    ColumnShear,
     /// Maximum impulse of one impact (N s).
     Impulse,
     /// Number of impacts.
@@ -53,7 +55,7 @@ impl DemandKind {
         match self {
             Self::Displacement | Self::IsolatedDemand => Dimension::LENGTH,
             Self::DriftRatio | Self::Impacts => Dimension::NUMBER,
-            Self::StoreyShear | Self::ContactForce => Dimension::FORCE,
+            Self::StoreyShear | Self::ContactForce | Self::ColumnShear => Dimension::FORCE,
             Self::AccelerationAbsolute => Dimension::ACCELERATION,
             // Of a moment, as of an energy.
             Self::BaseMoment => Dimension::ENERGY,
@@ -342,6 +344,15 @@ impl LimitTable {
                 let message = "the base moment is known of buildings with a stiffness matrix only";
                 let help = "ask for `storey_shear`, or for a building with a stiffness matrix";
                 return reader.refuse(span, message, help);
+            }
+        }
+        if demand == DemandKind::ColumnShear {
+            let gaps = &context.base.as_ref()?.case.gaps;
+            let hit = |l: &ContactLevel| l.left.is_column() || l.right.is_column();
+            if !gaps.iter().flat_map(|g| &g.levels).any(hit) {
+                let message = "no gap of the case lets floors hit columns";
+                let help = "ask for `contact_force`, or add `column` to a gap of the case";
+                return reader.refuse(exceeds_at?, message, help);
             }
         }
         Some(Limit {

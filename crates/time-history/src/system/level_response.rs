@@ -16,6 +16,8 @@ pub struct LevelResponse {
     pub weights: Vec<(usize, f64)>,
     /// Factor of the contact force, which is positive in contact.
     pub by_force: f64,
+    /// What the member can bear, in the same unit, where that is known.
+    pub capacity: Option<f64>,
 }
 
 /// The same by degrees of freedom.

@@ -26,7 +26,7 @@ mod dimension;
 mod error;
 mod excitation;
 
-pub use assemble::{Assembly, assemble, assemble_with_record, regap};
+pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{read_record, read_target, scale_record};

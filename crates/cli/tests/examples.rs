@@ -91,6 +91,38 @@ fn soil_pair() {
     close(&levels[2]["peak_force"]["peak"], 2_564_748.385_678_4, 1e-8);
 }
 
+/// Against two independent codes, which agree to 1e-14 (`tests/data/structures`).
+#[test]
+fn slab_hits_column() {
+    let result = run_example("slab_hits_column");
+    let levels = &result["gaps"][0]["levels"];
+    let response = |level: usize, name: &str| {
+        let all = levels[level]["responses"].as_array().unwrap();
+        all.iter().find(|r| r["name"] == name).unwrap().clone()
+    };
+    let impacts = [0, 1].map(|l: usize| levels[l]["impacts"].as_u64().unwrap());
+    assert_eq!(impacts, [2, 9]);
+    close(&levels[1]["peak_force"]["peak"], 3_201_269.688_822, 1e-8);
+    let above = response(1, "column_shear_above");
+    close(&above["peak"], 2_315_697.205_927, 1e-8);
+    close(&above["capacity"], 1.5e6, 1e-15);
+    close(
+        &response(1, "column_shear_below")["peak"],
+        872_077.559_986,
+        1e-8,
+    );
+    close(
+        &response(1, "column_moment_top")["peak"],
+        1_378_737.498_600,
+        1e-8,
+    );
+    close(
+        &response(0, "column_shear_below")["peak"],
+        572_848.330_249,
+        1e-8,
+    );
+}
+
 fn close(value: &Value, expected: f64, relative: f64) {
     let value = value.as_f64().unwrap();
     assert!(

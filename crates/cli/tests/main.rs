@@ -5,6 +5,7 @@ mod bad_input;
 mod bad_laws;
 mod base_moments;
 mod calibrate;
+mod columns;
 mod compare;
 mod documents;
 mod examples;

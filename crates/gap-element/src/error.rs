@@ -29,6 +29,14 @@ pub enum GapElementError {
         /// Rules offered.
         offered: Vec<&'static str>,
     },
+    /// A law that cannot have a spring behind it.
+    #[error("model {model} cannot stand in series with a spring: {reason}")]
+    Series {
+        /// Model.
+        model: &'static str,
+        /// Why.
+        reason: String,
+    },
     /// Bodies that cannot collide.
     #[error("the bodies cannot collide: {0}")]
     Bodies(String),
@@ -67,6 +75,7 @@ impl GapElementError {
             Self::Definition(error) => error.help(),
             Self::Conflict { first, second, .. } => format!("give {first} or {second}, not both"),
             Self::Separation { offered, .. } => format!("it offers {}", offered.join(", ")),
+            Self::Series { .. } => "take an elastic law, linear_elastic or hertz_1882".to_owned(),
             Self::Bodies(_) => "the left body must move towards the right one".to_owned(),
             Self::Unfinished { .. } => "so much damping makes the contact creep for ever: check damping, restitution and their units".to_owned(),
         })

@@ -12,6 +12,7 @@ pub mod registry;
 
 mod classes;
 mod collision;
+mod in_series;
 mod models;
 mod restitution_table;
 
@@ -20,6 +21,7 @@ pub use collision::{
 };
 pub use descriptor::*;
 pub use error::GapElementError;
+pub use in_series::in_series;
 pub use model::*;
 pub use parameters::ModelParameters;
 pub use restitution_table::*;

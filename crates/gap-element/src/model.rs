@@ -302,4 +302,10 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     /// closure. Powers such as `delta^1.5` or `delta^0.25` are not: an
     /// integrator then has to start the contact with a tiny step.
     fn smooth_at_closure(&self) -> bool;
+
+    /// Stiffness (N/m) of an elastic spring behind the contact ([`crate::in_series`]), whose
+    /// deformation is part of the penetration.
+    fn spring_behind(&self) -> Option<f64> {
+        None
+    }
 }

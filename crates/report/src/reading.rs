@@ -271,6 +271,10 @@ impl Reader {
                 unit,
                 value: self.column(&group, &name)?,
                 time: self.column(&group, &format!("{name}_time"))?,
+                capacity: match format!("{name}_capacity") {
+                    known if group.link_exists(&known) => self.column(&group, &known)?,
+                    _ => Vec::new(),
+                },
                 name,
             })
         });
@@ -359,7 +363,10 @@ impl Reader {
             && gap.penetration.columns == levels
             && gap.clearance.as_ref().is_none_or(|c| c.len() == levels)
             && gap.impacts.iter().all(known)
-            && (gap.responses.iter()).all(|r| r.value.len() == levels && r.time.len() == levels);
+            && (gap.responses.iter()).all(|r| {
+                let known = [0, levels].contains(&r.capacity.len());
+                known && r.value.len() == levels && r.time.len() == levels
+            });
         self.fits(group, fits)?;
         Ok(gap)
     }

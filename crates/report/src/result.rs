@@ -69,6 +69,8 @@ pub struct LevelResponses {
     pub value: Vec<f64>,
     /// When (s).
     pub time: Vec<f64>,
+    /// What every level can bear; NaN where that is not known, empty where it is of none.
+    pub capacity: Vec<f64>,
 }
 
 /// What the isolators under a building went through, with and without gaps and links.

@@ -186,13 +186,20 @@ fn responses_with_names_stand_in_the_page() {
         unit: "N".to_owned(),
         value: vec![f64::NAN, 432.1e3],
         time: vec![f64::NAN, 7.8],
+        capacity: vec![f64::NAN, 400.0e3],
     }];
     let html = page(&result, "pair.h5").unwrap();
     is_whole(&html);
     for text in ["foundation rotation (mrad)", "1.234", "0.617", "2.00"] {
         assert!(html.contains(text), "{text}");
     }
-    for text in ["column shear below (kN)", "432.1", "7.800"] {
+    for text in [
+        "column shear below (kN)",
+        "432.1",
+        "7.800",
+        "400.0",
+        "1.080 (exceeds it)",
+    ] {
         assert_eq!(
             html.matches(&format!("<td>{text}</td>")).count(),
             1,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use pounding_hysteresis::HysteresisLaw;
 
+use crate::column::HitLine;
 use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
@@ -23,6 +24,18 @@ pub struct StoreyLaw {
     pub law: Arc<dyn HysteresisLaw>,
     /// Drift (m) at which the storey begins to yield, if the law has one.
     pub yield_drift: Option<f64>,
+}
+
+/// A column of a building that is hit at points with a mass, for
+/// [`ShearBuilding::with_contact_points`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactLine {
+    /// Its storey, from zero.
+    pub storey: usize,
+    /// Its points, from the bottom.
+    pub line: HitLine,
+    /// Mass of each point (kg).
+    pub mass: f64,
 }
 
 /// Storeys of a building at most: its mode shapes are a full matrix, beside which a run
@@ -56,6 +69,8 @@ pub struct ShearBuilding {
     sections: Option<Vec<Vec<f64>>>,
     responses: Vec<ResponseRow>,
     foundation: Option<Box<OnFoundation>>,
+    /// Of every further coordinate that floors carry along, their parts in it.
+    carried: Vec<Vec<f64>>,
 }
 
 impl ShearBuilding {
@@ -321,6 +336,7 @@ impl ShearBuilding {
             sections: None,
             responses: Vec::new(),
             foundation: None,
+            carried: Vec::new(),
             laws: vec![None; mass.len()],
             isolator: None,
             geometric,
@@ -335,6 +351,130 @@ impl ShearBuilding {
             stiffness_matrix,
             damping_matrix,
             modes,
+        })
+    }
+
+    /// The same building with the points of its columns that floors of a neighbour hit as
+    /// coordinates after the floors, column after column. Its storeys, which have these columns
+    /// in them, stay as they are, and so do storey shears and base moments: the forces of a hit
+    /// stand in the responses of the column ([`HitLine::responses`]).
+    ///
+    /// Damping in proportion to mass and stiffness has the factors that the building has
+    /// without points, on all coordinates. Modal damping stays that of the floors, and a point
+    /// moves against its column with the ratio of the highest mode. Dashpots stay those of the
+    /// storeys, and a column has the one of its storey in the proportion of the stiffnesses.
+    ///
+    /// # Errors
+    /// A mass that is not above zero, a storey that does not exist, and a building with storey
+    /// laws or further coordinates.
+    pub fn with_contact_points(self, lines: &[ContactLine]) -> Result<Self, ShearBuildingError> {
+        let floors = self.storeys();
+        let refuse = |reason: String| {
+            Err(ShearBuildingError::ContactPoints {
+                building: self.name.clone(),
+                reason,
+            })
+        };
+        if self.laws.iter().any(Option::is_some) {
+            return refuse("its storeys follow laws".to_owned());
+        }
+        if !self.further.is_empty() {
+            return refuse("it has further coordinates already".to_owned());
+        }
+        if let Some(line) = lines.iter().find(|l| l.storey >= floors) {
+            return refuse(format!("it has no storey {}", line.storey + 1));
+        }
+        let (mut further, mut inertia) = (Vec::new(), self.mass.clone());
+        for line in lines {
+            let coordinate = Coordinate {
+                name: format!("contact point of storey {}", line.storey + 1),
+                inertia: line.mass,
+                excitation: Excitation::Along,
+            };
+            if !(line.mass.is_finite() && line.mass > 0.0) {
+                return Err(ShearBuildingError::Inertia {
+                    building: self.name,
+                    coordinate: coordinate.name,
+                    value: line.mass,
+                });
+            }
+            for _ in line.line.points() {
+                further.push(coordinate.clone());
+                inertia.push(line.mass);
+            }
+        }
+        let all = inertia.len();
+        let padded = |entry: &dyn Fn(usize, usize) -> f64| {
+            let within = |i: usize, j: usize| i < floors && j < floors;
+            DMatrix::from_fn(
+                all,
+                all,
+                |i, j| if within(i, j) { entry(i, j) } else { 0.0 },
+            )
+        };
+        let mut stiffness = padded(&|i, j| self.stiffness_matrix.entry(i, j));
+        add_lines(&mut stiffness, floors, lines, &|line| {
+            line.line.stiffness().clone()
+        });
+        let factors = self.damping.factors(&self.modes.circular_frequency);
+        let factors = factors.map_err(|reason| ShearBuildingError::Damping {
+            building: self.name.clone(),
+            reason,
+        })?;
+        let with_points = |of: &dyn Fn(&ContactLine) -> DMatrix<f64>| {
+            let mut matrix = padded(&|i, j| self.damping_matrix.entry(i, j));
+            add_lines(&mut matrix, floors, lines, of);
+            Damping::Matrix { matrix }
+        };
+        let damping = match (factors, &self.damping) {
+            (Some([alpha, beta]), _) => Damping::Rayleigh { alpha, beta },
+            (None, Damping::Modal { ratios }) => with_points(&|line| {
+                let ratio = ratios.last().copied().unwrap_or(0.0);
+                2.0 * ratio * line.mass.sqrt() * square_root(line.line.stiffness())
+            }),
+            (None, Damping::Dashpots { coefficients }) => with_points(&|line| {
+                let (c, k) = (coefficients[line.storey], self.stiffness[line.storey]);
+                line.line.stiffness() * (c / k)
+            }),
+            (None, _) => {
+                return refuse("its damping says nothing of points of columns".to_owned());
+            }
+        };
+        let sections = self.elastic.is_some().then(|| self.section_forces());
+        let sections = sections.flatten().map(|rows| {
+            let mut rows = rows;
+            rows.iter_mut().for_each(|row| row.resize(all, 0.0));
+            rows
+        });
+        let undamped = undamped_dense(&inertia, &stiffness, floors);
+        let parts = Parts {
+            name: self.name,
+            mass: self.mass,
+            inertia,
+            height: self.height,
+            damping,
+            geometric: self.geometric,
+        };
+        let matrices = (StiffnessMatrix::Dense(stiffness), self.elastic);
+        let influence = vec![1.0; all];
+        let made = Self::finish_with(parts, self.stiffness, matrices, undamped, influence)?;
+        let carried = lines.iter().flat_map(|line| {
+            line.line.points().iter().map(|point| {
+                let [lower, upper] = point.shares();
+                let mut parts = vec![0.0; floors];
+                parts[line.storey] = upper;
+                if let Some(below) = line.storey.checked_sub(1) {
+                    parts[below] = lower;
+                }
+                parts
+            })
+        });
+        Ok(Self {
+            asymmetry: self.asymmetry,
+            further,
+            sections,
+            carried: carried.collect(),
+            ..made
         })
     }
 
@@ -510,6 +650,15 @@ impl ShearBuilding {
         &self.further
     }
 
+    /// Value of a further coordinate (from zero) that goes with these values of the floors
+    /// while nothing acts on it: that of a point of a column, which its floors carry along;
+    /// zero for others.
+    #[must_use]
+    pub fn carried_along(&self, further: usize, floors: &[f64]) -> f64 {
+        let parts = self.carried.get(further).into_iter().flatten();
+        parts.zip(floors).map(|(part, x)| part * x).sum()
+    }
+
     /// Number of coordinates: floors and others.
     #[must_use]
     pub fn coordinates(&self) -> usize {
@@ -570,6 +719,44 @@ impl ShearBuilding {
     pub fn apply_damping(&self, v: &[f64], out: &mut [f64]) {
         self.damping_matrix.multiply(v, out);
     }
+}
+
+/// Adds a matrix of each column, on the floors at its ends and on its points, to one of all
+/// coordinates.
+fn add_lines(
+    whole: &mut DMatrix<f64>,
+    floors: usize,
+    lines: &[ContactLine],
+    of: &dyn Fn(&ContactLine) -> DMatrix<f64>,
+) {
+    let mut first = floors;
+    for line in lines {
+        let count = line.line.points().len();
+        // The ground below the first storey has no coordinate.
+        let ends = [line.storey.checked_sub(1), Some(line.storey)];
+        let places: Vec<Option<usize>> = ends
+            .into_iter()
+            .chain((first..first + count).map(Some))
+            .collect();
+        let matrix = line.line.on_floors(&of(line));
+        for (i, row) in places.iter().enumerate() {
+            for (j, column) in places.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    // Both triangles alike, to the bit.
+                    whole[(*row, *column)] += matrix[(i.min(j), i.max(j))];
+                }
+            }
+        }
+        first += count;
+    }
+}
+
+/// The symmetric square root of a positive definite matrix.
+fn square_root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = matrix.clone().symmetric_eigen();
+    let roots = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
+    let vectors = &eigen.eigenvectors;
+    vectors * DMatrix::from_diagonal(&roots) * vectors.transpose()
 }
 
 /// Relative difference of two stiffnesses that are meant to be equal.

@@ -23,9 +23,15 @@
 //!                    1/k_c = h^3 p (xi p (4 - xi) + 4 Psi (1 + p + Psi)) / (12 EI (1 + Psi)),    Psi = Phi / 4
 //! ```
 //!
+//! Several points of one column act on one another: with the matrix `F` of their displacements
+//! under unit forces while the floors stand, `k_c t t'` becomes `T' F^-1 T`, `T` a row `t` a
+//! point ([`HitLine`]).
+//!
 //! Derived from the equilibrium of a Timoshenko beam, and held in the tests against the
 //! condensation of two beam elements. Floors are taken not to rotate, as in any shear
 //! building, and the column stays elastic.
+
+use nalgebra::{DMatrix, Matrix2, Vector2};
 
 /// How the ends of a column are held by its floors, which do not rotate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -240,11 +246,212 @@ impl HitColumn {
     }
 }
 
+impl HitColumn {
+    /// What a unit force at this point displaces another one of the same column by (m/N) while
+    /// the floors stand: that of a cantilever less what its upper end is held by.
+    fn flexibility_with(&self, other: &Self) -> f64 {
+        // In units of the height and of EI.
+        let shear = match self.ends {
+            ColumnEnds::Fixed => self.shear / 12.0,
+            ColumnEnds::Pinned => self.shear / 3.0,
+        };
+        let cantilever = |x: f64, y: f64| {
+            let (low, high) = (x.min(y), x.max(y));
+            low * low * (3.0 * high - low) / 6.0 + shear * low
+        };
+        let [x, y] = [self.parts[0], other.parts[0]];
+        let held = match self.ends {
+            ColumnEnds::Fixed => {
+                // Displacement and rotation of the upper end.
+                let [a, b] = [x, y].map(|x| Vector2::new(cantilever(1.0, x), 0.5 * x * x));
+                let end = cantilever(1.0, 1.0);
+                let scale = end - 0.25;
+                let inverse = Matrix2::new(1.0, -0.5, -0.5, end) / scale;
+                a.dot(&(inverse * b))
+            }
+            ColumnEnds::Pinned => cantilever(1.0, x) * cantilever(1.0, y) / cantilever(1.0, 1.0),
+        };
+        (cantilever(x, y) - held) * self.height.powi(3) / self.rigidity
+    }
+}
+
+/// One or more points of one column, or of one line of columns, in a storey.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HitLine {
+    points: Vec<HitColumn>,
+    stiffness: DMatrix<f64>,
+}
+
+/// A force or a displacement of a hit column as a sum over the displacements of the floor
+/// below, of the floor above and of the points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnResponse {
+    /// Name in results.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Factor of the displacement of the floor below.
+    pub lower: f64,
+    /// Factor of the displacement of the floor above.
+    pub upper: f64,
+    /// Factors of the displacements of the points.
+    pub points: Vec<f64>,
+}
+
+/// Forces of a column that stands for itself, and how far it bows out, as sums over the drift
+/// of its storey and the force at its one point, both positive as displacements are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForcedColumnResponse {
+    /// Name in results.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Factor of the drift.
+    pub by_drift: f64,
+    /// Factor of the force.
+    pub by_force: f64,
+}
+
+/// Names in results with their units; the shears first.
+const RESPONSES: [(&str, &str); 5] = [
+    ("column_shear_below", "N"),
+    ("column_shear_above", "N"),
+    ("column_moment_bottom", "N m"),
+    ("column_moment_top", "N m"),
+    ("column_bow", "m"),
+];
+
+impl HitColumn {
+    /// Forces in the column, and its bow, under the drift of the storey and a force at a point
+    /// without mass.
+    #[must_use]
+    pub fn responses(&self) -> Vec<ForcedColumnResponse> {
+        let [drift, force] = [self.forces(1.0, 0.0), self.forces(0.0, 1.0)].map(|f| f.values());
+        let rows = (0..RESPONSES.len()).filter(|i| self.has(*i));
+        rows.map(|i| ForcedColumnResponse {
+            name: RESPONSES[i].0,
+            unit: RESPONSES[i].1,
+            by_drift: drift.get(i).copied().unwrap_or(0.0),
+            by_force: match force.get(i) {
+                Some(force) => *force,
+                None => 1.0 / self.point_stiffness(),
+            },
+        })
+        .collect()
+    }
+
+    /// Whether it has the response of this number: a hinge bears no moment.
+    fn has(&self, response: usize) -> bool {
+        self.ends == ColumnEnds::Fixed || RESPONSES[response].0 != "column_moment_top"
+    }
+}
+
+impl ColumnForces {
+    fn values(self) -> [f64; 4] {
+        [
+            self.shear_below,
+            self.shear_above,
+            self.moment_bottom,
+            self.moment_top,
+        ]
+    }
+}
+
+impl HitLine {
+    /// Points of one column, from the bottom; `None` where two of them are one.
+    #[must_use]
+    pub fn new(points: Vec<HitColumn>) -> Option<Self> {
+        let n = points.len();
+        let flexibility = DMatrix::from_fn(n, n, |i, j| match i == j {
+            true => 1.0 / points[i].point_stiffness(),
+            false => points[i.min(j)].flexibility_with(&points[i.max(j)]),
+        });
+        let stiffness = match points.as_slice() {
+            [one] => DMatrix::from_element(1, 1, one.point_stiffness()),
+            _ => {
+                let inverse = flexibility.cholesky()?.inverse();
+                // Exactly symmetric.
+                DMatrix::from_fn(n, n, |i, j| 0.5 * (inverse[(i, j)] + inverse[(j, i)]))
+            }
+        };
+        Some(Self { points, stiffness })
+    }
+
+    /// The points, from the bottom.
+    #[must_use]
+    pub fn points(&self) -> &[HitColumn] {
+        &self.points
+    }
+
+    /// Forces at the points that displace them by a unit each while all else stands (N/m).
+    #[must_use]
+    pub fn stiffness(&self) -> &DMatrix<f64> {
+        &self.stiffness
+    }
+
+    /// `T' X T` for a matrix `X` of the points: a row and a column for the floor below, for
+    /// the floor above and for each point.
+    pub(crate) fn on_floors(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
+        let bows = self.bows();
+        bows.transpose() * x * bows
+    }
+
+    /// `T`: how far each point is pushed off the line of its column.
+    fn bows(&self) -> DMatrix<f64> {
+        let n = self.points.len();
+        DMatrix::from_fn(n, n + 2, |i, j| match j {
+            0 | 1 => -self.points[i].shares()[j],
+            _ => f64::from(u8::from(j == i + 2)),
+        })
+    }
+
+    /// Forces in the column at the point of this number, from below, and its bow there.
+    #[must_use]
+    pub fn responses(&self, point: usize) -> Vec<ColumnResponse> {
+        let n = self.points.len();
+        let (bows, own) = (self.bows(), &self.points[point]);
+        // Forces that the column carries at the points.
+        let carried = &self.stiffness * &bows;
+        let of_drift = own.forces(1.0, 0.0).values();
+        let rows = (0..RESPONSES.len()).filter(|i| own.has(*i));
+        let entries = |response: usize| -> Vec<f64> {
+            let drift = of_drift.get(response).copied();
+            let entry = |j: usize| {
+                let Some(drift) = drift else {
+                    return bows[(point, j)];
+                };
+                let sway = drift * [-1.0, 1.0].get(j).copied().unwrap_or(0.0);
+                let forces = (0..n).map(|i| {
+                    let one = self.points[i].forces(0.0, 1.0);
+                    // The section of a shear lies above some points and below others.
+                    let factor = match response {
+                        0 if i < point => one.shear_above,
+                        1 if i > point => one.shear_below,
+                        _ => one.values()[response],
+                    };
+                    factor * carried[(i, j)]
+                });
+                sway + forces.sum::<f64>()
+            };
+            (0..n + 2).map(entry).collect()
+        };
+        rows.map(|i| {
+            let row = entries(i);
+            ColumnResponse {
+                name: RESPONSES[i].0,
+                unit: RESPONSES[i].1,
+                lower: row[0],
+                upper: row[1],
+                points: row[2..].to_vec(),
+            }
+        })
+        .collect()
+    }
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use nalgebra::DMatrix;
-
     use super::*;
 
     fn near(found: f64, expected: f64, tolerance: f64) {
@@ -414,6 +621,124 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Beam elements from floor to floor over several points, the rotations that are free
+    /// condensed out.
+    fn condensed_line(
+        (rigidity, shear, ends, height): (f64, Option<f64>, ColumnEnds, f64),
+        points: &[f64],
+    ) -> DMatrix<f64> {
+        let nodes: Vec<f64> = [0.0]
+            .into_iter()
+            .chain(points.iter().copied())
+            .chain([height])
+            .collect();
+        let mut whole = DMatrix::<f64>::zeros(2 * nodes.len(), 2 * nodes.len());
+        for (first, pair) in nodes.windows(2).enumerate() {
+            let element = element(rigidity, shear, pair[1] - pair[0]);
+            for i in 0..4 {
+                for j in 0..4 {
+                    whole[(2 * first + i, 2 * first + j)] += element[i][j];
+                }
+            }
+        }
+        let last = nodes.len() - 1;
+        let kept: Vec<usize> = [0, 2 * last]
+            .into_iter()
+            .chain((1..last).map(|i| 2 * i))
+            .collect();
+        let mut free: Vec<usize> = (1..last).map(|i| 2 * i + 1).collect();
+        if ends == ColumnEnds::Pinned {
+            free.push(2 * last + 1);
+        }
+        let pick = |rows: &[usize], columns: &[usize]| {
+            DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+                whole[(rows[i], columns[j])]
+            })
+        };
+        let inverse = pick(&free, &free).try_inverse().unwrap();
+        pick(&kept, &kept) - pick(&kept, &free) * inverse * pick(&free, &kept)
+    }
+
+    #[test]
+    fn points_of_one_column_act_on_one_another() {
+        for shear in [None, Some(4.0e8)] {
+            for ends in [ColumnEnds::Fixed, ColumnEnds::Pinned] {
+                for points in [vec![1.1], vec![1.1, 3.0], vec![0.7, 2.4, 5.1]] {
+                    let (rigidity, h) = (1.7e8, 6.0);
+                    let column = |a: &f64| HitColumn::new(rigidity, shear, ends, h, *a).unwrap();
+                    let line = HitLine::new(points.iter().map(column).collect()).unwrap();
+                    let expected = condensed_line((rigidity, shear, ends, h), &points);
+                    let k_s = line.points()[0].storey_stiffness();
+                    let mut found = line.on_floors(line.stiffness());
+                    for (i, j, sign) in [(0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)] {
+                        found[(i, j)] += sign * k_s;
+                    }
+                    let error = (found - &expected).amax() / expected.amax();
+                    assert!(error < 1e-11, "{shear:?} {ends:?} {points:?}: {error:e}");
+                    shears_jump_by_the_forces(&line, &expected);
+                }
+            }
+        }
+    }
+
+    /// The shear below the lowest point and that above the highest are those of the ends, and
+    /// at every point they differ by the force that the column carries there.
+    fn shears_jump_by_the_forces(line: &HitLine, condensed: &DMatrix<f64>) {
+        let n = line.points().len();
+        let row = |point: usize, name: &str| -> Vec<f64> {
+            let all = line.responses(point);
+            let found = all.into_iter().find(|r| r.name == name).unwrap();
+            [vec![found.lower, found.upper], found.points].concat()
+        };
+        for j in 0..n + 2 {
+            let near = |found: f64, expected: f64| {
+                let error = (found - expected).abs() / condensed.amax();
+                assert!(error < 1e-11, "{error:e}");
+            };
+            near(row(0, "column_shear_below")[j], -condensed[(0, j)]);
+            near(row(n - 1, "column_shear_above")[j], condensed[(1, j)]);
+            for point in 0..n {
+                let [below, above] =
+                    ["column_shear_below", "column_shear_above"].map(|name| row(point, name)[j]);
+                near(below - above, condensed[(point + 2, j)]);
+                if let Some(next) = (point + 1..n).next() {
+                    near(above, row(next, "column_shear_below")[j]);
+                }
+            }
+        }
+    }
+
+    /// One point: the rows of a column that stands for itself.
+    #[test]
+    fn responses_of_one_point_are_its_forces() {
+        for ends in [ColumnEnds::Fixed, ColumnEnds::Pinned] {
+            let column = HitColumn::new(2.56e8, Some(4e8), ends, 3.0, 1.4).unwrap();
+            let rows = column.force_rows();
+            let line = HitLine::new(vec![column]).unwrap();
+            let responses = line.responses(0);
+            let count = if ends == ColumnEnds::Fixed { 5 } else { 4 };
+            assert_eq!(responses.len(), count);
+            let names: Vec<_> = column.responses().iter().map(|r| r.name).collect();
+            assert_eq!(names, responses.iter().map(|r| r.name).collect::<Vec<_>>());
+            for response in responses {
+                let expected = match response.name {
+                    "column_shear_below" => rows.shear_below,
+                    "column_shear_above" => rows.shear_above,
+                    "column_moment_bottom" => rows.moment_bottom,
+                    "column_moment_top" => rows.moment_top,
+                    _ => column.bow(),
+                };
+                let found = [response.lower, response.points[0], response.upper];
+                for (found, expected) in found.iter().zip(expected) {
+                    let size = rows.shear_below[1].abs().max(1.0);
+                    assert!((found - expected).abs() < 1e-12 * size, "{}", response.name);
+                }
+            }
+        }
+        let column = HitColumn::new(2.56e8, None, ColumnEnds::Fixed, 3.0, 1.4).unwrap();
+        assert!(HitLine::new(vec![column, column]).is_none());
     }
 
     /// The forms in which the formulas without shear are usually written.

@@ -106,6 +106,39 @@ impl Damping {
         )
     }
 
+    /// `[alpha, beta]` of damping in proportion to mass and stiffness, of a building with these
+    /// circular frequencies; `None` for other damping. Fails with the reason.
+    pub(crate) fn factors(&self, omega: &[f64]) -> Result<Option<[f64; 2]>, String> {
+        let n = omega.len();
+        Ok(Some(match self {
+            Self::Rayleigh { alpha, beta } => {
+                not_negative("alpha", *alpha)?;
+                not_negative("beta", *beta)?;
+                [*alpha, *beta]
+            }
+            Self::RayleighRatio { ratio, modes } => {
+                check_ratio(*ratio)?;
+                let [i, j] = *modes;
+                if i == j || i == 0 || j == 0 || i > n || j > n {
+                    return Err(format!(
+                        "modes = [{i}, {j}] must be two different modes from 1 to {n}"
+                    ));
+                }
+                let (a, b) = (omega[i - 1], omega[j - 1]);
+                [2.0 * ratio * a * b / (a + b), 2.0 * ratio / (a + b)]
+            }
+            Self::StiffnessProportional { ratio } => {
+                check_ratio(*ratio)?;
+                [0.0, 2.0 * ratio / omega[0]]
+            }
+            Self::MassProportional { ratio } => {
+                check_ratio(*ratio)?;
+                [2.0 * ratio * omega[0], 0.0]
+            }
+            _ => return Ok(None),
+        }))
+    }
+
     /// The damping matrix, or the reason why there is none.
     pub(crate) fn matrix(
         &self,
@@ -128,32 +161,13 @@ impl Damping {
             })),
         };
         match self {
-            Self::Rayleigh { alpha, beta } => {
-                not_negative("alpha", *alpha)?;
-                not_negative("beta", *beta)?;
-                Ok(proportional(*alpha, *beta))
-            }
-            Self::RayleighRatio { ratio, modes } => {
-                check_ratio(*ratio)?;
-                let [i, j] = *modes;
-                if i == j || i == 0 || j == 0 || i > n || j > n {
-                    return Err(format!(
-                        "modes = [{i}, {j}] must be two different modes from 1 to {n}"
-                    ));
-                }
-                let (a, b) = (omega[i - 1], omega[j - 1]);
-                Ok(proportional(
-                    2.0 * ratio * a * b / (a + b),
-                    2.0 * ratio / (a + b),
-                ))
-            }
-            Self::StiffnessProportional { ratio } => {
-                check_ratio(*ratio)?;
-                Ok(proportional(0.0, 2.0 * ratio / omega[0]))
-            }
-            Self::MassProportional { ratio } => {
-                check_ratio(*ratio)?;
-                Ok(proportional(2.0 * ratio * omega[0], 0.0))
+            Self::Rayleigh { .. }
+            | Self::RayleighRatio { .. }
+            | Self::StiffnessProportional { .. }
+            | Self::MassProportional { .. } => {
+                let factors = self.factors(omega)?;
+                let made = factors.map(|[alpha, beta]| proportional(alpha, beta));
+                made.ok_or_else(|| "it has no factors of mass and stiffness".to_owned())
             }
             Self::Modal { ratios } => modal(ratios, mass, modes),
             Self::Matrix { matrix } => {

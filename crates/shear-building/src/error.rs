@@ -62,6 +62,14 @@ pub enum ShearBuildingError {
         /// Inertia (kg or kg m2).
         value: f64,
     },
+    /// Columns that cannot have points with mass.
+    #[error("building {building}: its columns cannot be hit at points with a mass: {reason}")]
+    ContactPoints {
+        /// Name of the building.
+        building: String,
+        /// Why not.
+        reason: String,
+    },
     /// Damping that cannot be.
     #[error("building {building}: damping: {reason}")]
     Damping {

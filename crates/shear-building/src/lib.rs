@@ -22,8 +22,11 @@ mod stiffness;
 mod tridiagonal;
 mod tridiagonal_eigen;
 
-pub use building::{MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
-pub use column::{ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, HitColumn, NEAR_FLOOR};
+pub use building::{ContactLine, MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
+pub use column::{
+    ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, ColumnResponse, ForcedColumnResponse,
+    HitColumn, HitLine, NEAR_FLOOR,
+};
 pub use coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow};
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{

@@ -230,8 +230,13 @@ fn floors(case: &Case) -> Vec<CaseError> {
         gap.model.value = "linear_elastic".to_owned();
         gap.separation = None;
         gap.parameters = vec![stiffness.clone()];
+        let hits_columns = gap.columns.iter().any(Option::is_some);
         base.gaps = vec![gap];
-        errors.extend(of_case(regap(&base, &alone.system)));
+        // Columns that are hit belong to buildings, which are then others.
+        errors.extend(match hits_columns {
+            true => of_case(assembly(&base)),
+            false => of_case(regap(&base, &alone.system)),
+        });
     }
     errors
 }

@@ -11,7 +11,7 @@ use pounding_study::{
     Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
     Value, case_of_run, sweep,
 };
-use pounding_time_history::run;
+use pounding_time_history::{isolated_demand, run};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -465,5 +465,62 @@ fn designs_sample_what_they_say() {
         let other = design.replace("seed = 5", "seed = 6");
         assert_ne!(numbers(&of("", &other).unwrap()), points, "{kind}");
         assert_eq!(numbers(&of("", &design).unwrap()), points, "{kind}");
+    }
+}
+
+/// The same where floors hit columns, whose points are coordinates of the buildings and belong
+/// to the gaps: a sweep over the width and over all that makes a column.
+#[test]
+fn sharing_changes_no_bit_where_columns_are_hit() {
+    let folder = tempfile::tempdir().unwrap();
+    let motions = root().join("ground_motions");
+    let motions = motions.to_str().unwrap();
+    let building = |name: &str, heights: &str, stiffness: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = \"100 t\"\nheight = {heights}\nstiffness = \"{stiffness}\"\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n"
+        )
+    };
+    let low = building("low", "[4.4, 3.6]", "40 MN/m");
+    let tall = building("tall", "[3.0, 3.0, 3.0]", "300 MN/m");
+    for mass in ["contact_mass = \"2 t\", ", ""] {
+        let case = format!(
+            "{low}{tall}[[gap]]\nbetween = [\"low\", \"tall\"]\nwidth = 0.01\nmodel = \"linear_elastic\"\nstiffness = 3e8\nelevation_tolerance = 0.02\ncolumn = {{ of = \"tall\", {mass}flexural_rigidity = 2e8, ends = \"fixed\" }}\n[ground_motion]\nfile = \"{motions}/el_centro_1940_ns.csv\"\n[analysis]\nduration = 3\n"
+        );
+        std::fs::write(folder.path().join("case.toml"), case).unwrap();
+        let second = match mass {
+            "" => {
+                "[[variable]]\nname = \"ends\"\npath = \"gap.0.column.ends\"\nvalues = [\"fixed\", \"pinned\"]\n"
+            }
+            _ => {
+                "[[variable]]\nname = \"m\"\npath = \"gap.0.column.contact_mass\"\nvalues = [1000, 4000]\n"
+            }
+        };
+        let text = format!(
+            "case = \"case.toml\"\n[output]\nisolated_demand = true\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [0.008, 0.012]\n[[variable]]\nname = \"EI\"\npath = \"gap.0.column.flexural_rigidity\"\nvalues = [1e8, 2e8]\n{second}"
+        );
+        let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
+        let rows = rows(&study, folder.path());
+        assert_eq!(rows.len(), 8);
+        let reader =
+            ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+        let layout = &reader.description.layout;
+        let mut shears = Vec::new();
+        for (row, _) in &rows {
+            assert_eq!(row.ending, Ending::Complete);
+            let text = case_of_run(&study, row.run).unwrap();
+            let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+            let assembly = assemble(&case).unwrap();
+            let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+            let mut expected = Vec::new();
+            let (_, demand) = isolated_demand(&assembly.system, &assembly.options).unwrap();
+            let demand: Vec<f64> = demand.iter().map(|p| p.value).collect();
+            layout.fill(&alone, &demand, &mut expected);
+            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&row.values), bits(&expected), "{text}");
+            assert!(alone.impacts.len() > 1);
+            shears.push(row.values[layout.range("peak_column_shear")].to_vec());
+        }
+        shears.dedup();
+        assert_eq!(shears.len(), 8, "every value changes the columns");
     }
 }

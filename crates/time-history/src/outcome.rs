@@ -90,6 +90,17 @@ pub struct NamedPeak {
     /// Peak magnitude.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub peak: Peak,
+    /// What the member can bear, in the same unit, where that is known.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub capacity: Option<f64>,
+}
+
+impl NamedPeak {
+    /// Peak over capacity (-), where that is known.
+    #[must_use]
+    pub fn demand_ratio(&self) -> Option<f64> {
+        self.capacity.map(|capacity| self.peak.value / capacity)
+    }
 }
 
 impl BuildingOutcome {
@@ -246,6 +257,19 @@ pub struct LevelOutcome {
     /// maximum approach, zero where the gap closed. `None` beside others.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub clearance: Option<f64>,
+}
+
+/// Responses of levels that are the shear of a hit column, below and above the hit.
+pub const COLUMN_SHEARS: [&str; 2] = ["column_shear_below", "column_shear_above"];
+
+impl LevelOutcome {
+    /// The larger of the shears below and above the hit where columns are hit at this level.
+    #[must_use]
+    pub fn column_shear(&self) -> Option<&NamedPeak> {
+        let shears = self.responses.iter();
+        let shears = shears.filter(|r| COLUMN_SHEARS.contains(&r.name.as_str()));
+        shears.reduce(|a, b| if b.peak.value > a.peak.value { b } else { a })
+    }
 }
 
 /// What happened in one gap, levels from the bottom.

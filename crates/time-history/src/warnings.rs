@@ -87,6 +87,18 @@ pub enum Warning {
         /// Number of such pairs in the gap.
         pairs: usize,
     },
+    /// Floors that meet columns of the neighbour and hit nothing, beside others that do hit
+    /// columns.
+    ColumnsLeftOut {
+        /// Name of the gap.
+        gap: String,
+        /// The first floor: storey, building and elevation.
+        floor: String,
+        /// Name of the building whose columns it meets.
+        hit: String,
+        /// Number of such floors in the gap.
+        floors: usize,
+    },
     /// A ground acceleration that hardly any record has.
     GroundAcceleration {
         /// Peak (m/s2).
@@ -186,6 +198,19 @@ impl fmt::Display for Warning {
                 f,
                 "gap {gap}: floors at different elevations act on each other as if they were level (floor_to_floor): {floors}, {difference} m apart{}; the columns that such floors hit are not modelled",
                 more_pairs(*pairs)
+            ),
+            Self::ColumnsLeftOut {
+                gap,
+                floor,
+                hit,
+                floors,
+            } => write!(
+                f,
+                "gap {gap}: {floor} meets columns of \"{hit}\" between floors and hits nothing{}: `column` gives none of \"{hit}\", or `levels` leaves them out",
+                match floors {
+                    1 => String::new(),
+                    n => format!(" (the first of {n} such floors in this gap)"),
+                }
             ),
             Self::GroundAcceleration { peak } => write!(
                 f,

@@ -4,6 +4,7 @@
 
 mod abutment;
 mod base_moments;
+mod columns;
 mod condensed_stiffness;
 mod general;
 mod isolation;

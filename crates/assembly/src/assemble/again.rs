@@ -34,8 +34,25 @@ pub fn assemble_with_record(
     })
 }
 
+/// The buildings and links of a case under this motion, without its gaps; with the points of
+/// columns at which these let floors hit them.
+///
+/// # Errors
+/// As [`assemble_with_record`], but for gaps.
+pub fn assemble_without_gaps(
+    case: &Case,
+    accelerogram: &Accelerogram,
+) -> Result<System, AssemblyError> {
+    let mut alone = case.clone();
+    alone.gaps.clear();
+    let parts = Parts::with_columns(&alone, case)?;
+    let system = on_their_ground(&alone, parts.buildings, accelerogram)?;
+    with_gaps(&alone, &parts.models, system)
+}
+
 /// The gaps, the start and the options of a case on the buildings and the motion of
-/// `base`, a system made from a case with the same buildings. What depends on the
+/// `base`, a system made from a case with the same buildings and the same columns that are
+/// hit. What depends on the
 /// buildings alone is computed once for all systems made this way, and results are, to
 /// the last bit, those of [`crate::assemble()`].
 ///

@@ -1,14 +1,211 @@
 //! Columns of a case that floors of the neighbour hit.
 
-use pounding_case::{Building, Case, CaseError, ContactLevel, Facing, Gap, Located, Side};
-use pounding_shear_building::{ColumnError, HitColumn, decimal};
+use std::sync::Arc;
+
+use pounding_case::{
+    Building, Case, CaseError, ContactLevel, Errors, Facing, Gap, HitColumns, Located, Side,
+};
+use pounding_gap_element::{GapElementError, ImpactModel, in_series};
+use pounding_shear_building::{ColumnError, ContactLine, HitColumn, HitLine, decimal};
+use pounding_time_history::{BuildingPoint, Floor, LevelResponse, System};
+
+use crate::error::AssemblyError;
+
+/// A level of a gap at which columns are hit.
+#[derive(Debug, Clone, Copy)]
+struct Hit<'c> {
+    /// The gap, from zero, and the level in it.
+    gap: (usize, &'c Gap),
+    level: (usize, &'c ContactLevel),
+    /// 0 where the columns are those of the left neighbour, 1 of the right one.
+    side: usize,
+    /// Building and storey, from zero.
+    building: usize,
+    storey: usize,
+    column: HitColumn,
+    given: &'c Located<HitColumns>,
+}
+
+/// A column with its points, from the bottom.
+struct Line<'c> {
+    hits: Vec<Hit<'c>>,
+    line: HitLine,
+}
+
+/// All levels of a case at which columns are hit.
+pub(super) struct Hits<'c> {
+    case: &'c Case,
+    lines: Vec<Line<'c>>,
+}
+
+/// What a level of a gap is made of where columns are hit.
+pub(super) struct HitLevel {
+    /// The point of the column.
+    pub point: Floor,
+    /// 0 on the left, 1 on the right.
+    pub side: usize,
+    /// The law of contact and column.
+    pub model: Arc<dyn ImpactModel>,
+    /// Forces in the column.
+    pub responses: Vec<LevelResponse>,
+}
+
+impl<'c> Hits<'c> {
+    /// Those of a case.
+    ///
+    /// # Errors
+    /// All columns that cannot be hit.
+    pub(super) fn of(case: &'c Case) -> Result<Self, CaseError> {
+        let errors = Errors::default();
+        let levels = case.gaps.iter().enumerate().flat_map(|(g, gap)| {
+            let levels = gap.levels.iter().enumerate();
+            levels.map(move |(l, level)| hit(case, (g, gap), (l, level)))
+        });
+        let hits = errors.all(levels.filter_map(Result::transpose));
+        let lines = hits.and_then(|hits| {
+            stiff_as_their_storeys(case, &hits)?;
+            let mut lines: Vec<Vec<Hit<'c>>> = Vec::new();
+            for hit in hits {
+                let place = |h: &Hit<'_>| (h.gap.0, h.side, h.storey);
+                match lines.iter_mut().find(|l| place(&l[0]) == place(&hit)) {
+                    Some(line) => line.push(hit),
+                    None => lines.push(vec![hit]),
+                }
+            }
+            errors.all(lines.into_iter().map(|hits| line(case, hits)))
+        });
+        let lines = errors.finish(lines)?;
+        Ok(Self { case, lines })
+    }
+
+    /// Columns of a building whose points have a mass, in the order of its coordinates.
+    pub(super) fn with_mass(&self, building: usize) -> Vec<ContactLine> {
+        let own = self.lines_with_mass(building);
+        own.map(|(line, mass)| ContactLine {
+            storey: line.hits[0].storey,
+            line: line.line.clone(),
+            mass,
+        })
+        .collect()
+    }
+
+    fn lines_with_mass(&self, building: usize) -> impl Iterator<Item = (&Line<'c>, f64)> {
+        let own = self
+            .lines
+            .iter()
+            .filter(move |l| l.hits[0].building == building);
+        own.filter_map(|l| Some((l, l.hits[0].given.value.contact_mass?)))
+    }
+
+    /// Refuses laws of gaps that a column without mass cannot stand behind.
+    pub(super) fn check_models(&self, models: &[Arc<dyn ImpactModel>]) -> Result<(), CaseError> {
+        let errors = Errors::default();
+        let levels = self.lines.iter().flat_map(|l| &l.hits);
+        let checked = errors.all(levels.map(|hit| self.model(hit, &models[hit.gap.0])));
+        errors.finish(checked.map(|_| ()))
+    }
+
+    /// The law of contact and column.
+    fn model(
+        &self,
+        hit: &Hit<'_>,
+        model: &Arc<dyn ImpactModel>,
+    ) -> Result<Arc<dyn ImpactModel>, CaseError> {
+        if hit.given.value.contact_mass.is_some() {
+            return Ok(Arc::clone(model));
+        }
+        in_series(Arc::clone(model), hit.column.point_stiffness()).map_err(|e: GapElementError| {
+            let message = format!("the columns that are hit have no mass: {e}");
+            let help = "add `contact_mass` to `column`, the mass of columns and facade that a hit sets in motion; or take linear_elastic or hertz_1882".to_owned();
+            self.case.error(hit.gap.1.model.span.clone(), message, Some(help))
+        })
+    }
+
+    /// What the level of this number of a gap is made of; `None` where no column is hit.
+    pub(super) fn level(
+        &self,
+        system: &mut System,
+        (gap, level): (usize, usize),
+        model: &Arc<dyn ImpactModel>,
+    ) -> Result<Option<HitLevel>, AssemblyError> {
+        let within = |h: &Hit<'_>| h.gap.0 == gap && h.level.0 == level;
+        let found = self.lines.iter().find_map(|line| {
+            let point = line.hits.iter().position(within)?;
+            Some((line, point))
+        });
+        let Some((line, point)) = found else {
+            return Ok(None);
+        };
+        let hit = &line.hits[point];
+        let building = hit.building;
+        let ends = [hit.storey.checked_sub(1), Some(hit.storey)];
+        let on_ends = |parts: [f64; 2]| -> Vec<(usize, f64)> {
+            let ends = ends.into_iter().zip(parts);
+            ends.filter_map(|(floor, part)| Some((floor?, part)))
+                .collect()
+        };
+        let named = |name: &str, unit, weights, by_force| LevelResponse {
+            name: name.to_owned(),
+            unit,
+            building,
+            weights,
+            by_force,
+            capacity: hit.given.value.shear_capacity.filter(|_| unit == "N"),
+        };
+        let (weights, responses) = match hit.given.value.contact_mass {
+            None => {
+                // A contact pushes the right neighbour to the right.
+                let pushed = [-1.0, 1.0][hit.side];
+                let responses = hit.column.responses().into_iter().map(|r| {
+                    let weights = on_ends([-r.by_drift, r.by_drift]);
+                    named(r.name, r.unit, weights, pushed * r.by_force)
+                });
+                (on_ends(hit.column.shares()), responses.collect())
+            }
+            Some(_) => {
+                let floors = system.buildings()[building].storeys();
+                let before = self.lines_with_mass(building).map(|(line, _)| line);
+                let before = before.take_while(|other| !std::ptr::eq(*other, line));
+                let first = floors + before.map(|l| l.hits.len()).sum::<usize>();
+                let responses = line.line.responses(point).into_iter().map(|r| {
+                    let mut weights = on_ends([r.lower, r.upper]);
+                    weights.extend((first..).zip(r.points));
+                    named(r.name, r.unit, weights, 0.0)
+                });
+                (vec![(first + point, 1.0)], responses.collect())
+            }
+        };
+        let point = system.add_point(BuildingPoint {
+            building,
+            storey: hit.storey,
+            elevation: elevation(self.case, hit),
+            weights,
+        });
+        Ok(Some(HitLevel {
+            point,
+            side: hit.side,
+            model: self.model(hit, model)?,
+            responses,
+        }))
+    }
+}
+
+/// Elevation of a hit (m): that of the floor that hits.
+fn elevation(case: &Case, hit: &Hit<'_>) -> f64 {
+    let (_, level) = hit.level;
+    let other = [level.left, level.right][1 - hit.side].floor();
+    match (hit.gap.1.between[1 - hit.side], other) {
+        (Side::Building(b), Some(storey)) => case.buildings[b].elevations()[storey],
+        _ => 0.0,
+    }
+}
 
 /// The column of a level of a gap, if it has one.
-pub(super) fn column(
-    case: &Case,
-    gap: &Gap,
-    level: &ContactLevel,
-) -> Result<Option<HitColumn>, CaseError> {
+fn hit<'c>(
+    case: &'c Case,
+    (gap_number, gap): (usize, &'c Gap),
+    (level_number, level): (usize, &'c ContactLevel),
+) -> Result<Option<Hit<'c>>, CaseError> {
     let sides = [level.left, level.right];
     let Some(side) = sides.iter().position(|facing| facing.is_column()) else {
         return Ok(None);
@@ -48,29 +245,121 @@ pub(super) fn column(
         let message = format!("storey {} of \"{}\": {e}", storey + 1, b.name.value);
         case.error(place, message, Some(help))
     })?;
-    within_storey(case, b, storey, (given, &column))?;
-    Ok(Some(column))
+    remains_elastic(case, b, storey, given)?;
+    Ok(Some(Hit {
+        gap: (gap_number, gap),
+        level: (level_number, level),
+        side,
+        building,
+        storey,
+        column,
+        given,
+    }))
 }
 
-/// Refuses columns that are stiffer than the storey in which they stand.
-fn within_storey<T>(
+/// Refuses columns of buildings whose floors or storeys move as those of no shear building.
+fn remains_elastic(
     case: &Case,
     b: &Building,
     storey: usize,
-    (given, column): (&Located<T>, &HitColumn),
+    given: &Located<HitColumns>,
 ) -> Result<(), CaseError> {
-    let own = column.storey_stiffness();
-    // A matrix does not say what a storey is.
-    let Some(stiffness) = b.stiffness.get(storey).filter(|k| own > **k) else {
-        return Ok(());
+    let refuse = |problem: String, help: &str| {
+        Err(case.error(given.span.clone(), problem, Some(help.to_owned())))
     };
-    Err(case.error(
-        given.span.clone(),
-        format!(
-            "columns of {own} N/m stand in storey {} of \"{}\", which has a stiffness of {stiffness} N/m with them",
-            storey + 1,
-            b.name.value
+    if b.foundation.is_some() {
+        return refuse(
+            format!(
+                "\"{}\" stands on a foundation that moves, and its columns would lean with it: columns that are hit are not modelled there",
+                b.name.value
+            ),
+            "leave out `foundation` of this building, or `column`",
+        );
+    }
+    let law = b.laws.iter().find(|law| match given.value.contact_mass {
+        Some(_) => !law.storeys.is_empty(),
+        None => law.storeys.contains(&storey),
+    });
+    let Some(law) = law else { return Ok(()) };
+    match given.value.contact_mass {
+        Some(_) => refuse(
+            format!(
+                "storeys of \"{}\" follow the law {}, which a building with a `contact_mass` on its columns cannot",
+                b.name.value, law.model.value
+            ),
+            "leave out `contact_mass` where other storeys than the one that is hit yield, or let the building stay linear",
         ),
-        Some("give E I of the columns that face the neighbour alone, cracked, or correct the storey stiffness, which has them in it".to_owned()),
-    ))
+        None => refuse(
+            format!(
+                "storey {} of \"{}\" follows the law {}, and its columns, which are hit, stay elastic",
+                storey + 1,
+                b.name.value,
+                law.model.value
+            ),
+            "let this storey stay linear; the forces in its columns then say whether it does",
+        ),
+    }
+}
+
+/// One column with all its points.
+fn line<'c>(case: &Case, mut hits: Vec<Hit<'c>>) -> Result<Line<'c>, CaseError> {
+    hits.sort_by(|a, b| elevation(case, a).total_cmp(&elevation(case, b)));
+    let b = &case.buildings[hits[0].building];
+    let several = |remedy: &str| {
+        case.error(
+            hits[1].level.1.place.clone(),
+            format!(
+                "{} floors hit the columns of storey {} of \"{}\", and each bows them for the others",
+                hits.len(),
+                hits[0].storey + 1,
+                b.name.value
+            ),
+            Some(remedy.to_owned()),
+        )
+    };
+    if hits.len() > 1 && hits[0].given.value.contact_mass.is_none() {
+        return Err(several(
+            "add `contact_mass` to `column`; points without mass stand for themselves",
+        ));
+    }
+    let made = HitLine::new(hits.iter().map(|h| h.column).collect());
+    let line = made.ok_or_else(|| several("name one of them alone in `levels`"))?;
+    Ok(Line { hits, line })
+}
+
+/// Refuses columns that are stiffer than the storey in which they stand, those that face both
+/// neighbours together.
+fn stiff_as_their_storeys(case: &Case, hits: &[Hit<'_>]) -> Result<(), CaseError> {
+    let errors = Errors::default();
+    let checked = errors.all(hits.iter().map(|hit| {
+        let b = &case.buildings[hit.building];
+        // A matrix does not say what a storey is.
+        let Some(stiffness) = b.stiffness.get(hit.storey) else {
+            return Ok(());
+        };
+        let mut faced: Vec<(usize, usize)> = Vec::new();
+        let same = hits.iter().filter(|h| (h.building, h.storey) == (hit.building, hit.storey));
+        let own: f64 = same
+            .filter(|h| {
+                let place = (h.gap.0, h.side);
+                let new = !faced.contains(&place);
+                faced.push(place);
+                new
+            })
+            .map(|h| h.column.storey_stiffness())
+            .sum();
+        if own <= *stiffness {
+            return Ok(());
+        }
+        Err(case.error(
+            hit.given.span.clone(),
+            format!(
+                "columns of {own} N/m stand in storey {} of \"{}\", which has a stiffness of {stiffness} N/m with them",
+                hit.storey + 1,
+                b.name.value
+            ),
+            Some("give E I of the columns that face the neighbour alone, cracked, or correct the storey stiffness, which has them in it".to_owned()),
+        ))
+    }));
+    errors.finish(checked.map(|_| ()))
 }

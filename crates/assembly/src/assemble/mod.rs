@@ -8,7 +8,7 @@ mod laws;
 mod motions;
 mod plan;
 
-pub use again::{assemble_with_record, regap};
+pub use again::{assemble_with_record, assemble_without_gaps, regap};
 
 use std::sync::Arc;
 
@@ -19,12 +19,13 @@ use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{ShearBuilding, ShearBuildingError};
+use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
     DEFAULT_RELATIVE_TOLERANCE, Floor, LevelMotion, MethodChoice, RunOptions, System, Warning,
     more_pairs,
 };
 
+use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::accelerogram;
@@ -106,14 +107,29 @@ struct Parts {
 impl Parts {
     /// Makes all of it, and reports all that is wrong in it.
     fn of(case: &Case) -> Result<Self, CaseError> {
+        Self::with_columns(case, case)
+    }
+
+    /// The same with columns that the gaps of another case, with the same buildings, let
+    /// floors hit.
+    fn with_columns(case: &Case, gaps: &Case) -> Result<Self, CaseError> {
         let errors = Errors::default();
-        let buildings = case.buildings.iter();
-        let buildings = errors.all(buildings.map(|b| building(case, b).map(Arc::new)));
+        let hits = errors.keep(Hits::of(gaps));
+        let points = |b: usize| {
+            hits.as_ref()
+                .map_or_else(Vec::new, |hits| hits.with_mass(b))
+        };
+        let buildings = case.buildings.iter().enumerate();
+        let buildings =
+            errors.all(buildings.map(|(i, b)| building(case, b, &points(i)).map(Arc::new)));
         let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
+        if let (Ok(models), Some(hits), false) = (&models, &hits, case.gaps.is_empty()) {
+            errors.or_default(hits.check_models(models));
+        }
         let options = errors.all([options(case)]);
         errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
         errors.or_default(errors.all(foundation::columns(case).into_iter().map(Err::<(), _>)));
-        errors.or_default(errors.all(unfinished(case).into_iter().map(Err::<(), _>)));
+        errors.or_default(errors.all(columns_of_rigid_floors(case).into_iter().map(Err::<(), _>)));
         let parts = buildings.and_then(|buildings| {
             Ok(Self {
                 buildings,
@@ -125,19 +141,26 @@ impl Parts {
     }
 }
 
-/// What is read and checked, but not put together.
-fn unfinished(case: &Case) -> Vec<CaseError> {
-    let refused = |span: &std::ops::Range<usize>, what: &str| {
-        case.error(span.clone(), format!("{what} cannot be run"), None)
-    };
+/// Columns of buildings whose floors are not known to hold them as a chain of storeys does.
+fn columns_of_rigid_floors(case: &Case) -> Vec<CaseError> {
     let mut found = Vec::new();
     for gap in &case.gaps {
-        for level in &gap.levels {
-            match column::column(case, gap, level) {
-                Ok(None) => {}
-                Ok(Some(_)) => found.push(refused(&level.place, "columns that are hit")),
-                Err(e) => found.push(e),
-            }
+        for (side, given) in gap.between.iter().zip(&gap.columns) {
+            let (Side::Building(b), Some(given)) = (side, given) else {
+                continue;
+            };
+            let building = &case.buildings[*b];
+            let what = match (&building.plan, &building.isolator) {
+                (Some(_), _) => "plan",
+                (_, Some(_)) => "isolator",
+                _ => continue,
+            };
+            let message = format!(
+                "columns of \"{}\" cannot be hit: the building has `{what}`",
+                building.name.value
+            );
+            let help = format!("remove `column`, or `{what}` of the building");
+            found.push(case.error(given.span.clone(), message, Some(help)));
         }
     }
     found
@@ -155,21 +178,29 @@ fn with_gaps(
     models: &[Arc<dyn ImpactModel>],
     mut system: System,
 ) -> Result<System, AssemblyError> {
-    for (gap, model) in case.gaps.iter().zip(models) {
+    let hits = Hits::of(case)?;
+    for (number, (gap, model)) in case.gaps.iter().zip(models).enumerate() {
         let floor = |side: Side, facing: Facing| match (side, facing) {
             (Side::Building(b), Facing::Floor(s)) => Floor::Storey(b, s),
             _ if gap.fixed_wall => Floor::FixedWall,
             _ => Floor::Wall,
         };
         let points = plan::points(case, gap)?;
-        let mut pairs = Vec::new();
-        for l in &gap.levels {
-            let sides = [
+        let (mut pairs, mut responses) = (Vec::new(), Vec::new());
+        let first = system.levels().len();
+        for (place, l) in gap.levels.iter().enumerate() {
+            let mut sides = [
                 floor(gap.between[0], l.left),
                 floor(gap.between[1], l.right),
             ];
+            let mut model = Arc::clone(model);
+            if let Some(hit) = hits.level(&mut system, (number, place), &model)? {
+                sides[hit.side] = hit.point;
+                model = hit.model;
+                responses.extend(hit.responses.into_iter().map(|r| (first + place, r)));
+            }
             let mut add = |[left, right]: [Floor; 2]| {
-                pairs.push((left, right, l.width, Arc::clone(model)));
+                pairs.push((left, right, l.width, Arc::clone(&model)));
             };
             match &points {
                 None => add(sides),
@@ -193,6 +224,9 @@ fn with_gaps(
             if system.ground_offset_at_end(level).is_some() {
                 system.add_level_motion(level, LevelMotion::RelativeGroundDisplacement)?;
             }
+        }
+        for (level, response) in responses {
+            system.add_level_response(level, response)?;
         }
         if !gap.floor_to_floor {
             refuse_unequal_floors(case, gap, &system)?;
@@ -251,7 +285,7 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
         })
 }
 
-fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
+fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBuilding, CaseError> {
     let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
     let (name, mass, height) = (b.name.value.clone(), b.mass.clone(), b.height.clone());
     if let Some(given) = &b.plan {
@@ -292,7 +326,12 @@ fn building(case: &Case, b: &Building) -> Result<ShearBuilding, CaseError> {
         };
         case.error(place.clone(), e.to_string(), help)
     })?;
-    foundation::on_foundation(case, b, laws::with_storey_laws(case, b, building)?)
+    let building = laws::with_storey_laws(case, b, building)?;
+    if points.is_empty() {
+        return foundation::on_foundation(case, b, building);
+    }
+    let made = building.with_contact_points(points);
+    made.map_err(|e| case.error(b.name.span.clone(), e.to_string(), None))
 }
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {

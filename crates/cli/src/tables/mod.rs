@@ -11,7 +11,7 @@ use pounding_case::Case;
 use pounding_catalogue::numbers::{fixed, shown_unit};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
-use pounding_time_history::{ContactLevel, LevelOutcome, Outcome, Peak, System};
+use pounding_time_history::{ContactLevel, LevelOutcome, NamedPeak, Outcome, Peak, System};
 
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
@@ -219,16 +219,36 @@ fn level_responses(levels: &[LevelOutcome], places: &[ContactLevel]) -> String {
     for (l, at) in levels.iter().zip(places).rev() {
         for response in &l.responses {
             let ((factor, unit), peak) = (shown_unit(response.unit), response.peak);
+            let digits = if unit == "mm" { 3 } else { 1 };
             text.push_str(&format!(
-                "Level {}: {} {} {unit} at {:.2} s\n",
+                "Level {}: {} {} {unit} at {:.2} s{}\n",
                 at.place,
                 response.name.replace('_', " "),
-                decimal(peak.value * factor, 1),
-                peak.time
+                decimal(peak.value * factor, digits),
+                peak.time,
+                against_capacity(response)
             ));
         }
     }
     text
+}
+
+/// How a response stands to the capacity for it, if that is known.
+pub fn against_capacity(response: &NamedPeak) -> String {
+    let Some((capacity, ratio)) = response.capacity.zip(response.demand_ratio()) else {
+        return String::new();
+    };
+    let (factor, unit) = shown_unit(response.unit);
+    format!(
+        ", {} the capacity of {} {unit}: demand over capacity {}",
+        if ratio > 1.0 {
+            "exceeds"
+        } else {
+            "stays below"
+        },
+        decimal(capacity * factor, 1),
+        decimal(ratio, 2)
+    )
 }
 
 /// The line of a model whose formula or constants were not read in its paper.
@@ -298,6 +318,36 @@ fn energy(run: &Run<'_>) -> String {
         counted(statistics.events, "event"),
         run.wall_time,
     )
+}
+
+/// A line for each level at which columns are hit.
+fn hit_columns(system: &System, levels: &[ContactLevel]) -> String {
+    let mut text = String::new();
+    for level in levels {
+        let Some(side) = (0..2).find(|side| system.is_column(level, *side)) else {
+            continue;
+        };
+        let Some((building, storey)) = system.storey_of(level.between[side]) else {
+            continue;
+        };
+        let b = &system.buildings()[building];
+        let below = storey.checked_sub(1).map_or(0.0, |s| b.elevations()[s]);
+        let point = match level.model.spring_behind() {
+            Some(stiffness) => format!(
+                "a point without mass behind which the columns give {} MN/m",
+                decimal(1e-6 * stiffness, 1)
+            ),
+            None => "a point with mass: restitution and damping are those of this light point, whose effective mass stands above".to_owned(),
+        };
+        text.push_str(&format!(
+            "level {}: the floor hits columns of {} in storey {}, from {below} m to {} m, at {point}\n",
+            level.place.label(),
+            b.name(),
+            storey + 1,
+            b.elevations()[storey]
+        ));
+    }
+    text
 }
 
 /// What `check` prints.
@@ -384,6 +434,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             )
         });
         text.push_str(&format!("\nGap {} ({model})\n{table}\n", gap.name));
+        text.push_str(&hit_columns(&assembly.system, levels));
         text.push_str(&secondary_sources(levels));
     }
     text.push_str(&elements::links(&assembly.system));

@@ -4,7 +4,9 @@ use pounding_catalogue::numbers::shown_unit;
 
 use super::html::{escaped, table};
 use super::numbers::{figures, ratio};
-use crate::result::{BuildingResult, GapResult, ImpactResult, LinkResult, StoreyPeaks};
+use crate::result::{
+    BuildingResult, GapResult, ImpactResult, LevelResponses, LinkResult, StoreyPeaks,
+};
 
 /// Modes listed.
 const MODES: usize = 5;
@@ -114,20 +116,51 @@ pub(super) fn level_responses(gap: &GapResult) -> String {
     if gap.responses.is_empty() {
         return String::new();
     }
-    let headings = ["level", "response", "peak", "at (s)"];
+    let headings = [
+        "level",
+        "response",
+        "peak",
+        "at (s)",
+        "capacity",
+        "peak / capacity",
+    ];
+    let known = gap.responses.iter().any(|r| !r.capacity.is_empty());
+    let shown = if known { headings.len() } else { 4 };
     let rows = (0..gap.levels.len()).rev().flat_map(|l| {
         let known = gap.responses.iter().filter(move |r| r.value[l].is_finite());
         known.map(move |r| {
             let (factor, unit) = shown_unit(&r.unit);
-            vec![
+            let mut row = vec![
                 gap.levels[l].label.clone(),
                 format!("{} ({unit})", r.name.replace('_', " ")),
                 figures(factor * r.value[l]),
                 figures(r.time[l]),
-            ]
+            ];
+            row.extend(capacity(r, l, factor));
+            row.truncate(shown);
+            row
         })
     });
-    table(&headings, rows)
+    table(&headings[..shown], rows)
+}
+
+/// Capacity of a response at a level, and in words whether the peak exceeds it.
+fn capacity(response: &LevelResponses, level: usize, factor: f64) -> [String; 2] {
+    match response.capacity.get(level) {
+        Some(capacity) if capacity.is_finite() => {
+            let ratio = response.value[level] / capacity;
+            let words = if ratio > 1.0 {
+                "exceeds"
+            } else {
+                "stays below"
+            };
+            [
+                figures(factor * capacity),
+                format!("{} ({words} it)", figures(ratio)),
+            ]
+        }
+        _ => ["-", "-"].map(str::to_owned),
+    }
 }
 
 /// What the isolators went through; nothing for a building without.

@@ -112,8 +112,8 @@ pub(super) fn begin_levels(
     Ok(())
 }
 
-/// Adds the peaks of the levels of a gap, with their times: NaN where a level has no such
-/// response.
+/// Adds the peaks of the levels of a gap, with their times, and capacities where one is known:
+/// NaN where a level has no such response, or no capacity.
 pub(super) fn finish_levels(
     gap_group: &Group,
     levels: &[LevelOutcome],
@@ -141,6 +141,25 @@ pub(super) fn finish_levels(
         let time = series(&group, &time_name, "s", &long_name, &of(|p| p.time))?;
         dimension_scales::attach(&value, level, 0)?;
         dimension_scales::attach(&time, level, 0)?;
+        let capacity = |l: &LevelOutcome| {
+            let found = l.responses.iter().find(|r| r.name == name);
+            found.and_then(|r| r.capacity)
+        };
+        if levels.iter().any(|l| capacity(l).is_some()) {
+            let known: Vec<f64> = levels
+                .iter()
+                .map(|l| capacity(l).unwrap_or(f64::NAN))
+                .collect();
+            let long_name = format!("capacity for {label}");
+            let data = series(
+                &group,
+                &format!("{name}_capacity"),
+                unit,
+                &long_name,
+                &known,
+            )?;
+            dimension_scales::attach(&data, level, 0)?;
+        }
     }
     Ok(())
 }

@@ -1,7 +1,9 @@
 //! The columns of a result: which quantities, of what, in which unit.
 
 use pounding_shear_building::OVERTURNING_RATIO;
-use pounding_time_history::{BuildingOutcome, LevelPlace, Outcome, System};
+use pounding_time_history::{
+    BuildingOutcome, COLUMN_SHEARS, LevelOutcome, LevelPlace, Outcome, System,
+};
 
 use crate::run::with_base_moment;
 
@@ -224,6 +226,13 @@ pub static RESPONSES: [Response; 5] = [
         ),
     ),
 ];
+/// The quantity of studies in which floors hit columns.
+const COLUMN_SHEAR: Quantity = quantity(
+    Axis::Level,
+    "peak_column_shear",
+    "N",
+    "maximum shear of the columns that are hit, below or above the hit, missing where floors hit floors",
+);
 
 /// Whether a name is taken by the results.
 #[must_use]
@@ -243,7 +252,7 @@ pub fn is_result(name: &str) -> bool {
     ];
     QUANTITIES
         .iter()
-        .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain([&BASE_MOMENT, &COLUMN_SHEAR, &ISOLATED_DEMAND])
         .chain(RESPONSES.iter().map(|r| &r.peak))
         .any(|q| q.name == name)
         || labels.contains(&name)
@@ -324,6 +333,8 @@ impl Layout {
             })
         });
         let buildings = with_base_moment(system).map(str::to_owned);
+        let mut shears = system.level_responses();
+        let columns = shears.any(|(_, r)| COLUMN_SHEARS.contains(&r.name.as_str()));
         Self::from_places(
             (storeys.collect(), levels.collect()),
             buildings.collect(),
@@ -331,23 +342,27 @@ impl Layout {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
                 rows.any(|row| row.name == response.name)
             },
-            isolated_demand,
+            (columns, isolated_demand),
         )
     }
 
     /// The shape with these storeys and levels, these buildings with a base moment, and the
-    /// responses that some of them have.
+    /// responses that some of them have; whether columns are hit, and whether isolated demands
+    /// are known.
     pub(super) fn from_places(
         (storeys, levels): (Vec<Place>, Vec<Place>),
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
-        isolated_demand: bool,
+        (columns, isolated_demand): (bool, bool),
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
             quantities.push(BASE_MOMENT);
             let responses = RESPONSES.iter().filter(|r| has(r));
             quantities.extend(responses.map(|r| r.peak));
+        }
+        if columns {
+            quantities.push(COLUMN_SHEAR);
         }
         if isolated_demand {
             quantities.push(ISOLATED_DEMAND);
@@ -419,6 +434,10 @@ impl Layout {
         {
             let buildings = outcome.buildings.iter().filter(|b| b.base_moment.is_some());
             out.extend(buildings.map(|b| response.of(b).unwrap_or(f64::NAN)));
+        }
+        if self.quantities.contains(&COLUMN_SHEAR) {
+            let shear = |l: &LevelOutcome| l.column_shear().map_or(f64::NAN, |r| r.peak.value);
+            out.extend(levels().map(shear));
         }
         out.extend(demand);
     }

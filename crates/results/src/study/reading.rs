@@ -382,6 +382,9 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
         (storeys.collect(), levels.collect()),
         buildings,
         |response| file.link_exists(response.peak.name),
-        file.link_exists("isolated_demand"),
+        (
+            file.link_exists("peak_column_shear"),
+            file.link_exists("isolated_demand"),
+        ),
     ))
 }

@@ -61,7 +61,8 @@ impl Path {
     /// Whether it leads to something of a gap that changes neither buildings nor motion, nor
     /// which floors may touch.
     pub(crate) fn of_gap(&self) -> bool {
-        self.table() == "gap" && !self.leads_through("levels")
+        let shapes = ["levels", "elevation_tolerance", "column"];
+        self.table() == "gap" && !shapes.iter().any(|key| self.leads_through(key))
     }
 
     /// Whether it leads to the scale of the motion.

@@ -1,6 +1,6 @@
 //! What models are compared by.
 
-use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
+use pounding_time_history::{BuildingOutcome, COLUMN_SHEARS, Outcome, Peak, StoreyPeaks, System};
 
 use crate::gap_check::{Amplification, closes};
 use crate::runs::{RESPONSES, Response};
@@ -25,6 +25,8 @@ pub enum QuantityKind {
     Impacts,
     /// Maximum contact force of a gap (N); not of rigid impacts.
     PeakForce,
+    /// Maximum shear of columns that are hit across a gap (N).
+    ColumnShear,
     /// Maximum impulse of one impact in a gap (N s).
     Impulse,
     /// Maximum approach velocity in a gap (m/s).
@@ -63,6 +65,7 @@ impl QuantityKind {
             Self::Response(response) => response.name,
             Self::Impacts => "impacts",
             Self::PeakForce => "peak_force",
+            Self::ColumnShear => "column_shear",
             Self::Impulse => "impulse",
             Self::ApproachVelocity => "approach_velocity",
             Self::ImpactEnergy => "impact_energy",
@@ -75,7 +78,7 @@ impl QuantityKind {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Displacement => "m",
-            Self::StoreyShear | Self::PeakForce => "N",
+            Self::StoreyShear | Self::PeakForce | Self::ColumnShear => "N",
             Self::AccelerationAbsolute => "m/s2",
             Self::BaseMoment => "N m",
             Self::Response(response) => match response.peak.unit {
@@ -100,7 +103,7 @@ impl QuantityKind {
             Self::BaseMoment => "at the base",
             Self::Response(_) => "of the building",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
-            Self::PeakForce => "maximum over levels",
+            Self::PeakForce | Self::ColumnShear => "maximum over levels",
             Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
             Self::AchievedRestitution => "over all levels and impacts",
         }
@@ -187,6 +190,11 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     }
     for (index, g) in system.gaps().iter().enumerate() {
         all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));
+        let levels = g.first_level..g.first_level + g.levels;
+        let mut responses = system.level_responses();
+        if responses.any(|(l, r)| levels.contains(&l) && COLUMN_SHEARS.contains(&r.name.as_str())) {
+            all.push(quantity(QuantityKind::ColumnShear, &g.name, index));
+        }
     }
     all
 }
@@ -229,6 +237,9 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
         QuantityKind::Impacts => levels.iter().map(|l| l.impacts).sum::<usize>() as f64,
         QuantityKind::PeakForce if jumps => f64::NAN,
         QuantityKind::PeakForce => maximum(|l| l.peak_force.value),
+        QuantityKind::ColumnShear => {
+            maximum(|l| l.column_shear().map_or(0.0, |shear| shear.peak.value))
+        }
         QuantityKind::Impulse => maximum(|l| l.impulse_max),
         QuantityKind::ApproachVelocity => maximum(|l| l.approach_velocity_max),
         QuantityKind::ImpactEnergy => levels.iter().map(|l| l.energy_dissipated).sum(),

@@ -25,6 +25,7 @@ pub(crate) use parallel::in_parallel;
 pub(crate) use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
+use pounding_time_history::NamedPeak;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +71,20 @@ pub struct GapReport {
     pub combinations: Vec<CombinationGap>,
     /// Whether no more records than the target probability allows close the gap.
     pub adequate: bool,
+    /// Shear of columns that are hit, at the provided widths: of each such level the record
+    /// under which it is a maximum; none where no run could be made.
+    pub columns: Vec<ColumnDemand>,
+}
+
+/// Maximum shear of the columns that are hit at a level, over all records.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnDemand {
+    /// Level of the gap, from zero.
+    pub level: usize,
+    /// Record, from zero.
+    pub record: usize,
+    /// The shear, below or above the hit, with its capacity if that is known.
+    pub shear: NamedPeak,
 }
 
 /// The whole check.
@@ -257,8 +272,35 @@ fn report(
         records_in_contact,
         records_driven,
         demand,
+        columns: (0..levels.len())
+            .filter_map(|level| column_demand(records, (place.gap, level)))
+            .collect(),
         levels,
         codes,
         combinations,
+    })
+}
+
+/// The record under which the shear of the columns at a level of a gap is a maximum; `None`
+/// where floors hit floors.
+fn column_demand(records: &[RecordDemand], (gap, level): (usize, usize)) -> Option<ColumnDemand> {
+    let of = |(number, record): (usize, &RecordDemand)| {
+        let (_, gaps) = record.pounding.as_ref().ok()?;
+        let shear = gaps[gap].levels[level].column_shear()?.clone();
+        Some((number, shear))
+    };
+    let shears = records.iter().enumerate().filter_map(of);
+    // Of equals the first record.
+    let most = shears.reduce(|a, b| {
+        if b.1.peak.value > a.1.peak.value {
+            b
+        } else {
+            a
+        }
+    });
+    most.map(|(record, shear)| ColumnDemand {
+        level,
+        record,
+        shear,
     })
 }

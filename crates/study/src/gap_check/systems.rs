@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_gap_element::ImpactModel;
+use pounding_gap_element::{ImpactModel, in_series};
 use pounding_time_history::{ContactLevel, System, TimeHistoryError};
 
 /// The same buildings and links under the same motion, with another width (m) and model at every
@@ -18,10 +18,20 @@ pub(crate) fn rebuilt(
         let pairs = levels.iter().map(|level| {
             let (width, model) = change(index, level);
             let [left, right] = level.between;
-            (left, right, width, model)
+            // What stands behind a contact stays there, whatever its law.
+            let model = match (level.model.spring_behind(), model.spring_behind()) {
+                (Some(spring), None) => in_series(model, spring),
+                _ => Ok(model),
+            };
+            let model = model.map_err(|e| TimeHistoryError::GapDefinition {
+                gap: gap.name.clone(),
+                reason: format!("{e}, and the columns that are hit have no mass"),
+            })?;
+            Ok((left, right, width, model))
         });
+        let pairs = pairs.collect::<Result<_, TimeHistoryError>>()?;
         let (between, tolerance) = (gap.between.clone(), gap.elevation_tolerance);
-        other.add_gap_with_tolerance(&gap.name, between, pairs.collect(), tolerance)?;
+        other.add_gap_with_tolerance(&gap.name, between, pairs, tolerance)?;
     }
     other.take_level_responses(system)?;
     Ok(other)

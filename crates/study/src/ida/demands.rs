@@ -68,9 +68,14 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
         for (name, unit) in [
             ("isolated_demand", "m"),
             ("peak_force", "N"),
+            ("peak_column_shear", "N"),
             ("impulse_max", "N s"),
             ("impacts", "1"),
         ] {
+            // Not all studies have columns that are hit.
+            if layout.range(name).is_empty() {
+                continue;
+            }
             demands.push(Demand {
                 name: format!("{name}: {gap}"),
                 unit,
@@ -101,6 +106,7 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         DemandKind::FoundationMoment => ("peak_foundation_moment", "N m", Axis::Building),
         DemandKind::OverturningRatio => ("peak_overturning_ratio", "1", Axis::Building),
         DemandKind::ContactForce => ("peak_force", "N", Axis::Level),
+        DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
         DemandKind::Impacts => ("impacts", "1", Axis::Level),
         DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),

@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use pounding_assembly::{AssemblyError, assemble_with_record, regap, scale_record};
+use pounding_assembly::{
+    AssemblyError, assemble_with_record, assemble_without_gaps, regap, scale_record,
+};
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
@@ -155,14 +157,10 @@ impl<'s> Runner<'s> {
         let record = variant.make(&case, scaled).map_err(said)?;
         let key = key(self.study, point);
         let base = self.buildings.get(&key.buildings, || {
-            let assembled = |case: &Case| {
-                // Without gaps, which are those of this run alone.
-                let mut alone = case.clone();
-                alone.gaps.clear();
-                assemble_with_record(&alone, &record)
-            };
-            let assembly = variant.make(&case, assembled).map_err(said)?;
-            Ok(Arc::new(assembly.system))
+            // Without gaps, which are those of this run alone.
+            let assembled = |case: &Case| assemble_without_gaps(case, &record);
+            let system = variant.make(&case, assembled).map_err(said)?;
+            Ok(Arc::new(system))
         })?;
         let base = if key.motion.is_empty() {
             base

@@ -9,7 +9,7 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, List, Number, Optional, Positive, Reader, TableOr,
     Within, Written,
 };
-use pounding_case::{Building, Dimension, Located, Support};
+use pounding_case::{Building, ContactLevel, Dimension, Located, Support};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
@@ -49,6 +49,8 @@ pub enum DemandKind {
     OverturningRatio,
     /// Maximum contact force (N).
     ContactForce,
+    /// Maximum shear of columns that are hit (N).
+    ColumnShear,
     /// Maximum impulse of one impact (N s).
     Impulse,
     /// Number of impacts.
@@ -100,7 +102,9 @@ impl DemandKind {
             | Self::Impacts
             | Self::FoundationRotation
             | Self::OverturningRatio => Dimension::NUMBER,
-            Self::StoreyShear | Self::ContactForce | Self::FoundationShear => Dimension::FORCE,
+            Self::StoreyShear | Self::ContactForce | Self::FoundationShear | Self::ColumnShear => {
+                Dimension::FORCE
+            }
             Self::AccelerationAbsolute => Dimension::ACCELERATION,
             // Of a moment, as of an energy.
             Self::BaseMoment | Self::FoundationMoment => Dimension::ENERGY,
@@ -401,6 +405,15 @@ impl LimitTable {
                 let message = format!("{name} is known of buildings {of} only");
                 let help = format!("ask for `storey_shear`, or for a building {of}");
                 return reader.refuse(span, message, help);
+            }
+        }
+        if demand == DemandKind::ColumnShear {
+            let gaps = &context.base.as_ref()?.case.gaps;
+            let hit = |l: &ContactLevel| l.left.is_column() || l.right.is_column();
+            if !gaps.iter().flat_map(|g| &g.levels).any(hit) {
+                let message = "no gap of the case lets floors hit columns";
+                let help = "ask for `contact_force`, or add `column` to a gap of the case";
+                return reader.refuse(exceeds_at?, message, help);
             }
         }
         Some(Limit {

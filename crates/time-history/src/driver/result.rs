@@ -24,6 +24,7 @@ fn responses<'a>(
         name: row.name.clone(),
         unit: row.unit,
         peak: *peak,
+        capacity: None,
     })
     .collect()
 }
@@ -83,6 +84,7 @@ impl Driver<'_> {
                 name: row.given.name.clone(),
                 unit: row.given.unit,
                 peak: *peak,
+                capacity: row.given.capacity,
             });
         }
         let warnings = Warning::after(self.system, self.options, (&buildings, &levels));

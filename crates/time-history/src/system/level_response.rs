@@ -16,6 +16,8 @@ pub struct LevelResponse {
     pub weights: Vec<(usize, f64)>,
     /// Factor of the contact force, which is positive in contact.
     pub by_force: f64,
+    /// What the member can bear, in the same unit, where that is known.
+    pub capacity: Option<f64>,
 }
 
 /// The same by degrees of freedom.
@@ -118,6 +120,7 @@ impl System {
                 building: 0,
                 weights: Vec::new(),
                 by_force: 0.0,
+                capacity: None,
             },
         });
         Ok(())

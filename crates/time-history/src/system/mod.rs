@@ -233,10 +233,10 @@ impl System {
                 reason: format!("it takes {n} finite displacements and as many velocities"),
             });
         }
-        // What is no floor starts at rest.
-        let rest = vec![0.0; self.mass.len() - n];
-        initial.splice(n..n, rest.iter().copied());
-        initial.extend(rest);
+        // What is no floor starts at rest, or as floors carry it along.
+        let [u, v] = [displacement, velocity].map(|floors| self.carried_along(floors));
+        initial.splice(n..n, u);
+        initial.extend(v);
         for (l, level) in self.levels.iter().enumerate() {
             let overlap = level.relative(&initial) - level.width;
             if overlap > 0.0 {
@@ -247,6 +247,20 @@ impl System {
         }
         self.initial = initial;
         Ok(self)
+    }
+
+    /// Values of what is no floor that go with these of the floors.
+    fn carried_along(&self, floors: &[f64]) -> Vec<f64> {
+        let of = |(b, building): (usize, &Arc<ShearBuilding>)| {
+            let own = &floors[self.offsets[b]..self.offsets[b + 1]];
+            let further = 0..building.further_coordinates().len();
+            further
+                .map(|j| building.carried_along(j, own))
+                .collect::<Vec<_>>()
+        };
+        let mut all: Vec<f64> = self.buildings.iter().enumerate().flat_map(of).collect();
+        all.resize(self.mass.len() - floors.len(), 0.0);
+        all
     }
 
     /// Displacements (m), then velocities (m/s) of all floors at time zero.

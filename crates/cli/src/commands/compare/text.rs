@@ -14,13 +14,14 @@ const LISTED: usize = 6;
 const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
-const SHOWN: [QuantityKind; 9] = [
+const SHOWN: [QuantityKind; 10] = [
     QuantityKind::Displacement,
     QuantityKind::StoreyShear,
     QuantityKind::AccelerationAbsolute,
     QuantityKind::BaseMoment,
     QuantityKind::Impacts,
     QuantityKind::PeakForce,
+    QuantityKind::ColumnShear,
     QuantityKind::ApproachVelocity,
     QuantityKind::ImpactEnergy,
     QuantityKind::AchievedRestitution,
@@ -31,7 +32,9 @@ fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
     match kind {
         QuantityKind::Displacement => ("mm", 1e-3, 1),
         QuantityKind::DriftRatio => ("%", 1e-2, 3),
-        QuantityKind::StoreyShear | QuantityKind::PeakForce => ("kN", 1e3, 1),
+        QuantityKind::StoreyShear | QuantityKind::PeakForce | QuantityKind::ColumnShear => {
+            ("kN", 1e3, 1)
+        }
         QuantityKind::AccelerationAbsolute => ("g", G, 3),
         QuantityKind::BaseMoment => ("kN m", 1e3, 1),
         QuantityKind::Response(response) => {

@@ -3,7 +3,7 @@
 use pounding_study::gap_check::{
     self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
-use pounding_time_history::{BuildingOutcome, LevelPlace};
+use pounding_time_history::{BuildingOutcome, LevelPlace, NamedPeak};
 use serde::Serialize;
 
 use super::provisions::Descriptor;
@@ -148,6 +148,18 @@ struct Gap<'c> {
     required: Required,
     combinations: Vec<Combination>,
     provisions: Vec<Provision<'c>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    columns: Vec<Column<'c>>,
+}
+
+/// Maximum shear of the columns that are hit at a level.
+#[derive(Serialize)]
+struct Column<'c> {
+    level: usize,
+    record: &'c str,
+    demand_over_capacity: Option<f64>,
+    #[serde(flatten)]
+    shear: &'c NamedPeak,
 }
 
 /// A contact level with its demand under each record.
@@ -227,6 +239,14 @@ impl<'c> Gap<'c> {
             records_driven_by_neighbours: gap.records_driven,
             contact_probability_bounds: gap.contact_bounds,
             governing_level: gap.governing_level + 1,
+            columns: (gap.columns.iter())
+                .map(|c| Column {
+                    level: c.level + 1,
+                    record: &check.records[c.record].name,
+                    demand_over_capacity: c.shear.demand_ratio(),
+                    shear: &c.shear,
+                })
+                .collect(),
             demand: &gap.demand,
             levels: gap.levels.iter().enumerate().map(level).collect(),
             required: Required {

@@ -8,7 +8,7 @@ use pounding_study::gap_check::{
     Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
 
-use crate::tables::{decimal, new_table, warning_lines};
+use crate::tables::{against_capacity, decimal, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
 const LISTED: usize = 6;
@@ -401,8 +401,30 @@ fn provided(check: &GapCheck) -> String {
     }
     let jumps = if rigid(check) { JUMPS } else { "" };
     format!(
-        "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}"
+        "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}{}",
+        columns(check)
     )
+}
+
+/// The shear of columns that floors hit, a line each.
+fn columns(check: &GapCheck) -> String {
+    let mut text = String::new();
+    for gap in &check.gaps {
+        for column in gap.columns.iter().rev() {
+            let shear = &column.shear;
+            text.push_str(&format!(
+                "Gap {}, level {}: columns that are hit bear a {} of {} kN at {:.2} s under {}{}\n",
+                gap.name,
+                gap.levels[column.level].place,
+                shear.name.replace("column_", "").replace('_', " "),
+                decimal(1e-3 * shear.peak.value, 1),
+                shear.peak.time,
+                check.records[column.record].name,
+                against_capacity(shear)
+            ));
+        }
+    }
+    text
 }
 
 /// A row per building, with the record under which each ratio is a maximum.

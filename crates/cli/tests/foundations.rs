@@ -641,6 +641,44 @@ fn rigid_storeys_that_rock_are_a_pendulum() {
     );
 }
 
+/// Gravity through the whole drift lengthens the period by what `check` says, with a stiffness
+/// matrix as with storeys, and the ledger closes.
+#[test]
+fn gravity_acts_on_buildings_on_soil() {
+    let chain = by_soil().replace("damping = {", "p_delta = true\ndamping = {");
+    let rows = "stiffness_matrix = [[115e6, -55e6, 0], [-55e6, 105e6, -50e6], [0, -50e6, 50e6]]";
+    let storeys = "stiffness = [\"60 MN/m\", \"55 MN/m\", \"50 MN/m\"]";
+    let matrix = chain.replace(storeys, rows);
+    assert_ne!(matrix, chain);
+    let period = |case: &str| {
+        let told = Bench::with(case).json("check case.toml");
+        told["buildings"][0]["period"][0].as_f64().unwrap()
+    };
+    let (with, without) = (period(&chain), period(&by_soil()));
+    let taken = 100.0 * (1.0 - (without / with).powi(2));
+    assert!(taken > 0.1, "{taken}");
+    let shown = Bench::with(&chain).text("check case.toml");
+    let said = shown.split("gravity takes ").nth(1).unwrap();
+    let share = said.split(" % off the stiffness of the first mode").next();
+    assert!(
+        (share.unwrap().parse::<f64>().unwrap() - taken).abs() < 0.011,
+        "{said} {taken}"
+    );
+    let run = |case: &str| {
+        let told = Bench::with(case).json("run case.toml --no-output");
+        assert!(told["energy"]["residual_ratio"].as_f64().unwrap() < 1e-9);
+        let roof = &told["buildings"][0]["storeys"][2]["displacement"]["peak"];
+        (
+            roof.as_f64().unwrap(),
+            told["gaps"][0]["levels"][2]["impacts"].clone(),
+        )
+    };
+    let ((chain, hits), (matrix, same)) = (run(&chain), run(&matrix));
+    assert_eq!(hits, same);
+    assert!((chain / matrix - 1.0).abs() < 1e-9, "{chain} {matrix}");
+    assert!((chain / reference().outputs["U_A3"].peak - 1.0).abs() > 1e-4);
+}
+
 /// Each with what its message says, and the remedy.
 #[test]
 fn what_cannot_stand_on_soil_is_refused_at_its_place() {

@@ -5,9 +5,7 @@
 //! point is condensed out. In the displacements `u_l` of the floor below, `u_c` of the point
 //! and `u_u` of the floor above its stiffness is
 //!
-//! ```text
-//! k_s [1 0 -1; 0 0 0; -1 0 1] + k_c t t',    t = (-N_l, 1, -N_u),    N_l + N_u = 1
-//! ```
+//! `k_s [1 0 -1; 0 0 0; -1 0 1] + k_c t t'` with `t = (-N_l, 1, -N_u)`, `N_l + N_u = 1`.
 //!
 //! The first part is in the stiffness of the storey already: a building with such a point has
 //! `k_c t t'` more. `N_l u_l + N_u u_u` is where the point stands while nothing pushes it,
@@ -16,12 +14,12 @@
 //! With `xi = a/h`, `eta = b/h`, and `Phi = 12 EI / (kappa G A h^2)` for the deformation in
 //! shear, which is zero where this is left out:
 //!
-//! ```text
-//! both ends fixed:   k_s = 12 EI / (h^3 (1 + Phi))     N_u = (3 xi^2 - 2 xi^3 + Phi xi) / (1 + Phi)
-//!                    1/k_c = h^3 p (4 p^2 + Phi p + Phi (1 + Phi)) / (12 EI (1 + Phi)),    p = xi eta
-//! pinned above:      k_s = 3 EI / (h^3 (1 + Psi))      N_u = (xi^2 (3 - xi) + 2 Psi xi) / (2 (1 + Psi))
-//!                    1/k_c = h^3 p (xi p (4 - xi) + 4 Psi (1 + p + Psi)) / (12 EI (1 + Psi)),    Psi = Phi / 4
-//! ```
+//! - both ends fixed: `k_s = 12 EI / (h^3 (1 + Phi))`,
+//!   `N_u = (3 xi^2 - 2 xi^3 + Phi xi) / (1 + Phi)`,
+//!   `1/k_c = h^3 p (4 p^2 + Phi p + Phi (1 + Phi)) / (12 EI (1 + Phi))`, `p = xi eta`;
+//! - pinned above: `k_s = 3 EI / (h^3 (1 + Psi))`,
+//!   `N_u = (xi^2 (3 - xi) + 2 Psi xi) / (2 (1 + Psi))`,
+//!   `1/k_c = h^3 p (xi p (4 - xi) + 4 Psi (1 + p + Psi)) / (12 EI (1 + Psi))`, `Psi = Phi / 4`.
 //!
 //! Several points of one column act on one another: with the matrix `F` of their displacements
 //! under unit forces while the floors stand, `k_c t t'` becomes `T' F^-1 T`, `T` a row `t` a

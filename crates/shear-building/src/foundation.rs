@@ -29,10 +29,9 @@ pub struct SpringDashpot {
 /// of area `I` about the rocking axis for rocking: `r = sqrt(A / pi)`,
 /// `r_t = (4 I / pi)^(1/4)`. With `G = rho Vs^2`
 ///
-/// ```text
-/// k_x = 8 G r / (2 - nu)                c_x = rho Vs A
-/// k_t = 8 G r_t^3 / (3 (1 - nu))        c_t = rho Vp I,   Vp = Vs sqrt(2 (1 - nu) / (1 - 2 nu))
-/// ```
+/// - `k_x = 8 G r / (2 - nu)`, `c_x = rho Vs A`;
+/// - `k_t = 8 G r_t^3 / (3 (1 - nu))`, `c_t = rho Vp I` with
+///   `Vp = Vs sqrt(2 (1 - nu) / (1 - 2 nu))`.
 ///
 /// Above `nu = 1/3` compression waves are too fast to carry energy away: `2 Vs` takes the
 /// place of `Vp`, and soil that moves with the foundation adds `1.2 (nu - 1/3) rho I r_t` to

@@ -20,6 +20,29 @@ fn refused(building: &str, gap: &str, motion: &str) -> AssemblyError {
 const DAMPED: &str = "damping = { mass_proportional = 0.05 }\n";
 const PLAN: &str = "plan = { length = 12, width = 10, frames_along = [{ at = -5, stiffness = 3e7 }, { at = 5, stiffness = 1e7 }], frames_across = [{ at = 0, stiffness = 2e7 }] }";
 
+/// Columns are hit where floors neither turn nor stand on isolators.
+#[test]
+fn columns_beside_plans_and_isolators() {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let isolator = "stiffness = 1e8\nisolator = { model = \"lead_rubber\", post_yield_period = 2.5, strength = 0.06 }";
+    for (structure, of, what) in [
+        (PLAN, "a", "plan"),
+        (PLAN, "b", "plan"),
+        (isolator, "a", "isolator"),
+    ] {
+        let text = format!(
+            "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\n{DAMPED}{structure}\n[[building]]\nname = \"b\"\nmass = [1e5, 1e5]\nheight = 2\n{DAMPED}stiffness = 1e8\n[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\ncolumn = {{ of = \"{of}\", flexural_rigidity = 1e8, contact_mass = 1e3 }}\n[ground_motion]\nfile = \"{record}\"\n"
+        );
+        let error = assemble(&Case::parse(&text, Path::new("case.toml")).unwrap()).unwrap_err();
+        let said = error.to_string();
+        let expected = format!("columns cannot be hit in gap a-b: building \"a\" has `{what}`");
+        assert!(said.contains(&expected), "{said}");
+    }
+}
+
 #[test]
 fn each_with_its_remedy() {
     let sound = format!("{DAMPED}{PLAN}");

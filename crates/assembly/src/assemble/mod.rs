@@ -141,26 +141,29 @@ impl Parts {
     }
 }
 
-/// Columns of buildings whose floors are not known to hold them as a chain of storeys does.
+/// Columns that are hit beside floors that turn, or in buildings on isolators.
 fn columns_of_rigid_floors(case: &Case) -> Vec<CaseError> {
     let mut found = Vec::new();
     for gap in &case.gaps {
-        for (side, given) in gap.between.iter().zip(&gap.columns) {
-            let (Side::Building(b), Some(given)) = (side, given) else {
+        let Some(place) = gap.columns.iter().flatten().next() else {
+            continue;
+        };
+        for (side, own) in gap.between.iter().zip(&gap.columns) {
+            let Side::Building(b) = side else {
                 continue;
             };
             let building = &case.buildings[*b];
-            let what = match (&building.plan, &building.isolator) {
-                (Some(_), _) => "plan",
-                (_, Some(_)) => "isolator",
+            let what = match (&building.plan, &building.isolator, own) {
+                (Some(_), ..) => "plan",
+                (_, Some(_), Some(_)) => "isolator",
                 _ => continue,
             };
             let message = format!(
-                "columns of \"{}\" cannot be hit: the building has `{what}`",
-                building.name.value
+                "columns cannot be hit in gap {}: building \"{}\" has `{what}`",
+                gap.name, building.name.value
             );
             let help = format!("remove `column`, or `{what}` of the building");
-            found.push(case.error(given.span.clone(), message, Some(help)));
+            found.push(case.error(place.span.clone(), message, Some(help)));
         }
     }
     found

@@ -34,7 +34,7 @@ fn columns_beside_plans_and_isolators() {
         (isolator, "a", "isolator"),
     ] {
         let text = format!(
-            "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\n{DAMPED}{structure}\n[[building]]\nname = \"b\"\nmass = [1e5, 1e5]\nheight = 2\n{DAMPED}stiffness = 1e8\n[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\ncolumn = {{ of = \"{of}\", flexural_rigidity = 1e8, contact_mass = 1e3 }}\n[ground_motion]\nfile = \"{record}\"\n"
+            "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\n{DAMPED}{structure}\n[[building]]\nname = \"b\"\nmass = [1e5, 1e5]\nheight = 2\n{DAMPED}stiffness = 1e8\n[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\ncolumn = {{ of = \"{of}\", flexural_rigidity = 1e6 }}\n[ground_motion]\nfile = \"{record}\"\n"
         );
         let error = assemble(&Case::parse(&text, Path::new("case.toml")).unwrap()).unwrap_err();
         let said = error.to_string();

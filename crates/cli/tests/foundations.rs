@@ -732,8 +732,8 @@ fn what_cannot_stand_on_soil_is_refused_at_its_place() {
         (
             hit,
             [
-                "columns of \"B\" are hit, which stands on a foundation that sways or rocks",
-                "remove its `foundation`",
+                "\"B\" stands on a foundation that moves, and its columns would lean with it",
+                "leave out `foundation`",
             ],
         ),
     ] {

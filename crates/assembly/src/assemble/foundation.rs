@@ -1,8 +1,7 @@
 //! Foundations of a case.
 
 use pounding_case::{
-    Building, Case, CaseError, Facing, Foundation as Given, FoundationMotion, Link, Located, Side,
-    Support,
+    Building, Case, CaseError, Foundation as Given, FoundationMotion, Link, Located, Side, Support,
 };
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_shear_building::{
@@ -74,30 +73,6 @@ pub(super) fn on_foundation(
         };
         case.error(given.span.clone(), e.to_string(), Some(help.to_owned()))
     })
-}
-
-/// Refuses columns that are hit in buildings whose foundation sways or rocks.
-pub(super) fn columns(case: &Case) -> Vec<CaseError> {
-    let mut found = Vec::new();
-    for gap in &case.gaps {
-        for level in &gap.levels {
-            for (side, facing) in gap.between.iter().zip([level.left, level.right]) {
-                let (Side::Building(b), Facing::Column { .. }) = (side, facing) else {
-                    continue;
-                };
-                let b = &case.buildings[*b];
-                if b.foundation.is_some() {
-                    let message = format!(
-                        "columns of \"{}\" are hit, which stands on a foundation that sways or rocks: the two do not go together",
-                        b.name.value
-                    );
-                    let help = "remove its `foundation`, or let its floors be hit";
-                    found.push(case.error(level.place.clone(), message, Some(help.to_owned())));
-                }
-            }
-        }
-    }
-    found
 }
 
 /// Adds a link between the foundations of two buildings.

@@ -128,7 +128,6 @@ impl Parts {
         }
         let options = errors.all([options(case)]);
         errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
-        errors.or_default(errors.all(foundation::columns(case).into_iter().map(Err::<(), _>)));
         errors.or_default(errors.all(columns_of_rigid_floors(case).into_iter().map(Err::<(), _>)));
         let parts = buildings.and_then(|buildings| {
             Ok(Self {

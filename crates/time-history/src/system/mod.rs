@@ -470,12 +470,9 @@ impl System {
     /// The building on isolators beside a contact level, the left one of two.
     #[must_use]
     pub fn isolated_beside(&self, level: &ContactLevel) -> Option<&ShearBuilding> {
-        let sides = [level.left, level.right].into_iter().flatten();
-        let buildings = sides.map(|floor| {
-            let index = self.offsets.partition_point(|first| *first <= floor) - 1;
-            self.buildings[index].as_ref()
-        });
-        buildings.into_iter().find(|b| b.isolator().is_some())
+        let sides = level.between.iter().filter_map(|floor| self.storey_of(*floor));
+        let mut buildings = sides.map(|(index, _)| self.buildings[index].as_ref());
+        buildings.find(|b| b.isolator().is_some())
     }
 
     /// Gap, storeys and elevations of a contact level, in words: the level of that number

@@ -61,7 +61,7 @@ fn go(system: &System, options: &RunOptions) -> Outcome {
 fn by(assembly: &Assembly, method: MethodChoice) -> Outcome {
     let options = RunOptions {
         method,
-        ..assembly.options.clone()
+        ..assembly.options
     };
     go(&assembly.system, &options)
 }

@@ -76,7 +76,7 @@ fn assembled(text: &str) -> Assembly {
 fn go(assembly: &Assembly, method: Option<MethodChoice>) -> Outcome {
     let options = RunOptions {
         method: method.unwrap_or(assembly.options.method),
-        ..assembly.options.clone()
+        ..assembly.options
     };
     run(&assembly.system, &options, &mut [], &mut |_| {}).unwrap()
 }

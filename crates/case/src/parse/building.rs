@@ -82,7 +82,7 @@ pub(super) struct BuildingTable {
     foundation: Optional<FoundationTable>,
     /// Plan with frames in the place of storey stiffnesses, for floors that turn
     plan: Optional<PlanTable>,
-    /// How the ground under this building moves, where not as [ground_motion] says
+    /// How the ground under this building moves, where not as the table ground_motion says
     ground: Optional<GroundTable>,
 }
 

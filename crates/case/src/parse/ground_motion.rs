@@ -77,8 +77,8 @@ pub(super) struct GroundTable {
     distance: Optional<NotNegative<Length>>,
     /// Apparent speed of the waves along the row (m/s)
     wave_speed: Optional<Positive<Velocity>>,
-    /// A record of its own, relative to the folder of the case file; by default that of
-    /// [ground_motion]
+    /// A record of its own, relative to the folder of the case file; by default that of the
+    /// table ground_motion
     file: Optional<FilePath>,
     /// Name of its format; found from the content by default
     format: Optional<String>,

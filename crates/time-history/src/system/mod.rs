@@ -470,7 +470,10 @@ impl System {
     /// The building on isolators beside a contact level, the left one of two.
     #[must_use]
     pub fn isolated_beside(&self, level: &ContactLevel) -> Option<&ShearBuilding> {
-        let sides = level.between.iter().filter_map(|floor| self.storey_of(*floor));
+        let sides = level
+            .between
+            .iter()
+            .filter_map(|floor| self.storey_of(*floor));
         let mut buildings = sides.map(|(index, _)| self.buildings[index].as_ref());
         buildings.find(|b| b.isolator().is_some())
     }

@@ -85,6 +85,13 @@ fn each_with_its_remedy() {
         ),
         (
             sound.clone(),
+            "points = [1, 0, 1]",
+            "",
+            "there are two points at 1 m",
+            "give every point once",
+        ),
+        (
+            sound.clone(),
             "points = [-6, 0]",
             "",
             "the point at -6 m is not on the edge",

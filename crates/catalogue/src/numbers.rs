@@ -89,6 +89,8 @@ pub fn shown_unit(si: &str) -> (f64, &str) {
         "N" => (1.0e-3, "kN"),
         "N m" => (1.0e-3, "kN m"),
         "rad" => (1.0e3, "mrad"),
+        "m s-2" => (1.0, "m/s2"),
+        "rad s-2" => (1.0, "rad/s2"),
         "1" => (1.0, "-"),
         other => (1.0, other),
     }

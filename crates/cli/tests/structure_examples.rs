@@ -119,3 +119,27 @@ fn a_short_seat() {
     let expected = "gap middle-east level 1-1 (9 m | 9 m): the joint opens by 0.0815 m at 2.42 s, more than its seat of 0.06 m: the deck falls";
     assert!(line.ends_with(expected), "{line}");
 }
+
+/// Floors that turn, columns and a wave have a table in `check`, and `gap` says what rules leave
+/// out.
+#[test]
+fn checks_and_gap_checks() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let said = |words: &[&str], name: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(words)
+            .arg(folder.join(name).join("case.toml"))
+            .output()
+            .unwrap();
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{complaint}");
+        String::from_utf8_lossy(&output.stdout).into_owned() + &complaint
+    };
+    let turning = said(&["check"], "pair_that_turns");
+    assert!(turning.contains("2-2 at 5 m across"), "{turning}");
+    let columns = said(&["gap"], "slab_hits_column");
+    assert!(columns.contains("column"), "{columns}");
+    let bridge = said(&["gap"], "three_frame_bridge");
+    let left_out = "combination rules and widths by codes do not";
+    assert_eq!(bridge.matches(left_out).count(), 2, "{bridge}");
+}

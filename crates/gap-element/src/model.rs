@@ -303,7 +303,7 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     /// integrator then has to start the contact with a tiny step.
     fn smooth_at_closure(&self) -> bool;
 
-    /// Stiffness (N/m) of an elastic spring behind the contact ([`crate::in_series`]), whose
+    /// Stiffness (N/m) of an elastic spring behind the contact ([`crate::in_series()`]), whose
     /// deformation is part of the penetration.
     fn spring_behind(&self) -> Option<f64> {
         None

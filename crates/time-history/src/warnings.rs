@@ -457,7 +457,7 @@ fn ground_offsets(system: &System) -> impl Iterator<Item = Warning> {
         let found = levels.filter_map(|l| {
             let width = system.levels()[l].width;
             let offset = system.ground_offset_at_end(l)?;
-            (offset.abs() > OFFSET * width).then(|| Warning::GroundOffset {
+            (width > 0.0 && offset.abs() > OFFSET * width).then(|| Warning::GroundOffset {
                 gap: gap.name.clone(),
                 offset,
                 width,

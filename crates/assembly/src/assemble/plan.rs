@@ -158,13 +158,13 @@ fn responses(plan: &Plan, n: usize, floor: usize) -> Vec<ResponseRow> {
         ),
         row(
             "acceleration_across",
-            "m/s2",
+            "m s-2",
             ResponseKind::Acceleration,
             &[(across, 1.0)],
         ),
         row(
             "rotational_acceleration",
-            "rad/s2",
+            "rad s-2",
             ResponseKind::Acceleration,
             &[(rotation, 1.0)],
         ),
@@ -207,7 +207,14 @@ pub(super) fn points(case: &Case, gap: &Gap) -> Result<Option<Vec<f64>>, CaseErr
         (Some((low, high)), Some(given)) => {
             let mut points = given.value.clone();
             points.sort_by(f64::total_cmp);
-            points.dedup();
+            let twice = points.windows(2).find(|pair| pair[0] == pair[1]);
+            if let Some(pair) = twice {
+                return Err(case.error(
+                    given.span.clone(),
+                    format!("gap {}: there are two points at {} m", gap.name, pair[0]),
+                    Some("give every point once; its stiffness is that of the model".to_owned()),
+                ));
+            }
             let beyond = points.iter().find(|y| !(low..=high).contains(*y));
             match beyond {
                 None => Ok(Some(points)),

@@ -249,7 +249,7 @@ impl<'a> Understood<'a> {
             warnings: assembly.warnings(),
             analysis: Analysis {
                 output_step: assembly.output_step,
-                duration: duration.unwrap_or(record.duration()),
+                duration: duration.unwrap_or(assembly.system.record_duration()),
             },
         }
     }

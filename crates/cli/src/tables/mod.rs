@@ -385,7 +385,11 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
                     format!("{}", b.mass()[i]),
                     match &matrix {
                         Some(rows) => format!("{:.6e}", rows[i][i]),
-                        None => format!("{:e}", of_floors.stiffness()[i]),
+                        None => match of_floors.stiffness().get(i) {
+                            Some(stiffness) => format!("{stiffness:e}"),
+                            // Its frames stand in the case.
+                            None => String::new(),
+                        },
                     },
                 ],
                 // The floors have no more to say than their number.
@@ -441,7 +445,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
     let duration = assembly
         .options
         .duration
-        .unwrap_or(assembly.accelerogram.duration());
+        .unwrap_or(assembly.system.record_duration());
     let steps = elements::in_place_of_exact_steps(case, &assembly.system);
     text.push_str(&format!(
         "\nMethod {}{steps}, duration {duration} s, output every {} s\n",

@@ -54,6 +54,8 @@ pub(crate) struct Motions {
     pub loads: Vec<(usize, f64)>,
 }
 
+/// A day (s): beyond, the digits of the time do not tell the samples of a record apart.
+const LONGEST_DELAY: f64 = 86_400.0;
 /// Breakpoints closer than this part of a time step are one.
 const SAME: f64 = 1.0e-9;
 
@@ -82,10 +84,10 @@ impl Motions {
             }
         }
         for motion in &motions {
-            if !(motion.delay.is_finite() && motion.delay >= 0.0) {
+            if !(0.0..=LONGEST_DELAY).contains(&motion.delay) {
                 let delay = motion.delay;
                 return Err(wrong(format!(
-                    "a delay of {delay} s; it must be zero or more"
+                    "a delay of {delay} s; it must be from zero to {LONGEST_DELAY} s"
                 )));
             }
         }

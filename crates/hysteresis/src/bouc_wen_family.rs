@@ -14,7 +14,7 @@ use crate::parameters::LawParameters;
 use crate::substeps::integrate;
 
 /// `zeta` has the sign of the motion.
-const LOADING: u8 = 0;
+pub(crate) const LOADING: u8 = 0;
 /// `zeta` has the other sign.
 const UNLOADING: u8 = 1;
 
@@ -159,7 +159,8 @@ impl BoucWen {
     }
 }
 
-fn kind(direction: f64, side: f64) -> u8 {
+/// The branch of a motion in this direction while `zeta` is on this side.
+pub(crate) fn kind(direction: f64, side: f64) -> u8 {
     if direction == side {
         LOADING
     } else {
@@ -168,11 +169,32 @@ fn kind(direction: f64, side: f64) -> u8 {
 }
 
 /// The internal variables given, or those of the history.
-fn variables(history: &History, given: &[f64]) -> [f64; 2] {
+pub(crate) fn variables(history: &History, given: &[f64]) -> [f64; 2] {
     match given {
         [zeta, work, ..] => [*zeta, *work],
         _ => history.variables,
     }
+}
+
+/// A branch ends where the motion turns, and unloading where `zeta` changes its sign.
+pub(crate) fn guards(history: &History) -> Guards {
+    let unloading = history.branch.kind == UNLOADING;
+    [
+        Some(Guard::Turning),
+        unloading.then_some(Guard::Variable(0)),
+        None,
+    ]
+}
+
+/// Goes over to the branch beyond a guard.
+pub(crate) fn pass(history: &mut History, guard: Guard) {
+    let branch = &mut history.branch;
+    match guard {
+        Guard::Turning => branch.direction = -branch.direction,
+        Guard::Variable(_) => branch.side = -branch.side,
+        _ => {}
+    }
+    branch.kind = kind(branch.direction, branch.side);
 }
 
 impl HysteresisLaw for BoucWen {
@@ -234,22 +256,11 @@ impl HysteresisLaw for BoucWen {
         }
     }
     fn guards(&self, history: &History) -> Guards {
-        let unloading = history.branch.kind == UNLOADING;
-        [
-            Some(Guard::Turning),
-            unloading.then_some(Guard::Variable(0)),
-            None,
-        ]
+        guards(history)
     }
     fn pass(&self, history: &mut History, guard: Guard, motion: Motion, given: &[f64]) {
         self.accept(history, motion, given);
-        let branch = &mut history.branch;
-        match guard {
-            Guard::Turning => branch.direction = -branch.direction,
-            Guard::Variable(_) => branch.side = -branch.side,
-            _ => {}
-        }
-        branch.kind = kind(branch.direction, branch.side);
+        pass(history, guard);
     }
     fn stored_energy(&self, history: &History, motion: Motion, given: &[f64]) -> f64 {
         let [zeta, work] = variables(history, given);

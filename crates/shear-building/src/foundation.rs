@@ -36,8 +36,8 @@ pub struct SpringDashpot {
 /// Above `nu = 1/3` compression waves are too fast to carry energy away: `2 Vs` takes the
 /// place of `Vp`, and soil that moves with the foundation adds `1.2 (nu - 1/3) rho I r_t` to
 /// its rotational inertia (Wolf, Foundation Vibration Analysis Using Simple Physical Models,
-/// Prentice Hall 1994, chapter 2; from memory of the text, the static stiffnesses derived
-/// again from its cones). The dashpots are limits of high frequency: that of rocking damps
+/// Prentice Hall 1994, chapter 2; not compared with the text, the static stiffnesses
+/// derived again from its cones). The dashpots are limits of high frequency: that of rocking damps
 /// slow rocking too much. Embedment, layers and kinematic interaction are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Soil {

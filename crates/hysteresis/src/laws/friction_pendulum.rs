@@ -1,5 +1,6 @@
 //! A friction pendulum: a slider on a dish, whose friction depends on the speed.
 
+use crate::bouc_wen_family::{LOADING, guards, kind, pass, variables};
 use crate::descriptor::{LawDescriptor, ParameterUnit, Verification};
 use crate::error::HysteresisError;
 use crate::history::{Branch, History, MAXIMUM_INTERNAL_VARIABLES, Point};
@@ -67,11 +68,6 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     build,
 };
 
-/// `z` has the sign of the motion.
-const LOADING: u8 = 0;
-/// `z` has the other sign.
-const UNLOADING: u8 = 1;
-
 /// Internal variables: `z` and the work of the friction over `W Y` (both without dimension).
 #[derive(Debug)]
 struct FrictionPendulum {
@@ -103,21 +99,6 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
         rate: get("friction_rate")?,
         yield_displacement: get("yield_displacement")?,
     }))
-}
-
-fn variables(history: &History, given: &[f64]) -> [f64; 2] {
-    match given {
-        [z, work, ..] => [*z, *work],
-        _ => history.variables,
-    }
-}
-
-fn kind(direction: f64, side: f64) -> u8 {
-    if direction == side {
-        LOADING
-    } else {
-        UNLOADING
-    }
 }
 
 impl FrictionPendulum {
@@ -237,22 +218,11 @@ impl HysteresisLaw for FrictionPendulum {
         }
     }
     fn guards(&self, history: &History) -> Guards {
-        let unloading = history.branch.kind == UNLOADING;
-        [
-            Some(Guard::Turning),
-            unloading.then_some(Guard::Variable(0)),
-            None,
-        ]
+        guards(history)
     }
     fn pass(&self, history: &mut History, guard: Guard, motion: Motion, given: &[f64]) {
         self.accept(history, motion, given);
-        let branch = &mut history.branch;
-        match guard {
-            Guard::Turning => branch.direction = -branch.direction,
-            Guard::Variable(_) => branch.side = -branch.side,
-            _ => {}
-        }
-        branch.kind = kind(branch.direction, branch.side);
+        pass(history, guard);
     }
     /// The pendulum, and what the friction gives back on slow unloading.
     fn stored_energy(&self, history: &History, motion: Motion, given: &[f64]) -> f64 {

@@ -3,7 +3,8 @@
 use pounding_shear_building::{Excitation, ShearBuilding};
 use std::sync::Arc;
 
-use super::GroundAcceleration;
+use super::{GroundAcceleration, System};
+use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 
 /// A ground motion that begins some time after the run.
@@ -204,4 +205,206 @@ fn intervals(motions: &[GroundMotion]) -> Vec<Interval> {
         }
     };
     times.windows(2).map(over).collect()
+}
+
+impl System {
+    /// Acceleration of the ground that degree of freedom `i` is relative to, as the equation
+    /// of motion takes it (m/s2).
+    #[inline]
+    pub(crate) fn ground_on(&self, i: usize, ground: Grounds) -> f64 {
+        match &self.motions {
+            None => ground.first,
+            Some(motions) => {
+                let (motion, weight) = motions.loads[i];
+                if weight == 0.0 {
+                    return 0.0;
+                }
+                let (value, slope) = match motions.intervals.get(ground.interval) {
+                    None => (0.0, 0.0),
+                    Some(interval) => (interval.loads[motion][0], interval.loads[motion][1]),
+                };
+                weight * (value + slope * ground.tau)
+            }
+        }
+    }
+
+    /// Slope of the same (m/s3).
+    pub(crate) fn ground_slope_on(&self, i: usize, segment: &Segment) -> f64 {
+        match &self.motions {
+            None => segment.slope,
+            Some(motions) => {
+                let (motion, weight) = motions.loads[i];
+                let interval = motions.intervals.get(segment.interval);
+                weight * interval.map_or(0.0, |interval| interval.loads[motion][1])
+            }
+        }
+    }
+
+    /// Whether no ground acceleration jumps between two instants at the same time.
+    pub(crate) fn same_ground(&self, a: Grounds, b: Grounds) -> bool {
+        match &self.motions {
+            None => a.first == b.first,
+            Some(motions) => {
+                let at = |ground: Grounds, motion: usize| {
+                    let interval = motions.intervals.get(ground.interval);
+                    interval.map_or(0.0, |interval| {
+                        interval.loads[motion][0] + interval.loads[motion][1] * ground.tau
+                    })
+                };
+                (0..motions.motions.len()).all(|m| {
+                    let (a, b) = (at(a, m), at(b, m));
+                    (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
+                })
+            }
+        }
+    }
+
+    /// Interval number `sample` up to the end of the run, in which every ground acceleration is
+    /// linear; after the last sample the ground stands still.
+    pub(crate) fn segment(&self, sample: usize, duration: f64) -> Option<Segment> {
+        match &self.motions {
+            None => self.segment_of_samples(sample, duration),
+            Some(motions) => {
+                let intervals = &motions.intervals;
+                let step = self.ground.time_step;
+                let (start, length) = match intervals.get(sample) {
+                    Some(interval) => (interval.start, interval.length),
+                    None => {
+                        let end = intervals.last().map_or(0.0, |i| i.start + i.length);
+                        (end + (sample - intervals.len()) as f64 * step, step)
+                    }
+                };
+                let rest = duration - start;
+                if rest <= 1.0e-9 * step {
+                    return None;
+                }
+                let whole = rest > length * (1.0 - 1.0e-9) && rest < length * (1.0 + 1.0e-9);
+                let [acceleration, slope] = intervals.get(sample).map_or([0.0; 2], |i| i.loads[0]);
+                Some(Segment {
+                    start,
+                    length: if whole { length } else { rest.min(length) },
+                    acceleration,
+                    slope,
+                    interval: sample,
+                })
+            }
+        }
+    }
+
+    fn segment_of_samples(&self, sample: usize, duration: f64) -> Option<Segment> {
+        let ground = &self.ground;
+        let start = sample as f64 * ground.time_step;
+        // The last interval may be round-off: duration is often a whole number of steps.
+        let rest = duration - start;
+        if rest <= 1.0e-9 * ground.time_step {
+            return None;
+        }
+        let (a, b) = match (ground.samples.get(sample), ground.samples.get(sample + 1)) {
+            (Some(a), Some(b)) => (*a, *b),
+            _ => (0.0, 0.0),
+        };
+        let whole = ground.time_step;
+        let length = if rest < whole * (1.0 + 1.0e-9) && rest > whole * (1.0 - 1.0e-9) {
+            whole
+        } else {
+            rest.min(whole)
+        };
+        Some(Segment {
+            start,
+            length,
+            acceleration: a,
+            slope: (b - a) / whole,
+            interval: sample,
+        })
+    }
+
+    /// Lengths (s) of the intervals in which every ground acceleration is linear.
+    pub(crate) fn interval_lengths(&self) -> Vec<f64> {
+        match &self.motions {
+            None => vec![self.ground.time_step],
+            Some(motions) => motions.intervals.iter().map(|i| i.length).collect(),
+        }
+    }
+
+    /// Whether two degrees of freedom are relative to the same ground.
+    pub(crate) fn same_load(&self, i: usize, j: usize) -> bool {
+        let motions = self.motions.as_ref();
+        motions.is_none_or(|motions| motions.loads[i] == motions.loads[j])
+    }
+
+    /// Ground accelerations at time zero.
+    pub(crate) fn ground_at_start(&self) -> Grounds {
+        let first = self.ground.samples.first().copied().unwrap_or(0.0);
+        let delayed = self
+            .motions
+            .as_ref()
+            .is_some_and(|m| m.motions[0].delay > 0.0);
+        Grounds {
+            first: if delayed { 0.0 } else { first },
+            interval: 0,
+            tau: 0.0,
+        }
+    }
+
+    /// Time (s) until which all ground stands still.
+    pub(crate) fn ground_at_rest_until(&self) -> f64 {
+        let of = |ground: &GroundAcceleration, delay: f64| {
+            let first = ground.samples.iter().position(|a| *a != 0.0)?;
+            Some(delay + first.saturating_sub(1) as f64 * ground.time_step)
+        };
+        match &self.motions {
+            None => of(&self.ground, 0.0).unwrap_or(0.0),
+            Some(motions) => {
+                let begin = motions.motions.iter();
+                let begin = begin.filter_map(|m| of(&m.acceleration, m.delay));
+                begin.reduce(f64::min).unwrap_or(0.0)
+            }
+        }
+    }
+
+    /// The ground motions, the first of which is [`System::ground`]; empty where that one is
+    /// under all buildings.
+    #[must_use]
+    pub fn ground_motions(&self) -> &[GroundMotion] {
+        self.motions.as_ref().map_or(&[], |m| &m.motions)
+    }
+
+    /// Displacement of the ground at the left side of a contact level less that at the right
+    /// one when the last ground motion ends (m); `None` where it is the same by definition.
+    #[must_use]
+    pub fn ground_offset_at_end(&self, level: usize) -> Option<f64> {
+        let (motions, terms) = (self.motions.as_ref()?, &self.levels[level].terms);
+        let first = self.with_mass();
+        let of = |(dof, weight): &(usize, f64)| {
+            weight * motions.displacement_at_end(self.moving_ground[dof - first])
+        };
+        (!terms.ground.is_empty()).then(|| terms.ground.iter().map(of).sum())
+    }
+
+    /// Ground motion along the row under a building, by its number in
+    /// [`System::ground_motions`].
+    pub(crate) fn motion_under(&self, building: usize) -> usize {
+        let motions = self.motions.as_ref();
+        motions.map_or(0, |m| m.supports[building].along)
+    }
+
+    /// Degree of freedom that is the displacement of a ground motion; made when first asked for.
+    pub(super) fn displacement_of_ground(&mut self, motion: usize) -> usize {
+        let first = self.with_mass();
+        if let Some(k) = self.moving_ground.iter().position(|m| *m == motion) {
+            return first + k;
+        }
+        if self.motions.is_none() {
+            self.motions = self.under_one_motion().map(Arc::new);
+        }
+        if let Some(motions) = &mut self.motions {
+            Arc::make_mut(motions).loads.push((motion, -1.0));
+        }
+        let n = self.mass.len();
+        self.mass.push(1.0);
+        self.initial.insert(n, 0.0);
+        self.initial.push(0.0);
+        self.moving_ground.push(motion);
+        n
+    }
 }

@@ -313,3 +313,168 @@ fn all_methods_take_jumps() {
         }
     }
 }
+
+/// A body in contact with a wall at its left, hit by another from the right, rigidly: its
+/// velocity jumps, and the contact at the left has to go on in the phase of the new one.
+/// Every phase is a damped oscillator or free motion, in closed form.
+mod beside_a_closed_contact {
+    use super::*;
+    use pounding_gap_element::{Memory, Phase, SeparationRule};
+    use verification::single_storey;
+
+    const STIFFNESS: f64 = 1.0e6;
+    const MASS: f64 = 1.0e3;
+    const HITTING: f64 = 200.0;
+    const RESTITUTION: f64 = 0.8;
+    const GAP: f64 = 0.05;
+    const HIT_SPEED: f64 = 5.0;
+
+    /// Penetration and its rate after `t` of `m x'' + c x' + k x = 0`.
+    fn damped((x, v): (f64, f64), dashpot: f64, t: f64) -> (f64, f64) {
+        let decay = dashpot / (2.0 * MASS);
+        let omega = (STIFFNESS / MASS - decay * decay).sqrt();
+        let (s, c) = (omega * t).sin_cos();
+        let b = (v + decay * x) / omega;
+        let e = (-decay * t).exp();
+        let (position, turned) = (x * c + b * s, b * c - x * s);
+        (e * position, e * (omega * turned - decay * position))
+    }
+
+    /// The first time within a half period at which the function of state falls below zero.
+    fn ends(from: (f64, f64), dashpot: f64, function: impl Fn((f64, f64)) -> f64) -> f64 {
+        let half = std::f64::consts::PI / (STIFFNESS / MASS).sqrt();
+        let at = |t: f64| function(damped(from, dashpot, t));
+        let step = half / 1000.0;
+        let mut low = step;
+        while at(low + step) > 0.0 {
+            low += step;
+        }
+        let mut high = low + step;
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if at(middle) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// What the law of the wall at the left does between closure and opening.
+    struct Law {
+        model: Arc<dyn ImpactModel>,
+        /// Dashpot in approach (N s/m).
+        dashpot: f64,
+        /// Whether it only damps the approach, or may not pull.
+        approach_only: bool,
+    }
+
+    impl Law {
+        /// From a closed state that is pressed together until the force is over: time, state,
+        /// and the velocity with which the body goes on freely.
+        fn until_released(&self, from: (f64, f64)) -> (f64, (f64, f64)) {
+            let force = |(x, v): (f64, f64)| STIFFNESS * x + self.dashpot * v;
+            let end = if self.approach_only {
+                ends(from, self.dashpot, |(_, v)| v)
+            } else {
+                ends(from, self.dashpot, force)
+            };
+            (end, damped(from, self.dashpot, end))
+        }
+    }
+
+    fn check(law: &Law, method: MethodChoice) {
+        let speed = 1.0;
+        // The first approach, and the part of the way back until the other body comes.
+        let (first, released) = law.until_released((0.0, speed));
+        let (rest, before) = if law.approach_only {
+            (0.01, damped(released, 0.0, 0.01))
+        } else {
+            let rest = 0.4 * released.0 / -released.1;
+            (rest, (released.0 + released.1 * rest, released.1))
+        };
+        assert!(before.0 > 1e-3 && before.1 < 0.0, "{before:?}");
+        let hit = GAP / speed + first + rest;
+        let reduced = MASS * HITTING / (MASS + HITTING);
+        let impulse = (1.0 + RESTITUTION) * reduced * (HIT_SPEED - before.1);
+        let after = (before.0, before.1 + impulse / MASS);
+        let bounced = HIT_SPEED - impulse / HITTING;
+        assert!(after.1 > 0.0 && bounced < 0.0);
+        // The second approach, and the end of the contact.
+        let (_, last) = law.until_released(after);
+        let parting = if law.approach_only {
+            damped(last, 0.0, ends(last, 0.0, |(x, _)| x)).1
+        } else {
+            last.1
+        };
+
+        let bodies = vec![
+            single_storey("body", MASS, 1.0e-12 * MASS),
+            single_storey("hitting", HITTING, 1.0e-12 * HITTING),
+        ];
+        let mut system = System::new(bodies, constant_ground(0.0, 2.0));
+        let (body, other) = (Floor::Storey(0, 0), Floor::Storey(1, 0));
+        let names = |a: &str, b: &str| [a.to_owned(), b.to_owned()];
+        let wall = vec![(Floor::Wall, body, GAP, Arc::clone(&law.model))];
+        system.add_gap("wall", names("wall", "body"), wall).unwrap();
+        let width = HIT_SPEED * hit - GAP - before.0;
+        let pair = vec![(body, other, width, rigid(RESTITUTION))];
+        system
+            .add_gap("pair", names("body", "hitting"), pair)
+            .unwrap();
+        let system = system
+            .with_initial_state(&[0.0, 0.0], &[-speed, -HIT_SPEED])
+            .unwrap();
+        let options = RunOptions {
+            duration: Some(0.5),
+            method,
+            ..RunOptions::default()
+        };
+        let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+        let what = format!("{} {method:?}", law.model.descriptor().name);
+        near(&what, &outcome.final_velocity, &[-parting, -bounced]);
+        let counts: Vec<usize> = outcome.gaps.iter().map(|g| g.levels[0].impacts).collect();
+        assert_eq!(counts, [1, 1], "{what}");
+        let force = STIFFNESS * after.0 + law.dashpot * after.1;
+        let peak = outcome.gaps[0].levels[0].peak_force.value;
+        if !law.approach_only {
+            assert!(force > law.dashpot * speed);
+            assert!(peak >= force * (1.0 - 1e-12), "{what}: {peak} {force}");
+        }
+        assert!(outcome.energy.residual_ratio < 1e-11, "{what}");
+    }
+
+    #[test]
+    fn goes_on_in_the_phase_of_the_new_velocity() {
+        let build = |name: &str, rule: Option<SeparationRule>| {
+            let mut pairs = vec![("stiffness", STIFFNESS), ("restitution", 0.5)];
+            if name == "exact_linear_approach" {
+                pairs.push(("exponent", 1.0));
+            }
+            let mut parameters = ModelParameters::from_pairs(&pairs);
+            if let Some(rule) = rule {
+                parameters = parameters.with_separation(rule);
+            }
+            let model = registry::build(name, &parameters).unwrap();
+            let collision = model.begin(1.0, MASS);
+            let memory = Memory::default();
+            let force = model.force(&collision, &memory, Phase::Approach, 1.0e-3, 1.0);
+            Law {
+                dashpot: force.by_velocity,
+                approach_only: rule.is_none(),
+                model: model.into(),
+            }
+        };
+        let laws = [
+            build("exact_kelvin_voigt", Some(SeparationRule::NoTension)),
+            build("exact_kelvin_voigt", Some(SeparationRule::NoTensionLatched)),
+            build("exact_linear_approach", None),
+        ];
+        for law in &laws {
+            let relative_tolerance = 1.0e-12;
+            check(law, MethodChoice::Adaptive { relative_tolerance });
+            check(law, MethodChoice::EventDriven { relative_tolerance });
+        }
+    }
+}

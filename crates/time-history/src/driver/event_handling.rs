@@ -1,6 +1,8 @@
 //! What the driver does at an event: cut the step there, process it, change modes.
 
-use pounding_gap_element::{Guard as ContactGuard, Memory, Phase, SeparationRule, Target};
+use pounding_gap_element::{
+    Direction, Guard as ContactGuard, Memory, Phase, SeparationRule, Target, Transition,
+};
 
 use pounding_hysteresis::Guard;
 
@@ -84,17 +86,17 @@ impl Driver<'_> {
         };
         let (end, slope) = (value(&guard, 1.0), value(&derivative(&guard), 1.0));
         let correction = (start - end) * step / slope;
-        let missed = start - end > self.round_off(event)
+        let missed = start - end > self.round_off(event, &self.new_state)
             && correction.abs() > SIMULTANEOUS
             && first_rise(&guard).is_none();
         (correction, missed)
     }
 
-    /// What round-off of displacements and velocities makes in the function of an event at
-    /// the end of the trial step; infinite for those that depend on more than that.
-    fn round_off(&self, event: Candidate) -> f64 {
+    /// What round-off of displacements and velocities makes in the function of an event in
+    /// this state; infinite for those that depend on more than that.
+    fn round_off(&self, event: Candidate, state: &[f64]) -> f64 {
         let n = self.dynamics.layout.dofs;
-        let (u, v) = (&self.new_state[..n], &self.new_state[n..2 * n]);
+        let (u, v) = (&state[..n], &state[n..2 * n]);
         let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let (displacement, velocity) = (ROUND_OFF * largest(u), ROUND_OFF * largest(v));
         let index = match event.kind {
@@ -270,20 +272,7 @@ impl Driver<'_> {
                     return;
                 };
                 let next = match level.model.transitions(phase)[index].target {
-                    Target::Open => {
-                        if level.model.separation() == SeparationRule::GapShift {
-                            let left = self.contacts.penetration(self.system, l, &self.state[..n]);
-                            self.contacts.widen(l, left);
-                            self.log.widen(l, left);
-                        }
-                        self.open(l, time);
-                        if self.is_rigid(l) {
-                            self.keep_quiet(l);
-                        } else {
-                            self.mute[l] = Mute::Start;
-                        }
-                        return;
-                    }
+                    Target::Open => return self.part_at_zero_force(l, time),
                     Target::Phase(phase) => phase,
                     Target::StickOrSlip => self.stick_or_slip(segment, tau, l),
                 };
@@ -295,6 +284,92 @@ impl Driver<'_> {
                 self.contacts.enter(self.system, l, next, &self.state[..n]);
             }
         }
+    }
+
+    /// Ends a contact whose floors still overlap.
+    fn part_at_zero_force(&mut self, l: usize, time: f64) {
+        let n = self.dynamics.layout.dofs;
+        if self.system.levels()[l].model.separation() == SeparationRule::GapShift {
+            let left = self.contacts.penetration(self.system, l, &self.state[..n]);
+            self.contacts.widen(l, left);
+            self.log.widen(l, left);
+        }
+        self.open(l, time);
+        if self.is_rigid(l) {
+            self.keep_quiet(l);
+        } else {
+            self.mute[l] = Mute::Start;
+        }
+    }
+
+    /// Lets the contacts that have forces of their own follow a jump of velocities. The event
+    /// finder looks for functions that become positive; one that a jump made so would not be
+    /// found by it.
+    pub(super) fn follow_jump(&mut self, time: f64) {
+        let n = self.dynamics.layout.dofs;
+        for l in 0..self.dynamics.layout.levels {
+            if self.is_rigid(l) {
+                continue;
+            }
+            // A law has few phases, and none that it would enter twice at one velocity.
+            for _ in 0..EVENTS_AT_ONCE {
+                let Some(target) = self.left_phase(l) else {
+                    break;
+                };
+                self.statistics.events += 1;
+                let rate = self.system.levels()[l].relative(&self.state[n..2 * n]);
+                let next = match target {
+                    Target::Open => {
+                        self.part_at_zero_force(l, time);
+                        break;
+                    }
+                    Target::Phase(next) => next,
+                    Target::StickOrSlip if rate > 0.0 => Phase::Approach,
+                    Target::StickOrSlip => Phase::Restitution,
+                };
+                let u = &self.state[..n];
+                let delta = self.contacts.penetration(self.system, l, u);
+                self.contacts.commit_level(self.system, l, (delta, rate));
+                self.contacts.enter(self.system, l, next, u);
+            }
+        }
+    }
+
+    /// Where a closed contact has to go since its relative velocity is what it is now, by more
+    /// than round-off; `None` where its phase is right.
+    fn left_phase(&self, l: usize) -> Option<Target> {
+        let n = self.dynamics.layout.dofs;
+        let level = &self.system.levels()[l];
+        let contact = self.contacts.contact(l)?;
+        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
+        let delta = self.contacts.penetration(self.system, l, u);
+        let rate = level.relative(v);
+        if contact.is_stuck() {
+            // Friction holds by a force, which an impulse exceeds.
+            return (rate.abs() > self.velocity_round_off()).then_some(Target::StickOrSlip);
+        }
+        let transitions = level.model.transitions(contact.phase);
+        let fires = |index: usize, transition: &Transition| {
+            let value = match transition.guard {
+                ContactGuard::Velocity => rate,
+                ContactGuard::RawForce => contact.raw_force(level, delta, rate),
+                ContactGuard::Model(index) => contact.guard(level, index, delta, rate),
+                ContactGuard::StickLower | ContactGuard::StickUpper => return false,
+            };
+            let kind = EventKind::Transition(index);
+            let event = Candidate {
+                level: l,
+                kind,
+                theta: 0.0,
+            };
+            let rises = match transition.direction {
+                Direction::Rising => value,
+                Direction::Falling => -value,
+            };
+            rises > self.round_off(event, &self.state)
+        };
+        let index = (0..transitions.len()).find(|i| fires(*i, &transitions[*i]))?;
+        Some(transitions[index].target)
     }
 
     /// Ends the contact of a level.

@@ -74,7 +74,7 @@ impl Driver<'_> {
 
     /// Round-off of a relative velocity (m/s). Floors at rest have it from those that
     /// move: storeys and impacts connect them.
-    fn velocity_round_off(&self) -> f64 {
+    pub(super) fn velocity_round_off(&self) -> f64 {
         let n = self.dynamics.layout.dofs;
         let fastest = |m: f64, v: &f64| m.max(v.abs());
         2.0 * ROUND_OFF * self.state[n..2 * n].iter().fold(0.0, fastest)
@@ -126,6 +126,7 @@ impl Driver<'_> {
         for k in 0..work.active.len() {
             self.settle(&work, k, time);
         }
+        self.follow_jump(time);
         self.release_pulling(segment, tau, time);
         self.rigid = work;
         Ok(())

@@ -2,7 +2,6 @@
 
 use std::io::Write as _;
 use std::path::Path;
-use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_assembly::AssemblyError;
@@ -48,10 +47,10 @@ pub enum Failure {
 
 impl Failure {
     /// Prints the failure and returns the exit code.
-    pub fn report(self) -> ExitCode {
+    pub(crate) fn report(self) -> u8 {
         let (reports, code) = match self {
-            Self::No => return ExitCode::from(1),
-            Self::Reported(code) => return ExitCode::from(code),
+            Self::No => return 1,
+            Self::Reported(code) => return code,
             Self::Input(report) => (vec![report], 2),
             Self::Inputs(reports) => (reports, 2),
             Self::Computation(report) => (vec![report], 3),
@@ -72,7 +71,7 @@ impl Failure {
         }
         // Where nobody can read it any more, the exit code still says it.
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
-        ExitCode::from(code)
+        code
     }
 
     /// What is wrong with several inputs, each for itself.

@@ -3,6 +3,8 @@
 //! Exit codes: 0 done, 1 the answer is "no", 2 bad input, 3 the computation
 //! failed, 4 output could not be written, 5 interrupted by a signal.
 
+pub mod answers;
+
 mod arguments;
 mod columns;
 mod commands;
@@ -18,11 +20,12 @@ mod separate;
 mod study;
 mod tables;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 use clap::{CommandFactory, FromArgMatches};
 
 pub use arguments::PathKind;
+pub use failure::Failure;
 
 /// All commands with their arguments, as the program knows them.
 #[must_use]
@@ -30,20 +33,29 @@ pub fn command() -> clap::Command {
     arguments::Arguments::command()
 }
 
-/// Does what the arguments of this process ask for.
+/// Does what these arguments ask for, the first of which is the name of the program, and
+/// returns the exit code.
 #[must_use]
-pub fn run() -> ExitCode {
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let command = command();
-    let matches = command.clone().get_matches();
-    let arguments = arguments::Arguments::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
+    let matches = command.clone().try_get_matches_from(arguments);
+    let read = matches.and_then(|m| Ok((arguments::Arguments::from_arg_matches(&m)?, m)));
+    let (arguments, matches) = match read {
+        Ok(read) => read,
+        Err(error) => {
+            // Where nobody can read it, the exit code still says it.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(2);
+        }
+    };
     let files = arguments::file_use(&command, &matches);
     let done = files
         .check()
-        .map_err(failure::Failure::from)
+        .map_err(Failure::from)
         .and_then(|()| interruption::listen())
         .and_then(|()| commands::dispatch(arguments.command, files));
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => failure.report(),
     }
 }

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    pounding_cli::run()
+    ExitCode::from(pounding_cli::run(std::env::args_os()))
 }

@@ -37,6 +37,15 @@ impl RunResult {
                 reason: e.to_string(),
             })?;
         }
+        Self::of_file(file, path, opened.checksum())
+    }
+
+    /// The same of a file that is open, or lives in memory; `path` names it in messages.
+    ///
+    /// # Errors
+    /// A file that is no result of a run, and parts of it that are missing or have another
+    /// shape.
+    pub fn of_file(file: &hdf5::File, path: &Path, checksum: Checksum) -> Outcome<Self> {
         let reader = Reader {
             path: path.to_owned(),
         };
@@ -45,7 +54,7 @@ impl RunResult {
         let (energy, run, ground) = (energy?, run?, ground?);
         let warnings = reader.text(&run, "warnings")?;
         let mut warnings: Vec<String> = warnings.lines().map(str::to_owned).collect();
-        if opened.checksum() == Checksum::Absent {
+        if checksum == Checksum::Absent {
             warnings.push(format!("the result file {ABSENT}"));
         }
         let time = reader.column(file, "time")?;
@@ -58,7 +67,7 @@ impl RunResult {
             record: reader.text(&ground, "record")?,
             method: reader.text(&run, "method")?,
             warnings,
-            checksum: opened.checksum(),
+            checksum,
             steps: reader.scalar(&run, "steps")?,
             wall_time: reader.scalar(&run, "wall_time")?,
             residual_ratio: reader.scalar(&energy, "residual_ratio")?,

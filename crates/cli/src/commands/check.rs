@@ -36,7 +36,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
 
 /// What `check --json` prints.
 #[derive(Serialize)]
-struct Understood<'a> {
+pub struct Understood<'a> {
     buildings: Vec<Building<'a>>,
     gaps: Vec<Gap<'a>>,
     links: Vec<Link<'a>>,
@@ -189,7 +189,9 @@ struct Analysis {
 }
 
 impl<'a> Understood<'a> {
-    fn of(assembly: &'a Assembly) -> Self {
+    /// What was understood of a case.
+    #[must_use]
+    pub fn of(assembly: &'a Assembly) -> Self {
         let system = &assembly.system;
         let of_floors = |b: &'a ShearBuilding| b.foundation().map_or(b, OnFoundation::fixed_base);
         let buildings = system.buildings().iter().map(|b| Building {

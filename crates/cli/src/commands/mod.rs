@@ -1,13 +1,13 @@
 //! One command per file.
 
 mod calibrate;
-mod check;
-mod compare;
-mod gap;
+pub mod check;
+pub mod compare;
+pub mod gap;
 mod hysteresis;
-mod ida;
+pub mod ida;
 mod impact;
-mod models;
+pub mod models;
 mod motion;
 mod report;
 mod run;

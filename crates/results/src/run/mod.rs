@@ -9,6 +9,7 @@ mod datasets;
 mod elements;
 mod gaps;
 mod levels;
+mod memory;
 mod responses;
 mod size;
 mod tables;
@@ -18,12 +19,15 @@ use std::path::{Path, PathBuf};
 use hdf5::Group;
 use pounding_files::{PartFile, checksum};
 use pounding_ground_motion::Accelerogram;
-use pounding_time_history::{Energy, Outcome, Sample, SampleSink, System, TimeHistoryError};
+use pounding_time_history::{
+    Energy, History, Outcome, Sample, SampleSink, System, TimeHistoryError,
+};
 use sha2::{Digest, Sha256};
 
 use crate::attributes::{self, text};
 use crate::dimension_scales;
 pub(crate) use buildings::with_base_moment;
+pub use memory::{image, run_in_memory, write_run};
 pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
 use tables::{Content, Tables};
 
@@ -123,6 +127,14 @@ impl<'a> RunWriter<'a> {
         Some(WriteError { path, reason })
     }
 
+    /// Takes responses that are in memory already, all of the run.
+    fn take_all(&mut self, history: &History) -> std::result::Result<(), WriteError> {
+        self.tables.write_rows(history).map_err(|e| WriteError {
+            path: self.path.clone(),
+            reason: reason_of(&e),
+        })
+    }
+
     /// Adds peaks, impacts and statistics, brings the file to the disk and puts it in its
     /// place.
     ///
@@ -175,20 +187,26 @@ fn reason_of(error: &hdf5::Error) -> String {
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
     let file = hdf5::File::create(path)?;
-    attributes::head(&file, head.title, head.version, head.build)?;
-    text(&file, "case", head.case)?;
+    let tables = begin_in(&file, head)?;
+    Ok((file, tables))
+}
+
+/// What is known before the run, and the datasets that grow.
+fn begin_in(file: &hdf5::File, head: &RunHead<'_>) -> Result<Tables> {
+    attributes::head(file, head.title, head.version, head.build)?;
+    text(file, "case", head.case)?;
     let case_sha256 = checksum::hexadecimal(&Sha256::digest(head.case));
-    text(&file, "case_sha256", &case_sha256)?;
+    text(file, "case_sha256", &case_sha256)?;
     let origin = head.accelerogram.origin();
     text(
-        &file,
+        file,
         "record_sha256",
         origin.map_or("", |o| o.sha256.as_str()),
     )?;
     let system = head.system;
     let mut tables = Tables::new(size::numbers(system));
     let time = Content::Number(|h| &h.time);
-    let time = tables.add(&file, ("time", "s", "time"), time)?;
+    let time = tables.add(file, ("time", "s", "time"), time)?;
     dimension_scales::make_scale(&time, "time")?;
     let ground = file.create_group("ground")?;
     share_time(&ground)?;
@@ -197,9 +215,9 @@ fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
     let acceleration = tables.add(&ground, names, acceleration)?;
     dimension_scales::attach(&acceleration, &time, 0)?;
     text(&ground, "record", &head.accelerogram.echo().join("\n"))?;
-    buildings::begin(&file, system, &mut tables, &time)?;
-    gaps::begin(&file, system, &mut tables, &time)?;
-    elements::begin_links(&file, system, &mut tables, &time)?;
+    buildings::begin(file, system, &mut tables, &time)?;
+    gaps::begin(file, system, &mut tables, &time)?;
+    elements::begin_links(file, system, &mut tables, &time)?;
     let energy = file.create_group("energy")?;
     share_time(&energy)?;
     type Pick = fn(&Energy) -> f64;
@@ -230,7 +248,7 @@ fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
         let data = tables.add(&energy, (name, "J", long_name), Content::Energy(part))?;
         dimension_scales::attach(&data, &time, 0)?;
     }
-    Ok((file, tables))
+    Ok(tables)
 }
 
 fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>) -> Result<()> {

@@ -94,9 +94,18 @@ impl Tables {
 
     /// Writes what the block holds.
     pub(super) fn write(&mut self) -> Result<()> {
-        let place = self.written..self.written + self.block.len();
+        let mut block = std::mem::take(&mut self.block);
+        let written = self.write_rows(&block);
+        block.clear();
+        self.block = block;
+        written
+    }
+
+    /// Writes rows behind those that are written.
+    pub(super) fn write_rows(&mut self, rows: &History) -> Result<()> {
+        let place = self.written..self.written + rows.len();
         for table in &self.all {
-            let values = table.content.of(&self.block);
+            let values = table.content.of(rows);
             let rows = place.clone();
             let Some(columns) = table.content.columns() else {
                 table.data.resize(place.end)?;
@@ -109,7 +118,6 @@ impl Tables {
             table.data.write_slice(view, (rows, ..))?;
         }
         self.written = place.end;
-        self.block.clear();
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! `pounding compare`: is the answer sensitive to the impact model?
 
 mod files;
-mod numbers;
+pub mod numbers;
 mod text;
 
 use pounding_files::FileUse;

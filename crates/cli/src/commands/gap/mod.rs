@@ -1,7 +1,7 @@
 //! `pounding gap`: is the gap wide enough?
 
 mod files;
-mod numbers;
+pub mod numbers;
 mod provisions;
 mod text;
 

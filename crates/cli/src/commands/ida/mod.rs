@@ -1,6 +1,6 @@
 //! `pounding ida`: incremental dynamic analysis, fragility, and the gap for a frequency.
 
-mod numbers;
+pub mod numbers;
 mod tables;
 
 use std::path::Path;

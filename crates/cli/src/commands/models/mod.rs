@@ -1,6 +1,6 @@
 //! `pounding models`: the descriptors of the impact models, and the pages written from them.
 
-mod descriptor;
+pub mod descriptor;
 
 use std::path::Path;
 

@@ -1,0 +1,252 @@
+"""Cases: from a file, a dict, or buildings and gaps with keywords.
+
+The keys are those of the case file (``docs/reference/case-file.md``): numbers are SI, texts
+carry a unit, such as ``"20 mm"``.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from . import _native
+from ._motion import Motion
+
+__all__ = ["Analysis", "Building", "Case", "Gap", "GroundMotion", "Link", "Separation"]
+
+
+class _Table(dict[str, Any]):
+    """A table of the case file: a dict, whose keys are given as keywords."""
+
+    def _shown(self) -> str:
+        return ", ".join(f"{key}={value!r}" for key, value in self.items())
+
+    def __repr__(self) -> str:
+        return f"pounding.{type(self).__name__}({self._shown()})"
+
+
+class Building(_Table):
+    """A building, storeys from the bottom.
+
+    Parameters
+    ----------
+    name : str
+        Its name in results.
+    storeys : int, optional
+        How many; follows from lists.
+    mass, stiffness, height : float, str or list, optional
+        Of a storey (kg, N/m, m): one value for all, or one for each.
+    damping : dict, optional
+        Such as ``{"stiffness_proportional": 0.05}``.
+    **keys
+        All other keys of ``[[building]]``: ``law``, ``stiffness_matrix``, ``isolator``,
+        ``foundation``, ``plan``, ``ground``, ``initial_velocity`` and others.
+
+    Examples
+    --------
+    >>> Building("light", storeys=3, mass=25e3, stiffness="3.46 MN/m", height=3.0,
+    ...          damping={"stiffness_proportional": 0.05})["mass"]
+    25000.0
+    """
+
+    def __init__(self, name: str, **keys: Any) -> None:
+        super().__init__(name=name, **keys)
+
+
+class Gap(_Table):
+    """A gap between two neighbours, or a building and ``"wall"``.
+
+    Parameters
+    ----------
+    left, right : str or Building
+        Neighbours.
+    width : float, str or list
+        Width at rest (m).
+    model : str
+        Impact model: see :func:`pounding.models`.
+    **keys
+        Parameters of the model, such as ``stiffness`` and ``restitution``, and all other keys
+        of ``[[gap]]``.
+    """
+
+    def __init__(self, left: str | Building, right: str | Building, **keys: Any) -> None:
+        between = [side["name"] if isinstance(side, Building) else side for side in (left, right)]
+        super().__init__(between=between, **keys)
+
+
+class Link(_Table):
+    """A link between floors of two neighbours, with a law: keys of ``[[link]]``."""
+
+    def __init__(self, left: str | Building, right: str | Building, **keys: Any) -> None:
+        between = [side["name"] if isinstance(side, Building) else side for side in (left, right)]
+        super().__init__(between=between, **keys)
+
+
+class GroundMotion(_Table):
+    """A record of a file and how it is read and scaled: keys of ``[ground_motion]``."""
+
+    def __init__(self, file: str | os.PathLike[str], **keys: Any) -> None:
+        super().__init__(file=os.fspath(file), **keys)
+
+
+class Analysis(_Table):
+    """Method, duration, output step, tolerances: keys of ``[analysis]``."""
+
+
+class Separation(_Table):
+    """What provisions for the gap need to know: keys of ``[separation]``."""
+
+
+class Case:
+    """Buildings, gaps, ground motion and analysis: all that a run needs.
+
+    Parameters
+    ----------
+    buildings : list of Building
+        From the left.
+    gaps : list of Gap, optional
+    ground_motion : GroundMotion, Motion or path
+        A file, or a motion in memory.
+    links : list of Link, optional
+    analysis : Analysis or dict, optional
+    separation : Separation or dict, optional
+    title : str, optional
+    folder : path, optional
+        Where relative paths begin; the working folder by default.
+    scale : optional
+        How a motion in memory is scaled, as the key ``scale`` of ``[ground_motion]``.
+
+    Raises
+    ------
+    CaseError
+        All that is wrong, each with its keys and what to do about it.
+    """
+
+    def __init__(
+        self,
+        buildings: Iterable[Mapping[str, Any]],
+        gaps: Iterable[Mapping[str, Any]] = (),
+        *,
+        ground_motion: Motion | Mapping[str, Any] | str | os.PathLike[str],
+        links: Iterable[Mapping[str, Any]] = (),
+        analysis: Mapping[str, Any] | None = None,
+        separation: Mapping[str, Any] | None = None,
+        title: str = "",
+        folder: str | os.PathLike[str] = ".",
+        scale: Any = None,
+    ) -> None:
+        tables: dict[str, Any] = {
+            "building": list(buildings),
+            "gap": list(gaps),
+            "link": list(links),
+        }
+        tables = {key: value for key, value in tables.items() if value}
+        tables.update(title=title or None, analysis=analysis, separation=separation)
+        motion = None
+        if isinstance(ground_motion, Motion):
+            motion = ground_motion
+            tables["ground_motion"] = {"scale": scale}
+        elif isinstance(ground_motion, Mapping):
+            tables["ground_motion"] = {**ground_motion}
+            if scale is not None:
+                tables["ground_motion"]["scale"] = scale
+        else:
+            tables["ground_motion"] = {"file": os.fspath(ground_motion), "scale": scale}
+        made = Case.from_dict(tables, folder=folder, motion=motion)
+        self._native, self._dict, self._motion = made._native, made._dict, made._motion
+
+    @classmethod
+    def _of(cls, native: _native.Case, tables: dict[str, Any] | None, motion: Motion | None) -> Case:
+        case = cls.__new__(cls)
+        case._native, case._dict, case._motion = native, tables, motion
+        return case
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Case:
+        """A case from its file (TOML)."""
+        return cls._of(_native.Case.from_file(os.fspath(path)), None, None)
+
+    @classmethod
+    def from_text(cls, text: str, file: str | os.PathLike[str] = "case.toml") -> Case:
+        """A case from the text of a case file; ``file`` names it and is the base of its paths."""
+        return cls._of(_native.Case.from_text(text, os.fspath(file)), None, None)
+
+    @classmethod
+    def from_dict(
+        cls,
+        tables: Mapping[str, Any],
+        *,
+        folder: str | os.PathLike[str] = ".",
+        motion: Motion | None = None,
+    ) -> Case:
+        """A case from a dict with the tables and keys of the case file.
+
+        Parameters
+        ----------
+        tables : dict
+            ``building``, ``gap`` and ``link`` are lists. Values are numbers in SI units,
+            texts with a unit, lists, arrays and dicts; ``None`` stands for a key that is
+            not given.
+        folder : path, optional
+            Where relative paths begin.
+        motion : Motion, optional
+            Takes the place of ``ground_motion``, of which ``scale`` alone is looked at.
+        """
+        given = dict(copy.deepcopy(dict(tables)))
+        if motion is not None:
+            ground = dict(given.get("ground_motion") or {})
+            known = {"scale"}
+            beyond = sorted(set(ground) - known - {"file"})
+            if beyond:
+                raise ValueError(
+                    f"ground_motion.{beyond[0]}: a motion in memory takes `scale` alone; "
+                    "the other keys say how a file is read"
+                )
+            ground["file"] = motion.name
+            given["ground_motion"] = ground
+        native_motion = None if motion is None else motion._native
+        native = _native.Case.from_dict(given, os.fspath(folder), native_motion)
+        return cls._of(native, given, motion)
+
+    def with_motion(self, motion: Motion) -> Case:
+        """The same case under another motion, scaled as the case says."""
+        return Case._of(self._native.with_motion(motion._native), self._dict, motion)
+
+    @property
+    def title(self) -> str:
+        """Title, may be empty."""
+        return self._native.title
+
+    @property
+    def source(self) -> str:
+        """The text of the case file."""
+        return self._native.source
+
+    @property
+    def buildings(self) -> list[str]:
+        """Names of the buildings, from the left."""
+        return self._native.buildings
+
+    @property
+    def gaps(self) -> list[str]:
+        """Names of the gaps."""
+        return self._native.gaps
+
+    def check(self) -> dict[str, Any]:
+        """What was understood: periods, modes, damping ratios, contact levels, the record, in SI
+        units; what ``pounding check --json`` prints.
+
+        Raises
+        ------
+        CaseError
+            What cannot be, with its place.
+        """
+        answer: dict[str, Any] = json.loads(self._native.check_json())
+        return answer
+
+    def __repr__(self) -> str:
+        title = f" {self.title!r}" if self.title else ""
+        return f"<pounding.Case{title}: {', '.join(self.buildings)}>"

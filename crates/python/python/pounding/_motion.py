@@ -1,0 +1,227 @@
+"""Ground motions: records of files and arrays, response spectra, intensity measures."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _native
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    import obspy
+    import xarray
+
+__all__ = ["Motion", "formats", "measures", "read_motion", "spectrum"]
+
+
+class Motion:
+    """A ground acceleration at even steps, linear in between.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (samples,)
+        Accelerations in ``unit``.
+    time_step : float
+        Time between them (s).
+    unit : str, optional
+        ``"m/s2"`` (default), ``"g"``, ``"cm/s2"``, ``"gal"``, ``"mm/s2"``, ``"in/s2"`` or
+        ``"ft/s2"``.
+    name : str, optional
+        What tables and datasets call it.
+    """
+
+    def __init__(
+        self,
+        acceleration: npt.ArrayLike,
+        time_step: float,
+        unit: str = "m/s2",
+        name: str = "motion",
+    ) -> None:
+        samples = np.ascontiguousarray(acceleration, dtype=np.float64)
+        if samples.ndim != 1:
+            raise ValueError(f"acceleration has {samples.ndim} dimensions; give one of samples")
+        self._native = _native.Motion(samples, float(time_step), unit)
+        self.name = name
+
+    @classmethod
+    def _of(cls, native: _native.Motion, name: str) -> Motion:
+        motion = cls.__new__(cls)
+        motion._native = native
+        motion.name = name
+        return motion
+
+    @property
+    def acceleration(self) -> npt.NDArray[np.float64]:
+        """Accelerations (m/s2), shape (samples,): a copy."""
+        return self._native.acceleration
+
+    @property
+    def time_step(self) -> float:
+        """Time between samples (s)."""
+        return self._native.time_step
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        """Times of the samples (s), shape (samples,)."""
+        return np.arange(len(self.acceleration)) * self.time_step
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample (s)."""
+        return self._native.duration
+
+    @property
+    def peak(self) -> float:
+        """Peak ground acceleration (m/s2)."""
+        return self._native.peak
+
+    @property
+    def origin(self) -> dict[str, Any] | None:
+        """File, format, component, unit, hash and warnings of a record; ``None`` of an array."""
+        origin: dict[str, Any] | None = json.loads(self._native.origin_json())
+        return origin
+
+    def scaled_by(self, factor: float) -> Motion:
+        """The same multiplied by a factor."""
+        return Motion._of(self._native.scaled_by(factor), self.name)
+
+    def scaled_to_peak(self, peak: float) -> Motion:
+        """The same scaled to a peak ground acceleration (m/s2)."""
+        return Motion._of(self._native.scaled_to_peak(peak), self.name)
+
+    def spectrum(
+        self, periods: npt.ArrayLike | None = None, damping: float = 0.05
+    ) -> xarray.Dataset:
+        """The response spectrum: see :func:`spectrum`."""
+        return spectrum(self, periods=periods, damping=damping)
+
+    def measures(self, damping: float = 0.05) -> dict[str, Any]:
+        """Intensity measures: see :func:`measures`."""
+        return measures(self, damping=damping)
+
+    def to_xarray(self) -> xarray.DataArray:
+        """The accelerations as a labelled array with the dimension ``time``."""
+        import xarray as xr
+
+        return xr.DataArray(
+            self.acceleration,
+            dims="time",
+            coords={"time": ("time", self.time, {"units": "s"})},
+            name=self.name,
+            attrs={"units": "m s-2", "long_name": "ground acceleration"},
+        )
+
+    def to_obspy(self) -> obspy.Trace:
+        """The accelerations as a trace of ObsPy, in m/s2; headers as far as they are known."""
+        import obspy
+
+        trace = obspy.Trace(data=self.acceleration)
+        trace.stats.delta = self.time_step
+        origin = self.origin or {}
+        component = origin.get("component") or ""
+        trace.stats.channel = component[:3]
+        trace.stats.pounding = {"units": "m/s2", "name": self.name, **origin}
+        return trace
+
+    @classmethod
+    def from_obspy(cls, trace: obspy.Trace, unit: str = "m/s2") -> Motion:
+        """A motion of the samples of a trace of ObsPy, which do not say their unit."""
+        name = trace.id or "trace"
+        return cls(trace.data, trace.stats.delta, unit=unit, name=name)
+
+    def __len__(self) -> int:
+        return len(self.acceleration)
+
+    def __repr__(self) -> str:
+        return (
+            f"<pounding.Motion {self.name!r}: {len(self)} samples at {self.time_step:g} s, "
+            f"peak {self.peak:.4g} m/s2>"
+        )
+
+
+def read_motion(path: str | os.PathLike[str], *, name: str | None = None, **options: Any) -> Motion:
+    """Reads a record in one of the formats that agencies publish, found from its content.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    name : str, optional
+        What tables and datasets call it; the name of the file without ending by default.
+    **options
+        What the file does not say: ``format``, ``component``, ``unit``, ``time_step`` (s),
+        ``quantity``, ``skip_lines``, ``skip_columns``, ``layout``, ``sensitivity``,
+        ``lenient``, as the keys of ``[ground_motion]`` in a case file.
+
+    Raises
+    ------
+    RecordError
+        A file that cannot be read, with its line and what to do.
+    """
+    native = _native.Motion.read(os.fspath(path), **options)
+    stem = os.path.splitext(os.path.basename(os.fspath(path)))[0]
+    return Motion._of(native, name if name is not None else stem)
+
+
+def _as_motion(motion: Motion | str | os.PathLike[str]) -> Motion:
+    return motion if isinstance(motion, Motion) else read_motion(motion)
+
+
+def spectrum(
+    motion: Motion | str | os.PathLike[str],
+    periods: npt.ArrayLike | None = None,
+    damping: float = 0.05,
+) -> xarray.Dataset:
+    """Elastic response spectrum, exact for an acceleration that is linear between samples.
+
+    Parameters
+    ----------
+    motion : Motion or path
+        The ground motion.
+    periods : array_like, optional
+        Periods (s); 200 from 0.02 to 10 s by default, evenly spaced in their logarithm.
+    damping : float
+        Damping ratio (-).
+
+    Returns
+    -------
+    xarray.Dataset
+        ``displacement`` (m), ``velocity`` and ``pseudo_velocity`` (m/s), ``acceleration`` and
+        ``pseudo_acceleration`` (m/s2) over ``period`` (s).
+    """
+    import xarray as xr
+
+    given = _native.periods(0.02, 10.0, 200) if periods is None else periods
+    at = np.atleast_1d(np.ascontiguousarray(given, dtype=np.float64))
+    arrays = _as_motion(motion)._native.spectrum(at, damping)
+    units = {
+        "displacement": "m",
+        "velocity": "m s-1",
+        "acceleration": "m s-2",
+        "pseudo_velocity": "m s-1",
+        "pseudo_acceleration": "m s-2",
+    }
+    variables = {
+        name: ("period", arrays[name], {"units": unit, "long_name": name.replace("_", " ")})
+        for name, unit in units.items()
+    }
+    coordinates = {"period": ("period", at, {"units": "s", "long_name": "period"})}
+    return xr.Dataset(variables, coordinates, {"damping_ratio": damping})
+
+
+def measures(motion: Motion | str | os.PathLike[str], damping: float = 0.05) -> dict[str, Any]:
+    """Intensity measures: peaks, durations, Arias intensity, CAV, spectral intensities.
+
+    Values are SI; names are those that ``pounding motion measures --json`` prints.
+    """
+    answer: dict[str, Any] = json.loads(_as_motion(motion)._native.measures_json(damping))
+    return answer
+
+
+def formats() -> dict[str, str]:
+    """Names and titles of the record formats, in the order in which they are tried."""
+    return dict(_native.formats())

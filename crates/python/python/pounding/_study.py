@@ -1,0 +1,339 @@
+"""Many runs of one case: sweeps, incremental dynamic analysis, gap checks, comparisons."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._case import Case
+from ._motion import Motion
+from ._result import Progress, _progress
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+__all__ = ["Comparison", "GapCheck", "Ida", "compare", "gap_check", "ida", "sweep"]
+
+Path = str | os.PathLike[str]
+Records = Iterable[Motion | Path] | Mapping[str, Motion | Path] | Motion | Path | None
+
+
+def _threads(threads: int | None) -> int:
+    count = (os.cpu_count() or 1) if threads is None else int(threads)
+    if count < 1:
+        raise ValueError(f"threads is {count}; give at least one")
+    return count
+
+
+def _records(records: Records) -> list[tuple[str, Any]]:
+    if records is None:
+        return []
+    if isinstance(records, Mapping):
+        named = list(records.items())
+    else:
+        single = isinstance(records, (Motion, str, os.PathLike))
+        each: Iterable[Any] = [records] if single else records
+        named = [(r.name if isinstance(r, Motion) else "", r) for r in each]
+    return [(n, r._native if isinstance(r, Motion) else os.fspath(r)) for n, r in named]
+
+
+def _as_case(case: Case | Path) -> Case:
+    return case if isinstance(case, Case) else Case.from_file(case)
+
+
+def _output(study: Path, output: Path | None) -> str:
+    if output is not None:
+        return os.fspath(output)
+    return os.path.splitext(os.fspath(study))[0] + ".h5"
+
+
+def _run_study(
+    study: Path,
+    output: Path | None,
+    evaluated: bool,
+    threads: int | None,
+    progress: Progress | bool | None,
+    **options: Any,
+) -> tuple[str, dict[str, Any], dict[str, Any] | None]:
+    target = _output(study, output)
+    told, bar = _progress(progress, "study")
+    try:
+        finished, analysis = _native.run_study(
+            os.fspath(study),
+            target,
+            _threads(threads),
+            evaluated=evaluated,
+            progress=told,
+            **options,
+        )
+    finally:
+        if bar is not None:
+            bar.close()
+    return target, json.loads(finished), None if analysis is None else json.loads(analysis)
+
+
+def sweep(
+    study: Path,
+    *,
+    output: Path | None = None,
+    threads: int | None = None,
+    shard: str | None = None,
+    resume: bool = False,
+    keep_going: bool = False,
+    progress: Progress | bool | None = None,
+) -> xarray.Dataset:
+    """Runs a study and opens its result.
+
+    Parameters
+    ----------
+    study : path
+        Study file (TOML).
+    output : path, optional
+        Result file (HDF5); beside the study file, with the ending ``.h5``, by default. Finished
+        runs are stored beside it while the study goes on.
+    threads : int, optional
+        All cores by default; results do not depend on it.
+    shard : str, optional
+        A part of the study, such as ``"2/8"``.
+    resume : bool
+        Goes on with the finished runs of an interrupted call.
+    keep_going : bool
+        Records runs whose motion cannot be read as failed.
+    progress : callable or bool, optional
+        As in :func:`pounding.run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Responses of all runs over the dimension ``run``, read when they are looked at; what the
+        command says of the study is in the attribute ``sweep`` (JSON).
+    """
+    import xarray as xr
+
+    options = {"shard": shard, "resume": resume, "keep_going": keep_going}
+    target, finished, _ = _run_study(study, output, False, threads, progress, **options)
+    dataset = xr.open_dataset(target, engine="h5netcdf", decode_timedelta=False)
+    dataset.attrs["sweep"] = json.dumps(finished)
+    return dataset
+
+
+@dataclass(frozen=True)
+class Ida:
+    """What an incremental dynamic analysis says.
+
+    Attributes
+    ----------
+    answer : dict
+        All of it: what ``pounding ida --json`` prints.
+    output : str
+        The result file of the runs.
+    """
+
+    answer: dict[str, Any]
+    output: str
+
+    @property
+    def levels(self) -> pandas.DataFrame:
+        """Fractiles of every demand at every intensity."""
+        import pandas as pd
+
+        rows = [
+            {"intensity": level["intensity"], "demand": demand.pop("name"), **demand}
+            for level in json.loads(json.dumps(self.answer["levels"]))
+            for demand in level["demands"]
+        ]
+        return pd.DataFrame(rows).set_index(["demand", "intensity"])
+
+    @property
+    def limits(self) -> pandas.DataFrame:
+        """Fragilities of pounding and of the limits of the study, a row each."""
+        import pandas as pd
+
+        return pd.json_normalize(self.answer["limits"])
+
+    def runs(self) -> xarray.Dataset:
+        """The runs, read when they are looked at."""
+        import xarray as xr
+
+        return xr.open_dataset(self.output, engine="h5netcdf", decode_timedelta=False)
+
+
+def ida(
+    study: Path,
+    *,
+    output: Path | None = None,
+    threads: int | None = None,
+    resume: bool = False,
+    keep_going: bool = False,
+    progress: Progress | bool | None = None,
+) -> Ida:
+    """Incremental dynamic analysis: fragilities, and the gap for a frequency.
+
+    Parameters are those of :func:`sweep`; the study has a part ``[ida]``.
+    """
+    from ._errors import CaseError
+
+    if not _native.has_ida(os.fspath(study)):
+        raise CaseError(
+            f"{os.fspath(study)} has no [ida]\n  help: add it, or run the study with sweep",
+            [(f"{os.fspath(study)} has no [ida]", "add it, or run the study with sweep")],
+        )
+    options = {"shard": None, "resume": resume, "keep_going": keep_going}
+    target, finished, analysis = _run_study(study, output, True, threads, progress, **options)
+    return Ida({**(analysis or {}), "sweep": finished}, target)
+
+
+@dataclass(frozen=True)
+class GapCheck:
+    """Whether the gaps of a case are wide enough.
+
+    Attributes
+    ----------
+    answer : dict
+        All of it, in SI units: what ``pounding gap --json`` prints.
+    """
+
+    answer: dict[str, Any]
+
+    @property
+    def adequate(self) -> bool:
+        """Whether every gap is wide enough, by simulation and by code."""
+        return bool(self.answer["adequate"])
+
+    def __bool__(self) -> bool:
+        return self.adequate
+
+    @property
+    def demand(self) -> pandas.DataFrame:
+        """The width (m) that each record would just not close, a column for each gap."""
+        import pandas as pd
+
+        names = [record["name"] for record in self.answer["records"]]
+        columns = {gap["name"]: gap["demand"] for gap in self.answer["gaps"]}
+        return pd.DataFrame(columns, index=pd.Index(names, name="record"))
+
+    @property
+    def codes(self) -> pandas.DataFrame:
+        """The widths that provisions ask for, a row for each provision and gap."""
+        import pandas as pd
+
+        rows = [
+            {"gap": gap["name"], **code} for gap in self.answer["gaps"] for code in gap["codes"]
+        ]
+        return pd.json_normalize(rows)
+
+
+def gap_check(
+    case: Case | Path,
+    records: Records = None,
+    *,
+    probability: float = 0.0,
+    confidence: float = 0.9,
+    points: int = 0,
+    threads: int | None = None,
+    progress: Progress | bool | None = None,
+) -> GapCheck:
+    """Is the gap wide enough, by simulation and by code?
+
+    Parameters
+    ----------
+    case : Case or path
+    records : motions, files or folders of records, optional
+        A list, or a dict by name; the motion of the case by default.
+    probability : float
+        Part of the records that may bring the buildings into contact (-).
+    confidence : float
+        Of two-sided bounds (-).
+    points : int
+        Widths in a sweep of the gap; none by default.
+    threads : int, optional
+    progress : callable or bool, optional
+    """
+    given = _as_case(case)
+    told, bar = _progress(progress, "gap check")
+    try:
+        answer = _native.gap_check_json(
+            given._native,
+            _records(records),
+            probability,
+            confidence,
+            points,
+            _threads(threads),
+            told,
+        )
+    finally:
+        if bar is not None:
+            bar.close()
+    return GapCheck(json.loads(answer))
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Impact models beside one another on one case.
+
+    Attributes
+    ----------
+    answer : dict
+        All of it: what ``pounding compare --json`` prints.
+    """
+
+    answer: dict[str, Any]
+
+    @property
+    def models(self) -> pandas.DataFrame:
+        """A row for each model, indexed by its name."""
+        import pandas as pd
+
+        frame = pd.json_normalize(self.answer["models"], max_level=0)
+        name = "name" if "name" in frame else frame.columns[0]
+        return frame.set_index(name)
+
+
+def compare(
+    case: Case | Path,
+    models: Iterable[str] = (),
+    records: Records = None,
+    *,
+    restitution: float | None = None,
+    same_duration: bool = False,
+    exact: bool = False,
+    threads: int | None = None,
+    progress: Progress | bool | None = None,
+) -> Comparison:
+    """Is the answer sensitive to the impact model?
+
+    Parameters
+    ----------
+    case : Case or path
+    models : iterable of str
+        Names of impact models; all by default.
+    records : motions, files or folders of records, optional
+    restitution : float, optional
+        That of the gap's own law by default.
+    same_duration : bool
+        Stiffnesses follow from the same contact time, not from the same penetration.
+    exact : bool
+        The restitution is what models return, not what their publications ask for.
+    """
+    given = _as_case(case)
+    told, bar = _progress(progress, "comparison")
+    try:
+        answer = _native.compare_json(
+            given._native,
+            list(models),
+            _records(records),
+            restitution,
+            same_duration,
+            exact,
+            _threads(threads),
+            told,
+        )
+    finally:
+        if bar is not None:
+            bar.close()
+    return Comparison(json.loads(answer))

@@ -1,0 +1,180 @@
+//! Cases.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use pounding_assembly::{Assembly, assemble, assemble_with_record, scale_record};
+use pounding_case::{Case, read_text};
+use pounding_cli::Failure;
+use pounding_cli::answers::Understood;
+use pounding_files::FileUse;
+use pounding_ground_motion::Accelerogram;
+use pounding_study::faults;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::Problem;
+use crate::motion::Motion;
+use crate::values::text_of;
+
+/// Name in messages of a case that was made of a dict.
+const MADE: &str = "<dict>";
+
+/// A case: buildings, gaps, ground motion and analysis.
+#[pyclass(frozen, name = "Case", module = "pounding._native")]
+#[derive(Debug, Clone)]
+pub struct PyCase {
+    pub case: Arc<Case>,
+    /// A motion that takes the place of the record of the case.
+    pub motion: Option<Arc<Accelerogram>>,
+    /// The file that this motion was read from.
+    motion_file: Option<PathBuf>,
+    /// Whether nobody wrote the text, so that places are told by keys.
+    made: bool,
+}
+
+impl PyCase {
+    fn parsed(source: &str, file: &Path, made: bool, has_motion: bool) -> Result<Self, Problem> {
+        match faults::parse_case(source, file, !has_motion) {
+            Ok(case) => Ok(Self {
+                case: Arc::new(case),
+                motion: None,
+                motion_file: None,
+                made,
+            }),
+            Err(error) => {
+                let made = made.then(|| file.display().to_string());
+                Err(Problem::from(Failure::case(error, source)).by_keys(made))
+            }
+        }
+    }
+
+    /// A failure as a problem of this case.
+    pub fn problem(&self, failure: Failure) -> Problem {
+        Problem::from(failure).by_keys(self.made.then(|| self.case.file.display().to_string()))
+    }
+
+    /// The system of the case under its motion.
+    pub fn assembly(&self) -> Result<Assembly, Problem> {
+        let case = self.case.as_ref();
+        let made = match &self.motion {
+            None => assemble(case),
+            Some(motion) => scale_record(case, Accelerogram::clone(motion))
+                .and_then(|motion| assemble_with_record(case, &motion)),
+        };
+        made.map_err(|error| {
+            let all = faults::with_all(error, case, self.motion.is_none());
+            self.problem(Failure::of_case(all, case))
+        })
+    }
+
+    /// Refuses to write where something is read.
+    pub fn writes(&self, role: &str, path: &Path) -> Result<(), Problem> {
+        let mut files = FileUse::new();
+        for (role, file) in self.case.files() {
+            files.reads(role, file);
+        }
+        if let Some(file) = &self.motion_file {
+            files.reads("record", file.clone());
+        }
+        if !self.made {
+            files.reads("case", self.case.file.clone());
+        }
+        files.writes(role, path);
+        files.check().map_err(|e| Failure::from(e).into())
+    }
+}
+
+#[pymethods]
+impl PyCase {
+    /// A case from the text of a case file; `file` names it and is the base of its paths.
+    #[staticmethod]
+    fn from_text(source: &str, file: PathBuf) -> Result<Self, Problem> {
+        Self::parsed(source, &file, false, false)
+    }
+
+    /// A case from its file.
+    #[staticmethod]
+    fn from_file(path: PathBuf) -> Result<Self, Problem> {
+        let source = read_text(&path, "case").map_err(|e| Failure::case(e, ""))?;
+        Self::parsed(&source, &path, false, false)
+    }
+
+    /// A case from a dict with the keys of the case file; paths in it begin in `folder`. With
+    /// a motion the ground motion of the dict says at most how that is scaled.
+    #[staticmethod]
+    #[pyo3(signature = (dict, folder, motion=None))]
+    fn from_dict(
+        dict: &Bound<'_, PyDict>,
+        folder: PathBuf,
+        motion: Option<&Motion>,
+    ) -> PyResult<Self> {
+        let text = text_of(dict)?;
+        let made = Self::parsed(&text, &folder.join(MADE), true, motion.is_some())?;
+        Ok(Self {
+            motion: motion.map(|m| Arc::clone(&m.record)),
+            motion_file: motion.and_then(|m| m.file.clone()),
+            ..made
+        })
+    }
+
+    /// The same case under another motion, scaled as the case says.
+    fn with_motion(&self, motion: &Motion) -> Self {
+        Self {
+            motion: Some(Arc::clone(&motion.record)),
+            motion_file: motion.file.clone(),
+            ..self.clone()
+        }
+    }
+
+    /// The text of the case file.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.case.source
+    }
+
+    /// Title, may be empty.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.case.title
+    }
+
+    /// The file that it was read from; `None` for one that was made of a dict.
+    #[getter]
+    fn file(&self) -> Option<PathBuf> {
+        (!self.made).then(|| self.case.file.clone())
+    }
+
+    /// Names of the buildings, from the left.
+    #[getter]
+    fn buildings(&self) -> Vec<String> {
+        let names = self.case.buildings.iter().map(|b| b.name.value.clone());
+        names.collect()
+    }
+
+    /// Names of the gaps.
+    #[getter]
+    fn gaps(&self) -> Vec<String> {
+        self.case.gaps.iter().map(|g| g.name.clone()).collect()
+    }
+
+    /// What was understood of the case, as JSON: what `pounding check --json` prints.
+    fn check_json(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| {
+            let assembly = self.assembly()?;
+            json(&Understood::of(&assembly))
+        })
+        .map_err(PyErr::from)
+    }
+}
+
+/// A value as JSON.
+pub fn json(value: &impl serde::Serialize) -> Result<String, Problem> {
+    serde_json::to_string(value)
+        .map_err(|e| Failure::computation(format!("no JSON: {e}"), None).into())
+}
+
+/// Adds the classes of this file.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyCase>()
+}

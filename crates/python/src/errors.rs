@@ -1,0 +1,170 @@
+//! Failures as exceptions of Python, with place and remedy in their text.
+
+use miette::{Diagnostic, Report};
+use pounding_cli::Failure;
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+
+/// Errors of one case that are shown: more help nobody.
+const MOST_SHOWN: usize = 20;
+
+/// A failure with the name of a text that nobody wrote: places in it are told by their keys.
+#[derive(Debug)]
+pub struct Problem {
+    failure: Failure,
+    /// Class of the exception for input that cannot be used.
+    input: &'static str,
+    /// Name in messages of a text that was made of a dict.
+    made: Option<String>,
+}
+
+/// One thing that is wrong.
+struct Fault {
+    message: String,
+    help: Option<String>,
+    /// The line that it stands in.
+    shown: String,
+}
+
+impl From<Failure> for Problem {
+    fn from(failure: Failure) -> Self {
+        Self {
+            failure,
+            input: "CaseError",
+            made: None,
+        }
+    }
+}
+
+impl Problem {
+    /// The same where places in the text of this name are to be told by keys.
+    pub fn by_keys(self, made: Option<String>) -> Self {
+        Self { made, ..self }
+    }
+
+    /// The same of a record.
+    pub fn of_record(failure: Failure) -> Self {
+        Self {
+            input: "RecordError",
+            ..failure.into()
+        }
+    }
+
+    fn raised(self, py: Python<'_>) -> PyResult<PyErr> {
+        let (class, reports) = match self.failure {
+            Failure::Input(report) => (self.input, vec![report]),
+            Failure::Inputs(reports) => (self.input, reports),
+            Failure::Output(report) => ("OutputError", vec![report]),
+            Failure::Computation(report) => ("ComputationError", vec![report]),
+            Failure::Interrupted(report) => {
+                return Ok(PyKeyboardInterrupt::new_err(report.to_string()));
+            }
+            // What only the commands answer.
+            Failure::No | Failure::Reported(_) => ("ComputationError", Vec::new()),
+        };
+        let made = self.made.as_deref();
+        let faults: Vec<Fault> = reports.iter().map(|r| fault(r, made)).collect();
+        let class = py.import("pounding._errors")?.getattr(class)?;
+        let list: Vec<_> = faults
+            .iter()
+            .map(|f| (f.message.as_str(), f.help.as_deref()))
+            .collect();
+        Ok(PyErr::from_value(class.call1((text(&faults), list))?))
+    }
+}
+
+impl From<Problem> for PyErr {
+    fn from(problem: Problem) -> Self {
+        Python::attach(|py| problem.raised(py).unwrap_or_else(|error| error))
+    }
+}
+
+fn text(faults: &[Fault]) -> String {
+    let mut lines = Vec::new();
+    for fault in faults.iter().take(MOST_SHOWN) {
+        lines.push(fault.message.clone());
+        if !fault.shown.is_empty() {
+            lines.push(format!("    {}", fault.shown));
+        }
+        if let Some(help) = &fault.help {
+            lines.push(format!("  help: {help}"));
+        }
+    }
+    if faults.len() > MOST_SHOWN {
+        lines.push(format!(
+            "{} errors, the first {MOST_SHOWN} shown",
+            faults.len()
+        ));
+    }
+    lines.join("\n")
+}
+
+fn fault(report: &Report, made: Option<&str>) -> Fault {
+    let diagnostic: &dyn Diagnostic = report.as_ref();
+    let mut fault = Fault {
+        message: report.to_string(),
+        help: diagnostic.help().map(|h| h.to_string()),
+        shown: String::new(),
+    };
+    let label = diagnostic.labels().and_then(|mut labels| labels.next());
+    let (Some(label), Some(source)) = (label, diagnostic.source_code()) else {
+        return fault;
+    };
+    let Ok(contents) = source.read_span(label.inner(), usize::MAX / 4, 0) else {
+        return fault;
+    };
+    // From the start of the text to the end of the line.
+    let text = String::from_utf8_lossy(contents.data());
+    fault.shown = text.lines().last().unwrap_or_default().trim().to_owned();
+    if let Some(rest) = made.and_then(|name| behind_the_place(&fault.message, name)) {
+        fault.message = format!("{}: {rest}", key_path(&text, label.offset()));
+    }
+    fault
+}
+
+/// What follows `name:line:column: ` in a message.
+fn behind_the_place<'m>(message: &'m str, name: &str) -> Option<&'m str> {
+    let rest = message.strip_prefix(name)?.strip_prefix(':')?;
+    let digits = |c: char| c.is_ascii_digit() || c == ':';
+    let rest = rest.trim_start_matches(digits);
+    rest.strip_prefix(' ')
+}
+
+/// The keys that lead to a place of a text that was made of a dict, such as
+/// `gap[1].width`.
+fn key_path(text: &str, place: usize) -> String {
+    let (mut table, mut counts) = (String::new(), std::collections::BTreeMap::new());
+    let (mut start, mut key) = (0, "");
+    for line in text.split_inclusive('\n') {
+        if start > place {
+            break;
+        }
+        start += line.len();
+        let trimmed = line.trim();
+        let inside = |open: &str, close: &str| trimmed.strip_prefix(open)?.strip_suffix(close);
+        if let Some(name) = inside("[[", "]]") {
+            let count = counts.entry(name.to_owned()).or_insert(0_usize);
+            table = format!("{name}[{count}]");
+            *count += 1;
+            key = "";
+        } else if let Some(name) = inside("[", "]") {
+            // A table of the last entry of a list.
+            let list = name.split('.').next().unwrap_or(name);
+            table = match counts.get(list) {
+                Some(count) if name != list => {
+                    format!("{list}[{}]{}", count - 1, &name[list.len()..])
+                }
+                _ => name.to_owned(),
+            };
+            key = "";
+        } else if let Some((name, _)) = trimmed.split_once(" = ") {
+            key = name;
+        }
+    }
+    match (table.is_empty(), key.is_empty()) {
+        (true, true) => "the case".to_owned(),
+        (true, false) => key.to_owned(),
+        (false, true) => table,
+        (false, false) => format!("{table}.{key}"),
+    }
+}

@@ -1,0 +1,36 @@
+//! The native part of the Python package `pounding`: cases, runs, motions and studies as
+//! objects that Python modules beside it give their shape. Arrays are handed over without a
+//! copy where they lie in memory as NumPy has them; what is computed and written is what the
+//! command line computes and writes.
+
+mod case;
+mod errors;
+mod models;
+mod motion;
+mod run;
+mod study;
+mod values;
+mod watch;
+
+use std::ffi::OsString;
+
+use pyo3::prelude::*;
+
+/// Does what the command line does with these arguments, and returns its exit code.
+#[pyfunction]
+fn command_line(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| pounding_cli::run(std::iter::once("pounding".into()).chain(arguments)))
+}
+
+/// The module.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("BUILD", pounding_study::BUILD)?;
+    module.add_function(wrap_pyfunction!(command_line, module)?)?;
+    case::add(module)?;
+    motion::add(module)?;
+    run::add(module)?;
+    models::add(module)?;
+    study::add(module)
+}

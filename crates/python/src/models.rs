@@ -1,0 +1,98 @@
+//! Impact models, and the collision of two bodies.
+
+use numpy::IntoPyArray;
+use pounding_cli::Failure;
+use pounding_cli::answers::DescribedModel;
+use pounding_gap_element::{
+    Bodies, CollisionSample, ModelParameters, SeparationRule, collide as collision, registry,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::case::json;
+use crate::errors::Problem;
+
+/// Descriptors of all impact models, or of one, as JSON: what `pounding models --json` prints.
+#[pyfunction]
+#[pyo3(signature = (name=None))]
+fn models_json(name: Option<&str>) -> Result<String, Problem> {
+    let chosen = match name {
+        Some(name) => vec![registry::find(name).map_err(Failure::from)?],
+        None => registry::descriptors().to_vec(),
+    };
+    let described: Vec<_> = chosen.iter().map(|d| DescribedModel::of(d)).collect();
+    json(&described)
+}
+
+/// Two bodies collide: numbers and arrays by name. Without the mass of the right one it is a
+/// wall.
+#[pyfunction]
+#[pyo3(signature = (model, parameters, mass_left, mass_right, velocity_left, velocity_right, separation=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+fn collide<'py>(
+    py: Python<'py>,
+    model: &str,
+    parameters: Vec<(String, f64)>,
+    mass_left: f64,
+    mass_right: Option<f64>,
+    velocity_left: f64,
+    velocity_right: f64,
+    separation: Option<&str>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let refused = |e| Problem::from(Failure::from(e));
+    let descriptor = registry::find(model).map_err(refused)?;
+    let pairs: Vec<_> = parameters.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+    let mut given = ModelParameters::from_pairs(&pairs);
+    if let Some(name) = separation {
+        let rule = SeparationRule::ALL.into_iter().find(|r| r.name() == name);
+        let Some(rule) = rule else {
+            let names = descriptor.separation_rules.iter().map(|r| r.name());
+            let names: Vec<_> = names.collect();
+            let message = format!("\"{name}\" is no separation rule");
+            let help = format!("{model} has {}", names.join(", "));
+            return Err(Problem::from(Failure::input(message, Some(help))).into());
+        };
+        given = given.with_separation(rule);
+    }
+    let model = registry::build(descriptor.name, &given).map_err(refused)?;
+    let bodies = Bodies {
+        mass_left,
+        mass_right,
+        velocity_left,
+        velocity_right,
+    };
+    let outcome = collision(model.as_ref(), &bodies).map_err(refused)?;
+    let answer = PyDict::new(py);
+    for (name, value) in [
+        ("restitution", outcome.restitution),
+        ("velocity_left", outcome.velocity_left),
+        ("velocity_right", outcome.velocity_right),
+        ("peak_force", outcome.peak_force),
+        ("peak_force_time", outcome.peak_force_time),
+        ("peak_penetration", outcome.peak_penetration),
+        ("peak_penetration_time", outcome.peak_penetration_time),
+        ("duration", outcome.duration),
+        ("impulse", outcome.impulse),
+        ("energy_dissipated", outcome.energy_dissipated),
+    ] {
+        answer.set_item(name, value)?;
+    }
+    type Pick = fn(&CollisionSample) -> f64;
+    let columns: [(&str, Pick); 4] = [
+        ("time", |s| s.time),
+        ("penetration", |s| s.penetration),
+        ("velocity", |s| s.velocity),
+        ("force", |s| s.force),
+    ];
+    for (name, column) in columns {
+        let values: Vec<f64> = outcome.history.iter().map(column).collect();
+        answer.set_item(name, values.into_pyarray(py))?;
+    }
+    Ok(answer)
+}
+
+/// Adds the functions of this file.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(models_json, module)?)?;
+    module.add_function(wrap_pyfunction!(collide, module)?)
+}

@@ -1,0 +1,226 @@
+//! Ground motions, their spectra and measures.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pounding_cli::Failure;
+use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
+use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
+use pounding_ground_motion::{
+    AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions, read,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::case::json;
+use crate::errors::Problem;
+
+/// An accelerogram: accelerations (m/s2) at even steps, linear in between.
+#[pyclass(frozen, name = "Motion", module = "pounding._native")]
+#[derive(Debug)]
+pub struct Motion {
+    pub record: Arc<Accelerogram>,
+    /// The file that it was read from.
+    pub file: Option<PathBuf>,
+}
+
+impl Motion {
+    fn of(record: Accelerogram, file: Option<PathBuf>) -> Self {
+        Self {
+            record: Arc::new(record),
+            file,
+        }
+    }
+}
+
+fn refused(error: GroundMotionError) -> Problem {
+    Problem::of_record(error.into())
+}
+
+#[pymethods]
+impl Motion {
+    /// Accelerations in a unit at even steps (s).
+    #[new]
+    fn new(
+        acceleration: PyReadonlyArray1<'_, f64>,
+        time_step: f64,
+        unit: &str,
+    ) -> Result<Self, Problem> {
+        let unit = unit.parse::<AccelerationUnit>().map_err(refused)?;
+        let samples = acceleration.as_array().to_vec();
+        let record = Accelerogram::new(samples, unit, time_step).map_err(refused)?;
+        Ok(Self::of(record, None))
+    }
+
+    /// A record of a file, with what its headers do not say.
+    #[staticmethod]
+    #[pyo3(signature = (path, format=None, component=None, unit=None, time_step=None, quantity=None, skip_lines=0, skip_columns=0, layout=None, sensitivity=None, lenient=false))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn read(
+        py: Python<'_>,
+        path: PathBuf,
+        format: Option<&str>,
+        component: Option<String>,
+        unit: Option<&str>,
+        time_step: Option<f64>,
+        quantity: Option<&str>,
+        skip_lines: usize,
+        skip_columns: usize,
+        layout: Option<String>,
+        sensitivity: Option<f64>,
+        lenient: bool,
+    ) -> Result<Self, Problem> {
+        let unknown = |name: &str| {
+            let help = "acceleration, velocity or displacement".to_owned();
+            Problem::of_record(Failure::input(
+                format!("\"{name}\" is no quantity of a record"),
+                Some(help),
+            ))
+        };
+        let quantity = quantity
+            .map(|name| Quantity::from_name(name).ok_or_else(|| unknown(name)))
+            .transpose()?;
+        let options = ReadOptions {
+            format: format.map(Format::find).transpose().map_err(refused)?,
+            component,
+            unit: unit.map(str::parse).transpose().map_err(refused)?,
+            time_step,
+            quantity,
+            skip_lines,
+            skip_columns,
+            layout,
+            sensitivity,
+            lenient,
+            ..ReadOptions::default()
+        };
+        let record = py.detach(|| read(&path, &options)).map_err(refused)?;
+        Ok(Self::of(record, Some(path)))
+    }
+
+    /// Accelerations (m/s2); a copy, which may be changed.
+    #[getter]
+    fn acceleration<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.record.samples())
+    }
+
+    /// Time step (s).
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.record.time_step()
+    }
+
+    /// Time of the last sample (s).
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.record.duration()
+    }
+
+    /// Peak absolute acceleration (m/s2).
+    #[getter]
+    fn peak(&self) -> f64 {
+        self.record.peak().value
+    }
+
+    /// The file that it was read from.
+    #[getter]
+    fn file(&self) -> Option<PathBuf> {
+        self.file.clone()
+    }
+
+    /// What was read and done, line by line.
+    #[getter]
+    fn description(&self) -> Vec<String> {
+        self.record.echo()
+    }
+
+    /// Where it comes from, as JSON; `null` for one that was made of numbers.
+    fn origin_json(&self) -> Result<String, Problem> {
+        let origin = self.record.origin().map(|o| {
+            serde_json::json!({
+                "file": o.file,
+                "format": o.format,
+                "title": o.title,
+                "component": o.component,
+                "unit": o.unit,
+                "start_time": o.start_time,
+                "sha256": o.sha256,
+                "warnings": o.warnings,
+            })
+        });
+        json(&origin)
+    }
+
+    /// Multiplied by a factor.
+    fn scaled_by(&self, factor: f64) -> Result<Self, Problem> {
+        let record = self.record.scaled_by(factor).map_err(refused)?;
+        Ok(Self::of(record, self.file.clone()))
+    }
+
+    /// Scaled to a peak ground acceleration (m/s2).
+    fn scaled_to_peak(&self, peak: f64) -> Result<Self, Problem> {
+        let record = self.record.scaled_to_peak(peak).map_err(refused)?;
+        Ok(Self::of(record, self.file.clone()))
+    }
+
+    /// The response spectrum at these periods (s): arrays by name.
+    fn spectrum<'py>(
+        &self,
+        py: Python<'py>,
+        periods: PyReadonlyArray1<'py, f64>,
+        damping: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let periods = periods.as_array().to_vec();
+        let spectrum = py
+            .detach(|| response_spectrum(&self.record, &periods, damping, Evaluation::default()))
+            .map_err(refused)?;
+        let arrays = PyDict::new(py);
+        for (name, values) in [
+            ("displacement", spectrum.displacement),
+            ("velocity", spectrum.velocity),
+            ("acceleration", spectrum.acceleration),
+            ("pseudo_velocity", spectrum.pseudo_velocity),
+            ("pseudo_acceleration", spectrum.pseudo_acceleration),
+        ] {
+            arrays.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(arrays)
+    }
+
+    /// Intensity measures, as JSON: what `pounding motion measures --json` prints of them.
+    fn measures_json(&self, py: Python<'_>, damping: f64) -> Result<String, Problem> {
+        let options = MeasureOptions {
+            damping,
+            ..MeasureOptions::default()
+        };
+        let measures = py
+            .detach(|| IntensityMeasures::of(&self.record, options))
+            .map_err(refused)?;
+        json(&measures)
+    }
+}
+
+/// Periods (s) evenly spaced in their logarithm.
+#[pyfunction]
+fn periods(
+    py: Python<'_>,
+    first: f64,
+    last: f64,
+    count: usize,
+) -> Result<Bound<'_, PyArray1<f64>>, Problem> {
+    let periods = logarithmic_periods(first, last, count).map_err(refused)?;
+    Ok(periods.into_pyarray(py))
+}
+
+/// Names and titles of the record formats, in the order in which they are tried.
+#[pyfunction]
+fn formats() -> Vec<(&'static str, &'static str)> {
+    Format::all().iter().map(|f| (f.name, f.title)).collect()
+}
+
+/// Adds the classes and functions of this file.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Motion>()?;
+    module.add_function(wrap_pyfunction!(periods, module)?)?;
+    module.add_function(wrap_pyfunction!(formats, module)?)
+}

@@ -1,0 +1,426 @@
+//! Runs and what they return.
+#![allow(unsafe_code)]
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use numpy::ndarray::ArrayView2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pounding_assembly::Assembly;
+use pounding_cli::Failure;
+use pounding_files::checksum::Checksum;
+use pounding_report::{RunResult, page};
+use pounding_results::{RunEnding, RunHead, check_size, image, run_in_memory, write_run};
+use pounding_time_history::{
+    Energy, GridRecorder, History, Impact, Outcome, Recorder, Sample, SampleSink, Summary,
+    TimeHistoryError, in_parallel, run as integrate,
+};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::case::{PyCase, json};
+use crate::errors::Problem;
+use crate::watch::{Watch, watched};
+
+/// Thousandths of a run, for its progress.
+const WHOLE: usize = 1000;
+/// How often (s of the motion) a run without responses looks whether it has to end.
+const LOOK: f64 = 0.25;
+
+/// A run that has ended.
+#[pyclass(frozen, name = "Run", module = "pounding._native")]
+#[derive(Debug)]
+pub struct Run {
+    case: PyCase,
+    assembly: Assembly,
+    outcome: Outcome,
+    isolated: Option<Outcome>,
+    warnings: Vec<String>,
+    wall_time: f64,
+    /// Responses on the output grid, if they were asked for.
+    history: Option<History>,
+}
+
+/// What is computed beside the run itself.
+#[derive(Debug, Clone, Copy)]
+struct Wanted {
+    histories: bool,
+    isolated: bool,
+}
+
+/// Takes responses until the work is stopped.
+struct Responses<'w> {
+    history: Option<History>,
+    watch: &'w Watch,
+}
+
+impl SampleSink for Responses<'_> {
+    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
+        if self.watch.stopped() {
+            return Err(TimeHistoryError::Recorder("stopped".to_owned()));
+        }
+        if let Some(history) = &mut self.history {
+            history.push(sample);
+        }
+        Ok(())
+    }
+}
+
+impl Run {
+    fn of(
+        case: &PyCase,
+        wanted: Wanted,
+        (watch, told): (&Watch, &(dyn Fn(f64) + Sync)),
+    ) -> Result<Self, Problem> {
+        let assembly = case.assembly()?;
+        let failed = |e: TimeHistoryError| case.problem(Failure::of_case(e, &case.case));
+        let (system, options) = (&assembly.system, &assembly.options);
+        if wanted.histories {
+            check_size(system, options.duration, assembly.output_step)
+                .map_err(|e| Problem::from(Failure::from(e)))?;
+        }
+        let started = Instant::now();
+        let step = match wanted.histories {
+            true => assembly.output_step,
+            false => LOOK,
+        };
+        let responses = Responses {
+            history: wanted.histories.then(History::default),
+            watch,
+        };
+        let mut recorder = GridRecorder::into_sink(step, responses).map_err(failed)?;
+        let mut without = wanted.isolated.then(|| system.isolated());
+        let (outcome, isolated) = std::thread::scope(|scope| {
+            // Neither run depends on the other.
+            let beside = without.as_mut().map(|system| {
+                let system = &*system;
+                let work = move || {
+                    let responses = Responses {
+                        history: None,
+                        watch,
+                    };
+                    let mut looking = GridRecorder::into_sink(LOOK, responses)?;
+                    let mut recorders: [&mut dyn Recorder; 1] = [&mut looking];
+                    integrate(system, options, &mut recorders, &mut |_| {})
+                };
+                scope.spawn(work)
+            });
+            let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
+            let outcome = integrate(system, options, &mut recorders, &mut |part| told(part));
+            let isolated = beside.map(|thread| match thread.join() {
+                Ok(isolated) => isolated,
+                Err(panic) => std::panic::resume_unwind(panic),
+            });
+            (outcome, isolated)
+        });
+        let outcome = outcome.map_err(failed)?;
+        let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
+        // What the buildings do without their neighbours is for comparison: where it has no
+        // end, the run still has one.
+        let isolated = isolated.map(|isolated| {
+            isolated.unwrap_or_else(|error| {
+                warnings.push(format!(
+                    "without gaps and links: {error}; there is nothing to compare with"
+                ));
+                outcome.with_unknown_peaks()
+            })
+        });
+        Ok(Self {
+            case: case.clone(),
+            outcome,
+            isolated,
+            warnings,
+            wall_time: started.elapsed().as_secs_f64(),
+            history: recorder.responses.history,
+            assembly,
+        })
+    }
+
+    fn history(&self) -> Result<&History, Problem> {
+        self.history.as_ref().ok_or_else(|| {
+            let help = "run it with histories=True".to_owned();
+            let message = "the run has no histories, only peaks and impacts";
+            Failure::input(message, Some(help)).into()
+        })
+    }
+
+    fn head(&self) -> RunHead<'_> {
+        RunHead {
+            title: &self.case.case.title,
+            case: &self.case.case.source,
+            version: env!("CARGO_PKG_VERSION"),
+            build: pounding_study::BUILD,
+            system: &self.assembly.system,
+            accelerogram: &self.assembly.accelerogram,
+        }
+    }
+
+    /// All that a result file takes; unknown peaks stand in for a run without gaps that was
+    /// not asked for.
+    fn with_ending<T>(&self, write: impl FnOnce(&RunEnding<'_>) -> T) -> T {
+        let unknown;
+        let isolated = match &self.isolated {
+            Some(isolated) => isolated,
+            None => {
+                unknown = self.outcome.with_unknown_peaks();
+                &unknown
+            }
+        };
+        write(&RunEnding {
+            outcome: &self.outcome,
+            isolated,
+            warnings: &self.warnings,
+            wall_time: self.wall_time,
+        })
+    }
+
+    fn in_memory(&self) -> Result<hdf5::File, Problem> {
+        let (head, history) = (self.head(), self.history()?);
+        let made = self.with_ending(|ending| run_in_memory(&head, history, ending));
+        made.map_err(|e| Failure::computation(format!("no result in memory: {e}"), None).into())
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// What `pounding run --json` prints.
+    fn summary_json(&self) -> Result<String, Problem> {
+        self.with_ending(|ending| {
+            let outcomes = (ending.outcome, ending.isolated);
+            json(&Summary::of(
+                &self.assembly.system,
+                outcomes,
+                ending.warnings,
+            ))
+        })
+    }
+
+    /// The case that was run.
+    #[getter]
+    fn case(&self) -> PyCase {
+        self.case.clone()
+    }
+
+    /// Time that the run took (s).
+    #[getter]
+    fn wall_time(&self) -> f64 {
+        self.wall_time
+    }
+
+    /// Whether responses over time were kept.
+    #[getter]
+    fn has_histories(&self) -> bool {
+        self.history.is_some()
+    }
+
+    /// Whether the run without gaps was made too.
+    #[getter]
+    fn has_isolated(&self) -> bool {
+        self.isolated.is_some()
+    }
+
+    /// Names of the buildings with the columns of their floors.
+    #[getter]
+    fn building_columns(&self) -> Vec<(String, usize, usize)> {
+        let system = &self.assembly.system;
+        let ranges = system.offsets().windows(2);
+        let buildings = system.buildings().iter().zip(ranges);
+        buildings
+            .map(|(b, range)| (b.name().to_owned(), range[0], range[1]))
+            .collect()
+    }
+
+    /// Names of the gaps with the columns of their levels.
+    #[getter]
+    fn gap_columns(&self) -> Vec<(String, usize, usize)> {
+        let gaps = self.assembly.system.gaps().iter();
+        gaps.map(|g| (g.name.clone(), g.first_level, g.first_level + g.levels))
+            .collect()
+    }
+
+    /// Output times (s).
+    #[getter]
+    fn time(slf: Bound<'_, Self>) -> PyResult<Bound<'_, PyArray1<f64>>> {
+        let rows = Self::array(slf, "time")?;
+        rows.reshape([rows.len()?])
+    }
+
+    /// One of the histories by its name: a row for each output time, read only, in the memory
+    /// of the run.
+    fn array<'py>(slf: Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let history = slf.get().history()?;
+        let values = match name {
+            "time" => &history.time,
+            "ground_acceleration" => &history.ground_acceleration,
+            "displacement" => &history.displacement,
+            "velocity" => &history.velocity,
+            "acceleration_absolute" => &history.acceleration_absolute,
+            "storey_shear" => &history.storey_shear,
+            "penetration" => &history.penetration,
+            "force" => &history.force,
+            _ => {
+                return Err(PyKeyError::new_err(format!(
+                    "{name} is no history of a run"
+                )));
+            }
+        };
+        let rows = history.len();
+        let columns = values.len().checked_div(rows).unwrap_or(0);
+        let view = ArrayView2::from_shape((rows, columns), values)
+            .map_err(|e| Failure::computation(e.to_string(), None))
+            .map_err(Problem::from)?;
+        // SAFETY: the run owns the values, never changes them, as its class is frozen, and
+        // lives as long as the array, whose base it is.
+        let array = unsafe { PyArray2::borrow_from_array(&view, slf.clone().into_any()) };
+        array.readwrite().make_nonwriteable();
+        Ok(array)
+    }
+
+    /// Energies over time (J): arrays by name.
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        type Pick = fn(&Energy) -> f64;
+        let parts: [(&str, Pick); 7] = [
+            ("input", |e| e.input),
+            ("kinetic", |e| e.kinetic),
+            ("strain", |e| e.strain),
+            ("viscous", |e| e.viscous),
+            ("hysteretic", |e| e.hysteretic),
+            ("impact", |e| e.impact),
+            ("residual", |e| e.residual),
+        ];
+        let history = self.history()?;
+        let columns = PyDict::new(py);
+        for (name, part) in parts {
+            let values: Vec<f64> = history.energy.iter().map(part).collect();
+            columns.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(columns)
+    }
+
+    /// Impacts in order of closure: columns by name, as in the result file.
+    fn impacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        type Pick = fn(&Impact) -> f64;
+        let parts: [(&str, Pick); 10] = [
+            ("t_close", |i| i.time_closed),
+            ("t_open", |i| i.time_opened),
+            ("approach_velocity", |i| i.approach_velocity),
+            ("separation_velocity", |i| i.separation_velocity),
+            ("achieved_restitution", |i| i.achieved_restitution),
+            ("peak_force", |i| i.peak_force.value),
+            ("peak_force_time", |i| i.peak_force.time),
+            ("peak_penetration", |i| i.peak_penetration.value),
+            ("impulse", |i| i.impulse),
+            ("energy_dissipated", |i| i.energy_dissipated),
+        ];
+        let (impacts, gaps) = (&self.outcome.impacts, &self.outcome.gaps);
+        let columns = PyDict::new(py);
+        let names: Vec<&str> = impacts.iter().map(|i| gaps[i.gap].name.as_str()).collect();
+        columns.set_item("gap", names)?;
+        let levels: Vec<i64> = impacts.iter().map(|i| i.level as i64 + 1).collect();
+        columns.set_item("level", levels.into_pyarray(py))?;
+        for (name, part) in parts {
+            let values: Vec<f64> = impacts.iter().map(part).collect();
+            columns.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(columns)
+    }
+
+    /// Writes the result file, as `pounding run` does.
+    fn to_hdf5(&self, py: Python<'_>, path: PathBuf) -> Result<(), Problem> {
+        self.case.writes("result", &path)?;
+        let (head, history) = (self.head(), self.history()?);
+        py.detach(|| self.with_ending(|ending| write_run(&path, &head, history, ending)))
+            .map_err(|e| Failure::from(e).into())
+    }
+
+    /// The bytes of the result file, without its checksum.
+    fn image<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = py.detach(|| {
+            let made = image(&self.in_memory()?);
+            made.map_err(|e| Problem::from(Failure::computation(e.to_string(), None)))
+        })?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// Writes a page to a file.
+    fn write_page(&self, path: PathBuf, page: &str) -> Result<(), Problem> {
+        self.case.writes("page", &path)?;
+        let failed = |e: std::io::Error| Failure::output(&e, &path.display().to_string()).into();
+        pounding_files::write(&path, page.as_bytes()).map_err(failed)
+    }
+
+    /// The page of the run.
+    fn page(&self, py: Python<'_>, name: &str) -> Result<String, Problem> {
+        py.detach(|| {
+            // What was never on a disk cannot have been damaged there.
+            let read = RunResult::of_file(&self.in_memory()?, Path::new(name), Checksum::Matches);
+            let drawn = read.and_then(|result| page(&result, name));
+            drawn.map_err(|e| Failure::computation(e.to_string(), None).into())
+        })
+    }
+}
+
+/// Runs a case, with and without its gaps if that is wanted.
+#[pyfunction]
+#[pyo3(signature = (case, histories=true, isolated=true, progress=None))]
+fn run(
+    py: Python<'_>,
+    case: &Bound<'_, PyCase>,
+    histories: bool,
+    isolated: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Run> {
+    let case = case.get();
+    let wanted = Wanted {
+        histories,
+        isolated,
+    };
+    let made = watched(py, progress, |watch| {
+        let told = |part: f64| watch.tell((part * WHOLE as f64) as usize, WHOLE);
+        Run::of(case, wanted, (watch, &told))
+    })?;
+    Ok(made?)
+}
+
+/// Runs many cases on so many threads; each is a run or the exception that it ended with.
+#[pyfunction]
+#[pyo3(signature = (cases, threads, histories=false, isolated=false, progress=None))]
+fn run_many<'py>(
+    py: Python<'py>,
+    cases: Vec<Bound<'py, PyCase>>,
+    threads: usize,
+    histories: bool,
+    isolated: bool,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<Py<PyAny>>> {
+    let wanted = Wanted {
+        histories,
+        isolated,
+    };
+    let cases: Vec<PyCase> = cases.iter().map(|c| c.get().clone()).collect();
+    let made = watched(py, progress, |watch| {
+        let done = AtomicUsize::new(0);
+        in_parallel(cases.len(), threads.max(1), |number| {
+            if watch.stopped() {
+                return None;
+            }
+            let made = Run::of(&cases[number], wanted, (watch, &|_| {}));
+            watch.tell(done.fetch_add(1, Ordering::Relaxed) + 1, cases.len());
+            Some(made)
+        })
+    })?;
+    let made = made.into_iter().flatten().map(|made| match made {
+        Ok(run) => Ok(Bound::new(py, run)?.into_any().unbind()),
+        Err(problem) => Ok(PyErr::from(problem).into_value(py).into_any()),
+    });
+    made.collect()
+}
+
+/// Adds the classes and functions of this file.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Run>()?;
+    module.add_function(wrap_pyfunction!(run, module)?)?;
+    module.add_function(wrap_pyfunction!(run_many, module)?)
+}

@@ -1,0 +1,236 @@
+//! Studies of many runs: sweeps, incremental dynamic analysis, gap checks, comparisons.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use pounding_assembly::{assemble_with_record, scale_record};
+use pounding_cli::Failure;
+use pounding_cli::answers::{Analysis, Check, Compared, Finished, of_check};
+use pounding_files::FileUse;
+use pounding_files::checksum::WithoutChecksum;
+use pounding_ground_motion::Accelerogram;
+use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
+use pounding_study::gap_check::{
+    CaseUnderRecord, CheckError, GapCheckOptions, SweepOptions as WidthOptions, gap_check,
+    under_records,
+};
+use pounding_study::{
+    ResultReader, Shard, Study, StudyError, SweepOptions, evaluate, parts_folder, sweep, writable,
+};
+use pyo3::prelude::*;
+
+use crate::case::{PyCase, json};
+use crate::errors::Problem;
+use crate::motion::Motion;
+use crate::watch::{Watch, watched};
+
+/// How long a finished run waits at most until it is stored.
+const STORE_EVERY: Duration = Duration::from_secs(10);
+
+fn failed(error: StudyError) -> Problem {
+    Failure::from(error).into()
+}
+
+/// Runs a study, or a shard of it, into its result file. Returns what `pounding sweep --json`
+/// prints; with `evaluated` what the incremental dynamic analysis says of it as well.
+#[pyfunction]
+#[pyo3(signature = (study, output, threads, shard=None, resume=false, keep_going=false, evaluated=false, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+fn run_study(
+    py: Python<'_>,
+    study: PathBuf,
+    output: PathBuf,
+    threads: usize,
+    shard: Option<&str>,
+    resume: bool,
+    keep_going: bool,
+    evaluated: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, Option<String>)> {
+    let shard = shard.map_or(Ok(Shard::WHOLE), str::parse).map_err(failed)?;
+    let made = watched(py, progress, |watch| {
+        let read = Study::read(&study).map_err(failed)?;
+        let mut files = FileUse::new();
+        files.reads("study", study.clone());
+        for (role, path) in read.files() {
+            files.reads(role, path);
+        }
+        files.writes("result", &output);
+        files.fills("the folder of its finished runs", parts_folder(&output));
+        files.check().map_err(|e| Problem::from(Failure::from(e)))?;
+        writable(&output).map_err(failed)?;
+        let options = SweepOptions {
+            output,
+            csv: None,
+            threads: threads.max(1),
+            shard,
+            resume,
+            store_every: STORE_EVERY,
+            keep_going,
+        };
+        let report = sweep(&read, &options, &mut |now| {
+            watch.tell(now.made + now.stored_before, now.total);
+            match watch.stopped() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        let report = report.map_err(failed)?;
+        let finished = json(&Finished::of(&report, &options))?;
+        let settings = read.ida.as_ref().filter(|_| evaluated);
+        let analysis = settings.map(|settings| {
+            let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
+            let result = result.map_err(|e| failed(e.into()))?;
+            let report = evaluate(&read, &result).map_err(failed)?;
+            json(&Analysis::of(&report, settings.confidence))
+        });
+        Ok::<_, Problem>((finished, analysis.transpose()?))
+    })?;
+    Ok(made?)
+}
+
+/// Whether a study has a part `ida`.
+#[pyfunction]
+fn has_ida(study: PathBuf) -> Result<bool, Problem> {
+    Ok(Study::read(&study).map_err(failed)?.ida.is_some())
+}
+
+/// A case under motions and records of files; under its own without any.
+fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRecord>, Problem> {
+    let of = |error: CheckError| case.problem(of_check(error, &case.case));
+    if motions.is_empty() {
+        if case.motion.is_none() {
+            return under_records(&case.case, &[]).map_err(of);
+        }
+        return Ok(vec![CaseUnderRecord {
+            name: "motion".to_owned(),
+            file: PathBuf::new(),
+            assembly: case.assembly()?,
+        }]);
+    }
+    let mut all = Vec::new();
+    for (name, record) in motions {
+        match record {
+            Record::Path(path) => {
+                all.extend(under_records(&case.case, std::slice::from_ref(path)).map_err(of)?);
+            }
+            Record::Motion(record) => {
+                let mut other = pounding_case::Case::clone(&case.case);
+                // As with records of files: for their own durations.
+                other.analysis.duration = None;
+                let assembly = scale_record(&other, Accelerogram::clone(record))
+                    .and_then(|scaled| assemble_with_record(&other, &scaled))
+                    .map_err(|e| case.problem(Failure::of_case(e, &other).within(name)))?;
+                all.push(CaseUnderRecord {
+                    name: name.clone(),
+                    file: PathBuf::new(),
+                    assembly,
+                });
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// A motion in memory, or a file or folder of them.
+enum Record {
+    Motion(std::sync::Arc<Accelerogram>),
+    Path(PathBuf),
+}
+
+/// Records as Python gives them: motions or paths with their names.
+fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Record)>> {
+    let record = |(name, value): (String, Bound<'_, PyAny>)| {
+        let record = match value.cast::<Motion>() {
+            Ok(motion) => Record::Motion(std::sync::Arc::clone(&motion.get().record)),
+            Err(_) => Record::Path(value.extract()?),
+        };
+        Ok((name, record))
+    };
+    given.into_iter().map(record).collect()
+}
+
+/// Checks the gaps of a case: what `pounding gap --json` prints.
+#[pyfunction]
+#[pyo3(signature = (case, motions, probability, confidence, points, threads, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+fn gap_check_json(
+    py: Python<'_>,
+    case: &Bound<'_, PyCase>,
+    motions: Vec<(String, Bound<'_, PyAny>)>,
+    probability: f64,
+    confidence: f64,
+    points: usize,
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let (case, motions) = (case.get(), records(motions)?);
+    let options = GapCheckOptions {
+        target_probability: probability,
+        confidence,
+        sweep: (points > 0).then_some(WidthOptions {
+            gap: None,
+            from: None,
+            to: None,
+            points,
+        }),
+        threads: threads.max(1),
+    };
+    let made = watched(py, progress, |watch| {
+        let records = under(case, &motions)?;
+        let tell = |done, total| watch.tell(done, total);
+        let check = gap_check(&case.case, &case.case.separation, &records, &options, &tell);
+        let check = check.map_err(|e| case.problem(of_check(e, &case.case)))?;
+        json(&Check::of(&check))
+    })?;
+    Ok(made?)
+}
+
+/// Compares impact models: what `pounding compare --json` prints.
+#[pyfunction]
+#[pyo3(signature = (case, models, motions, restitution, same_duration, exact, threads, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+fn compare_json(
+    py: Python<'_>,
+    case: &Bound<'_, PyCase>,
+    models: Vec<String>,
+    motions: Vec<(String, Bound<'_, PyAny>)>,
+    restitution: Option<f64>,
+    same_duration: bool,
+    exact: bool,
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let (case, motions) = (case.get(), records(motions)?);
+    let options = ComparisonOptions {
+        models,
+        stiffness_rule: match same_duration {
+            true => StiffnessRule::Duration,
+            false => StiffnessRule::Penetration,
+        },
+        restitution_rule: match exact {
+            true => RestitutionRule::Exact,
+            false => RestitutionRule::AsPublished,
+        },
+        restitution,
+        approach_velocity: None,
+        threads: threads.max(1),
+    };
+    let made = watched(py, progress, |watch: &Watch| {
+        let records = under(case, &motions)?;
+        let tell = |done, total| watch.tell(done, total);
+        let comparison = compare(&case.case, &records, &options, &tell);
+        let comparison = comparison.map_err(|e| case.problem(of_check(e, &case.case)))?;
+        json(&Compared::of(&comparison))
+    })?;
+    Ok(made?)
+}
+
+/// Adds the functions of this file.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(run_study, module)?)?;
+    module.add_function(wrap_pyfunction!(has_ida, module)?)?;
+    module.add_function(wrap_pyfunction!(gap_check_json, module)?)?;
+    module.add_function(wrap_pyfunction!(compare_json, module)?)
+}

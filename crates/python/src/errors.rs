@@ -110,12 +110,14 @@ fn fault(report: &Report, made: Option<&str>) -> Fault {
     let (Some(label), Some(source)) = (label, diagnostic.source_code()) else {
         return fault;
     };
-    let Ok(contents) = source.read_span(label.inner(), usize::MAX / 4, 0) else {
+    // From the start of the text to the end of the line at least.
+    let Ok(contents) = source.read_span(label.inner(), usize::MAX / 4, 1) else {
         return fault;
     };
-    // From the start of the text to the end of the line.
     let text = String::from_utf8_lossy(contents.data());
-    fault.shown = text.lines().last().unwrap_or_default().trim().to_owned();
+    let before = text.get(..label.offset()).unwrap_or(&text);
+    let line = text.lines().nth(before.matches('\n').count());
+    fault.shown = line.unwrap_or_default().trim().to_owned();
     if let Some(rest) = made.and_then(|name| behind_the_place(&fault.message, name)) {
         fault.message = format!("{}: {rest}", key_path(&text, label.offset()));
     }

@@ -12,8 +12,8 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from . import _native
 from ._motion import Motion
+from ._native import Case as _NativeCase
 
 __all__ = ["Analysis", "Building", "Case", "Gap", "GroundMotion", "Link", "Separation"]
 
@@ -125,6 +125,10 @@ class Case:
         All that is wrong, each with its keys and what to do about it.
     """
 
+    _native: _NativeCase
+    _made: tuple[Any, ...]
+    _motion: Motion | None
+
     def __init__(
         self,
         buildings: Iterable[Mapping[str, Any]],
@@ -155,24 +159,33 @@ class Case:
                 tables["ground_motion"]["scale"] = scale
         else:
             tables["ground_motion"] = {"file": os.fspath(ground_motion), "scale": scale}
-        made = Case.from_dict(tables, folder=folder, motion=motion)
-        self._native, self._dict, self._motion = made._native, made._dict, made._motion
+        self.__setstate__(Case.from_dict(tables, folder=folder, motion=motion).__dict__)
 
     @classmethod
-    def _of(cls, native: _native.Case, tables: dict[str, Any] | None, motion: Motion | None) -> Case:
+    def _of(cls, native: _NativeCase, made: tuple[Any, ...], motion: Motion | None) -> Case:
+        """A case with how it is made again elsewhere: constructor and arguments."""
         case = cls.__new__(cls)
-        case._native, case._dict, case._motion = native, tables, motion
+        case._native, case._made, case._motion = native, made, motion
         return case
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Cases travel to other processes as their text or dict, with their motion."""
+        return _restored, (*self._made, self._motion)
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Case:
         """A case from its file (TOML)."""
-        return cls._of(_native.Case.from_file(os.fspath(path)), None, None)
+        native = _NativeCase.from_file(os.fspath(path))
+        return cls._of(native, ("text", native.source, os.path.abspath(path)), None)
 
     @classmethod
     def from_text(cls, text: str, file: str | os.PathLike[str] = "case.toml") -> Case:
         """A case from the text of a case file; ``file`` names it and is the base of its paths."""
-        return cls._of(_native.Case.from_text(text, os.fspath(file)), None, None)
+        native = _NativeCase.from_text(text, os.fspath(file))
+        return cls._of(native, ("text", text, os.path.abspath(file)), None)
 
     @classmethod
     def from_dict(
@@ -208,12 +221,12 @@ class Case:
             ground["file"] = motion.name
             given["ground_motion"] = ground
         native_motion = None if motion is None else motion._native
-        native = _native.Case.from_dict(given, os.fspath(folder), native_motion)
-        return cls._of(native, given, motion)
+        native = _NativeCase.from_dict(given, os.fspath(folder), native_motion)
+        return cls._of(native, ("dict", given, os.path.abspath(folder)), motion)
 
     def with_motion(self, motion: Motion) -> Case:
         """The same case under another motion, scaled as the case says."""
-        return Case._of(self._native.with_motion(motion._native), self._dict, motion)
+        return Case._of(self._native.with_motion(motion._native), self._made, motion)
 
     @property
     def title(self) -> str:
@@ -250,3 +263,11 @@ class Case:
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""
         return f"<pounding.Case{title}: {', '.join(self.buildings)}>"
+
+
+def _restored(kind: str, content: Any, place: str, motion: Motion | None) -> Case:
+    """A case in another process."""
+    if kind == "text":
+        case = Case.from_text(content, place)
+        return case if motion is None else case.with_motion(motion)
+    return Case.from_dict(content, folder=place, motion=motion)

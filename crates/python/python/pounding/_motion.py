@@ -67,7 +67,7 @@ class Motion:
     @property
     def time(self) -> npt.NDArray[np.float64]:
         """Times of the samples (s), shape (samples,)."""
-        return np.arange(len(self.acceleration)) * self.time_step
+        return np.arange(len(self.acceleration), dtype=np.float64) * np.float64(self.time_step)
 
     @property
     def duration(self) -> float:
@@ -132,6 +132,10 @@ class Motion:
         """A motion of the samples of a trace of ObsPy, which do not say their unit."""
         name = trace.id or "trace"
         return cls(trace.data, trace.stats.delta, unit=unit, name=name)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Motions travel to other processes as their samples."""
+        return Motion, (self.acceleration, self.time_step, "m/s2", self.name)
 
     def __len__(self) -> int:
         return len(self.acceleration)

@@ -36,8 +36,11 @@ def _records(records: Records) -> list[tuple[str, Any]]:
     if isinstance(records, Mapping):
         named = list(records.items())
     else:
-        single = isinstance(records, (Motion, str, os.PathLike))
-        each: Iterable[Any] = [records] if single else records
+        each: Iterable[Any]
+        if isinstance(records, (Motion, str, os.PathLike)):
+            each = [records]
+        else:
+            each = records
         named = [(r.name if isinstance(r, Motion) else "", r) for r in each]
     return [(n, r._native if isinstance(r, Motion) else os.fspath(r)) for n, r in named]
 
@@ -218,14 +221,16 @@ class GapCheck:
         return pd.DataFrame(columns, index=pd.Index(names, name="record"))
 
     @property
-    def codes(self) -> pandas.DataFrame:
+    def provisions(self) -> pandas.DataFrame:
         """The widths that provisions ask for, a row for each provision and gap."""
         import pandas as pd
 
         rows = [
-            {"gap": gap["name"], **code} for gap in self.answer["gaps"] for code in gap["codes"]
+            {"gap": gap["name"], **provision}
+            for gap in self.answer["gaps"]
+            for provision in gap["provisions"]
         ]
-        return pd.json_normalize(rows)
+        return pd.json_normalize(rows, max_level=0)
 
 
 def gap_check(

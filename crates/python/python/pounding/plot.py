@@ -1,0 +1,111 @@
+"""Pictures of results by Matplotlib (the extra ``plot``). Every function draws into the axes that it
+is given, or into new ones, and returns them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._motion import Motion, spectrum
+from ._result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["displacements", "energy", "forces", "opening", "spectra"]
+
+#: Line styles that differ in greyscale too.
+_STYLES = ["-", "--", "-.", ":"]
+
+
+def _axes(axes: Axes | None) -> Axes:
+    if axes is not None:
+        return axes
+    import matplotlib.pyplot as plt
+
+    made: Axes
+    _, made = plt.subplots(figsize=(7.5, 3.0), layout="constrained")
+    return made
+
+
+def displacements(result: Result, *, storey: int = -1, axes: Axes | None = None) -> Axes:
+    """Displacements (mm) of one storey of each building over time; the roofs by default."""
+    drawn = _axes(axes)
+    for number, (name, building) in enumerate(result.buildings.items()):
+        values = 1e3 * building.displacement[:, storey]
+        drawn.plot(result.time, values, _STYLES[number % 4], lw=0.9, label=name)
+    drawn.set(xlabel="time (s)", ylabel="displacement (mm)")
+    drawn.legend(frameon=False)
+    return drawn
+
+
+def _gap(result: Result, gap: str | None) -> str:
+    names = list(result.gaps)
+    if gap is None:
+        if not names:
+            raise ValueError("the case has no gap")
+        return names[0]
+    if gap not in names:
+        raise ValueError(f"{gap!r} is no gap; the case has {', '.join(names)}")
+    return gap
+
+
+def opening(result: Result, gap: str | None = None, *, axes: Axes | None = None) -> Axes:
+    """Opening (mm) of every level of a gap over time; negative is penetration."""
+    drawn, name = _axes(axes), _gap(result, gap)
+    penetration = result.gaps[name].penetration
+    for level in range(penetration.shape[1]):
+        values = -1e3 * penetration[:, level]
+        drawn.plot(result.time, values, _STYLES[level % 4], lw=0.8, label=f"level {level + 1}")
+    drawn.axhline(0.0, color="k", lw=0.6)
+    drawn.set(xlabel="time (s)", ylabel="opening (mm)", title=name)
+    drawn.legend(frameon=False)
+    return drawn
+
+
+def forces(result: Result, gap: str | None = None, *, axes: Axes | None = None) -> Axes:
+    """Peak force (kN) of every impact of a gap over its time: peaks come from inside the steps,
+    which the output grid misses."""
+    drawn, name = _axes(axes), _gap(result, gap)
+    impacts = result.impacts
+    impacts = impacts[impacts["gap"] == name]
+    for number, (level, rows) in enumerate(impacts.groupby("level")):
+        times, values = rows["t_close"], rows["peak_force"] / 1e3
+        drawn.vlines(times, 0.0, values, lw=0.6, color=f"C{number}")
+        drawn.plot(times, values, "osD^v"[number % 5], ms=3, color=f"C{number}", label=f"level {level}")
+    drawn.set(xlabel="time (s)", ylabel="peak force (kN)", title=name, xlim=(0, result.time[-1]))
+    if len(impacts):
+        drawn.legend(frameon=False)
+    return drawn
+
+
+def energy(result: Result, *, axes: Axes | None = None) -> Axes:
+    """The energy ledger (kJ) over time, parts on top of one another."""
+    drawn = _axes(axes)
+    ledger = result.energy / 1e3
+    parts = ["kinetic", "strain", "viscous", "hysteretic", "impact"]
+    parts = [part for part in parts if np.any(ledger[part] != 0.0)]
+    drawn.stackplot(ledger.index, [ledger[part] for part in parts], labels=parts, alpha=0.8)
+    drawn.plot(ledger.index, ledger["input"], "k", lw=0.8, label="input")
+    drawn.set(xlabel="time (s)", ylabel="energy (kJ)")
+    drawn.legend(frameon=False, loc="upper left")
+    return drawn
+
+
+def spectra(
+    motions: Iterable[Motion], *, damping: float = 0.05, axes: Axes | None = None
+) -> Axes:
+    """Pseudo-acceleration spectra (m/s2) of motions, and their mean where there are several."""
+    drawn, all_values = _axes(axes), []
+    for motion in motions:
+        values = spectrum(motion, damping=damping)
+        all_values.append(values["pseudo_acceleration"].values)
+        drawn.loglog(values["period"], all_values[-1], lw=0.7, label=motion.name)
+    if len(all_values) > 1:
+        drawn.loglog(values["period"], np.mean(all_values, axis=0), "k", lw=1.6, label="mean")
+    drawn.set(xlabel="period (s)", ylabel="pseudo-acceleration (m/s²)")
+    if len(all_values) <= 8:
+        drawn.legend(frameon=False)
+    return drawn

@@ -1,0 +1,202 @@
+"""Cases of files, dicts and builders are one; what is wrong in them is told."""
+
+from __future__ import annotations
+
+import pickle
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, PAIR, RECORD
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import pounding
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*/case.toml")), ids=lambda p: p.parent.name)
+def test_a_dict_is_the_file(path: Path) -> None:
+    tables = tomllib.loads(path.read_text())
+    made = pounding.run(pounding.Case.from_dict(tables, folder=path.parent), isolated=False)
+    read = pounding.run(path, isolated=False)
+    assert made.summary == read.summary
+    for name, building in read.buildings.items():
+        assert np.array_equal(made.buildings[name].displacement, building.displacement)
+
+
+def pair(motion: object, **analysis: object) -> pounding.Case:
+    keys = dict(storeys=3, height=3.0, damping={"stiffness_proportional": 0.05})
+    light = pounding.Building("light", mass="25 t", stiffness="3.46 MN/m", **keys)
+    heavy = pounding.Building("heavy", mass="1000 t", stiffness="2215 MN/m", **keys)
+    keys = {k: v for k, v in tomllib.loads(PAIR.read_text())["gap"][0].items() if k != "between"}
+    gap = pounding.Gap(light, heavy, **keys)
+    return pounding.Case([light, heavy], [gap], ground_motion=motion, analysis=analysis or None)
+
+
+def test_builders_are_the_file() -> None:
+    tables = tomllib.loads(PAIR.read_text())
+    scale = tables["ground_motion"].get("scale")
+    motion = pounding.GroundMotion(RECORD, scale=scale)
+    built = pounding.run(pair(motion, **tables.get("analysis", {})))
+    read = pounding.run(PAIR)
+    built_peaks, read_peaks = built.peaks, read.peaks
+    assert built_peaks.equals(read_peaks)
+    assert built.impacts.equals(read.impacts)
+
+
+def test_a_motion_in_memory_is_that_of_the_file() -> None:
+    motion = pounding.read_motion(RECORD)
+    again = pounding.Motion(motion.acceleration, motion.time_step)
+    of_file = pounding.run(pair(RECORD))
+    for given in (motion, again):
+        of_memory = pounding.run(pair(given))
+        assert of_memory.peaks.equals(of_file.peaks)
+    twice = pair(RECORD).with_motion(motion.scaled_by(2.0))
+    doubled = pounding.Motion(2.0 * motion.acceleration, motion.time_step)
+    assert pounding.run(twice).peaks.equals(pounding.run(pair(doubled)).peaks)
+
+
+def test_cases_travel_to_other_processes() -> None:
+    for case in (
+        pounding.Case.from_file(PAIR),
+        pair(RECORD),
+        pair(pounding.read_motion(RECORD)),
+    ):
+        other = pickle.loads(pickle.dumps(case))
+        first, second = pounding.run(case), pounding.run(other)
+        assert first.summary == second.summary
+
+
+def test_check_tells_what_was_understood() -> None:
+    understood = pounding.Case.from_file(PAIR).check()
+    light = understood["buildings"][0]
+    # A uniform chain of three storeys: omega_1 = 2 sqrt(k/m) sin(pi/14).
+    omega = 2.0 * np.sqrt(3.46e6 / 25e3) * np.sin(np.pi / 14)
+    assert light["period"][0] == pytest.approx(2 * np.pi / omega, rel=1e-12)
+
+
+WRONG = {
+    "unit of another dimension": (("building", 0, "mass"), "25 kN", "building[0].mass", "divide it by g"),
+    "unknown key": (("building", 1, "stifness"), 1.0, "building[1].stifness", "`stiffness`"),
+    "negative": (("building", 0, "stiffness"), -1.0, "building[0].stiffness", "greater than zero"),
+    "unknown model": (("gap", 0, "model"), "jankovski_2005", "gap[0].model", "jankowski_2005"),
+    "unknown building": (("gap", 0, "between"), ["light", "hevy"], "gap[0].between", "heavy"),
+    "out of range": (("gap", 0, "restitution"), 1.5, "gap[0].restitution", "1.5"),
+    "missing record": (("ground_motion", "file"), "none.csv", "ground_motion.file", "check the path"),
+    "wrong count": (("building", 0, "mass"), [1.0, 2.0], "building[0].mass", "3"),
+    "unknown method": (("analysis", "method"), "exact", "analysis.method", "event_driven"),
+    "no number": (("building", 0, "height"), True, "building[0].height", "text with unit"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_has_place_and_remedy(name: str, pair_dict: dict) -> None:
+    keys, value, place, remedy = WRONG[name]
+    table = pair_dict
+    for key in keys[:-1]:
+        table = table[key]
+    table[keys[-1]] = value
+    with pytest.raises(pounding.CaseError) as caught:
+        pounding.Case.from_dict(pair_dict).check()
+    text = str(caught.value)
+    assert place in text and remedy in text, text
+    assert isinstance(caught.value, ValueError)
+    assert caught.value.faults
+
+
+def test_errors_of_a_file_have_its_lines(tmp_path: Path) -> None:
+    path = tmp_path / "case.toml"
+    text = PAIR.read_text().replace('"25 t"', '"25 kN"')
+    path.write_text(text)
+    line = next(i for i, row in enumerate(text.splitlines(), 1) if "25 kN" in row)
+    with pytest.raises(pounding.CaseError, match=rf"case\.toml:{line}:\d+"):
+        pounding.Case.from_file(path)
+
+
+def test_all_errors_come_together(pair_dict: dict) -> None:
+    pair_dict["building"][0]["mass"] = "25 kN"
+    pair_dict["gap"][0]["model"] = "nobody_1900"
+    with pytest.raises(pounding.CaseError) as caught:
+        pounding.Case.from_dict(pair_dict)
+    assert len(caught.value.faults) >= 2
+
+
+def test_values_that_no_case_has(pair_dict: dict) -> None:
+    pair_dict["building"][0]["mass"] = object()
+    with pytest.raises(TypeError, match=r"building\[0\].mass: a object cannot stand in a case"):
+        pounding.Case.from_dict(pair_dict)
+    endless: dict = {}
+    endless["building"] = endless
+    with pytest.raises((ValueError, RecursionError)):
+        pounding.Case.from_dict(endless)
+    with pytest.raises(TypeError, match="no string"):
+        pounding.Case.from_dict({1: 2})
+
+
+def test_no_output_replaces_an_input(tmp_path: Path) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text(PAIR.read_text().replace("../../ground_motions", str(RECORD.parent)))
+    before = path.read_bytes()
+    result = pounding.run(path)
+    with pytest.raises(pounding.CaseError):
+        result.to_hdf5(path)
+    with pytest.raises(pounding.CaseError):
+        result.report(path)
+    assert path.read_bytes() == before
+    with pytest.raises(pounding.OutputError):
+        result.to_hdf5(tmp_path / "no" / "folder.h5")
+
+
+values = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=12)
+    | st.sampled_from(["25 t", "3 m", "20 mm", "light", "heavy", "wall", "jankowski_2005", "-1 s"]),
+    lambda inner: st.lists(inner, max_size=4)
+    | st.dictionaries(st.text(max_size=8), inner, max_size=4),
+    max_leaves=8,
+)
+places = st.sampled_from(
+    [
+        ("building", 0, "mass"),
+        ("building", 0, "damping"),
+        ("building", 1, "storeys"),
+        ("building", 1, "height"),
+        ("building", 0),
+        ("gap", 0, "between"),
+        ("gap", 0, "width"),
+        ("gap", 0, "model"),
+        ("gap", 0, "restitution"),
+        ("gap", 0),
+        ("ground_motion", "scale"),
+        ("ground_motion",),
+        ("analysis", "duration"),
+        ("analysis", "output_step"),
+        ("analysis",),
+        ("title",),
+        ("nonsense",),
+    ]
+)
+
+
+@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+@given(changes=st.lists(st.tuples(places, values), min_size=1, max_size=3))
+def test_no_dict_ends_the_interpreter(changes: list, pair_dict: dict) -> None:
+    import copy
+
+    tables = copy.deepcopy(pair_dict)
+    for keys, value in changes:
+        table = tables
+        try:
+            for key in keys[:-1]:
+                table = table[key]
+            table[keys[-1]] = value
+        except (KeyError, IndexError, TypeError):
+            continue
+    try:
+        pounding.Case.from_dict(tables)
+    except (ValueError, TypeError, pounding.PoundingError) as error:
+        assert str(error)

@@ -1,0 +1,121 @@
+"""What Python returns is what the command line writes, bit for bit."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import EXAMPLES, PAIR
+
+import pounding
+
+
+def command(*arguments: object, expect: int = 0) -> str:
+    ended = subprocess.run(
+        [sys.executable, "-m", "pounding", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == expect, ended.stderr
+    return ended.stdout
+
+
+def examples() -> list[Path]:
+    return sorted(EXAMPLES.glob("*/case.toml"))
+
+
+def datasets(file: h5py.File) -> dict[str, np.ndarray]:
+    found: dict[str, np.ndarray] = {}
+
+    def visit(name: str, place: object) -> None:
+        if isinstance(place, h5py.Dataset):
+            found[name] = place[()]
+
+    file.visititems(visit)
+    return found
+
+
+def same(name: str, a: np.ndarray, b: np.ndarray) -> None:
+    a, b = np.asarray(a), np.asarray(b)
+    assert a.dtype == b.dtype and a.shape == b.shape, name
+    if a.dtype.kind == "f":
+        assert np.array_equal(a, b, equal_nan=True), name
+    elif a.dtype.kind == "V":
+        for field in a.dtype.names or ():
+            same(f"{name}/{field}", a[field], b[field])
+    else:
+        assert np.array_equal(a, b), name
+
+
+@pytest.mark.parametrize("path", examples(), ids=lambda p: p.parent.name)
+def test_every_example_is_the_same_file(path: Path, tmp_path: Path) -> None:
+    by_command, by_python = tmp_path / "command.h5", tmp_path / "python.h5"
+    summary = json.loads(command("run", path, "-o", by_command, "--json"))
+    result = pounding.run(path)
+    result.to_hdf5(by_python)
+    assert result.summary == summary
+    with h5py.File(by_command) as a, h5py.File(by_python) as b:
+        first, second = datasets(a), datasets(b)
+        assert first.keys() == second.keys()
+        for name in first.keys() - {"run/wall_time"}:
+            same(name, first[name], second[name])
+        for name in ("case", "case_sha256", "record_sha256", "status", "title", "version"):
+            assert a.attrs[name] == b.attrs[name], name
+        arrays = result.to_xarray()
+        for name, values in first.items():
+            if values.dtype.kind != "f" or name == "run/wall_time":
+                continue
+            group, _, leaf = name.rpartition("/")
+            node = arrays[group] if group else arrays
+            assert np.array_equal(node[leaf].values, values, equal_nan=True), name
+        for name, building in result.buildings.items():
+            for quantity in ("displacement", "velocity", "acceleration_absolute", "storey_shear"):
+                expected = first[f"building/{name}/{quantity}"]
+                assert np.array_equal(getattr(building, quantity), expected), quantity
+        for name, gap in result.gaps.items():
+            assert np.array_equal(gap.penetration, first[f"gap/{name}/penetration"])
+            assert np.array_equal(gap.force, first[f"gap/{name}/force"])
+            table = first[f"gap/{name}/impacts"]
+            rows = result.impacts[result.impacts["gap"] == name]
+            for column in rows.columns.drop("gap"):
+                assert np.array_equal(rows[column], table[column], equal_nan=True), column
+        for column in result.energy.columns:
+            assert np.array_equal(result.energy[column], first[f"energy/{column}"]), column
+
+
+def test_the_file_is_one_that_the_command_line_reads(tmp_path: Path) -> None:
+    path = tmp_path / "pair.h5"
+    result = pounding.run(PAIR)
+    result.to_hdf5(path)
+    command("report", path, "-o", tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    own = result.report()
+    assert own.startswith("<!DOCTYPE html>") and len(own) == pytest.approx(len(page), rel=0.01)
+
+
+def test_exit_codes_are_those_of_the_program(tmp_path: Path) -> None:
+    assert "pounding" in command("--version")
+    command("run", tmp_path / "missing.toml", expect=2)
+    command("nonsense", expect=2)
+
+
+def test_gap_and_compare_say_what_the_commands_say() -> None:
+    path = EXAMPLES / "three_storey_pair" / "case.toml"
+    # Exit code 1: the gap is too small.
+    said = json.loads(command("gap", path, "--points", 0, "--json", expect=1))
+    check = pounding.gap_check(path)
+    assert check.answer == said
+    assert not check
+    assert check.demand.shape == (1, 1)
+    assert len(check.provisions) > 20
+    models = ["anagnostopoulos_2004", "jankowski_2005"]
+    said = json.loads(command("compare", path, "--models", *models, "--json"))
+    comparison = pounding.compare(path, models)
+    assert comparison.answer == said
+    assert list(comparison.models.index) == models

@@ -1,0 +1,83 @@
+"""Ground motions and impact models, against closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import RECORD
+
+import pounding
+
+
+def test_the_spectrum_of_a_step_is_twice_its_static_answer() -> None:
+    # A step of the ground acceleration a: u = a/omega^2 (1 - cos), so that PSA = 2 a.
+    motion = pounding.Motion(np.full(4001, 1.5), 0.005)
+    spectrum = motion.spectrum([0.5, 1.0, 2.0], damping=0.0)
+    assert np.allclose(spectrum["pseudo_acceleration"], 3.0, rtol=1e-12)
+    assert spectrum["period"].attrs["units"] == "s"
+
+
+def test_measures_of_a_constant_acceleration() -> None:
+    motion = pounding.Motion(np.full(1001, 2.0), 0.01)
+    measures = motion.measures()
+    # Arias: pi/(2 g) a^2 t; CAV: a t.
+    assert measures["arias_intensity"] == pytest.approx(np.pi / (2 * 9.80665) * 4 * 10, rel=1e-12)
+    assert measures["cumulative_absolute_velocity"] == pytest.approx(20.0, rel=1e-12)
+    assert motion.peak == 2.0 and motion.duration == pytest.approx(10.0)
+
+
+def test_units_and_scales() -> None:
+    in_g = pounding.Motion([0.0, 1.0, 0.0], 0.1, unit="g")
+    assert in_g.peak == 9.80665
+    assert in_g.scaled_to_peak(3.0).peak == pytest.approx(3.0, rel=1e-15)
+    with pytest.raises(pounding.RecordError, match="unit"):
+        pounding.Motion([0.0, 1.0], 0.1, unit="bananas")
+    with pytest.raises(pounding.RecordError):
+        pounding.Motion([0.0, np.nan], 0.1)
+    with pytest.raises(ValueError, match="2 dimensions"):
+        pounding.Motion([[0.0, 1.0]], 0.1)
+
+
+def test_records_are_refused_with_a_reason(tmp_path: Path) -> None:
+    with pytest.raises(pounding.RecordError, match="check the path"):
+        pounding.read_motion(tmp_path / "none.csv")
+    assert "pounding_csv" in pounding.formats()
+
+
+def test_obspy_takes_a_motion_and_gives_it_back() -> None:
+    obspy = pytest.importorskip("obspy")
+    motion = pounding.read_motion(RECORD)
+    trace = motion.to_obspy()
+    assert isinstance(trace, obspy.Trace)
+    assert np.array_equal(trace.data, motion.acceleration)
+    back = pounding.Motion.from_obspy(trace)
+    assert np.array_equal(back.acceleration, motion.acceleration)
+    assert back.time_step == motion.time_step
+
+
+def test_an_elastic_collision_of_equal_masses_exchanges_velocities() -> None:
+    made = pounding.collide(
+        "linear_elastic",
+        mass_left=1e4,
+        mass_right=1e4,
+        velocity_left=1.0,
+        velocity_right=-0.5,
+        stiffness=1e8,
+    )
+    assert made.velocity_left == pytest.approx(-0.5, rel=1e-9)
+    assert made.velocity_right == pytest.approx(1.0, rel=1e-9)
+    # v sqrt(k m) with the effective mass m.
+    assert made.peak_force == pytest.approx(1.5 * np.sqrt(1e8 * 5e3), rel=1e-9)
+    assert made.duration == pytest.approx(np.pi * np.sqrt(5e3 / 1e8), rel=1e-9)
+    assert made.force.max() <= made.peak_force
+
+
+def test_models_are_described() -> None:
+    models = pounding.models()
+    assert "jankowski_2005" in models.index and len(models) >= 35
+    described = pounding.model("jankowski_2005")
+    assert described["parameters"]
+    with pytest.raises(pounding.CaseError, match="jankowski_2005"):
+        pounding.model("jankovski_2005")

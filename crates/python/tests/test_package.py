@@ -1,0 +1,103 @@
+"""The package beside others in one process, its types, its notebooks."""
+
+from __future__ import annotations
+
+import itertools
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import PAIR, ROOT
+
+OTHERS = ["h5py", "netCDF4", "xarray", "obspy"]
+#: What is done with each: opened and closed where it has a file format of its own.
+USE = """
+import importlib, io, sys, tempfile, os
+order, case = sys.argv[1].split(","), sys.argv[2]
+for name in order:
+    importlib.import_module(name)
+import pounding, h5py, netCDF4
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "r.h5")
+    result = pounding.run(case)
+    result.to_hdf5(path)
+    with h5py.File(path) as file:
+        assert file["building/light/displacement"].shape == result.buildings["light"].displacement.shape
+    with netCDF4.Dataset(path) as file:
+        assert file["building"]["light"]["displacement"].units == "m"
+    tree = result.to_xarray()
+    assert float(abs(tree["building/light/displacement"]).max()) > 0
+    again = pounding.run(case)
+    assert again.summary == result.summary
+print("fine")
+"""
+
+
+@pytest.mark.parametrize(
+    "order",
+    [["pounding", *OTHERS], [*OTHERS, "pounding"], *[[o, "pounding"] for o in OTHERS], *[["pounding", o] for o in OTHERS]],
+    ids=lambda order: "-".join(order),
+)
+def test_other_libraries_live_in_the_same_process(order: list[str]) -> None:
+    pytest.importorskip("netCDF4")
+    pytest.importorskip("obspy")
+    call = [sys.executable, "-c", USE, ",".join(order), str(PAIR)]
+    ended = subprocess.run(call, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0 and ended.stdout == "fine\n", ended.stderr
+
+
+def test_types_are_right() -> None:
+    pytest.importorskip("mypy")
+    folder = Path(__file__).parents[1]
+    call = [sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "python/pounding"]
+    ended = subprocess.run(call, cwd=folder, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def test_everything_public_is_documented() -> None:
+    import pounding
+
+    undocumented = []
+    for name in pounding.__all__:
+        value = getattr(pounding, name)
+        if not (value.__doc__ or "").strip():
+            undocumented.append(name)
+        for member, inside in vars(value).items() if isinstance(value, type) else ():
+            public = not member.startswith("_") and (callable(inside) or isinstance(inside, property))
+            if public and not (getattr(inside, "__doc__", None) or "").strip():
+                undocumented.append(f"{name}.{member}")
+    assert not undocumented
+
+
+def notebooks() -> list[Path]:
+    return sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("path", notebooks(), ids=lambda p: p.stem)
+def test_notebooks_run(path: Path, tmp_path: Path) -> None:
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    notebook = nbformat.read(path, as_version=4)
+    client = nbclient.NotebookClient(
+        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+    )
+    client.execute()
+    said = itertools.chain.from_iterable(cell.get("outputs", []) for cell in notebook.cells)
+    assert any(True for _ in said)
+
+
+def test_pictures_are_drawn() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import pounding
+    from pounding import plot
+
+    result = pounding.run(PAIR)
+    for draw in (plot.displacements, plot.opening, plot.forces, plot.energy):
+        axes = draw(result)
+        assert axes.get_xlabel() and axes.get_ylabel()
+    motion = pounding.read_motion(ROOT / "ground_motions" / "el_centro_1940_ns.csv")
+    assert plot.spectra([motion, motion.scaled_by(0.5)]).get_legend() is not None
+    with pytest.raises(ValueError, match="no gap"):
+        plot.opening(result, "nowhere")

@@ -1,0 +1,118 @@
+"""Many runs, threads, interruption, arrays."""
+
+from __future__ import annotations
+
+import _thread
+import gc
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, PAIR
+
+import pounding
+
+ROW = EXAMPLES / "row_of_five" / "case.toml"
+
+
+def test_threads_and_histories_change_no_bit() -> None:
+    cases = [PAIR, ROW] * 3
+    one = pounding.run_many(cases, threads=1)
+    two = pounding.run_many(cases, threads=2, histories=True)
+    alone = [pounding.run(case, isolated=False) for case in cases[:2]] * 3
+    for a, b, c in zip(one, two, alone, strict=True):
+        assert a.summary == b.summary == c.summary
+        assert a.impacts.equals(c.impacts)
+
+
+def test_a_python_thread_keeps_running() -> None:
+    counted, stop = [0], threading.Event()
+
+    def count() -> None:
+        while not stop.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before, started = counted[0], time.perf_counter()
+    pounding.run_many([ROW] * 20, threads=2)
+    elapsed, counted_meanwhile = time.perf_counter() - started, counted[0] - before
+    stop.set()
+    thread.join()
+    # Held up, it would count once or twice; free, some hundred times a second.
+    assert counted_meanwhile > 10 * elapsed, (counted_meanwhile, elapsed)
+
+
+def test_an_interruption_ends_a_run() -> None:
+    timer = threading.Timer(0.3, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        pounding.run_many([ROW] * 100_000, threads=2)
+    timer.join()
+    # The interpreter goes on.
+    assert pounding.run(PAIR).summary["status"] == "complete"
+
+
+def test_progress_is_told_and_may_end_the_work() -> None:
+    told: list[tuple[int, int]] = []
+    pounding.run_many([PAIR] * 50, threads=1, progress=lambda *now: told.append(now))
+    assert told[-1] == (50, 50)
+
+    def refuse(done: int, total: int) -> None:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        pounding.run_many([ROW] * 10_000, threads=1, progress=refuse)
+
+
+def test_a_run_that_fails_stands_in_its_place(pair_dict: dict) -> None:
+    pair_dict["analysis"] = {"method": "newmark", "step": "0.02 s", "energy_tolerance": 1e-15}
+    bad = pounding.Case.from_dict(pair_dict)
+    with pytest.raises(pounding.PoundingError) as caught:
+        pounding.run_many([PAIR, bad])
+    assert "help:" in str(caught.value)
+    made = pounding.run_many([PAIR, bad], errors="return")
+    assert isinstance(made[0], pounding.Result)
+    assert isinstance(made[1], pounding.PoundingError)
+
+
+def test_arrays_outlive_their_run_and_cannot_be_changed() -> None:
+    displacement = pounding.run(PAIR).buildings["light"].displacement
+    gc.collect()
+    copied = displacement.copy()
+    pounding.run(ROW)
+    assert np.array_equal(displacement, copied)
+    with pytest.raises(ValueError, match="read-only"):
+        displacement[0, 0] = 1.0
+    # Peaks come from inside the steps.
+    peaks = pounding.run(PAIR).peaks.loc["light", "displacement"]
+    assert np.all(np.abs(displacement).max(axis=0) <= peaks.to_numpy())
+
+
+def test_a_run_without_histories_says_so() -> None:
+    result = pounding.run(PAIR, histories=False, isolated=False)
+    assert "isolated_displacement" not in result.peaks
+    with pytest.raises(pounding.CaseError, match="histories=True"):
+        result.to_xarray()
+
+
+def test_a_notebook_shows_text_as_text(pair_dict: dict) -> None:
+    pair_dict["title"] = "<script>alert(1)</script>"
+    shown = pounding.run(pounding.Case.from_dict(pair_dict))._repr_html_()
+    assert "<script>" not in shown and "&lt;script&gt;" in shown
+    assert "impacts" in shown
+
+
+def test_levels_and_peaks_are_tables() -> None:
+    result = pounding.run(PAIR)
+    levels = result.levels
+    counts = result.impacts.groupby(["gap", "level"]).size()
+    for place, count in counts.items():
+        assert levels.loc[place, "impacts"] == count
+    worst = result.impacts["peak_force"].max()
+    assert levels["peak_force"].max() == pytest.approx(worst, rel=1e-15)
+    assert levels["energy_dissipated"].sum() == pytest.approx(
+        result.summary["energy"]["impact"], rel=1e-9
+    )

@@ -1,0 +1,82 @@
+"""Sweeps and incremental dynamic analysis: the files of the command line, opened lazily."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import EXAMPLES, ROOT
+from test_command_line import command, datasets, same
+
+import pounding
+
+
+@pytest.fixture()
+def folder(tmp_path: Path) -> Path:
+    """Examples and records beside one another, as in the repository."""
+    for name in ("ground_motions", "examples/sweep_three_storey_pair", "examples/three_storey_pair"):
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("*.h5"))
+    return tmp_path
+
+
+def small_study(folder: Path) -> Path:
+    path = folder / "examples" / "sweep_three_storey_pair" / "small.toml"
+    path.write_text(
+        'case = "../three_storey_pair/case.toml"\n\n'
+        "[[variable]]\n"
+        'path = "gap.0.width"\n'
+        'name = "width"\n'
+        'values = ["5 mm", "10 mm", "20 mm", "40 mm", "80 mm"]\n'
+    )
+    return path
+
+
+def test_a_sweep_is_the_file_of_the_command(folder: Path) -> None:
+    study = small_study(folder)
+    told: list[tuple[int, int]] = []
+    runs = pounding.sweep(study, threads=2, progress=lambda *now: told.append(now))
+    assert told and told[-1][0] == told[-1][1]
+    report = json.loads(runs.attrs["sweep"])
+    assert report["failed"] == 0
+    other = folder / "command.h5"
+    command("sweep", study, "-o", other)
+    with h5py.File(study.with_suffix(".h5")) as a, h5py.File(other) as b:
+        first, second = datasets(a), datasets(b)
+        assert first.keys() == second.keys()
+        for name, values in first.items():
+            same(name, values, second[name])
+    assert runs.sizes["run"] == 5
+    runs.close()
+
+
+def test_a_study_that_is_wrong_is_told(folder: Path) -> None:
+    study = small_study(folder)
+    study.write_text(study.read_text().replace("gap.0.width", "gap.0.widht"))
+    with pytest.raises(pounding.CaseError) as caught:
+        pounding.sweep(study)
+    assert "small.toml" in str(caught.value)
+    with pytest.raises(pounding.CaseError, match=r"no \[ida\]"):
+        pounding.ida(small_study(folder))
+
+
+def test_the_output_is_no_input(folder: Path) -> None:
+    study = small_study(folder)
+    before = study.read_bytes()
+    with pytest.raises(pounding.CaseError):
+        pounding.sweep(study, output=study)
+    assert study.read_bytes() == before
+
+
+def test_a_gap_check_takes_motions_of_memory() -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    motion = pounding.read_motion(ROOT / "ground_motions" / "el_centro_1940_ns.csv")
+    of_file = pounding.gap_check(case, [ROOT / "ground_motions" / "el_centro_1940_ns.csv"])
+    of_memory = pounding.gap_check(case, {"el_centro": motion, "half": motion.scaled_by(0.5)})
+    assert of_memory.demand.iloc[0, 0] == of_file.demand.iloc[0, 0]
+    assert list(of_memory.demand.index) == ["el_centro", "half"]
+    # Isolated buildings are linear.
+    assert np.isclose(of_memory.demand.iloc[1, 0], 0.5 * of_memory.demand.iloc[0, 0], rtol=1e-9)

@@ -60,24 +60,6 @@ impl Assembly {
         averaged.collect()
     }
 
-    /// What combination rules and widths by codes leave out.
-    #[must_use]
-    pub fn left_out_by_rules(&self) -> Vec<String> {
-        let moved = self.system.gaps().iter().filter(|gap| {
-            let levels = gap.first_level..gap.first_level + gap.levels;
-            levels
-                .into_iter()
-                .any(|l| self.system.ground_offset_at_end(l).is_some())
-        });
-        let told = moved.map(|gap| {
-            format!(
-                "gap {}: the ground on both sides moves differently: the demand contains that, combination rules and widths by codes do not; add the relative ground displacement that `run` reports",
-                gap.name
-            )
-        });
-        told.collect()
-    }
-
     /// The warnings of the record before these.
     #[must_use]
     pub fn with_those_of_the_record(&self, ours: &[Warning]) -> Vec<String> {

@@ -13,6 +13,16 @@ pub enum TimeHistoryError {
         /// What is wrong.
         reason: String,
     },
+    /// A force on a floor that cannot be.
+    #[error("force on storey {storey} of building {building}: {reason}")]
+    Force {
+        /// Building, from one.
+        building: usize,
+        /// Storey, from one.
+        storey: usize,
+        /// What is wrong.
+        reason: String,
+    },
     /// A gap of the system is not well defined.
     #[error("gap {gap}: {reason}")]
     GapDefinition {

@@ -24,7 +24,7 @@ use links::storeys;
 pub use links::{Link, LinkedMotion, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
-pub use motions::{GroundMotion, Support};
+pub use motions::{FloorForce, ForceHistory, GroundMotion, Support};
 use place::Row;
 pub use place::{BuildingPoint, Floor};
 pub(crate) use sections::{SectionForce, SectionPlace};
@@ -104,7 +104,7 @@ pub struct System {
     /// Whether a level is no difference of two floors.
     weighted_levels: bool,
     ground: GroundAcceleration,
-    /// Where there is more than that under all coordinates.
+    /// Where there is more than that under all coordinates, or forces act on floors.
     motions: Option<Arc<Motions>>,
     /// First of the coordinates of each building that are no floors, and the total at the end.
     further_offsets: Vec<usize>,
@@ -397,7 +397,7 @@ impl System {
         self.mass.truncate(kept);
         self.moving_ground.clear();
         if let Some(motions) = &mut self.motions {
-            Arc::make_mut(motions).loads.truncate(kept);
+            Arc::make_mut(motions).keep(kept);
         }
     }
 

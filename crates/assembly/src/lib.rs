@@ -25,6 +25,7 @@ mod assemble;
 mod dimension;
 mod error;
 mod excitation;
+mod number_file;
 
 pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
 pub use dimension::parameter_dimension;

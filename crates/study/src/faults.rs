@@ -332,5 +332,6 @@ fn plain_building() -> Building {
         foundation: None,
         ground: None,
         plan: None,
+        forces: Vec::new(),
     }
 }

@@ -14,12 +14,8 @@ pub enum TimeHistoryError {
         reason: String,
     },
     /// A force on a floor that cannot be.
-    #[error("force on storey {storey} of building {building}: {reason}")]
+    #[error("force on a floor: {reason}")]
     Force {
-        /// Building, from one.
-        building: usize,
-        /// Storey, from one.
-        storey: usize,
         /// What is wrong.
         reason: String,
     },

@@ -2,6 +2,7 @@
 
 mod again;
 mod column;
+mod forces;
 mod foundation;
 mod lateral;
 mod laws;

@@ -7,6 +7,7 @@ use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
+use super::forces::on_floors;
 use crate::error::AssemblyError;
 use crate::excitation::own_accelerogram;
 
@@ -18,8 +19,8 @@ pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     }
 }
 
-/// The buildings of a case without gaps, each on its ground: that of the record given, now or
-/// later, or of a record of its own.
+/// The buildings of a case without gaps, each on its ground, that of the record given, now or
+/// later, or of a record of its own, with the forces on its floors.
 pub(super) fn on_their_ground(
     case: &Case,
     buildings: Vec<Arc<ShearBuilding>>,
@@ -83,8 +84,9 @@ pub(super) fn on_their_ground(
             });
         supports.push(Support { along, across });
     }
-    if motions.len() == 1 {
-        return Ok(System::new(buildings, first));
-    }
-    Ok(System::with_motions(buildings, motions, supports)?)
+    let system = match motions.len() {
+        1 => System::new(buildings, first),
+        _ => System::with_motions(buildings, motions, supports)?,
+    };
+    on_floors(case, system)
 }

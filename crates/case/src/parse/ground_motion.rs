@@ -187,7 +187,7 @@ const TURN: &str =
 /// An angle in degrees, which has no unit: radians are pure numbers too.
 #[derive(Clone, Deserialize, JsonSchema)]
 #[serde(try_from = "Written")]
-struct Degrees(f64);
+pub(super) struct Degrees(pub(super) f64);
 
 impl TryFrom<Written> for Degrees {
     type Error = Fault;

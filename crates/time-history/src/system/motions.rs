@@ -41,11 +41,8 @@ pub(crate) struct Grounds {
 /// made of straight lines is exact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceHistory {
-    /// Times (s), none before the one before it, and forces (N). Two points at one time are a
-    /// jump. Before the first point there is no force.
-    pub points: Arc<[(f64, f64)]>,
-    /// Whether the last force stays; else there is none after the last point.
-    pub stays: bool,
+    points: Arc<[(f64, f64)]>,
+    stays: bool,
 }
 
 /// A force on a floor.
@@ -60,20 +57,32 @@ pub struct FloorForce {
 }
 
 impl ForceHistory {
-    /// A force (N) that is there from time zero on.
-    #[must_use]
-    pub fn constant(force: f64) -> Self {
-        Self {
-            points: [(0.0, force)].into(),
-            stays: true,
+    /// Times (s), none before the one before it, and forces (N). Two points at one time are a
+    /// jump. Before the first point there is no force; after the last one there is none, or it
+    /// stays.
+    ///
+    /// # Errors
+    /// No points, times that go back, are negative or beyond a day, three points at one time,
+    /// numbers that are not finite.
+    pub fn new(points: &[(f64, f64)], stays: bool) -> Result<Self, TimeHistoryError> {
+        let this = Self {
+            points: points.into(),
+            stays,
+        };
+        match this.fault() {
+            Some(reason) => Err(TimeHistoryError::Force { reason }),
+            None => Ok(this),
         }
     }
 
     /// What is wrong with it.
     fn fault(&self) -> Option<String> {
-        let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
-        if self.points.is_empty() || !self.points.iter().all(finite) {
-            return Some("it takes points, of finite numbers".to_owned());
+        if self.points.is_empty() {
+            return Some("there are no points".to_owned());
+        }
+        let finite = |p: &&(f64, f64)| !(p.0.is_finite() && p.1.is_finite());
+        if let Some((t, force)) = self.points.iter().find(finite) {
+            return Some(format!("a point of {t} s and {force} N"));
         }
         let in_time = |t: f64| (0.0..=LONGEST_DELAY).contains(&t);
         if let Some((t, _)) = self.points.iter().find(|p| !in_time(p.0)) {
@@ -117,6 +126,18 @@ impl ForceHistory {
             (Some((_, last)), None) if self.stays => [last, 0.0],
             _ => [0.0; 2],
         }
+    }
+
+    /// Times (s) and forces (N).
+    #[must_use]
+    pub fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
+    /// Whether the last force stays.
+    #[must_use]
+    pub fn stays(&self) -> bool {
+        self.stays
     }
 
     /// Force (N) at an instant (s), after a jump that happens there.
@@ -242,7 +263,7 @@ impl Motions {
     /// The same with forces on floors, in the place of those there are.
     ///
     /// # Errors
-    /// A floor that does not exist, or a history that cannot be.
+    /// A floor that does not exist.
     fn with_forces(
         &self,
         forces: Vec<FloorForce>,
@@ -253,20 +274,18 @@ impl Motions {
         this.loads.clone_from(&this.grounds);
         this.pushed.clear();
         for (number, force) in forces.iter().enumerate() {
-            let wrong = |reason: String| TimeHistoryError::Force {
-                building: force.building + 1,
-                storey: force.storey + 1,
-                reason,
-            };
             let ends = offsets
                 .get(force.building)
                 .zip(offsets.get(force.building + 1));
             let dof =
                 ends.and_then(|(first, end)| Some(first + force.storey).filter(|dof| dof < end));
-            let dof = dof.ok_or_else(|| wrong("there is no such floor".to_owned()))?;
-            if let Some(fault) = force.history.fault() {
-                return Err(wrong(fault));
-            }
+            let dof = dof.ok_or_else(|| TimeHistoryError::Force {
+                reason: format!(
+                    "building {} has no storey {}",
+                    force.building + 1,
+                    force.storey + 1
+                ),
+            })?;
             let (load, _) = this.loads[dof];
             match load.checked_sub(this.motions.len()) {
                 Some(known) => this.pushed[known].forces.push(number),
@@ -477,8 +496,7 @@ impl System {
     /// are.
     ///
     /// # Errors
-    /// A floor that does not exist, or a history without points, with times that go back or
-    /// numbers that are not finite.
+    /// A floor that does not exist.
     pub fn with_forces(mut self, forces: Vec<FloorForce>) -> Result<Self, TimeHistoryError> {
         if self.motions.is_none() && !forces.is_empty() {
             self.motions = self.under_one_motion().map(Arc::new);

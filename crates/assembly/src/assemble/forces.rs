@@ -22,9 +22,22 @@ pub(super) fn on_floors(case: &Case, system: System) -> Result<System, AssemblyE
             building,
             storey: force.value.storey,
             history: history(case, force)?,
+            origin: origin(&force.value.source),
         })
     }));
     Ok(system.with_forces(errors.finish(made)?)?)
+}
+
+/// Where a force comes from, for the user.
+fn origin(source: &ForceSource) -> String {
+    match source {
+        ForceSource::Constant(_) => "constant".to_owned(),
+        ForceSource::Points(_) => String::new(),
+        ForceSource::Harmonic { frequency, .. } => format!("{frequency} Hz"),
+        ForceSource::File { file, column, .. } => {
+            format!("{}, column {}", file.value.display(), column + 1)
+        }
+    }
 }
 
 /// One force over time.

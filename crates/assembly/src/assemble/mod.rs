@@ -53,6 +53,14 @@ impl Assembly {
         self.with_those_of_the_record(&ours)
     }
 
+    /// What moves and pushes the buildings, line by line, for the user: the record, then all
+    /// else.
+    #[must_use]
+    pub fn excitation(&self) -> Vec<String> {
+        let record = self.accelerogram.echo().into_iter();
+        record.chain(self.system.further_excitation()).collect()
+    }
+
     /// Warnings of how the buildings were made.
     #[must_use]
     pub fn warnings_of_buildings(&self) -> Vec<String> {

@@ -30,6 +30,7 @@ pub(super) fn on_their_ground(
     let mut motions = vec![GroundMotion {
         acceleration: first.clone(),
         delay: 0.0,
+        origin: Vec::new(),
     }];
     let turns = |building: &pounding_case::Building| building.plan.is_some();
     let across = match &case.ground_motion.across {
@@ -40,7 +41,10 @@ pub(super) fn on_their_ground(
             let error = case.error(given.span.clone(), message.to_owned(), Some(help));
             return Err(error.into());
         }
-        Some(given) => Some(ground(&own_accelerogram(case, &given.value)?)),
+        Some(given) => {
+            let record = own_accelerogram(case, &given.value)?;
+            Some((ground(&record), record.echo()))
+        }
     };
     let mut supports = Vec::new();
     for building in &case.buildings {
@@ -54,13 +58,17 @@ pub(super) fn on_their_ground(
             along = match (known, own) {
                 (Some(known), _) => known,
                 (None, own) => {
-                    let acceleration = match own {
-                        None => first.clone(),
-                        Some(motion) => ground(&own_accelerogram(case, motion)?),
+                    let (acceleration, origin) = match own {
+                        None => (first.clone(), Vec::new()),
+                        Some(motion) => {
+                            let record = own_accelerogram(case, motion)?;
+                            (ground(&record), record.echo())
+                        }
                     };
                     motions.push(GroundMotion {
                         acceleration,
                         delay,
+                        origin,
                     });
                     motions.len() - 1
                 }
@@ -69,7 +77,7 @@ pub(super) fn on_their_ground(
         let across = across
             .as_ref()
             .filter(|_| turns(building))
-            .map(|acceleration| {
+            .map(|(acceleration, origin)| {
                 let delay = motions[along].delay;
                 let same = |m: &GroundMotion| {
                     m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &acceleration.samples)
@@ -78,6 +86,7 @@ pub(super) fn on_their_ground(
                     motions.push(GroundMotion {
                         acceleration: acceleration.clone(),
                         delay,
+                        origin: origin.clone(),
                     });
                     motions.len() - 1
                 })

@@ -204,6 +204,7 @@ impl System {
         let motion = GroundMotion {
             acceleration: self.ground.clone(),
             delay: 0.0,
+            origin: Vec::new(),
         };
         let support = Support {
             along: 0,

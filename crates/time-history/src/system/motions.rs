@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::{GroundAcceleration, System};
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
+use crate::estimate::short;
 use crate::outcome::Peak;
 
 /// A ground motion that begins some time after the run.
@@ -16,6 +17,8 @@ pub struct GroundMotion {
     pub acceleration: GroundAcceleration,
     /// Time (s) of its first sample.
     pub delay: f64,
+    /// Where it comes from, line by line, for the user; may be empty.
+    pub origin: Vec<String>,
 }
 
 /// Which ground motions move the ground under a building, by their number.
@@ -54,6 +57,8 @@ pub struct FloorForce {
     pub storey: usize,
     /// The force.
     pub history: ForceHistory,
+    /// Where it comes from, for the user; may be empty.
+    pub origin: String,
 }
 
 impl ForceHistory {
@@ -423,6 +428,12 @@ impl Motions {
 }
 
 impl GroundMotion {
+    /// Acceleration at an instant (m/s2).
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        self.line(time, time, 0.0)[0]
+    }
+
     /// Acceleration at an instant, which is a sample if it is as near to it as that, and slope
     /// around another.
     fn line(&self, start: f64, middle: f64, same: f64) -> [f64; 2] {
@@ -513,6 +524,54 @@ impl System {
     #[must_use]
     pub fn forces(&self) -> &[FloorForce] {
         self.motions.as_ref().map_or(&[], |m| &m.forces)
+    }
+
+    /// Ground motions along the row and across it under a building, where these are not
+    /// [`System::ground`] alone.
+    #[must_use]
+    pub fn motions_under(&self, building: usize) -> [Option<&GroundMotion>; 2] {
+        let Some(motions) = &self.motions else {
+            return [None; 2];
+        };
+        let Support { along, across } = motions.supports[building];
+        let own = Some(along).filter(|along| *along > 0);
+        [own, across].map(|m| m.map(|m| &motions.motions[m]))
+    }
+
+    /// What moves and pushes the buildings beside the first ground motion, line by line, for
+    /// the user.
+    #[must_use]
+    pub fn further_excitation(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (index, building) in self.buildings.iter().enumerate() {
+            let name = building.name();
+            let places = ["", ", across the row"];
+            for (motion, place) in self.motions_under(index).into_iter().zip(places) {
+                let Some(motion) = motion else { continue };
+                let of_building = |line: &String| format!("building {name}{place}: {line}");
+                lines.extend(motion.origin.iter().map(of_building));
+                if motion.delay > 0.0 {
+                    let delay = short(motion.delay);
+                    lines.push(format!(
+                        "building {name}{place}: the ground moves {delay} s later"
+                    ));
+                }
+            }
+            for force in self.forces().iter().filter(|f| f.building == index) {
+                let peak = force.history.peak();
+                lines.push(format!(
+                    "building {name}: force on storey {}, {}up to {} kN at {} s",
+                    force.storey + 1,
+                    match force.origin.as_str() {
+                        "" => String::new(),
+                        origin => format!("{origin}, "),
+                    },
+                    short(1e-3 * peak.value),
+                    short(peak.time),
+                ));
+            }
+        }
+        lines
     }
 
     /// Whether no load jumps between two instants at the same time.

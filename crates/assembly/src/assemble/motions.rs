@@ -9,7 +9,7 @@ use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
 use super::forces::on_floors;
 use crate::error::AssemblyError;
-use crate::excitation::own_accelerogram;
+use crate::excitation::further_record;
 
 /// A record as the time history takes it.
 pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
@@ -42,7 +42,7 @@ pub(super) fn on_their_ground(
             return Err(error.into());
         }
         Some(given) => {
-            let record = own_accelerogram(case, &given.value)?;
+            let record = further_record(case, &given.value)?;
             Some((ground(&record), record.echo()))
         }
     };
@@ -61,7 +61,7 @@ pub(super) fn on_their_ground(
                     let (acceleration, origin) = match own {
                         None => (first.clone(), Vec::new()),
                         Some(motion) => {
-                            let record = own_accelerogram(case, motion)?;
+                            let record = further_record(case, motion)?;
                             (ground(&record), record.echo())
                         }
                     };

@@ -328,7 +328,7 @@ impl Motions {
     pub(super) fn with_first(&self, old: &GroundAcceleration, new: &GroundAcceleration) -> Self {
         let mut motions = self.motions.clone();
         for motion in &mut motions {
-            if Arc::ptr_eq(&motion.acceleration.samples, &old.samples) {
+            if motion.is_of(old) {
                 motion.acceleration = new.clone();
             }
         }
@@ -336,6 +336,17 @@ impl Motions {
             motions,
             ..self.clone()
         };
+        this.lay_out_intervals();
+        this
+    }
+
+    /// The same with all motions scaled that are not of this record.
+    pub(super) fn with_others_scaled(&self, first: &GroundAcceleration, factor: f64) -> Self {
+        let mut this = self.clone();
+        for motion in this.motions.iter_mut().filter(|m| !m.is_of(first)) {
+            let samples = motion.acceleration.samples.iter();
+            motion.acceleration.samples = samples.map(|a| factor * a).collect();
+        }
         this.lay_out_intervals();
         this
     }
@@ -428,6 +439,11 @@ impl Motions {
 }
 
 impl GroundMotion {
+    /// Whether it is this record, sooner or later.
+    pub(super) fn is_of(&self, record: &GroundAcceleration) -> bool {
+        Arc::ptr_eq(&self.acceleration.samples, &record.samples)
+    }
+
     /// Acceleration at an instant (m/s2).
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {

@@ -2,5 +2,6 @@
 
 mod columns;
 mod excitation;
+mod forces;
 mod lateral;
 mod plan;

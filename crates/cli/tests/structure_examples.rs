@@ -23,6 +23,11 @@ fn run(name: &str, adaptive: bool) -> Value {
     let place = tempfile::tempdir().unwrap();
     let case = place.path().join("case.toml");
     std::fs::write(&case, text).unwrap();
+    for file in ["at_rest.csv", "blast.csv"] {
+        if folder.join(file).is_file() {
+            std::fs::copy(folder.join(file), place.path().join(file)).unwrap();
+        }
+    }
     let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
         .arg("run")
         .arg(case)
@@ -95,6 +100,31 @@ fn pair_that_turns() {
             1e-5,
         );
         close(response(low, "rotation_2"), 0.004_858, 1e-3);
+    }
+}
+
+/// Forces on floors, by both methods; their histories and those of different ground motions are
+/// in the result file, and are said.
+#[test]
+fn blast_beside_a_tower() {
+    for adaptive in [false, true] {
+        let result = run("blast_beside_a_tower", adaptive);
+        let levels = result["gaps"][0]["levels"].as_array().unwrap();
+        let impacts: Vec<u64> = levels
+            .iter()
+            .map(|l| l["impacts"].as_u64().unwrap())
+            .collect();
+        assert_eq!(impacts, [3, 4, 4]);
+        close(&levels[1]["peak_force"]["peak"], 8.3486e6, 1e-5);
+        let tower = &result["buildings"][1];
+        close(&tower["storeys"][5]["displacement"]["peak"], 0.043_87, 1e-3);
+        close(&tower["storeys"][0]["storey_shear"]["peak"], 5.4496e6, 1e-4);
+        close(&tower["isolated"][0]["storey_shear"]["peak"], 371e3, 2e-3);
+        let blast = &result["buildings"][0]["forces"][1];
+        assert_eq!(blast["storey"], 2);
+        assert_eq!(blast["origin"], "blast.csv, column 3");
+        assert_eq!(blast["peak"], 7.6e6);
+        assert_eq!(blast["time"], 1.0);
     }
 }
 

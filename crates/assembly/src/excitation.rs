@@ -23,7 +23,15 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
 /// An unknown unit or format, with its place in the case, or a record that cannot be read,
 /// processed or scaled.
 pub fn further_record(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
-    scaled(case, motion, read(case, motion)?)
+    let made = read(case, motion).and_then(|record| scaled(case, motion, record));
+    made.map_err(|e| match e {
+        // The case names several files: the place says which.
+        AssemblyError::GroundMotion(e) => {
+            let place = motion.file.span.clone();
+            case.error(place, e.to_string(), e.help()).into()
+        }
+        e => e,
+    })
 }
 
 /// Reads and processes the record of a case; its scale is not applied.

@@ -5,3 +5,4 @@ mod excitation;
 mod forces;
 mod lateral;
 mod plan;
+mod warnings;

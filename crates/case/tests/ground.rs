@@ -50,7 +50,14 @@ fn plans_are_read() {
     assert_eq!(plan.along[1].stiffness, [1e7, 1e7]);
     assert_eq!(plan.across[0].at, 0.0);
     assert_eq!(case.gaps[0].points.clone().unwrap().value, [-4.0, 0.0, 4.0]);
-    assert!(case.ground_motion.across.is_some());
+    let across = case.ground_motion.across.clone().unwrap().value;
+    assert_eq!(across.file.value, Path::new("s.csv"));
+    let by_name = parse(PLAN, "", "across = \"s.csv\"").unwrap();
+    let by_name = by_name.ground_motion.across.unwrap().value;
+    assert_eq!(
+        (&by_name.file.value, &by_name.scale),
+        (&across.file.value, &across.scale)
+    );
     // Floors that turn have three modes each.
     let modes = PLAN.replace("plan", "damping = { ratio = 0.05, modes = [1, 6] }\nplan");
     let text = "[[building]]\nname = \"a\"\nmass = [1, 1]\nheight = 3\nXX\n[ground_motion]\nfile = \"r\"\n";
@@ -123,6 +130,14 @@ fn what_cannot_be_is_refused_at_its_place() {
             "`across` is a record of its own, without a delay",
             "",
         ),
+        (
+            "",
+            "",
+            "across = \"\"",
+            "`across` is empty",
+            "relative to the folder",
+        ),
+        ("", "", "across = 3", "`across`", ""),
         (
             "plan = { length = 12, width = 10, frames_along = [], frames_across = [{ at = 0, stiffness = 1 }] }",
             "",

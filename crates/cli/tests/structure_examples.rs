@@ -150,8 +150,8 @@ fn a_short_seat() {
     assert!(line.ends_with(expected), "{line}");
 }
 
-/// Floors that turn, columns and a wave have a table in `check`, and `gap` says what rules leave
-/// out.
+/// Floors that turn, columns and a wave have a table in `check`, and `gap` says what is added to
+/// rules.
 #[test]
 fn checks_and_gap_checks() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
@@ -170,6 +170,6 @@ fn checks_and_gap_checks() {
     let columns = said(&["gap"], "slab_hits_column");
     assert!(columns.contains("column"), "{columns}");
     let bridge = said(&["gap"], "three_frame_bridge");
-    let left_out = "combination rules and widths by codes do not";
-    assert_eq!(bridge.matches(left_out).count(), 2, "{bridge}");
+    let added = "its maximum is added to the width of every rule and code";
+    assert_eq!(bridge.matches(added).count(), 2, "{bridge}");
 }

@@ -275,7 +275,8 @@ impl System {
     ///
     /// # Errors
     /// A floor that does not exist, a level between two walls, a width that is negative or
-    /// not finite, or floors that overlap at time zero.
+    /// not finite, floors that overlap at time zero, or velocity jumps at several points of a
+    /// floor that turns.
     pub fn add_gap(
         &mut self,
         name: &str,
@@ -308,6 +309,19 @@ impl System {
             }
             self.weighted_levels |= !level.terms.is_empty();
             self.levels.push(level);
+        }
+        let own = &self.levels[first_level..];
+        let jumps = |l: &&ContactLevel| l.model.rigid_restitution().is_some();
+        let turned = |l: &&ContactLevel| l.place.across.is_some();
+        let mut rigid = own.iter().filter(jumps).filter(turned);
+        if let Some(level) = rigid.find(|l| {
+            let same = |other: &&ContactLevel| other.place.storeys == l.place.storeys;
+            own.iter().filter(same).count() > 1
+        }) {
+            return Err(TimeHistoryError::JumpsAtPoints {
+                gap: name.to_owned(),
+                model: level.model.descriptor().name,
+            });
         }
         self.gaps.push(Gap {
             name: name.to_owned(),

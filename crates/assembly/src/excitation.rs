@@ -16,12 +16,22 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
     scale_record(case, read_record(case)?)
 }
 
-/// The same of a record that one building has for itself.
-pub(crate) fn own_accelerogram(
-    case: &Case,
-    motion: &GroundMotion,
-) -> Result<Accelerogram, AssemblyError> {
-    scaled(case, motion, read(case, motion)?)
+/// A record beside that of the case, as one building has it for itself: read, processed and
+/// scaled.
+///
+/// # Errors
+/// An unknown unit or format, with its place in the case, or a record that cannot be read,
+/// processed or scaled.
+pub fn further_record(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
+    let made = read(case, motion).and_then(|record| scaled(case, motion, record));
+    made.map_err(|e| match e {
+        // The case names several files: the place says which.
+        AssemblyError::GroundMotion(e) => {
+            let place = motion.file.span.clone();
+            case.error(place, e.to_string(), e.help()).into()
+        }
+        e => e,
+    })
 }
 
 /// Reads and processes the record of a case; its scale is not applied.

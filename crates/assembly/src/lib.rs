@@ -25,8 +25,9 @@ mod assemble;
 mod dimension;
 mod error;
 mod excitation;
+mod number_file;
 
 pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
-pub use excitation::{read_record, read_target, scale_record};
+pub use excitation::{further_record, read_record, read_target, scale_record};

@@ -2,5 +2,7 @@
 
 mod columns;
 mod excitation;
+mod forces;
 mod lateral;
 mod plan;
+mod warnings;

@@ -130,3 +130,34 @@ fn each_with_its_remedy() {
         }
     }
 }
+
+/// A velocity jump at one point of a floor that turns closes the other: the sequence has no end
+/// that two methods share. One point is sound, and so is a contact stiffness.
+#[test]
+fn velocity_jumps_need_a_single_point() {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let with = |gap: &str| {
+        let text = format!(
+            "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\n{DAMPED}{PLAN}\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = 0.02\n{gap}\n[ground_motion]\nfile = \"{record}\"\n"
+        );
+        let case = Case::parse(&text, Path::new("case.toml")).unwrap();
+        (assemble(&case).map(|a| a.system.levels().len()), text)
+    };
+    let rigid = "model = \"stereomechanical\"\nrestitution = 0.6";
+    for points in ["", "\npoints = [-2, 1, 3]"] {
+        let (refused, text) = with(&format!("{rigid}{points}"));
+        let AssemblyError::Case(error) = refused.unwrap_err() else {
+            panic!("{points}");
+        };
+        let said = "model stereomechanical lets velocities jump";
+        assert!(error.message.contains(said), "{error}");
+        assert!(error.help.as_ref().unwrap().contains("`points = [0]`"));
+        assert_eq!(&text[error.span.clone()], "\"stereomechanical\"");
+    }
+    assert_eq!(with(&format!("{rigid}\npoints = [0]")).0.unwrap(), 2);
+    let elastic = "model = \"linear_elastic\"\nstiffness = 1e8";
+    assert_eq!(with(elastic).0.unwrap(), 4);
+}

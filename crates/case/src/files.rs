@@ -29,6 +29,9 @@ impl Case {
         let lateral = self.buildings.iter().filter_map(|b| b.lateral.as_ref());
         let matrices = lateral.filter_map(|l| l.value.file());
         files.extend(matrices.map(|f| ("matrix", self.resolve(&f.value))));
+        let forces = self.buildings.iter().flat_map(|b| &b.forces);
+        let histories = forces.filter_map(|f| f.value.source.file());
+        files.extend(histories.map(|f| ("force history", self.resolve(&f.value))));
         files
     }
 }

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use pounding_case::{Case, CaseError};
+use pounding_case::{Case, CaseError, ForceSource};
 
 /// Two buildings, `b` with these lines, and their gap with others.
 fn parse(b: &str, gap: &str, motion: &str) -> Result<Case, CaseError> {
@@ -50,7 +50,14 @@ fn plans_are_read() {
     assert_eq!(plan.along[1].stiffness, [1e7, 1e7]);
     assert_eq!(plan.across[0].at, 0.0);
     assert_eq!(case.gaps[0].points.clone().unwrap().value, [-4.0, 0.0, 4.0]);
-    assert!(case.ground_motion.across.is_some());
+    let across = case.ground_motion.across.clone().unwrap().value;
+    assert_eq!(across.file.value, Path::new("s.csv"));
+    let by_name = parse(PLAN, "", "across = \"s.csv\"").unwrap();
+    let by_name = by_name.ground_motion.across.unwrap().value;
+    assert_eq!(
+        (&by_name.file.value, &by_name.scale),
+        (&across.file.value, &across.scale)
+    );
     // Floors that turn have three modes each.
     let modes = PLAN.replace("plan", "damping = { ratio = 0.05, modes = [1, 6] }\nplan");
     let text = "[[building]]\nname = \"a\"\nmass = [1, 1]\nheight = 3\nXX\n[ground_motion]\nfile = \"r\"\n";
@@ -124,6 +131,14 @@ fn what_cannot_be_is_refused_at_its_place() {
             "",
         ),
         (
+            "",
+            "",
+            "across = \"\"",
+            "`across` is empty",
+            "relative to the folder",
+        ),
+        ("", "", "across = 3", "`across`", ""),
+        (
             "plan = { length = 12, width = 10, frames_along = [], frames_across = [{ at = 0, stiffness = 1 }] }",
             "",
             "",
@@ -169,6 +184,131 @@ fn what_cannot_be_is_refused_at_its_place() {
         assert!(
             line.contains(at.lines().next().unwrap_or("")),
             "{line}: {at}"
+        );
+    }
+}
+
+#[test]
+fn forces_are_read() {
+    let forces = "[[building.force]]\nstorey = 2\nconstant = \"-60 kN\"\n[[building.force]]\nstorey = 1\npoints = [[0, 0], [\"20 ms\", \"0.9 MN\"]]\nstays = true\nscale = -2\ndelay = \"1 s\"\n[[building.force]]\nstorey = 1\nharmonic = { amplitude = 4e4, frequency = \"2 Hz\", duration = 3, phase = 90 }\n[[building.force]]\nstorey = 1\nfile = \"f.csv\"\nunit = \"kN\"\ntime_step = 0.1\n";
+    let case = parse(forces, "", "").unwrap();
+    let forces: Vec<_> = case.buildings[1].forces.iter().map(|f| &f.value).collect();
+    assert_eq!(forces.len(), 4);
+    assert_eq!(forces[0].source, ForceSource::Constant(-6e4));
+    assert_eq!((forces[0].storey, forces[0].stays), (1, true));
+    let ForceSource::Points(points) = &forces[1].source else {
+        panic!("{:?}", forces[1]);
+    };
+    assert_eq!(points.value, [(0.0, 0.0), (0.02, 9e5)]);
+    let second = forces[1];
+    assert_eq!(
+        (second.stays, second.scale, second.delay),
+        (true, -2.0, 1.0)
+    );
+    let ForceSource::Harmonic { phase, step, .. } = forces[2].source else {
+        panic!("{:?}", forces[2]);
+    };
+    assert_eq!((phase, step), (std::f64::consts::FRAC_PI_2, 1.0 / 800.0));
+    let ForceSource::File {
+        column,
+        time_step,
+        unit,
+        ..
+    } = forces[3].source
+    else {
+        panic!("{:?}", forces[3]);
+    };
+    assert_eq!((column, time_step, unit), (0, Some(0.1), 1000.0));
+    let files: Vec<_> = case.files().into_iter().map(|f| f.0).collect();
+    assert_eq!(files, ["record", "force history"]);
+}
+
+/// Each with its message and a word of the remedy, in the lines of the force.
+#[test]
+fn forces_that_cannot_be_are_refused_at_their_place() {
+    for (force, message, remedy) in [
+        (
+            "storey = 3\nconstant = 1",
+            "no storey 3 in a building of 2 storeys",
+            "from 1",
+        ),
+        ("storey = 0\nconstant = 1", "`storey`", "correct"),
+        ("constant = 1", "storey", ""),
+        (
+            "storey = 1",
+            "does not say what the force is",
+            "add `constant`",
+        ),
+        (
+            "storey = 1\nconstant = 1\nfile = \"f\"",
+            "either `constant` or `file`",
+            "are added",
+        ),
+        (
+            "storey = 1\nconstant = 1\nunit = \"kN\"",
+            "`unit` has no meaning beside `constant`",
+            "`file`",
+        ),
+        (
+            "storey = 1\nconstant = 1\nstays = true",
+            "`stays` has no meaning",
+            "`points` and `file`",
+        ),
+        (
+            "storey = 1\nconstant = \"1 kg\"",
+            "must be a force",
+            "a mass is no force",
+        ),
+        (
+            "storey = 1\npoints = [[-1, 5]]",
+            "`points`",
+            "correct the value",
+        ),
+        (
+            "storey = 1\npoints = [[\"1 kN\", 5]]",
+            "must be a time",
+            "unit",
+        ),
+        ("storey = 1\npoints = [[1]]", "", ""),
+        (
+            "storey = 1\nfile = \"f\"\nunit = \"kg\"",
+            "must be a force",
+            "",
+        ),
+        (
+            "storey = 1\nfile = \"f\"\ncolumn = 0",
+            "`column`",
+            "correct",
+        ),
+        (
+            "storey = 1\nharmonic = { amplitude = 1, frequency = 0, duration = 1 }",
+            "`frequency`",
+            "",
+        ),
+        (
+            "storey = 1\nharmonic = { amplitude = 1, frequency = 1 }",
+            "duration",
+            "",
+        ),
+        (
+            "storey = 1\nharmonic = { amplitude = 1, frequency = 1e6, duration = 1 }",
+            "400000000 straight lines",
+            "a longer `step`",
+        ),
+        ("storey = 1\nconstant = 1\nfactor = 3", "factor", ""),
+    ] {
+        let b = format!("[[building.force]]\n{force}\n");
+        let error = parse(&b, "", "").unwrap_err();
+        assert!(error.message.contains(message), "{force}: {error}");
+        let help = error.help.clone().unwrap_or_default();
+        assert!(help.contains(remedy), "{force}: {help}");
+        let text = text(&b, "", "");
+        let start = text.find("[[building.force]]").unwrap();
+        let within = start..start + b.len();
+        assert!(
+            within.contains(&error.span.start),
+            "{force}: {:?}",
+            error.span
         );
     }
 }

@@ -640,3 +640,28 @@ fn a_folder_of_records_may_hold_other_files() {
         "{said}"
     );
 }
+
+/// Frames of a bridge feel the motion later one after the other: what the ground adds to the
+/// widths by rule is said, and stands in the numbers.
+#[test]
+fn ground_that_moves_differently_is_said() {
+    let output = gap("three_frame_bridge", &["--points", "0", "--json"]);
+    let result = json(&output);
+    let joint = &result["gaps"][0];
+    let ground = &joint["levels"][0]["relative_ground_displacement"][0];
+    // What the run of the example reports.
+    close(&ground["peak"], 0.0509, 1e-3);
+    let sum = named(&joint["combinations"], "rule", "absolute_sum");
+    let peaks = [0, 1].map(|b| {
+        let peak = &result["records"][0]["isolated"][b]["displacement"][0]["peak"];
+        peak.as_f64().unwrap()
+    });
+    let expected = peaks[0] + peaks[1] + ground["peak"].as_f64().unwrap();
+    close(&sum["width"][0][0], expected, 1e-14);
+    let printed = text(&gap("three_frame_bridge", &["--points", "0"]).stdout);
+    let said = "The ground on both sides moves differently, by up to 50.9";
+    assert!(printed.contains(said), "{printed}");
+    let alike = gap("gap_check", &["--points", "0", "--json"]);
+    let level = &json(&alike)["gaps"][0]["levels"][0];
+    assert!(level.get("relative_ground_displacement").is_none());
+}

@@ -9,6 +9,7 @@ mod columns;
 mod compare;
 mod documents;
 mod examples;
+mod excitation;
 mod files;
 mod foundations;
 mod gap;

@@ -128,7 +128,7 @@ impl ProvisionDescriptor {
             return Err(working.not_applicable("it needs a building on either side"));
         };
         let width = rule(&mut working, structure, elevation, site)?;
-        Ok(working.finish(self.formula, width, self.caution(&[structure])))
+        working.finish(self.formula, (width, site), self.caution(&[structure]))
     }
 
     /// Distance between two buildings (m). A boundary rule gives the sum of the
@@ -142,7 +142,7 @@ impl ProvisionDescriptor {
         match self.rule {
             Rule::Between(rule) => {
                 let width = rule(&mut working, situation)?;
-                Ok(working.finish(self.formula, width, caution))
+                working.finish(self.formula, (width, &situation.site), caution)
             }
             Rule::Boundary(rule) => {
                 let Situation {
@@ -156,7 +156,7 @@ impl ProvisionDescriptor {
                 let width = working.note("own side, left", left, "m")
                     + working.note("own side, right", right, "m");
                 let formula = format!("{}, summed over both sides", self.formula);
-                Ok(working.finish(&formula, width, caution))
+                working.finish(&formula, (width, site), caution)
             }
         }
     }

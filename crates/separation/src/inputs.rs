@@ -256,6 +256,10 @@ pub struct Site {
     /// `S_M1`: spectral acceleration of the maximum considered earthquake at one second, damped
     /// by 5 % (m/s2).
     pub spectral_acceleration_1s: Option<f64>,
+    /// Maximum displacement of the ground on one side of the gap relative to that on the other
+    /// (m): zero where one motion is under both. Codes suppose that, so that it is added to
+    /// what they require.
+    pub relative_ground_displacement: f64,
 }
 
 /// Two structures at one level where they could touch.

@@ -17,7 +17,7 @@ pub struct Factor {
 /// The gap that a provision requires.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// Width (m).
+    /// Width (m), with the relative displacement of the ground where that is not zero.
     pub width: f64,
     /// Everything that went into it, in the order of use.
     pub factors: Vec<Factor>,
@@ -46,19 +46,38 @@ impl Working {
         }
     }
 
-    /// The requirement with its explanation.
-    pub(crate) fn finish(self, formula: &str, width: f64, caution: Option<String>) -> Requirement {
+    /// The requirement with its explanation: the width by the code, and what the ground on
+    /// both sides of the gap adds to it.
+    pub(crate) fn finish(
+        mut self,
+        formula: &str,
+        (width, site): (f64, &Site),
+        caution: Option<String>,
+    ) -> Result<Requirement, SeparationError> {
+        let (mut formula, mut width) = (formula.to_owned(), width);
+        let ground = site.relative_ground_displacement;
+        if !(ground.is_finite() && ground >= 0.0) {
+            return Err(SeparationError::OutOfRange {
+                quantity: "relative ground displacement",
+                value: ground,
+                range: "[0, inf)",
+            });
+        }
+        if ground > 0.0 {
+            formula.push_str(", plus the relative displacement of the ground u_g");
+            width += self.note("u_g", ground, "m");
+        }
         let factors: Vec<String> = self.factors.iter().map(shown).collect();
         let mut explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
         if let Some(caution) = &caution {
             explanation.push_str(&format!("; not valid: {caution}"));
         }
-        Requirement {
+        Ok(Requirement {
             width,
             factors: self.factors,
             explanation,
             caution,
-        }
+        })
     }
 
     /// Notes a number and hands it on.

@@ -125,6 +125,9 @@ fn words(draft: &Draft) -> Vec<CaseError> {
     if !case.buildings.iter().all(small) {
         // Gaps and links are not looked at beyond their models.
         case.buildings.retain(small);
+        if case.buildings.iter().all(|b| b.plan.is_none()) {
+            case.ground_motion.across = None;
+        }
     }
     let found = of_case(assembly(&case));
     let found = found.into_iter().filter(|e| e.span.start != nowhere);
@@ -167,6 +170,8 @@ fn options(case: &Case) -> Vec<CaseError> {
     let mut alone = case.clone();
     alone.gaps.clear();
     alone.links.clear();
+    // Which moves floors of a plan alone.
+    alone.ground_motion.across = None;
     alone.buildings = vec![plain_building()];
     match assembly(&alone) {
         Err(AssemblyError::System(TimeHistoryError::Option {
@@ -332,5 +337,6 @@ fn plain_building() -> Building {
         foundation: None,
         ground: None,
         plan: None,
+        forces: Vec::new(),
     }
 }

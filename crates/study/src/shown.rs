@@ -1,6 +1,8 @@
 //! One run of a study as a case of its own.
 
-use pounding_case::Case;
+use pounding_assembly::{AssemblyError, further_record, scale_record};
+use pounding_case::{Case, GroundMotion};
+use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::Scale;
 
 use crate::case_text::{Edit, Path, apply, entry, with_motion};
@@ -35,33 +37,73 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
             "# Its record is synthetic, written in the folder of this case by\n# {command} -o {file}\n"
         ));
     }
-    let mut scale = None;
+    let mut scales: Vec<(String, f64)> = Vec::new();
     if let Some((measure, intensity)) = wanted(study, &point) {
         let motion = motion(&source.kind, Some(measure))?;
-        scale = factor(Some(intensity), Ok(&motion)).map_err(not_shown)?;
+        if let Some(scale) = factor(Some(intensity), Ok(&motion)).map_err(not_shown)? {
+            let case = Case::parse(&text, &study.base.file);
+            let case = case.map_err(|e| not_shown(e.to_string()))?;
+            scales = further_scales(&case, &motion.record, scale)
+                .map_err(|e| not_shown(e.to_string()))?;
+            scales.push(("ground_motion.scale".to_owned(), scale));
+        }
         let title = measure.title();
         comments.push_str(&format!(
             "# `scale` gives it, in SI: {title} = {intensity}\n"
         ));
     }
-    if let Some(scale) = scale {
-        text = with_scale(&text, scale).map_err(not_shown)?;
+    for (place, scale) in &scales {
+        text = with_scale(&text, place, *scale).map_err(not_shown)?;
     }
     let text = format!("{comments}{text}");
     // Replaced tables with headers of their own would leave their entries behind.
     let case = Case::parse(&text, &study.base.file).map_err(|e| not_shown(e.to_string()))?;
-    match scale {
-        Some(scale) if !scaled_by(&case, scale) => {
-            Err(not_shown("its `scale` cannot be replaced".to_owned()))
-        }
-        _ => Ok(text),
+    match scales.is_empty() || scales_of(&case) == scales {
+        true => Ok(text),
+        false => Err(not_shown("its `scale` cannot be replaced".to_owned())),
     }
 }
 
-/// Whether this is the scale of the case.
-fn scaled_by(case: &Case, factor: f64) -> bool {
-    let scale = case.ground_motion.scale.as_ref();
-    scale.is_some_and(|scale| scale.value == Scale::Factor(factor))
+/// Places of the scales of records beside that of the case, with the factors that keep their
+/// proportion to it where that one is scaled by `scale`.
+fn further_scales(
+    case: &Case,
+    record: &Accelerogram,
+    scale: f64,
+) -> Result<Vec<(String, f64)>, AssemblyError> {
+    let further = further_motions(case);
+    if further.is_empty() {
+        return Ok(Vec::new());
+    }
+    let by_case = scale_record(case, record.clone())?.scale() / record.scale();
+    let scaled = further.into_iter().map(|(place, motion)| {
+        let own = further_record(case, motion)?.scale();
+        Ok((place, own * (scale / by_case)))
+    });
+    scaled.collect()
+}
+
+/// Records beside that of the case, with the places of their scales.
+fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
+    let across = case.ground_motion.across.as_ref();
+    let across = across.map(|a| ("ground_motion.across.scale".to_owned(), &*a.value));
+    let buildings = case.buildings.iter().enumerate();
+    let own = buildings.filter_map(|(b, building)| {
+        let motion = building.ground.as_ref()?.value.motion.as_ref()?;
+        Some((format!("building.{b}.ground.scale"), motion))
+    });
+    own.chain(across).collect()
+}
+
+/// The scales of a case that are plain factors, with their places.
+fn scales_of(case: &Case) -> Vec<(String, f64)> {
+    let own = ("ground_motion.scale".to_owned(), &case.ground_motion);
+    let all = further_motions(case).into_iter().chain([own]);
+    let factor = |(place, motion): (String, &GroundMotion)| match &motion.scale.as_ref()?.value {
+        Scale::Factor(factor) => Some((place, *factor)),
+        _ => None,
+    };
+    all.filter_map(factor).collect()
 }
 
 /// The case with a record in our own layout, and no word of its former one.
@@ -71,9 +113,9 @@ fn with_file(text: &str, file: &str) -> Result<String, String> {
     Ok(apply(text, &edits.map_err(|(reason, _)| reason)?))
 }
 
-/// The case with this factor as the scale of its record.
-fn with_scale(text: &str, scale: f64) -> Result<String, String> {
-    let path = Path::parse("ground_motion.scale")?;
+/// The case with this factor as the scale of the record at this place.
+fn with_scale(text: &str, place: &str, scale: f64) -> Result<String, String> {
+    let path = Path::parse(place)?;
     let entry = entry(text, &path).map_err(|(reason, _)| reason)?;
     Ok(apply(text, &[Edit::new(&entry, written(scale))]))
 }

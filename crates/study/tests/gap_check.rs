@@ -217,6 +217,79 @@ fn a_link_that_yields_makes_no_displacement_inelastic() {
     assert_eq!(cautioned(&case), [""; 0]);
 }
 
+/// Two buildings under a pulse of the ground, the right one 0.6 s later, and a wall fixed in
+/// space on the left.
+fn on_moving_ground(folder: &Path, ground: &str) -> Case {
+    let record = "time (s),a (m/s2)\n0,0\n0.5,1\n1,0\n1.5,-1\n2,0\n";
+    std::fs::write(folder.join("pulse.csv"), record).unwrap();
+    let building = |name: &str, stiffness: &str, ground: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = \"10 t\"\nstiffness = \"{stiffness}\"\n\
+             storeys = 1\nheight = \"3 m\"\ndamping = {{ modal = 0.05 }}\n{ground}\n"
+        )
+    };
+    let gap = |between: &str, more: &str| {
+        format!(
+            "[[gap]]\nbetween = {between}\nwidth = \"0.6 m\"\nmodel = \"linear_elastic\"\n\
+             stiffness = \"100 MN/m\"\n{more}\n"
+        )
+    };
+    let text = [
+        building("left", "40 MN/m", ""),
+        building("right", "60 MN/m", ground),
+        gap("[\"left\", \"right\"]", ""),
+        gap("[\"wall\", \"left\"]", "wall = \"fixed\""),
+        "[ground_motion]\nfile = \"pulse.csv\"\n[analysis]\nduration = \"4 s\"\n".to_owned(),
+    ];
+    Case::parse(&text.concat(), &folder.join("case.toml")).unwrap()
+}
+
+/// By hand: the pulse has the velocity `0.5 - (t - 1)^2` within half a second of its middle,
+/// and leaves the ground 0.5 m from where it was. A ground that does the same 0.6 s later is behind
+/// it by the integral of the velocity over 0.6 s, which is a maximum about the middle:
+/// `2 (0.5 0.3 - 0.3^3 / 3) = 0.282 m`, at 1.3 s. A wall fixed in space is behind by 0.5 m.
+#[test]
+fn ground_that_moves_differently_widens_what_rules_ask_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = on_moving_ground(folder.path(), "ground = { delay = \"0.6 s\" }");
+    let delayed = check(&case, &[], &options());
+    let same = check(&on_moving_ground(folder.path(), ""), &[], &options());
+    let ground = delayed.records[0].relative_ground_displacement[0][0].unwrap();
+    assert!((ground.value - 0.282).abs() < 1.0e-14, "{ground:?}");
+    assert!((ground.time - 1.3).abs() < 1.0e-12, "{ground:?}");
+    // The run finds it too, along its own steps.
+    let (_, gaps) = delayed.records[0].pounding.as_ref().unwrap();
+    let found = &gaps[0].levels[0].responses[0];
+    assert_eq!(found.name, "relative_ground_displacement");
+    assert!((found.peak.value - 0.282).abs() < 1.0e-12, "{found:?}");
+    assert!(same.records[0].relative_ground_displacement[0][0].is_none());
+    let widths = |check: &GapCheck| -> Vec<(&'static str, f64)> {
+        let gap = &check.gaps[0];
+        let rules = gap.combinations.iter();
+        let rules = rules.map(|c| (c.rule.name(), c.records[0][0].width));
+        let codes = gap.codes.iter();
+        let codes = codes.filter_map(|c| Some((c.provision.name, c.width(0)?)));
+        rules.chain(codes).collect()
+    };
+    let (delayed_widths, same_widths) = (widths(&delayed), widths(&same));
+    assert!(same_widths.len() > 10, "{same_widths:?}");
+    // The right building does 0.6 s later what it does without delay.
+    for ((name, with), (_, without)) in delayed_widths.iter().zip(&same_widths) {
+        assert!((with - without - 0.282).abs() < 1.0e-9, "{name}: {with} {without}");
+    }
+    // The demand has it by itself, and the sum of absolute values is never below that.
+    let (demand, least) = (delayed.gaps[0].demand[0], same.gaps[0].demand[0]);
+    assert!(demand > 0.28 && least < 0.01, "{demand} {least}");
+    assert!(delayed_widths[0].1 >= demand, "{delayed_widths:?} {demand}");
+    let fixed = delayed.records[0].relative_ground_displacement[1][0].unwrap();
+    assert!((fixed.value - 0.5).abs() < 1.0e-14, "{fixed:?}");
+    let explained = delayed.gaps[1].codes.iter().find_map(|c| {
+        let required = c.records[0][0].as_ref().ok()?;
+        Some(required.explanation.contains("u_g = 0.500000 m"))
+    });
+    assert_eq!(explained, Some(true));
+}
+
 #[test]
 fn mistakes() {
     let case = pair("\"20 mm\"");

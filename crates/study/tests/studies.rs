@@ -524,3 +524,47 @@ fn sharing_changes_no_bit_where_columns_are_hit() {
         assert_eq!(shears.len(), 8, "every value changes the columns");
     }
 }
+
+/// An intensity scales all that moves the ground: a building whose own record is that of the
+/// case, scaled twice as much, keeps twice the motion of its neighbour at every intensity, and so
+/// does the case that stands for a run.
+#[test]
+fn an_intensity_scales_records_of_buildings_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let building = |name: &str, ground: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = [\"25 t\"]\nstiffness = \"3 MN/m\"\nheight = 3\n\
+             damping = {{ modal = 0.05 }}\n{ground}"
+        )
+    };
+    let own = format!("ground = {{ file = {record:?}, scale = {{ pga = \"0.6 g\" }} }}\n");
+    let case = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = 9\nmodel = \"linear_elastic\"\nstiffness = 1e8\n\
+         [ground_motion]\nfile = {record:?}\nscale = {{ pga = \"0.3 g\" }}\n[analysis]\nduration = 6\n",
+        building("A", ""),
+        building("B", &own),
+    );
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let text = "case = \"case.toml\"\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\", \"0.5 g\"]\n";
+    let study = Study::parse(text, &folder.path().join("study.toml")).unwrap();
+    let rows = rows(&study, folder.path());
+    assert_eq!(rows.len(), 2);
+    let roofs = [0, 1].map(|number| {
+        let text = case_of_run(&study, number).unwrap();
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        let roofs = [0, 1].map(|b| outcome.buildings[b].storeys[0].displacement.value);
+        let values = &rows[number].0.values;
+        for roof in roofs {
+            let found = values.iter().any(|x| (x / roof - 1.0).abs() < 1e-12);
+            assert!(found, "{roof} is not in {values:?}");
+        }
+        roofs
+    });
+    for [a, b] in roofs {
+        assert!((b / a - 2.0).abs() < 1e-9, "{a} {b}");
+    }
+    assert!((roofs[1][0] / roofs[0][0] - 2.5).abs() < 1e-9, "{roofs:?}");
+}

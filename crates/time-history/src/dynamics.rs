@@ -267,7 +267,7 @@ impl<'a> Dynamics<'a> {
         let mass = system.mass();
         let with_mass = system.with_mass();
         for i in 0..out.len() {
-            let ground = system.ground_on(i, ground);
+            let ground = system.load_on(i, ground);
             if i < with_mass {
                 input -= mass[i] * v[i] * ground;
             }

@@ -13,6 +13,24 @@ pub enum TimeHistoryError {
         /// What is wrong.
         reason: String,
     },
+    /// A model of velocity jumps at several points of one floor. A jump at one of them turns the
+    /// floor and closes another; the jumps follow one another ever faster, and where the
+    /// sequence ends depends on the order in which they are taken.
+    #[error(
+        "gap {gap}: model {model} lets velocities jump, which it cannot at several points of a floor that turns: a jump at one turns the floor against the other, and no rule says how that sequence ends"
+    )]
+    JumpsAtPoints {
+        /// Name of the gap.
+        gap: String,
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// A force on a floor that cannot be.
+    #[error("force on a floor: {reason}")]
+    Force {
+        /// What is wrong.
+        reason: String,
+    },
     /// A gap of the system is not well defined.
     #[error("gap {gap}: {reason}")]
     GapDefinition {

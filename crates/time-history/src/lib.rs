@@ -44,8 +44,8 @@ pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{
-    BuildingPoint, ContactLevel, Floor, Gap, GroundAcceleration, GroundMotion, LevelMotion,
-    LevelPlace, LevelResponse, Link, LinkedMotion, LinkedPair, Support, System, UnequalFloors,
-    more_pairs,
+    BuildingPoint, ContactLevel, Floor, FloorForce, ForceHistory, Gap, GroundAcceleration,
+    GroundMotion, LevelMotion, LevelPlace, LevelResponse, Link, LinkedMotion, LinkedPair, Support,
+    System, UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

@@ -132,8 +132,8 @@ impl Propagation {
         }
         // Displacements of the ground are cubics.
         for i in system.with_mass()..n {
-            let [a, b] = ends.map(|ground| -system.ground_on(i, ground));
-            let slope = -system.ground_slope_on(i, segment);
+            let [a, b] = ends.map(|ground| -system.load_on(i, ground));
+            let slope = -system.load_slope_on(i, segment);
             let (x, v) = (state[i], state[n + i]);
             let end = [
                 x + h * (v + h * (0.5 * a + h * slope / 6.0)),
@@ -312,8 +312,8 @@ impl Building {
             start[n + k] = state[dofs + *i];
         }
         for (k, i) in self.loads.iter().enumerate() {
-            start[2 * n + 2 * k] = system.ground_on(*i, instants[0]);
-            start[2 * n + 2 * k + 1] = system.ground_slope_on(*i, segment);
+            start[2 * n + 2 * k] = system.load_on(*i, instants[0]);
+            start[2 * n + 2 * k + 1] = system.load_slope_on(*i, segment);
         }
         let (start, out) = (&start[..columns], &mut out[..3 * n]);
         out.fill(0.0);
@@ -330,7 +330,7 @@ impl Building {
         ends.viscous += viscous;
         for (k, i) in self.dofs.iter().enumerate() {
             let load = 2 * n + 2 * self.load_of[k];
-            let [a, b] = instants.map(|at| system.ground_on(*i, at));
+            let [a, b] = instants.map(|at| system.load_on(*i, at));
             let moved = out[k] * b - start[k] * a - start[load + 1] * out[2 * n + k];
             ends.input -= self.mass[k] * moved;
             ends.start[0][*i] = start[k];

@@ -7,7 +7,7 @@ use crate::outcome::{
     IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics,
     StoreyPeaks, YieldingStorey,
 };
-use crate::system::{LevelPlace, LinkedMotion, System};
+use crate::system::{FloorForce, LevelPlace, LinkedMotion, System};
 
 /// A run beside that of the same buildings without gaps: what `pounding run --json` prints.
 ///
@@ -23,6 +23,9 @@ pub struct Summary<'a> {
     energy: Ledger,
     statistics: Statistics,
     warnings: &'a [String],
+    /// What moves and pushes the buildings beside the first ground motion.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    further_excitation: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -37,11 +40,25 @@ struct Building<'a> {
     yielding: &'a [Option<YieldingStorey>],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolator: Option<IsolatorOutcome>,
+    /// Time (s) by which the ground moves later than the first motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ground_delay: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    forces: Vec<Force<'a>>,
     isolated: &'a [StoreyPeaks],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolated_base_moment: Option<Peak>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     isolated_responses: &'a [NamedPeak],
+}
+
+/// A force on a floor.
+#[derive(Debug, Clone, Serialize)]
+struct Force<'a> {
+    storey: usize,
+    origin: &'a str,
+    #[serde(flatten)]
+    peak: Peak,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -87,9 +104,19 @@ impl<'a> Summary<'a> {
         (outcome, isolated): (&'a Outcome, &'a Outcome),
         warnings: &'a [String],
     ) -> Self {
+        let force = |f: &'a FloorForce| Force {
+            storey: f.storey + 1,
+            origin: &f.origin,
+            peak: f.history.peak(),
+        };
         let buildings = outcome.buildings.iter().zip(&isolated.buildings);
-        let buildings = buildings.zip(system.buildings());
-        let buildings = buildings.map(|((with, without), building)| Building {
+        let buildings = buildings.zip(system.buildings()).enumerate();
+        let buildings = buildings.map(|(index, ((with, without), building))| Building {
+            ground_delay: system.motions_under(index)[0].map(|m| m.delay),
+            forces: (system.forces().iter())
+                .filter(|f| f.building == index)
+                .map(force)
+                .collect(),
             name: &with.name,
             elevation: building.elevations(),
             storeys: &with.storeys,
@@ -137,6 +164,7 @@ impl<'a> Summary<'a> {
         });
         Self {
             status: "complete",
+            further_excitation: system.further_excitation(),
             method: outcome.method.name,
             end_time: outcome.end_time,
             buildings: buildings.collect(),

@@ -46,6 +46,13 @@ pub enum Warning {
         /// Period (s).
         period: f64,
     },
+    /// Soil that is as good as a fixed base.
+    StiffSoil {
+        /// Name of the building.
+        building: String,
+        /// Period on the soil over that on a fixed base, less one (-).
+        lengthening: f64,
+    },
     /// A gap wider than a storey beside it is high.
     WideGap {
         /// Name of the gap.
@@ -279,6 +286,14 @@ impl fmt::Display for Warning {
                     ""
                 }
             ),
+            Self::StiffSoil {
+                building,
+                lengthening,
+            } => write!(
+                f,
+                "{building}: the soil makes the fundamental period longer by {} % only, as good as a fixed base, and contacts take short steps to follow the foundation on its stiff springs; leave the foundation out, or check the units of the soil",
+                short(100.0 * lengthening.max(0.0))
+            ),
             Self::Uplift { building, ratio } => write!(
                 f,
                 "{building}: the moment on the foundation is {ratio:.2} times half of weight times length: its edge lifts off the soil, which is not modelled; springs that hold it down make the rotation, and with it the displacement of floors, too small, and the moment too large"
@@ -390,6 +405,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
             });
         }
     }
+    warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
     warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
     for gap in system.gaps() {
         let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
@@ -422,6 +438,18 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
         warnings.push(Warning::ManySteps { steps, limit });
     }
     warnings
+}
+
+/// Period lengthening, less one, below which soil is as good as a fixed base.
+const STIFF_SOIL: f64 = 1.0e-5;
+
+/// A foundation on soil that gives a fixed base.
+fn stiff_soil(building: &ShearBuilding) -> Option<Warning> {
+    let lengthening = building.foundation()?.period_lengthening()? - 1.0;
+    (lengthening < STIFF_SOIL).then(|| Warning::StiffSoil {
+        building: building.name().to_owned(),
+        lengthening,
+    })
 }
 
 /// Joints that opened further than their seats are wide.

@@ -77,6 +77,7 @@ impl Case {
         let motion = GroundMotion {
             acceleration: el_centro(),
             delay: 0.0,
+            origin: Vec::new(),
         };
         let support = Support {
             along: 0,

@@ -5,6 +5,7 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{RunOptions, System};
 
+use super::column::never_hit;
 use super::motions::on_their_ground;
 use super::{Assembly, Parts, models, options, with_gaps};
 use crate::error::AssemblyError;
@@ -31,6 +32,7 @@ pub fn assemble_with_record(
         options,
         output_step: case.analysis.output_step,
         accelerogram: accelerogram.clone(),
+        unused: never_hit(case),
     })
 }
 

@@ -50,6 +50,27 @@ pub(super) struct HitLevel {
     pub responses: Vec<LevelResponse>,
 }
 
+/// Columns that a gap gives and no floor hits, in words.
+pub(super) fn never_hit(case: &Case) -> Vec<String> {
+    let mut told = Vec::new();
+    for gap in &case.gaps {
+        for (k, (side, columns)) in gap.between.iter().zip(&gap.columns).enumerate() {
+            let facing = |l: &ContactLevel| [l.left, l.right][k].is_column();
+            let (Side::Building(b), Some(_)) = (side, columns) else {
+                continue;
+            };
+            if gap.levels.iter().any(facing) {
+                continue;
+            }
+            told.push(format!(
+                "gap {}: no floor hits columns of {}, and `column` does nothing: the levels of this gap are floors at equal elevation; `levels = \"all_floors\"` lets the others hit columns",
+                gap.name, case.buildings[*b].name.value
+            ));
+        }
+    }
+    told
+}
+
 impl<'c> Hits<'c> {
     /// Those of a case.
     ///

@@ -2,6 +2,7 @@
 
 mod again;
 mod column;
+mod forces;
 mod foundation;
 mod lateral;
 mod laws;
@@ -21,8 +22,8 @@ use pounding_gap_element::{
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
-    DEFAULT_RELATIVE_TOLERANCE, Floor, LevelMotion, MethodChoice, RunOptions, System, Warning,
-    more_pairs,
+    DEFAULT_RELATIVE_TOLERANCE, Floor, LevelMotion, MethodChoice, RunOptions, System,
+    TimeHistoryError, Warning, more_pairs,
 };
 
 use self::column::Hits;
@@ -42,6 +43,8 @@ pub struct Assembly {
     pub output_step: f64,
     /// The record, scaled, with its origin.
     pub accelerogram: Accelerogram,
+    /// What the case gives and nothing uses, in words.
+    pub unused: Vec<String>,
 }
 
 impl Assembly {
@@ -52,30 +55,20 @@ impl Assembly {
         self.with_those_of_the_record(&ours)
     }
 
-    /// Warnings of how the buildings were made.
+    /// What moves and pushes the buildings, line by line, for the user: the record, then all
+    /// else.
+    #[must_use]
+    pub fn excitation(&self) -> Vec<String> {
+        let record = self.accelerogram.echo().into_iter();
+        record.chain(self.system.further_excitation()).collect()
+    }
+
+    /// Warnings of how the buildings were made, and of what was left over.
     #[must_use]
     pub fn warnings_of_buildings(&self) -> Vec<String> {
         let buildings = self.system.buildings().iter();
         let averaged = buildings.filter_map(|b| lateral::averaged(b));
-        averaged.collect()
-    }
-
-    /// What combination rules and widths by codes leave out.
-    #[must_use]
-    pub fn left_out_by_rules(&self) -> Vec<String> {
-        let moved = self.system.gaps().iter().filter(|gap| {
-            let levels = gap.first_level..gap.first_level + gap.levels;
-            levels
-                .into_iter()
-                .any(|l| self.system.ground_offset_at_end(l).is_some())
-        });
-        let told = moved.map(|gap| {
-            format!(
-                "gap {}: the ground on both sides moves differently: the demand contains that, combination rules and widths by codes do not; add the relative ground displacement that `run` reports",
-                gap.name
-            )
-        });
-        told.collect()
+        averaged.chain(self.unused.iter().cloned()).collect()
     }
 
     /// The warnings of the record before these.
@@ -111,6 +104,7 @@ pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
         options,
         output_step: case.analysis.output_step,
         accelerogram,
+        unused: column::never_hit(case),
     })
 }
 
@@ -237,7 +231,14 @@ fn with_gaps(
             Side::Wall => "wall".to_owned(),
         });
         let first = system.levels().len();
-        system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance)?;
+        let added = system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance);
+        added.map_err(|e| match e {
+            TimeHistoryError::JumpsAtPoints { .. } => {
+                let help = "give one point, such as `points = [0]`, or a model with a contact stiffness, such as anagnostopoulos_2004".to_owned();
+                case.error(gap.model.span.clone(), e.to_string(), Some(help)).into()
+            }
+            e => AssemblyError::from(e),
+        })?;
         if let Some(seat) = &gap.seat {
             system.seat(seat.value)?;
         }

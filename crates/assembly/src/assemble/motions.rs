@@ -7,8 +7,9 @@ use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
+use super::forces::on_floors;
 use crate::error::AssemblyError;
-use crate::excitation::own_accelerogram;
+use crate::excitation::further_record;
 
 /// A record as the time history takes it.
 pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
@@ -18,8 +19,8 @@ pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     }
 }
 
-/// The buildings of a case without gaps, each on its ground: that of the record given, now or
-/// later, or of a record of its own.
+/// The buildings of a case without gaps, each on its ground, that of the record given, now or
+/// later, or of a record of its own, with the forces on its floors.
 pub(super) fn on_their_ground(
     case: &Case,
     buildings: Vec<Arc<ShearBuilding>>,
@@ -29,6 +30,7 @@ pub(super) fn on_their_ground(
     let mut motions = vec![GroundMotion {
         acceleration: first.clone(),
         delay: 0.0,
+        origin: Vec::new(),
     }];
     let turns = |building: &pounding_case::Building| building.plan.is_some();
     let across = match &case.ground_motion.across {
@@ -39,7 +41,10 @@ pub(super) fn on_their_ground(
             let error = case.error(given.span.clone(), message.to_owned(), Some(help));
             return Err(error.into());
         }
-        Some(given) => Some(ground(&own_accelerogram(case, &given.value)?)),
+        Some(given) => {
+            let record = further_record(case, &given.value)?;
+            Some((ground(&record), record.echo()))
+        }
     };
     let mut supports = Vec::new();
     for building in &case.buildings {
@@ -53,13 +58,17 @@ pub(super) fn on_their_ground(
             along = match (known, own) {
                 (Some(known), _) => known,
                 (None, own) => {
-                    let acceleration = match own {
-                        None => first.clone(),
-                        Some(motion) => ground(&own_accelerogram(case, motion)?),
+                    let (acceleration, origin) = match own {
+                        None => (first.clone(), Vec::new()),
+                        Some(motion) => {
+                            let record = further_record(case, motion)?;
+                            (ground(&record), record.echo())
+                        }
                     };
                     motions.push(GroundMotion {
                         acceleration,
                         delay,
+                        origin,
                     });
                     motions.len() - 1
                 }
@@ -68,7 +77,7 @@ pub(super) fn on_their_ground(
         let across = across
             .as_ref()
             .filter(|_| turns(building))
-            .map(|acceleration| {
+            .map(|(acceleration, origin)| {
                 let delay = motions[along].delay;
                 let same = |m: &GroundMotion| {
                     m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &acceleration.samples)
@@ -77,14 +86,16 @@ pub(super) fn on_their_ground(
                     motions.push(GroundMotion {
                         acceleration: acceleration.clone(),
                         delay,
+                        origin: origin.clone(),
                     });
                     motions.len() - 1
                 })
             });
         supports.push(Support { along, across });
     }
-    if motions.len() == 1 {
-        return Ok(System::new(buildings, first));
-    }
-    Ok(System::with_motions(buildings, motions, supports)?)
+    let system = match motions.len() {
+        1 => System::new(buildings, first),
+        _ => System::with_motions(buildings, motions, supports)?,
+    };
+    on_floors(case, system)
 }

@@ -6,6 +6,7 @@ use pounding_catalogue::wording::counted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::force::ForceTable;
 use super::foundation::FoundationTable;
 use super::ground_motion::GroundTable;
 use super::isolator::IsolatorTable;
@@ -15,7 +16,8 @@ use super::plan::PlanTable;
 use super::{check_name, spread};
 use crate::document::{
     Count, Dashpot, Dimensioned, Entry, Field, Flexibility, Frequency, Kinds, Length, Mass,
-    NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Time, Velocity,
+    NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Tables, Time,
+    Velocity,
 };
 use crate::types::{Building, Damping, Isolator, Lateral, Located};
 
@@ -84,6 +86,8 @@ pub(super) struct BuildingTable {
     plan: Optional<PlanTable>,
     /// How the ground under this building moves, where not as the table ground_motion says
     ground: Optional<GroundTable>,
+    /// Forces on floors over time
+    force: Optional<Tables<ForceTable>>,
 }
 
 /// Viscous damping, one of its kinds
@@ -269,6 +273,12 @@ impl BuildingTable {
                 span: given.span,
             })
         });
+        let forces = self.force.value().map_or_else(Vec::new, |tables| tables.0);
+        let forces = forces.into_iter().filter_map(|force| {
+            let force = force.located()?;
+            force.value.read(reader, force.span, storeys)
+        });
+        let forces: Vec<_> = forces.collect();
         let displaced = self.initial_displacement.span();
         let building = Building {
             initial_displacement: Located {
@@ -293,6 +303,7 @@ impl BuildingTable {
             foundation,
             ground,
             plan,
+            forces,
         };
         Some((building, !heights_wrong))
     }

@@ -11,7 +11,7 @@ use super::process::Process;
 use super::scale::{FilePath, ScaleValue, scale_of};
 use crate::document::{
     Acceleration, Count, Dimensioned, Entry, Fault, Field, Length, NotNegative, Optional, Positive,
-    Reader, Time, Velocity, Written,
+    Reader, TableOr, Time, Velocity, Written,
 };
 use crate::types::{BuildingGround, GroundMotion, Located, Rotation};
 use crate::units::{Dimension, Quantity};
@@ -38,9 +38,9 @@ pub(super) struct MotionTable {
     /// Angle (degrees, a plain number) by which two components at right angles are turned,
     /// first towards second; the first is used
     rotate: Optional<Degrees>,
-    /// The record across the row, a table with a file of its own, for buildings that turn in
-    /// plan
-    across: Optional<GroundTable>,
+    /// The record across the row, for buildings that turn in plan: its file, or a table with the
+    /// file and what else is to be said of it
+    across: Optional<TableOr<GroundTable, FilePath>>,
     /// acceleration, the only quantity that excites buildings
     quantity: Optional<String>,
     /// Plain columns: lines to skip at the start
@@ -65,7 +65,7 @@ pub(super) struct MotionTable {
 }
 
 /// How the ground under one building moves
-#[derive(Clone, Deserialize, JsonSchema)]
+#[derive(Clone, Default, Deserialize, JsonSchema)]
 #[serde(
     rename = "ground",
     expecting = "a table\nfor example { delay = \"0.13 s\" }, or { distance = \"60 m\", wave_speed = \"460 m/s\" }"
@@ -187,7 +187,7 @@ const TURN: &str =
 /// An angle in degrees, which has no unit: radians are pure numbers too.
 #[derive(Clone, Deserialize, JsonSchema)]
 #[serde(try_from = "Written")]
-struct Degrees(f64);
+pub(super) struct Degrees(pub(super) f64);
 
 impl TryFrom<Written> for Degrees {
     type Error = Fault;
@@ -248,9 +248,22 @@ impl MotionTable {
 }
 
 /// The record across the row.
-fn across(reader: &Reader<'_>, given: Located<GroundTable>) -> Option<Located<Box<GroundMotion>>> {
+fn across(
+    reader: &Reader<'_>,
+    given: Located<TableOr<GroundTable, FilePath>>,
+) -> Option<Located<Box<GroundMotion>>> {
     let span = given.span;
-    match given.value.read(reader, &span)? {
+    let table = match given.value {
+        TableOr::Table(table) => table,
+        TableOr::Value(value) => GroundTable {
+            file: Some(Field::Given(Located {
+                value,
+                span: span.clone(),
+            })),
+            ..GroundTable::default()
+        },
+    };
+    match table.read(reader, &span)? {
         BuildingGround {
             delay: 0.0,
             motion: Some(motion),
@@ -261,7 +274,7 @@ fn across(reader: &Reader<'_>, given: Located<GroundTable>) -> Option<Located<Bo
         _ => reader.refuse(
             span,
             "`across` is a record of its own, without a delay",
-            "write across = { file = \"...\" }; a delay stands in `ground` of a building, for both components",
+            "write across = \"...\", the file, or across = { file = \"...\", scale = ... }; a delay stands in `ground` of a building, for both components",
         ),
     }
 }

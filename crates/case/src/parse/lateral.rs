@@ -94,27 +94,30 @@ pub(super) fn matrix<D: Dimensioned>(
     };
     let unit = match table.unit {
         None => 1.0,
-        Some(unit) => {
-            let text = unit.value.as_written().to_owned();
-            if text.trim().is_empty() {
-                return reader.refuse(
-                    unit.span,
-                    "`unit` is empty",
-                    "write the unit, such as \"kN/mm\", or leave it out for SI",
-                );
-            }
-            let one = Written::of_text(format!("1 {text}")).of(D::DIMENSION);
-            let one = one.map_err(|fault| Fault {
-                message: fault.message.replace(&format!("1 {text}"), &text),
-                ..fault
-            });
-            reader.keep(&unit.span, "unit", one)?
-        }
+        Some(unit) => unit_of::<D>(reader, unit)?,
     };
     Some(MatrixSource::File {
         file: table.file.into(),
         unit,
     })
+}
+
+/// A unit of this dimension in SI units.
+pub(super) fn unit_of<D: Dimensioned>(reader: &Reader<'_>, unit: Located<Written>) -> Option<f64> {
+    let text = unit.value.as_written().to_owned();
+    if text.trim().is_empty() {
+        return reader.refuse(
+            unit.span,
+            "`unit` is empty",
+            "write the unit, such as \"kN/mm\", or leave it out for SI",
+        );
+    }
+    let one = Written::of_text(format!("1 {text}")).of(D::DIMENSION);
+    let one = one.map_err(|fault| Fault {
+        message: fault.message.replace(&format!("1 {text}"), &text),
+        ..fault
+    });
+    reader.keep(&unit.span, "unit", one)
 }
 
 /// Number of rows that are written.

@@ -21,6 +21,7 @@ use separation::SeparationTable;
 mod analysis;
 mod building;
 mod column;
+mod force;
 mod foundation;
 mod gap;
 mod ground_motion;

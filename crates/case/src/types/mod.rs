@@ -109,6 +109,67 @@ pub struct Building {
     pub ground: Option<Located<BuildingGround>>,
     /// Its plan, if its floors turn.
     pub plan: Option<Located<Plan>>,
+    /// Forces on its floors, at their tables.
+    pub forces: Vec<Located<FloorForce>>,
+}
+
+/// A force on a floor over time, positive to the right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FloorForce {
+    /// Storey below the floor, from zero.
+    pub storey: usize,
+    /// Where it comes from.
+    pub source: ForceSource,
+    /// Whether the last force stays.
+    pub stays: bool,
+    /// Factor.
+    pub scale: f64,
+    /// Time (s) by which it comes later.
+    pub delay: f64,
+}
+
+/// What a force on a floor is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ForceSource {
+    /// The same (N) from time zero on.
+    Constant(f64),
+    /// Times (s) and forces (N).
+    Points(Located<Vec<(f64, f64)>>),
+    /// `amplitude sin(2 pi frequency t + phase)` in straight lines.
+    Harmonic {
+        /// Amplitude (N).
+        amplitude: f64,
+        /// Frequency (Hz).
+        frequency: f64,
+        /// Phase (rad).
+        phase: f64,
+        /// How long it lasts (s).
+        duration: f64,
+        /// Length of the straight lines (s).
+        step: f64,
+    },
+    /// A CSV file with times and forces, or forces at equal steps.
+    File {
+        /// The file, relative to the folder of the case file.
+        file: Located<PathBuf>,
+        /// Column of the force, from zero.
+        column: usize,
+        /// Time between lines (s); `None` where the first column holds times.
+        time_step: Option<f64>,
+        /// Unit of the force in SI units.
+        unit: f64,
+    },
+}
+
+impl ForceSource {
+    /// The file that it is read from.
+    #[must_use]
+    pub fn file(&self) -> Option<&Located<PathBuf>> {
+        match self {
+            Self::File { file, .. } => Some(file),
+            _ => None,
+        }
+    }
 }
 
 /// The plan of a building with rigid floors that turn.

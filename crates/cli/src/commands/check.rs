@@ -246,7 +246,7 @@ impl<'a> Understood<'a> {
                 time_step: record.time_step(),
                 peak: record.peak().value,
                 scale: record.scale(),
-                echo: record.echo(),
+                echo: assembly.excitation(),
             },
             warnings: assembly.warnings(),
             analysis: Analysis {

@@ -47,7 +47,7 @@ pub fn report(run: &Run<'_>) -> String {
     if !run.case.title.is_empty() {
         text.push_str(&format!("{}\n", run.case.title));
     }
-    for line in run.assembly.accelerogram.echo() {
+    for line in run.assembly.excitation() {
         text.push_str(&format!("  {line}\n"));
     }
     text.push_str(&warning_lines(run.warnings));
@@ -353,7 +353,7 @@ fn hit_columns(system: &System, levels: &[ContactLevel]) -> String {
 /// What `check` prints.
 pub fn understood(case: &Case, assembly: &Assembly) -> String {
     let mut text = format!("{}: the case is sound\n", case.file.display());
-    for line in assembly.accelerogram.echo() {
+    for line in assembly.excitation() {
         text.push_str(&format!("  {line}\n"));
     }
     text.push_str(&warning_lines(&assembly.warnings()));

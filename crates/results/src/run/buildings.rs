@@ -16,6 +16,18 @@ pub(crate) fn with_base_moment(system: &System) -> impl Iterator<Item = &str> {
     buildings.map(|b| b.name())
 }
 
+/// Ground accelerations of a building of its own, along the row and across it.
+const GROUND: [(&str, &str); 2] = [
+    (
+        "ground_acceleration",
+        "acceleration of the ground under this building",
+    ),
+    (
+        "ground_acceleration_across",
+        "acceleration of the ground under this building across the row",
+    ),
+];
+
 /// Creates the groups of all buildings, with coordinates, modes, and the datasets that grow.
 pub(super) fn begin(
     file: &hdf5::File,
@@ -81,6 +93,23 @@ pub(super) fn begin(
                 of_floors(|h| &h.storey_shear),
             ),
         ] {
+            let data = tables.add(&group, names, content)?;
+            dimension_scales::attach(&data, time, 0)?;
+            dimension_scales::attach(&data, &storey, 1)?;
+        }
+        for (motion, (name, long_name)) in system.motions_under(index).into_iter().zip(GROUND) {
+            let Some(motion) = motion.cloned() else {
+                continue;
+            };
+            let names = (name, "m s-2", long_name);
+            let data = tables.add(&group, names, Content::Ground(motion))?;
+            dimension_scales::attach(&data, time, 0)?;
+        }
+        let forces = system.forces().iter().filter(|f| f.building == index);
+        let forces: Vec<_> = forces.cloned().collect();
+        if !forces.is_empty() {
+            let names = ("applied_force", "N", "sum of the forces on a floor");
+            let content = Content::Forces(forces, building.storeys());
             let data = tables.add(&group, names, content)?;
             dimension_scales::attach(&data, time, 0)?;
             dimension_scales::attach(&data, &storey, 1)?;

@@ -214,7 +214,9 @@ fn begin_in(file: &hdf5::File, head: &RunHead<'_>) -> Result<Tables> {
     let names = ("acceleration", "m s-2", "ground acceleration");
     let acceleration = tables.add(&ground, names, acceleration)?;
     dimension_scales::attach(&acceleration, &time, 0)?;
-    text(&ground, "record", &head.accelerogram.echo().join("\n"))?;
+    let mut excitation = head.accelerogram.echo();
+    excitation.extend(system.further_excitation());
+    text(&ground, "record", &excitation.join("\n"))?;
     buildings::begin(file, system, &mut tables, &time)?;
     gaps::begin(file, system, &mut tables, &time)?;
     elements::begin_links(file, system, &mut tables, &time)?;
@@ -224,7 +226,7 @@ fn begin_in(file: &hdf5::File, head: &RunHead<'_>) -> Result<Tables> {
     let parts: [(&str, &str, Pick); 7] = [
         (
             "input",
-            "work of the ground motion, relative formulation",
+            "work of the ground motion, relative formulation, and of forces",
             |e| e.input,
         ),
         ("kinetic", "kinetic energy relative to the ground", |e| {

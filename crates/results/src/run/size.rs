@@ -13,7 +13,15 @@ pub(super) fn numbers(system: &System) -> usize {
     let responses: usize = (system.buildings().iter())
         .map(|b| b.responses().len())
         .sum();
-    floors + bases + responses + 2 * system.levels().len() + 3 * system.elements().len() + 9
+    let buildings = 0..system.buildings().len();
+    let grounds = buildings.flat_map(|b| system.motions_under(b)).flatten();
+    let pushed = |b: usize| system.forces().iter().any(|f| f.building == b);
+    let buildings = system.buildings().iter().enumerate();
+    let forces = buildings
+        .filter(|(b, _)| pushed(*b))
+        .map(|(_, b)| b.storeys());
+    let loads = grounds.count() + forces.sum::<usize>();
+    floors + bases + responses + loads + 2 * system.levels().len() + 3 * system.elements().len() + 9
 }
 
 /// Responses on the output grid that no disk would take.

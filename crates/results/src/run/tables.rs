@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use hdf5::{Dataset, Group};
 use ndarray::{ArrayView1, ArrayView2};
-use pounding_time_history::{Energy, History};
+use pounding_time_history::{Energy, FloorForce, GroundMotion, History};
 
 use super::Result;
 use super::datasets::CHUNK_ROWS;
@@ -31,6 +31,10 @@ pub(super) enum Content {
     OverHeights(Range<usize>, Vec<f64>),
     /// A part of the energy ledger.
     Energy(fn(&Energy) -> f64),
+    /// Acceleration of the ground by a motion.
+    Ground(GroundMotion),
+    /// Forces on the floors of a building of so many storeys.
+    Forces(Vec<FloorForce>, usize),
 }
 
 /// A dataset and what it is filled with.
@@ -126,7 +130,8 @@ impl Content {
     /// Columns of the dataset; `None` where it has one dimension.
     fn columns(&self) -> Option<usize> {
         match self {
-            Self::Number(_) | Self::Column(..) | Self::Energy(_) => None,
+            Self::Number(_) | Self::Column(..) | Self::Energy(_) | Self::Ground(_) => None,
+            Self::Forces(_, storeys) => Some(*storeys),
             Self::Columns(_, range) | Self::DriftRatios(range, _) | Self::OverHeights(range, _) => {
                 Some(range.len())
             }
@@ -139,6 +144,16 @@ impl Content {
         match self {
             Self::Number(list) => list(block).to_vec(),
             Self::Energy(part) => block.energy.iter().map(part).collect(),
+            Self::Ground(motion) => block.time.iter().map(|t| motion.at(*t)).collect(),
+            Self::Forces(forces, storeys) => {
+                let mut values = vec![0.0; storeys * block.len()];
+                for (row, time) in values.chunks_exact_mut(*storeys).zip(&block.time) {
+                    for force in forces {
+                        row[force.storey] += force.history.at(*time);
+                    }
+                }
+                values
+            }
             Self::Column(list, index) => block.column(list(block), *index),
             Self::Columns(list, range) => block.columns(list(block), range.clone()),
             Self::Chosen(list, columns) => {

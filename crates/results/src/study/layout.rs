@@ -154,34 +154,62 @@ const BASE_MOMENT: Quantity = quantity(
     "maximum overturning moment at the base",
 );
 
-/// A response of buildings with a name, such as the rotation of a foundation, that studies keep.
+/// A response of buildings with a name, such as the rotation of a foundation or of floors, that
+/// studies keep.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Response {
-    /// Its name among the responses of a building.
+    /// What it is called.
     pub name: &'static str,
-    /// Its peaks in the results, one a building in [`Layout::buildings`]; NaN where a building has
-    /// no such response.
+    /// Names among the responses of a building, of which the maximum counts; of a quantity of
+    /// storeys they end there with the number of the storey, as in `rotation_2`.
+    parts: &'static [&'static str],
+    /// Its peaks in the results, one a storey or a building in [`Layout::buildings`]; NaN where a
+    /// building has no such response.
     pub peak: Quantity,
 }
 
 impl Response {
-    /// Its peak in the outcome of a building.
+    /// Whether a response of this name belongs to it.
+    #[must_use]
+    pub fn is(&self, name: &str) -> bool {
+        self.parts.iter().any(|part| match self.peak.axis {
+            Axis::Storey => {
+                let storey = name.strip_prefix(part).and_then(|n| n.strip_prefix('_'));
+                storey.is_some_and(|n| n.parse::<usize>().is_ok())
+            }
+            _ => name == *part,
+        })
+    }
+
+    /// Its peak in the outcome of a building, the maximum over the storeys where each has one.
     #[must_use]
     pub fn of(&self, building: &BuildingOutcome) -> Option<f64> {
-        let mut responses = building.responses.iter();
-        let found = responses.find(|r| r.name == self.name);
-        found.map(|r| r.peak.value)
+        let responses = building.responses.iter();
+        let own = responses.filter(|r| self.is(&r.name));
+        own.map(|r| r.peak.value).reduce(f64::max)
+    }
+
+    /// The same of one storey, from 1.
+    fn of_storey(&self, building: &BuildingOutcome, storey: usize) -> Option<f64> {
+        let named = |name: &str| {
+            let mut parts = self.parts.iter();
+            parts.any(|part| name == format!("{part}_{storey}"))
+        };
+        let responses = building.responses.iter();
+        let own = responses.filter(|r| named(&r.name));
+        own.map(|r| r.peak.value).reduce(f64::max)
     }
 }
 
-const fn response(name: &'static str, peak: Quantity) -> Response {
-    Response { name, peak }
+const fn response(name: &'static str, parts: &'static [&'static str], peak: Quantity) -> Response {
+    Response { name, parts, peak }
 }
 
 /// The responses that studies keep, where a building has them.
-pub static RESPONSES: [Response; 5] = [
+pub static RESPONSES: [Response; 9] = [
     response(
         "foundation_sway",
+        &["foundation_sway"],
         quantity(
             Axis::Building,
             "peak_foundation_sway",
@@ -191,6 +219,7 @@ pub static RESPONSES: [Response; 5] = [
     ),
     response(
         "foundation_rotation",
+        &["foundation_rotation"],
         quantity(
             Axis::Building,
             "peak_foundation_rotation",
@@ -200,6 +229,7 @@ pub static RESPONSES: [Response; 5] = [
     ),
     response(
         "foundation_shear",
+        &["foundation_shear"],
         quantity(
             Axis::Building,
             "peak_foundation_shear",
@@ -209,6 +239,7 @@ pub static RESPONSES: [Response; 5] = [
     ),
     response(
         "foundation_moment",
+        &["foundation_moment"],
         quantity(
             Axis::Building,
             "peak_foundation_moment",
@@ -218,11 +249,52 @@ pub static RESPONSES: [Response; 5] = [
     ),
     response(
         OVERTURNING_RATIO,
+        &[OVERTURNING_RATIO],
         quantity(
             Axis::Building,
             "peak_overturning_ratio",
             "1",
             "maximum moment on the foundation over half of weight times length",
+        ),
+    ),
+    response(
+        "rotation",
+        &["rotation"],
+        quantity(
+            Axis::Storey,
+            "peak_rotation",
+            "rad",
+            "maximum rotation of a floor that turns in plan",
+        ),
+    ),
+    response(
+        "edge_displacement",
+        &["displacement_of_lower_edge", "displacement_of_upper_edge"],
+        quantity(
+            Axis::Storey,
+            "peak_edge_displacement",
+            "m",
+            "maximum displacement along the row of both ends of a floor that turns in plan",
+        ),
+    ),
+    response(
+        "displacement_across",
+        &["displacement_across"],
+        quantity(
+            Axis::Storey,
+            "peak_displacement_across",
+            "m",
+            "maximum displacement across the row of a floor that turns in plan",
+        ),
+    ),
+    response(
+        "acceleration_across",
+        &["acceleration_across"],
+        quantity(
+            Axis::Storey,
+            "peak_acceleration_across",
+            "m s-2",
+            "maximum absolute acceleration across the row of a floor that turns in plan",
         ),
     ),
 ];
@@ -340,7 +412,7 @@ impl Layout {
             buildings.collect(),
             |response| {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
-                rows.any(|row| row.name == response.name)
+                rows.any(|row| response.is(&row.name))
             },
             (columns, isolated_demand),
         )
@@ -432,6 +504,14 @@ impl Layout {
             .iter()
             .filter(|r| self.quantities.contains(&r.peak))
         {
+            if response.peak.axis == Axis::Storey {
+                for building in &outcome.buildings {
+                    let storeys = 1..=building.storeys.len();
+                    let of = |n| response.of_storey(building, n).unwrap_or(f64::NAN);
+                    out.extend(storeys.map(of));
+                }
+                continue;
+            }
             let buildings = outcome.buildings.iter().filter(|b| b.base_moment.is_some());
             out.extend(buildings.map(|b| response.of(b).unwrap_or(f64::NAN)));
         }

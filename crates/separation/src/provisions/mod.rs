@@ -162,6 +162,7 @@ mod tests {
                 design_ground_acceleration: Some(2.5),
                 seismic_coefficient: Some(0.12),
                 spectral_acceleration_1s: Some(8.0),
+                relative_ground_displacement: 0.0,
             },
         }
     }
@@ -243,6 +244,34 @@ mod tests {
                         descriptor.name
                     );
                 }
+            }
+        }
+    }
+
+    /// Ground that moves differently widens every gap by its displacement, once, also where a
+    /// rule is summed over both sides; an impossible one is refused.
+    #[test]
+    fn ground_is_added_once() {
+        for descriptor in ALL {
+            let still = complete(0.1, 0.05);
+            let mut moving = complete(0.1, 0.05);
+            moving.site.relative_ground_displacement = 0.0375;
+            let [without, with] = [&still, &moving].map(|s| descriptor.between(s).unwrap());
+            let added = with.width - without.width;
+            assert!((added - 0.0375).abs() < 1.0e-15, "{}", descriptor.name);
+            let explained = with.explanation.contains("u_g = 0.037500 m");
+            assert!(explained, "{}", with.explanation);
+            assert!(!without.explanation.contains("u_g"), "{}", descriptor.name);
+            if descriptor.place() == Place::Boundary {
+                let own = |s: &Situation| descriptor.boundary(&s.left, 16.0, &s.site).unwrap();
+                let added = own(&moving).width - own(&still).width;
+                assert!((added - 0.0375).abs() < 1.0e-15, "{}", descriptor.name);
+            }
+            for bad in [-0.1, f64::NAN] {
+                moving.site.relative_ground_displacement = bad;
+                let refused = descriptor.between(&moving);
+                let named = matches!(refused, Err(SeparationError::OutOfRange { .. }));
+                assert!(named, "{}: {refused:?}", descriptor.name);
             }
         }
     }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use pounding_case::Case;
 use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
 use pounding_hysteresis::help_among_gaps;
-use pounding_time_history::{BuildingOutcome, StoreyPeaks, run};
+use pounding_time_history::{BuildingOutcome, StoreyPeaks, System, run};
 
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, amplification,
@@ -171,6 +171,9 @@ pub fn compare(
     }
     let isolated = own.iter().map(|r| isolated(&quantities, &r.isolated));
     let gaps = system.gaps().iter();
+    let warnings = system.unequal_floor_warnings();
+    let warnings = warnings.iter().map(ToString::to_string);
+    let warnings = warnings.chain(undamped(system, &references)).collect();
     let mut comparison = Comparison {
         options: options.clone(),
         references,
@@ -185,14 +188,27 @@ pub fn compare(
         conclusions: Vec::new(),
         storey_differences: Vec::new(),
         level_differences: Vec::new(),
-        warnings: system
-            .unequal_floor_warnings()
-            .iter()
-            .map(ToString::to_string)
-            .collect(),
+        warnings,
     };
     comparison.sum_up();
     Ok(comparison)
+}
+
+/// Gaps whose columns without mass take elastic laws alone, at a restitution of one, where models
+/// with damping have none.
+fn undamped(system: &System, references: &[ReferenceCollision]) -> Vec<String> {
+    let gaps = system.gaps().iter().zip(references);
+    let without = gaps.filter(|(gap, reference)| {
+        let mut levels = system.levels_of(gap).iter();
+        reference.restitution >= 1.0 && levels.any(|l| l.model.spring_behind().is_some())
+    });
+    let told = without.map(|(gap, _)| {
+        format!(
+            "gap {}: the columns that are hit have no mass, so that contacts are elastic, and models with damping are compared at restitution 1 without it; `contact_mass` in `column` lets their damping act",
+            gap.name
+        )
+    });
+    told.collect()
 }
 
 impl Comparison {

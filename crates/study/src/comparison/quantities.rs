@@ -3,7 +3,7 @@
 use pounding_time_history::{BuildingOutcome, COLUMN_SHEARS, Outcome, Peak, StoreyPeaks, System};
 
 use crate::gap_check::{Amplification, closes};
-use crate::runs::{RESPONSES, Response};
+use crate::runs::{Axis, RESPONSES, Response};
 
 /// Kind of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +83,7 @@ impl QuantityKind {
             Self::BaseMoment => "N m",
             Self::Response(response) => match response.peak.unit {
                 "1" => "-",
+                "m s-2" => "m/s2",
                 unit => unit,
             },
             Self::Impulse => "N s",
@@ -101,6 +102,9 @@ impl QuantityKind {
             | Self::StoreyShear
             | Self::AccelerationAbsolute => "maximum over storeys",
             Self::BaseMoment => "at the base",
+            Self::Response(response) if response.peak.axis == Axis::Storey => {
+                "maximum over storeys"
+            }
             Self::Response(_) => "of the building",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
             Self::PeakForce | Self::ColumnShear => "maximum over levels",
@@ -184,7 +188,7 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
         if b.stiffness().is_empty() {
             all.push(quantity(QuantityKind::BaseMoment, b.name(), index));
         }
-        let has = |r: &&Response| b.responses().iter().any(|row| row.name == r.name);
+        let has = |r: &&Response| b.responses().iter().any(|row| r.is(&row.name));
         let responses = RESPONSES.iter().filter(has);
         all.extend(responses.map(|r| quantity(QuantityKind::Response(r), b.name(), index)));
     }

@@ -103,7 +103,7 @@ pub struct LevelCombination {
     pub left: f64,
     /// Peak displacement of the isolated right building (m).
     pub right: f64,
-    /// Width (m).
+    /// Width (m): that of the rule, and the relative displacement of the ground.
     pub width: f64,
 }
 
@@ -172,7 +172,8 @@ impl<'a> Inputs<'a> {
         })
     }
 
-    fn site(&self, place: &GapPlace<'_>) -> Site {
+    /// With the relative displacement of the ground (m) on both sides of a level.
+    fn site(&self, place: &GapPlace<'_>, relative_ground_displacement: f64) -> Site {
         let s = self.separation;
         let intensity = s.fortification_intensity;
         Site {
@@ -184,6 +185,7 @@ impl<'a> Inputs<'a> {
             design_ground_acceleration: s.design_ground_acceleration,
             seismic_coefficient: s.seismic_coefficient,
             spectral_acceleration_1s: s.spectral_acceleration_1s,
+            relative_ground_displacement,
         }
     }
 
@@ -301,7 +303,6 @@ pub(crate) fn by_code(
     inputs: &Inputs<'_>,
     records: &[RecordDemand],
 ) -> Vec<CodeGap> {
-    let site = inputs.site(place);
     let buildings = place.system.buildings();
     let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
         at.map(|at| inputs.structure(&buildings[at.0], at, &record.isolated))
@@ -311,6 +312,7 @@ pub(crate) fn by_code(
                  level: usize,
                  sides: &[_; 2]| {
         let elevation = place.elevation(level);
+        let site = inputs.site(place, record.ground_moves(place.gap, level));
         match (structure(sides[0], record), structure(sides[1], record)) {
             (Some(left), Some(right)) => descriptor.between(&Situation {
                 left,
@@ -365,11 +367,15 @@ pub(crate) fn combinations(
         let peak =
             |r: &RecordDemand, (b, s): (usize, usize)| r.isolated[b].storeys[s].displacement.value;
         let at_levels = |r: &RecordDemand| {
-            let pairs = sides.iter().map(|(a, b)| (peak(r, *a), peak(r, *b)));
-            let level = pairs.map(|(left, right)| LevelCombination {
-                left,
-                right,
-                width: rule.gap(left, right, correlation.unwrap_or(0.0)),
+            let both = sides.iter().enumerate();
+            let level = both.map(|(level, (a, b))| {
+                let (left, right) = (peak(r, *a), peak(r, *b));
+                let by_rule = rule.gap(left, right, correlation.unwrap_or(0.0));
+                LevelCombination {
+                    left,
+                    right,
+                    width: by_rule + r.ground_moves(place.gap, level),
+                }
             });
             level.collect()
         };

@@ -53,6 +53,10 @@ pub struct RecordDemand {
     pub peak_ground_acceleration: f64,
     /// Width that the record would just not close, for each gap and level (m).
     pub demand: Vec<Vec<Peak>>,
+    /// Displacement of the ground on the left relative to that on the right, for each gap and
+    /// level (m): a part of the demand, and what is added to widths by rules. `None` where one
+    /// motion is under both sides.
+    pub relative_ground_displacement: Vec<Vec<Option<Peak>>>,
     /// Peaks of the buildings, with their links, if no gap could close.
     pub isolated: Vec<BuildingOutcome>,
     /// Peaks of buildings and gaps at the provided widths, or why there are none.
@@ -72,6 +76,14 @@ impl RecordDemand {
     #[must_use]
     pub fn demand_exceeds(&self, gap: usize, level: usize, width: f64) -> bool {
         self.demand[gap][level].value > width
+    }
+
+    /// Maximum displacement of the ground on one side of a level relative to that on the
+    /// other (m).
+    #[must_use]
+    pub fn ground_moves(&self, gap: usize, level: usize) -> f64 {
+        let peak = self.relative_ground_displacement[gap][level];
+        peak.map_or(0.0, |peak| peak.value)
     }
 
     /// Peak contact force (N) at a level in the run at the provided widths; `None` if that run
@@ -156,11 +168,19 @@ fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
     // the last bit, and amplifications are exactly one.
     let (isolated, peaks) = isolated_demand(system, options).map_err(failed)?;
     let of_gap = |gap: &Gap| peaks[gap.first_level..gap.first_level + gap.levels].to_vec();
+    let duration = options.duration.unwrap_or(system.record_duration());
+    let ground = |gap: &Gap| {
+        let levels = gap.first_level..gap.first_level + gap.levels;
+        levels
+            .map(|level| system.relative_ground_displacement(level, duration))
+            .collect()
+    };
     let pounding = run(system, options, &mut [], &mut |_| {});
     Ok(RecordDemand {
         name: record.name.clone(),
         peak_ground_acceleration: record.assembly.accelerogram.peak().value.abs(),
         demand: system.gaps().iter().map(of_gap).collect(),
+        relative_ground_displacement: system.gaps().iter().map(ground).collect(),
         isolated: isolated.buildings,
         pounding: pounding
             .map(|o| (o.buildings, o.gaps))

@@ -210,7 +210,6 @@ pub fn gap_check(
             .unequal_floor_warnings()
             .iter()
             .map(ToString::to_string)
-            .chain(first.assembly.left_out_by_rules())
             .collect(),
     })
 }

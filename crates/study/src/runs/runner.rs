@@ -47,8 +47,8 @@ pub(crate) struct Runner<'s> {
     base: CaseTree<'s>,
     /// What the case says.
     lines: Lines,
-    /// Hashes of matrices and target spectra, which the case says by the names of their files
-    /// alone.
+    /// Hashes of matrices, target spectra, further records and forces, which the case says by the
+    /// names of their files alone.
     named_files: Vec<String>,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
@@ -170,6 +170,15 @@ impl<'s> Runner<'s> {
                 time_step: record.time_step(),
             }))
         };
+        let base = match factor {
+            // All that moves the ground is scaled as its first motion is.
+            Some(_) if base.has_further_records() => {
+                let by_case = |case: &Case| scale_record(case, Accelerogram::clone(&motion.record));
+                let by_case = variant.make(&case, by_case).map_err(said)?.scale();
+                Arc::new(base.with_further_records_scaled(record.scale() / by_case))
+            }
+            _ => base,
+        };
         let regapped = |case: &Case| regap(case, &base);
         let (system, options) = variant.make(&case, regapped).map_err(said)?;
         let shape = (system.floors(), system.levels().len());
@@ -262,12 +271,17 @@ impl<'s> Runner<'s> {
     }
 }
 
-/// Hashes of the files of matrices and target spectra that a study names, each file once.
+/// Hashes of the files that a study names beside its records, each file once.
 fn named_files(study: &Study) -> Vec<String> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (what, path) in study.files() {
-        if matches!(what, "matrix" | "target spectrum" | "further record") && !paths.contains(&path)
-        {
+        let named = [
+            "matrix",
+            "target spectrum",
+            "further record",
+            "force history",
+        ];
+        if named.contains(&what) && !paths.contains(&path) {
             paths.push(path);
         }
     }

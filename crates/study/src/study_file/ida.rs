@@ -47,6 +47,14 @@ pub enum DemandKind {
     FoundationMoment,
     /// Maximum moment on a foundation over half of weight times length (-).
     OverturningRatio,
+    /// Maximum rotation of a floor that turns in plan (rad).
+    Rotation,
+    /// Maximum displacement along the row of both ends of a floor that turns in plan (m).
+    EdgeDisplacement,
+    /// Maximum displacement across the row of a floor that turns in plan (m).
+    DisplacementAcross,
+    /// Maximum absolute acceleration across the row of a floor that turns in plan (m/s2).
+    AccelerationAcross,
     /// Maximum contact force (N).
     ContactForce,
     /// Maximum shear of columns that are hit (N).
@@ -67,8 +75,8 @@ impl DemandKind {
         let (name, has, of): (_, Has, _) = match self {
             Self::BaseMoment => (
                 "the base moment",
-                |b| b.lateral.is_some() || b.foundation.is_some(),
-                "on a foundation or with a stiffness matrix",
+                |b| b.lateral.is_some() || b.foundation.is_some() || b.plan.is_some(),
+                "on a foundation, with a plan or with a stiffness matrix",
             ),
             Self::FoundationSway | Self::FoundationShear => (
                 "sway",
@@ -93,19 +101,35 @@ impl DemandKind {
         Some(OfBuilding { name, has, of })
     }
 
+    /// Whether only floors that turn in plan have it.
+    fn of_floors_that_turn(self) -> bool {
+        matches!(
+            self,
+            Self::Rotation
+                | Self::EdgeDisplacement
+                | Self::DisplacementAcross
+                | Self::AccelerationAcross
+        )
+    }
+
     /// Dimension of its values.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::Displacement | Self::IsolatedDemand | Self::FoundationSway => Dimension::LENGTH,
+            Self::Displacement
+            | Self::IsolatedDemand
+            | Self::FoundationSway
+            | Self::EdgeDisplacement
+            | Self::DisplacementAcross => Dimension::LENGTH,
             Self::DriftRatio
             | Self::Impacts
             | Self::FoundationRotation
+            | Self::Rotation
             | Self::OverturningRatio => Dimension::NUMBER,
             Self::StoreyShear | Self::ContactForce | Self::FoundationShear | Self::ColumnShear => {
                 Dimension::FORCE
             }
-            Self::AccelerationAbsolute => Dimension::ACCELERATION,
+            Self::AccelerationAbsolute | Self::AccelerationAcross => Dimension::ACCELERATION,
             // Of a moment, as of an energy.
             Self::BaseMoment | Self::FoundationMoment => Dimension::ENERGY,
             Self::Impulse => Dimension {
@@ -391,7 +415,7 @@ impl LimitTable {
         }
         let demand = demand?;
         if let Some(OfBuilding { name, has, of }) = demand.of_building() {
-            if let Some(span) = places.1.or(places.2) {
+            if let Some(span) = places.1.clone().or(places.2.clone()) {
                 let message = format!("{name} is of a building, not of a storey or a level");
                 return reader.refuse(span, message, "leave it out");
             }
@@ -401,9 +425,26 @@ impl LimitTable {
                 None => buildings.iter(),
             };
             if !asked.any(has) {
-                let span = places.0.unwrap_or(exceeds_at?);
+                let span = places.0.clone().unwrap_or(exceeds_at?);
                 let message = format!("{name} is known of buildings {of} only");
                 let help = format!("ask for `storey_shear`, or for a building {of}");
+                return reader.refuse(span, message, help);
+            }
+        }
+        if demand.of_floors_that_turn() {
+            if let Some(span) = places.2 {
+                let message = "it is of storeys, not of a level";
+                return reader.refuse(span, message, "name `building` and `storey`");
+            }
+            let buildings = &context.base.as_ref()?.case.buildings;
+            let mut asked = match building {
+                Some(index) => buildings[index..=index].iter(),
+                None => buildings.iter(),
+            };
+            if !asked.any(|b| b.plan.is_some()) {
+                let span = places.0.unwrap_or(exceeds_at?);
+                let message = "it is known of buildings with a plan only, whose floors turn";
+                let help = "ask for `displacement` or `acceleration_absolute`, or for a building with a `plan`";
                 return reader.refuse(span, message, help);
             }
         }

@@ -69,7 +69,7 @@ impl MoreauJean {
 
     /// Ground acceleration on a degree of freedom as the theta method weighs it (m/s2).
     fn ground(&self, system: &System, i: usize, (segment, tau): (&Segment, f64)) -> f64 {
-        let on = |tau: f64| system.ground_on(i, segment.ground(tau));
+        let on = |tau: f64| system.load_on(i, segment.ground(tau));
         (1.0 - self.theta) * on(tau) + self.theta * on(tau + self.step)
     }
 

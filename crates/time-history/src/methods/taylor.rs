@@ -188,8 +188,8 @@ impl Taylor {
             let scale = h / k as f64;
             for i in 0..n {
                 let ground = match k {
-                    1 => system.ground_on(i, start),
-                    2 => h * system.ground_slope_on(i, segment),
+                    1 => system.load_on(i, start),
+                    2 => h * system.load_slope_on(i, segment),
                     _ => 0.0,
                 };
                 let u = scale * self.term[n + i];
@@ -235,8 +235,8 @@ impl Taylor {
         let instants = [segment.ground(tau), segment.ground(tau + h)];
         let mass = &system.mass()[..system.with_mass()];
         for (i, m) in mass.iter().enumerate() {
-            let [a, b] = instants.map(|at| system.ground_on(i, at));
-            let slope = system.ground_slope_on(i, segment);
+            let [a, b] = instants.map(|at| system.load_on(i, at));
+            let slope = system.load_slope_on(i, segment);
             let moved = new[i] * b - state[i] * a - slope * self.integral[i];
             new[layout.input()] -= m * moved;
         }
@@ -246,8 +246,8 @@ impl Taylor {
             let [first, second, _] = [&self.start, &self.end][end];
             let mut input = [0.0; 3];
             for (i, m) in mass.iter().enumerate() {
-                let ground = system.ground_on(i, instants[end]);
-                let change = h * system.ground_slope_on(i, segment);
+                let ground = system.load_on(i, instants[end]);
+                let change = h * system.load_slope_on(i, segment);
                 input[0] -= m * (ground * v[i]);
                 input[1] -= m * (ground * first[i] + change * v[i]);
                 input[2] -= m * (ground * second[i] + 2.0 * change * first[i]);

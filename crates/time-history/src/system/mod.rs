@@ -24,7 +24,7 @@ use links::storeys;
 pub use links::{Link, LinkedMotion, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
-pub use motions::{GroundMotion, Support};
+pub use motions::{FloorForce, ForceHistory, GroundMotion, Support};
 use place::Row;
 pub use place::{BuildingPoint, Floor};
 pub(crate) use sections::{SectionForce, SectionPlace};
@@ -104,7 +104,7 @@ pub struct System {
     /// Whether a level is no difference of two floors.
     weighted_levels: bool,
     ground: GroundAcceleration,
-    /// Where there is more than that under all coordinates.
+    /// Where there is more than that under all coordinates, or forces act on floors.
     motions: Option<Arc<Motions>>,
     /// First of the coordinates of each building that are no floors, and the total at the end.
     further_offsets: Vec<usize>,
@@ -204,6 +204,7 @@ impl System {
         let motion = GroundMotion {
             acceleration: self.ground.clone(),
             delay: 0.0,
+            origin: Vec::new(),
         };
         let support = Support {
             along: 0,
@@ -274,7 +275,8 @@ impl System {
     ///
     /// # Errors
     /// A floor that does not exist, a level between two walls, a width that is negative or
-    /// not finite, or floors that overlap at time zero.
+    /// not finite, floors that overlap at time zero, or velocity jumps at several points of a
+    /// floor that turns.
     pub fn add_gap(
         &mut self,
         name: &str,
@@ -307,6 +309,19 @@ impl System {
             }
             self.weighted_levels |= !level.terms.is_empty();
             self.levels.push(level);
+        }
+        let own = &self.levels[first_level..];
+        let jumps = |l: &&ContactLevel| l.model.rigid_restitution().is_some();
+        let turned = |l: &&ContactLevel| l.place.across.is_some();
+        let mut rigid = own.iter().filter(jumps).filter(turned);
+        if let Some(level) = rigid.find(|l| {
+            let same = |other: &&ContactLevel| other.place.storeys == l.place.storeys;
+            own.iter().filter(same).count() > 1
+        }) {
+            return Err(TimeHistoryError::JumpsAtPoints {
+                gap: name.to_owned(),
+                model: level.model.descriptor().name,
+            });
         }
         self.gaps.push(Gap {
             name: name.to_owned(),
@@ -397,7 +412,7 @@ impl System {
         self.mass.truncate(kept);
         self.moving_ground.clear();
         if let Some(motions) = &mut self.motions {
-            Arc::make_mut(motions).loads.truncate(kept);
+            Arc::make_mut(motions).keep(kept);
         }
     }
 

@@ -1,4 +1,5 @@
-//! Grounds motions under the buildings, and which degree of freedom follows which.
+//! Ground motions under the buildings and forces on floors, and which degree of freedom follows
+//! which.
 
 use pounding_shear_building::{Excitation, ShearBuilding};
 use std::sync::Arc;
@@ -6,6 +7,8 @@ use std::sync::Arc;
 use super::{GroundAcceleration, System};
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
+use crate::estimate::short;
+use crate::outcome::Peak;
 
 /// A ground motion that begins some time after the run.
 #[derive(Debug, Clone)]
@@ -14,6 +17,8 @@ pub struct GroundMotion {
     pub acceleration: GroundAcceleration,
     /// Time (s) of its first sample.
     pub delay: f64,
+    /// Where it comes from, line by line, for the user; may be empty.
+    pub origin: Vec<String>,
 }
 
 /// Which ground motions move the ground under a building, by their number.
@@ -35,24 +40,164 @@ pub(crate) struct Grounds {
     pub tau: f64,
 }
 
-/// An interval in which all motions are linear.
+/// A force on a floor over time, positive to the right, linear between points: whatever is
+/// made of straight lines is exact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceHistory {
+    points: Arc<[(f64, f64)]>,
+    stays: bool,
+}
+
+/// A force on a floor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FloorForce {
+    /// Building, from zero.
+    pub building: usize,
+    /// Storey below the floor, from zero.
+    pub storey: usize,
+    /// The force.
+    pub history: ForceHistory,
+    /// Where it comes from, for the user; may be empty.
+    pub origin: String,
+}
+
+impl ForceHistory {
+    /// Times (s), none before the one before it, and forces (N). Two points at one time are a
+    /// jump. Before the first point there is no force; after the last one there is none, or it
+    /// stays.
+    ///
+    /// # Errors
+    /// No points, times that go back, are negative or beyond a day, three points at one time,
+    /// numbers that are not finite.
+    pub fn new(points: &[(f64, f64)], stays: bool) -> Result<Self, TimeHistoryError> {
+        let this = Self {
+            points: points.into(),
+            stays,
+        };
+        match this.fault() {
+            Some(reason) => Err(TimeHistoryError::Force { reason }),
+            None => Ok(this),
+        }
+    }
+
+    /// What is wrong with it.
+    fn fault(&self) -> Option<String> {
+        if self.points.is_empty() {
+            return Some("there are no points".to_owned());
+        }
+        let finite = |p: &&(f64, f64)| !(p.0.is_finite() && p.1.is_finite());
+        if let Some((t, force)) = self.points.iter().find(finite) {
+            return Some(format!("a point of {t} s and {force} N"));
+        }
+        let in_time = |t: f64| (0.0..=LONGEST_DELAY).contains(&t);
+        if let Some((t, _)) = self.points.iter().find(|p| !in_time(p.0)) {
+            return Some(format!(
+                "a point at {t} s; times are from zero to {LONGEST_DELAY} s"
+            ));
+        }
+        let mut pairs = self.points.windows(2);
+        if let Some(pair) = pairs.find(|p| p[1].0 < p[0].0) {
+            let (later, earlier) = (pair[1].0, pair[0].0);
+            return Some(format!("the time {later} s stands after {earlier} s"));
+        }
+        let mut triples = self.points.windows(3);
+        let three = triples.find(|p| p[0].0 == p[2].0);
+        three.map(|p| format!("three points at {} s", p[0].0))
+    }
+
+    /// Time (s) until which there is no force; `None` if there never is one.
+    fn begin(&self) -> Option<f64> {
+        let first = self.points.iter().position(|p| p.1 != 0.0)?;
+        Some(self.points[first.saturating_sub(1)].0)
+    }
+
+    /// Time of the last point (s).
+    fn end(&self) -> f64 {
+        self.points.last().map_or(0.0, |p| p.0)
+    }
+
+    /// Force (N) at an instant and slope (N/s) around another, between whose points and the
+    /// first none lies.
+    fn line(&self, at: f64, around: f64) -> [f64; 2] {
+        let next = self.points.partition_point(|p| p.0 <= around);
+        match (
+            next.checked_sub(1).map(|k| self.points[k]),
+            self.points.get(next),
+        ) {
+            (Some((t0, f0)), Some((t1, f1))) => {
+                let slope = (f1 - f0) / (t1 - t0);
+                [f0 + slope * (at - t0), slope]
+            }
+            (Some((_, last)), None) if self.stays => [last, 0.0],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Times (s) and forces (N).
+    #[must_use]
+    pub fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
+    /// Whether the last force stays.
+    #[must_use]
+    pub fn stays(&self) -> bool {
+        self.stays
+    }
+
+    /// Force (N) at an instant (s), after a jump that happens there.
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        self.line(time, time)[0]
+    }
+
+    /// Largest absolute force (N) and when it is there first.
+    #[must_use]
+    pub fn peak(&self) -> Peak {
+        let mut peak = Peak::default();
+        for (time, force) in self.points.iter() {
+            peak.raise(force.abs(), *time);
+        }
+        peak
+    }
+}
+
+/// An interval in which all motions and forces are linear.
 #[derive(Debug, Clone)]
 pub(crate) struct Interval {
     pub start: f64,
     pub length: f64,
-    /// Acceleration at the start (m/s2) and slope (m/s3) of every motion.
+    /// Acceleration at the start (m/s2) and slope (m/s3) of every motion, then of every degree
+    /// of freedom with forces.
     pub loads: Vec<[f64; 2]>,
 }
 
-/// Several motions, or coordinates that do not all follow the one there is.
+/// Several motions, forces, or coordinates that do not all follow the one motion there is.
 #[derive(Debug, Clone)]
 pub(crate) struct Motions {
     pub motions: Vec<GroundMotion>,
     pub supports: Vec<Support>,
+    pub forces: Vec<FloorForce>,
     pub intervals: Vec<Interval>,
+    /// Loads after the last of the intervals.
+    pub after: Vec<f64>,
     /// Motion and weight of every degree of freedom: its acceleration relative to the ground
     /// is less by the product. A displacement of the ground has the weight -1.
+    pub grounds: Vec<(usize, f64)>,
+    /// The same with what forces on it add: a load beyond the motions where there are any.
     pub loads: Vec<(usize, f64)>,
+    /// What those loads are made of.
+    pushed: Vec<Pushed>,
+}
+
+/// The load of a degree of freedom with forces.
+#[derive(Debug, Clone)]
+struct Pushed {
+    /// Ground motion and its weight.
+    ground: (usize, f64),
+    mass: f64,
+    /// Numbers of the forces.
+    forces: Vec<usize>,
 }
 
 /// A day (s): beyond, the digits of the time do not tell the samples of a record apart.
@@ -93,40 +238,117 @@ impl Motions {
             }
         }
         let mut this = Self {
-            intervals: intervals(&motions),
             motions,
             supports,
+            forces: Vec::new(),
+            intervals: Vec::new(),
+            after: Vec::new(),
+            grounds: Vec::new(),
             loads: Vec::new(),
+            pushed: Vec::new(),
         };
+        this.lay_out_intervals();
         for (building, support) in buildings.iter().zip(&this.supports) {
-            this.loads
+            this.grounds
                 .extend(building.mass().iter().map(|_| (support.along, 1.0)));
         }
         for (building, support) in buildings.iter().zip(&this.supports) {
             let further = building.further_coordinates().iter();
-            this.loads
+            this.grounds
                 .extend(further.map(|c| match (c.excitation, support.across) {
                     (Excitation::Along, _) => (support.along, 1.0),
                     (Excitation::Across, Some(motion)) => (motion, 1.0),
                     _ => (0, 0.0),
                 }));
         }
+        this.loads.clone_from(&this.grounds);
         Ok(this)
+    }
+
+    /// The same with forces on floors, in the place of those there are.
+    ///
+    /// # Errors
+    /// A floor that does not exist.
+    fn with_forces(
+        &self,
+        forces: Vec<FloorForce>,
+        offsets: &[usize],
+        mass: &[f64],
+    ) -> Result<Self, TimeHistoryError> {
+        let mut this = self.clone();
+        this.loads.clone_from(&this.grounds);
+        this.pushed.clear();
+        for (number, force) in forces.iter().enumerate() {
+            let ends = offsets
+                .get(force.building)
+                .zip(offsets.get(force.building + 1));
+            let dof =
+                ends.and_then(|(first, end)| Some(first + force.storey).filter(|dof| dof < end));
+            let dof = dof.ok_or_else(|| TimeHistoryError::Force {
+                reason: format!(
+                    "building {} has no storey {}",
+                    force.building + 1,
+                    force.storey + 1
+                ),
+            })?;
+            let (load, _) = this.loads[dof];
+            match load.checked_sub(this.motions.len()) {
+                Some(known) => this.pushed[known].forces.push(number),
+                None => {
+                    this.loads[dof] = (this.motions.len() + this.pushed.len(), 1.0);
+                    this.pushed.push(Pushed {
+                        ground: this.grounds[dof],
+                        mass: mass[dof],
+                        forces: vec![number],
+                    });
+                }
+            }
+        }
+        this.forces = forces;
+        this.lay_out_intervals();
+        Ok(this)
+    }
+
+    /// Degrees of freedom beyond the first so many have none any more.
+    pub(super) fn keep(&mut self, count: usize) {
+        self.grounds.truncate(count);
+        self.loads.truncate(count);
+    }
+
+    /// Acceleration (m/s2) at the start of an interval, and slope (m/s3), of a load.
+    #[inline]
+    fn load(&self, interval: usize, load: usize) -> [f64; 2] {
+        match self.intervals.get(interval) {
+            None => [self.after[load], 0.0],
+            Some(interval) => interval.loads[load],
+        }
     }
 
     /// The same with another record in the place of the first one.
     pub(super) fn with_first(&self, old: &GroundAcceleration, new: &GroundAcceleration) -> Self {
         let mut motions = self.motions.clone();
         for motion in &mut motions {
-            if Arc::ptr_eq(&motion.acceleration.samples, &old.samples) {
+            if motion.is_of(old) {
                 motion.acceleration = new.clone();
             }
         }
-        Self {
-            intervals: intervals(&motions),
+        let mut this = Self {
             motions,
             ..self.clone()
+        };
+        this.lay_out_intervals();
+        this
+    }
+
+    /// The same with all motions scaled that are not of this record.
+    pub(super) fn with_others_scaled(&self, first: &GroundAcceleration, factor: f64) -> Self {
+        let mut this = self.clone();
+        for motion in this.motions.iter_mut().filter(|m| !m.is_of(first)) {
+            let samples = motion.acceleration.samples.iter();
+            motion.acceleration.samples = samples.map(|a| factor * a).collect();
         }
+        this.lay_out_intervals();
+        this
     }
 
     /// Displacement (m) of a motion at the end of the last one, from rest.
@@ -143,13 +365,104 @@ impl Motions {
         x
     }
 
-    /// End of the last motion (s).
+    /// End of the last motion or force (s).
     pub(super) fn duration(&self) -> f64 {
-        let ends = self
-            .motions
-            .iter()
-            .map(|m| m.delay + m.acceleration.duration());
-        ends.fold(0.0, f64::max)
+        let motions = self.motions.iter();
+        let ends = motions.map(|m| m.delay + m.acceleration.duration());
+        let forces = self.forces.iter().map(|f| f.history.end());
+        ends.chain(forces).fold(0.0, f64::max)
+    }
+
+    /// Cuts the time at the samples of all motions and the points of all forces, from zero to
+    /// the end of the last.
+    fn lay_out_intervals(&mut self) {
+        let step = |m: &GroundMotion| m.acceleration.time_step;
+        let least = self.motions.iter().map(step).fold(f64::INFINITY, f64::min);
+        let mut times = vec![0.0];
+        for motion in &self.motions {
+            let count = motion.acceleration.samples.len();
+            times.extend((0..count).map(|k| motion.delay + k as f64 * step(motion)));
+        }
+        for force in &self.forces {
+            times.extend(force.history.points.iter().map(|p| p.0));
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| *later - *earlier <= SAME * least);
+        let over = |ends: &[f64]| {
+            let (start, length) = (ends[0], ends[1] - ends[0]);
+            // The middle tells the interval of a motion or force; the load is that at the start.
+            let middle = start + 0.5 * length;
+            Interval {
+                start,
+                length,
+                loads: self.loads_over(start, middle, SAME * least),
+            }
+        };
+        let intervals = times.windows(2).map(over).collect();
+        let end = times.last().copied().unwrap_or(0.0);
+        let after = self.loads_over(end, 2.0 * LONGEST_DELAY + end, 0.0);
+        self.after = after.iter().map(|load| load[0]).collect();
+        self.intervals = intervals;
+    }
+
+    /// Acceleration at an instant and slope around another of every load.
+    fn loads_over(&self, start: f64, middle: f64, same: f64) -> Vec<[f64; 2]> {
+        let motions = self.motions.iter().map(|m| m.line(start, middle, same));
+        let mut loads: Vec<[f64; 2]> = motions.collect();
+        for pushed in &self.pushed {
+            let (motion, weight) = pushed.ground;
+            let mut load = loads[motion].map(|x| weight * x);
+            for number in &pushed.forces {
+                let force = self.forces[*number].history.line(start, middle);
+                load[0] -= force[0] / pushed.mass;
+                load[1] -= force[1] / pushed.mass;
+            }
+            loads.push(load);
+        }
+        loads
+    }
+}
+
+impl Motions {
+    #[inline]
+    fn acceleration(&self, (load, weight): (usize, f64), at: Grounds) -> f64 {
+        if weight == 0.0 {
+            return 0.0;
+        }
+        let [value, slope] = self.load(at.interval, load);
+        weight * (value + slope * at.tau)
+    }
+
+    fn slope(&self, (load, weight): (usize, f64), segment: &Segment) -> f64 {
+        weight * self.load(segment.interval, load)[1]
+    }
+}
+
+impl GroundMotion {
+    /// Whether it is this record, sooner or later.
+    pub(super) fn is_of(&self, record: &GroundAcceleration) -> bool {
+        Arc::ptr_eq(&self.acceleration.samples, &record.samples)
+    }
+
+    /// Acceleration at an instant (m/s2).
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        self.line(time, time, 0.0)[0]
+    }
+
+    /// Acceleration at an instant, which is a sample if it is as near to it as that, and slope
+    /// around another.
+    fn line(&self, start: f64, middle: f64, same: f64) -> [f64; 2] {
+        let step = self.acceleration.time_step;
+        let place = (middle - self.delay) / step;
+        if place < 0.0 {
+            return [0.0; 2];
+        }
+        let interval = place.floor();
+        let [a, slope] = self.acceleration.over(interval as usize);
+        let since = start - self.delay - interval * step;
+        let since = if since.abs() <= same { 0.0 } else { since };
+        [a + slope * since, slope]
     }
 }
 
@@ -169,62 +482,14 @@ impl GroundAcceleration {
     }
 }
 
-/// The union of the breakpoints of all motions, from zero to the end of the last.
-fn intervals(motions: &[GroundMotion]) -> Vec<Interval> {
-    let step = |m: &GroundMotion| m.acceleration.time_step;
-    let least = motions.iter().map(step).fold(f64::INFINITY, f64::min);
-    let mut times = vec![0.0];
-    for motion in motions {
-        let count = motion.acceleration.samples.len();
-        times.extend((0..count).map(|k| motion.delay + k as f64 * step(motion)));
-    }
-    times.sort_by(f64::total_cmp);
-    times.dedup_by(|later, earlier| *later - *earlier <= SAME * least);
-    let over = |ends: &[f64]| {
-        let (start, length) = (ends[0], ends[1] - ends[0]);
-        let loads = motions.iter().map(|motion| {
-            // The middle tells the interval of the motion; its load is that at the start.
-            let place = (start + 0.5 * length - motion.delay) / step(motion);
-            if place < 0.0 {
-                return [0.0; 2];
-            }
-            let interval = place.floor();
-            let [a, slope] = motion.acceleration.over(interval as usize);
-            let since = start - motion.delay - interval * step(motion);
-            let since = if since.abs() <= SAME * least {
-                0.0
-            } else {
-                since
-            };
-            [a + slope * since, slope]
-        });
-        Interval {
-            start,
-            length,
-            loads: loads.collect(),
-        }
-    };
-    times.windows(2).map(over).collect()
-}
-
 impl System {
-    /// Acceleration of the ground that degree of freedom `i` is relative to, as the equation
-    /// of motion takes it (m/s2).
+    /// Acceleration of the ground that degree of freedom `i` is relative to (m/s2): what its
+    /// absolute acceleration holds beside its own.
     #[inline]
     pub(crate) fn ground_on(&self, i: usize, ground: Grounds) -> f64 {
         match &self.motions {
             None => ground.first,
-            Some(motions) => {
-                let (motion, weight) = motions.loads[i];
-                if weight == 0.0 {
-                    return 0.0;
-                }
-                let (value, slope) = match motions.intervals.get(ground.interval) {
-                    None => (0.0, 0.0),
-                    Some(interval) => (interval.loads[motion][0], interval.loads[motion][1]),
-                };
-                weight * (value + slope * ground.tau)
-            }
+            Some(motions) => motions.acceleration(motions.grounds[i], ground),
         }
     }
 
@@ -232,30 +497,107 @@ impl System {
     pub(crate) fn ground_slope_on(&self, i: usize, segment: &Segment) -> f64 {
         match &self.motions {
             None => segment.slope,
-            Some(motions) => {
-                let (motion, weight) = motions.loads[i];
-                let interval = motions.intervals.get(segment.interval);
-                weight * interval.map_or(0.0, |interval| interval.loads[motion][1])
-            }
+            Some(motions) => motions.slope(motions.grounds[i], segment),
         }
     }
 
-    /// Whether no ground acceleration jumps between two instants at the same time.
+    /// The same as the equation of motion takes it: less what forces on it do to its mass
+    /// (m/s2).
+    #[inline]
+    pub(crate) fn load_on(&self, i: usize, ground: Grounds) -> f64 {
+        match &self.motions {
+            None => ground.first,
+            Some(motions) => motions.acceleration(motions.loads[i], ground),
+        }
+    }
+
+    /// Slope of the same (m/s3).
+    pub(crate) fn load_slope_on(&self, i: usize, segment: &Segment) -> f64 {
+        match &self.motions {
+            None => segment.slope,
+            Some(motions) => motions.slope(motions.loads[i], segment),
+        }
+    }
+
+    /// The same buildings, gaps and motions with forces on floors, in the place of those there
+    /// are.
+    ///
+    /// # Errors
+    /// A floor that does not exist.
+    pub fn with_forces(mut self, forces: Vec<FloorForce>) -> Result<Self, TimeHistoryError> {
+        if self.motions.is_none() && !forces.is_empty() {
+            self.motions = self.under_one_motion().map(Arc::new);
+        }
+        if let Some(motions) = &self.motions {
+            let made = motions.with_forces(forces, &self.offsets, &self.mass)?;
+            self.motions = Some(Arc::new(made));
+            self.propagation = Arc::default();
+        }
+        Ok(self)
+    }
+
+    /// Forces on floors.
+    #[must_use]
+    pub fn forces(&self) -> &[FloorForce] {
+        self.motions.as_ref().map_or(&[], |m| &m.forces)
+    }
+
+    /// Ground motions along the row and across it under a building, where these are not
+    /// [`System::ground`] alone.
+    #[must_use]
+    pub fn motions_under(&self, building: usize) -> [Option<&GroundMotion>; 2] {
+        let Some(motions) = &self.motions else {
+            return [None; 2];
+        };
+        let Support { along, across } = motions.supports[building];
+        let own = Some(along).filter(|along| *along > 0);
+        [own, across].map(|m| m.map(|m| &motions.motions[m]))
+    }
+
+    /// What moves and pushes the buildings beside the first ground motion, line by line, for
+    /// the user.
+    #[must_use]
+    pub fn further_excitation(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (index, building) in self.buildings.iter().enumerate() {
+            let name = building.name();
+            let places = ["", ", across the row"];
+            for (motion, place) in self.motions_under(index).into_iter().zip(places) {
+                let Some(motion) = motion else { continue };
+                let of_building = |line: &String| format!("building {name}{place}: {line}");
+                lines.extend(motion.origin.iter().map(of_building));
+                if motion.delay > 0.0 {
+                    let delay = short(motion.delay);
+                    lines.push(format!(
+                        "building {name}{place}: the ground moves {delay} s later"
+                    ));
+                }
+            }
+            for force in self.forces().iter().filter(|f| f.building == index) {
+                let peak = force.history.peak();
+                lines.push(format!(
+                    "building {name}: force on storey {}, {}up to {} kN at {} s",
+                    force.storey + 1,
+                    match force.origin.as_str() {
+                        "" => String::new(),
+                        origin => format!("{origin}, "),
+                    },
+                    short(1e-3 * peak.value),
+                    short(peak.time),
+                ));
+            }
+        }
+        lines
+    }
+
+    /// Whether no load jumps between two instants at the same time.
     pub(crate) fn same_ground(&self, a: Grounds, b: Grounds) -> bool {
         match &self.motions {
             None => a.first == b.first,
-            Some(motions) => {
-                let at = |ground: Grounds, motion: usize| {
-                    let interval = motions.intervals.get(ground.interval);
-                    interval.map_or(0.0, |interval| {
-                        interval.loads[motion][0] + interval.loads[motion][1] * ground.tau
-                    })
-                };
-                (0..motions.motions.len()).all(|m| {
-                    let (a, b) = (at(a, m), at(b, m));
-                    (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
-                })
-            }
+            Some(motions) => (0..motions.after.len()).all(|load| {
+                let [a, b] = [a, b].map(|at| motions.acceleration((load, 1.0), at));
+                (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
+            }),
         }
     }
 
@@ -279,7 +621,7 @@ impl System {
                     return None;
                 }
                 let whole = rest > length * (1.0 - 1.0e-9) && rest < length * (1.0 + 1.0e-9);
-                let [acceleration, slope] = intervals.get(sample).map_or([0.0; 2], |i| i.loads[0]);
+                let [acceleration, slope] = motions.load(sample, 0);
                 Some(Segment {
                     start,
                     length: if whole { length } else { rest.min(length) },
@@ -346,7 +688,7 @@ impl System {
         }
     }
 
-    /// Time (s) until which all ground stands still.
+    /// Time (s) until which all ground stands still and no force acts.
     pub(crate) fn ground_at_rest_until(&self) -> f64 {
         let of = |ground: &GroundAcceleration, delay: f64| {
             let first = ground.samples.iter().position(|a| *a != 0.0)?;
@@ -357,7 +699,8 @@ impl System {
             Some(motions) => {
                 let begin = motions.motions.iter();
                 let begin = begin.filter_map(|m| of(&m.acceleration, m.delay));
-                begin.reduce(f64::min).unwrap_or(0.0)
+                let forces = motions.forces.iter().filter_map(|f| f.history.begin());
+                begin.chain(forces).reduce(f64::min).unwrap_or(0.0)
             }
         }
     }
@@ -381,6 +724,50 @@ impl System {
         (!terms.ground.is_empty()).then(|| terms.ground.iter().map(of).sum())
     }
 
+    /// Maximum absolute displacement of the ground at the left side of a contact level relative
+    /// to that at the right one (m) in a run of this duration (s), from the double integral of
+    /// the accelerations, exact inside every interval; `None` where it is the same by definition.
+    #[must_use]
+    pub fn relative_ground_displacement(&self, level: usize, duration: f64) -> Option<Peak> {
+        let terms = &self.levels[level].terms;
+        if self.motions.is_none() || terms.ground.is_empty() {
+            return None;
+        }
+        let first = self.with_mass();
+        let sides = terms.ground.iter();
+        let sides: Vec<(usize, f64)> = sides
+            .map(|(dof, weight)| (self.moving_ground[dof - first], *weight))
+            .collect();
+        let mut peak = Peak::default();
+        let (mut x, mut v) = (0.0, 0.0);
+        let segments = (0..).map_while(|k| self.segment(k, duration));
+        for segment in segments {
+            let [a, slope] = self.motions.as_ref().map_or([0.0; 2], |motions| {
+                let of = |(motion, weight): &(usize, f64)| {
+                    motions.load(segment.interval, *motion).map(|x| weight * x)
+                };
+                sides
+                    .iter()
+                    .map(of)
+                    .fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]])
+            });
+            let velocity = |s: f64| v + s * (a + 0.5 * s * slope);
+            let displacement = |s: f64| x + s * (v + s * (0.5 * a + s * slope / 6.0));
+            // It turns where the velocity, a parabola, is zero.
+            let root = (a * a - 2.0 * slope * v).max(0.0).sqrt();
+            let half = -(a + root.copysign(a));
+            let turns = [half / slope, 2.0 * v / half];
+            let inside = turns
+                .into_iter()
+                .filter(|s| *s > 0.0 && *s < segment.length);
+            for s in inside.chain([segment.length]) {
+                peak.raise(displacement(s).abs(), segment.start + s);
+            }
+            (x, v) = (displacement(segment.length), velocity(segment.length));
+        }
+        Some(peak)
+    }
+
     /// Ground motion along the row under a building, by its number in
     /// [`System::ground_motions`].
     pub(crate) fn motion_under(&self, building: usize) -> usize {
@@ -398,7 +785,9 @@ impl System {
             self.motions = self.under_one_motion().map(Arc::new);
         }
         if let Some(motions) = &mut self.motions {
-            Arc::make_mut(motions).loads.push((motion, -1.0));
+            let motions = Arc::make_mut(motions);
+            motions.grounds.push((motion, -1.0));
+            motions.loads.push((motion, -1.0));
         }
         let n = self.mass.len();
         self.mass.push(1.0);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{GroundAcceleration, System};
+use super::{GroundAcceleration, Motions, System};
 
 impl System {
     /// The same buildings and gaps under another ground motion, which takes the place of the
@@ -24,6 +24,24 @@ impl System {
                 false => Arc::default(),
             },
             ground,
+            ..self.clone()
+        }
+    }
+
+    /// Whether something beside the first ground motion, sooner or later, moves the ground.
+    #[must_use]
+    pub fn has_further_records(&self) -> bool {
+        let motions = self.ground_motions().iter();
+        let mut others = motions.filter(|m| !m.is_of(&self.ground));
+        others.next().is_some()
+    }
+
+    /// The same with all ground motions scaled that are not the first one, sooner or later.
+    #[must_use]
+    pub fn with_further_records_scaled(&self, factor: f64) -> Self {
+        let scaled = |m: &Arc<Motions>| Arc::new(m.with_others_scaled(&self.ground, factor));
+        Self {
+            motions: self.motions.as_ref().map(scaled),
             ..self.clone()
         }
     }

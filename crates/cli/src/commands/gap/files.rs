@@ -78,6 +78,7 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                 start.extend(place.elevations.map(of_side));
                 start.push(gap.levels[level].width.to_string());
                 start.push(demand.to_string());
+                start.push(record.ground_moves(index, level).to_string());
                 let mut add = |rule: &str,
                                status: &str,
                                width: Result<f64, String>,
@@ -123,6 +124,7 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
         "right_elevation_m",
         "provided_m",
         "demand_m",
+        "relative_ground_displacement_m",
         "rule",
         "status",
         "width_m",

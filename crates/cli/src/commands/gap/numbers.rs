@@ -167,6 +167,10 @@ struct Column<'c> {
 struct Level<'c> {
     width: f64,
     demand: Vec<Peak>,
+    /// Of the ground on both sides, under each record: what widths by rules hold beside the
+    /// rule. Absent where one motion is under both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relative_ground_displacement: Option<Vec<Peak>>,
     /// Beside a building on isolators.
     #[serde(skip_serializing_if = "Option::is_none")]
     isolation: Option<Isolation<'c>>,
@@ -226,6 +230,9 @@ impl<'c> Gap<'c> {
                 .records
                 .iter()
                 .map(|r| Peak::of(&r.demand[index][l]))
+                .collect(),
+            relative_ground_displacement: (check.records.iter())
+                .map(|r| Some(Peak::of(r.relative_ground_displacement[index][l].as_ref()?)))
                 .collect(),
             isolation: Isolation::of(check, index, l),
             place: &level.place,

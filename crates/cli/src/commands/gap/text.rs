@@ -31,7 +31,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
         text.push_str(&isolation(check, gap));
-        text.push_str(&codes(check, &check.gaps[gap], all));
+        text.push_str(&codes(check, gap, all));
         text.push_str(&required(check, &check.gaps[gap]));
     }
     text.push_str(&provided(check));
@@ -202,7 +202,8 @@ fn row(
 }
 
 /// Gaps by code and by combination rules.
-fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
+fn codes(check: &GapCheck, index: usize, all: bool) -> String {
+    let gap = &check.gaps[index];
     let mut table = new_table([
         "rule",
         "kind",
@@ -252,6 +253,7 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
     text.push_str(
         "\"unverified\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
     );
+    text.push_str(&ground_added(check, index));
     if gap.codes.iter().any(|c| c.caution().is_some()) {
         text.push_str(&elastic_only(check));
     }
@@ -272,6 +274,29 @@ fn codes(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         ));
     }
     text
+}
+
+/// What widths by rules hold beside the rule where the ground on both sides moves differently.
+fn ground_added(check: &GapCheck, index: usize) -> String {
+    let of = |record: &RecordDemand| {
+        let levels = record.relative_ground_displacement[index].iter().flatten();
+        let most = levels.copied().max_by(|a, b| a.value.total_cmp(&b.value))?;
+        Some((record.name.clone(), most))
+    };
+    let peaks = check.records.iter().filter_map(of);
+    let Some((record, most)) = peaks.max_by(|a, b| a.1.value.total_cmp(&b.1.value)) else {
+        return String::new();
+    };
+    let uncorrelated = if check.gaps[index].combinations.is_empty() {
+        ""
+    } else {
+        "; double differences (DDC) suppose one motion under both buildings, and may be too small here"
+    };
+    format!(
+        "The ground on both sides moves differently, by up to {:.2} mm ({record}, {:.3} s): under each record its maximum is added to the width of every rule and code, none of which has it{uncorrelated}. The demand contains it.\n",
+        most.value * 1e3,
+        most.time,
+    )
 }
 
 /// The factor of a rule after its kind.

@@ -175,7 +175,7 @@ impl Newmark {
             &mut self.scratch,
         );
         for (i, (load, m)) in self.load.iter_mut().zip(system.mass()).enumerate() {
-            let [start, end] = ends.map(|ground| system.ground_on(i, ground));
+            let [start, end] = ends.map(|ground| system.load_on(i, ground));
             *load = weight * *load - m * (weight * end - self.alpha * start);
         }
         if self.alpha != 0.0 {
@@ -220,7 +220,7 @@ impl Newmark {
         system.damping_forces(&self.predictor, &mut self.scratch);
         let (mut input, mut viscous) = (0.0, 0.0);
         for i in 0..system.with_mass() {
-            let [start, end] = ends.map(|ground| system.ground_on(i, ground));
+            let [start, end] = ends.map(|ground| system.load_on(i, ground));
             let ground = 0.5 * (start + end);
             let moved = new[i] - state[i];
             input -= system.mass()[i] * moved * ground;

@@ -1,0 +1,76 @@
+//! Files of plain numbers: matrices of buildings, histories of forces.
+
+use std::path::Path;
+
+/// What a CSV file of numbers holds, for messages and limits.
+pub(crate) struct NumberFile {
+    /// What it is.
+    pub what: &'static str,
+    /// How it is written.
+    pub rows: &'static str,
+    /// Whether a first line that is no number names its columns.
+    pub header: bool,
+    /// The most rows or columns, and what they are.
+    pub most: (usize, &'static str),
+}
+
+/// What is wrong, and what to do.
+type Refused = (String, String);
+
+impl NumberFile {
+    /// The numbers, row by row; lines that begin with `#` and empty ones are left out.
+    ///
+    /// # Errors
+    /// A file that cannot be read, what is no number, too many rows or columns.
+    pub(crate) fn read(&self, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
+        const PATH: &str = "name the file relative to the folder of the case file";
+        let unreadable = |why: &dyn std::fmt::Display| {
+            let message = format!("cannot read the {}: {why}", self.what);
+            (message, PATH.to_owned())
+        };
+        // A device or a pipe may never end.
+        match std::fs::metadata(path) {
+            Ok(found) if found.is_dir() => return Err(unreadable(&"this is a folder")),
+            Ok(found) if !found.is_file() => return Err(unreadable(&"this is no regular file")),
+            _ => {}
+        }
+        let reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path);
+        let mut reader = reader.map_err(|e| match e.kind() {
+            csv::ErrorKind::Io(e) => unreadable(e),
+            _ => (e.to_string(), PATH.to_owned()),
+        })?;
+        let correct = || format!("write {}", self.rows);
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for (place, record) in reader.records().enumerate() {
+            let record = record.map_err(|e| (e.to_string(), correct()))?;
+            let finite = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
+            let is_header = self.header && place == 0;
+            if is_header && record.iter().all(|text| text.parse::<f64>().is_err()) {
+                continue;
+            }
+            let line = record.position().map_or(0, csv::Position::line);
+            let number = |(column, text): (usize, &str)| {
+                finite(text).ok_or_else(|| {
+                    let message = format!(
+                        "line {line}, column {}: \"{text}\" is no number",
+                        column + 1
+                    );
+                    (message, correct())
+                })
+            };
+            let (most, of) = self.most;
+            if record.len() > most || rows.len() == most {
+                let message = format!("it has more than {most} rows or columns, {of}");
+                return Err((message, correct()));
+            }
+            let entries = record.iter().enumerate();
+            rows.push(entries.map(number).collect::<Result<_, _>>()?);
+        }
+        Ok(rows)
+    }
+}

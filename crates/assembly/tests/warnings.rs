@@ -1,0 +1,51 @@
+//! What a case gives and nothing feels is told before a run.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use pounding_assembly::assemble;
+use pounding_case::Case;
+
+fn warnings(building: &str, gap: &str) -> Vec<String> {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let common = "mass = [1e5, 1e5]\nheight = 3\nstiffness = 1e8\ndamping = { modal = 0.05 }";
+    let text = format!(
+        "[[building]]\nname = \"a\"\n{common}\n{building}\n[[building]]\nname = \"b\"\n{common}\n[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = 0.02\nmodel = \"linear_elastic\"\nstiffness = 1e8\n{gap}\n[ground_motion]\nfile = \"{record}\"\nscale = 2\n"
+    );
+    let case = Case::parse(&text, Path::new("case.toml")).unwrap();
+    assemble(&case).unwrap().warnings()
+}
+
+#[test]
+fn soil_as_stiff_as_a_fixed_base_is_told() {
+    let soil = |speed: &str| {
+        format!(
+            "foundation = {{ mass = 5e4, rotational_inertia = 3e6, soil = {{ shear_wave_speed = {speed}, density = 1800, poisson = 0.33, length = 12, width = 12 }} }}"
+        )
+    };
+    let told = warnings(&soil("1e5"), "");
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains("a: the soil makes the fundamental period longer by"),
+        "{told:?}"
+    );
+    assert!(told[0].contains("leave the foundation out"), "{told:?}");
+    assert_eq!(warnings(&soil("180"), ""), [""; 0]);
+    assert_eq!(warnings(&soil("1500"), ""), [""; 0]);
+}
+
+#[test]
+fn columns_that_no_floor_hits_are_told() {
+    let column = "column = { of = \"b\", flexural_rigidity = 1e6 }";
+    let told = warnings("", column);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains("gap a-b: no floor hits columns of b"),
+        "{told:?}"
+    );
+    assert!(told[0].contains("`levels = \"all_floors\"`"), "{told:?}");
+    assert_eq!(warnings("", ""), [""; 0]);
+}

@@ -493,6 +493,8 @@ pub struct Separation {
     pub plan_width: Option<Vec<f64>>,
     /// Eccentricities in plan (m).
     pub plan_eccentricity: Option<Vec<f64>>,
+    /// The code whose answer is asked for.
+    pub code: Option<Located<String>>,
     /// Names of the provisions to apply; all by default.
     pub provisions: Option<Vec<Located<String>>>,
 }
@@ -538,6 +540,7 @@ impl Separation {
             plan_length: other.plan_length.or(self.plan_length),
             plan_width: other.plan_width.or(self.plan_width),
             plan_eccentricity: other.plan_eccentricity.or(self.plan_eccentricity),
+            code: other.code.or(self.code),
             provisions: other.provisions.or(self.provisions),
         }
     }

@@ -16,6 +16,9 @@ pub struct GapArguments {
     /// Records, or folders of them [default: that of the case]
     #[arg(long, num_args = 1.., value_name = "FILE")]
     pub records: Vec<InputPath>,
+    /// Code whose answer is the verdict, such as eurocode_8_2004 [default: that of the case; without one the demand decides]
+    #[arg(long, value_name = "NAME")]
+    pub code: Option<String>,
     /// Provisions to apply [default: those of the case, or all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
     pub provisions: Vec<String>,
@@ -52,7 +55,7 @@ pub struct GapArguments {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// Show provisions that lack an input or do not apply too
+    /// Show every rule by itself, provisions that lack an input or do not apply, and every record
     #[arg(long)]
     pub all: bool,
     /// Print one JSON object instead of tables

@@ -4,6 +4,7 @@ use super::demands::{Demand, of_gap, of_limit, usual};
 use super::fragility::{Counts, FragilityFit, fit};
 use super::hazard::mean_annual_frequency;
 use crate::error::StudyError;
+use crate::fractiles::fractiles;
 use crate::study_file::{IdaSettings, Study, Value};
 use pounding_results::study::ResultReader;
 
@@ -315,43 +316,5 @@ impl Evaluation<'_> {
             });
         }
         best
-    }
-}
-
-/// The 16, 50 and 84 % fractiles, linear between ordered values; NaN without any.
-fn fractiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_by(f64::total_cmp);
-    [0.16, 0.5, 0.84].map(|p| {
-        let Some(last) = values.len().checked_sub(1) else {
-            return f64::NAN;
-        };
-        let place = p * last as f64;
-        let below = place.floor() as usize;
-        let above = (below + 1).min(last);
-        let part = place - below as f64;
-        // Half the way to an infinite value is infinite, no way at all is none.
-        if part == 0.0 || values[below] == values[above] {
-            return values[below];
-        }
-        values[below] + part * (values[above] - values[below])
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fractiles;
-
-    /// By hand: places 0.16, 0.5 and 0.84 of the way from the first to the last value.
-    #[test]
-    fn fractiles_reach_into_collapses_only_where_they_lie_there() {
-        let f = f64::INFINITY;
-        let near = |found: f64, wanted: f64| (found - wanted).abs() < 1e-14;
-        let [low, middle, high] = fractiles(vec![3.0, 1.0, 2.0]);
-        assert!(near(low, 1.32) && near(middle, 2.0) && near(high, 2.68));
-        let [low, middle, high] = fractiles(vec![f, 1.0, 2.0]);
-        assert!(near(low, 1.32) && near(middle, 2.0) && high == f);
-        assert_eq!(fractiles(vec![f, f, 2.0]), [f, f, f]);
-        assert_eq!(fractiles(vec![f, f]), [f, f, f]);
-        assert!(fractiles(Vec::new()).iter().all(|x| x.is_nan()));
     }
 }

@@ -1,8 +1,11 @@
 //! `pounding gap`: is the gap wide enough?
 
+mod answer;
 mod files;
 mod numbers;
 mod provisions;
+mod rules;
+mod suite;
 mod text;
 
 use std::path::Path;
@@ -57,6 +60,11 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
     for text in &arguments.set {
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
+    }
+    if let Some(code) = &arguments.code {
+        let text = format!("code = {code:?}");
+        let one = Separation::parse(&text, case.buildings.len());
+        separation = separation.overridden_by(one.map_err(|e| Failure::case(e, &text))?);
     }
     if !arguments.provisions.is_empty() {
         let quoted: Vec<_> = arguments

@@ -466,7 +466,8 @@ fn alike_buildings_are_told_the_widest_gap_of_a_rule() {
         let widths = combination["width"][0].as_array().unwrap().iter();
         let widest = widths.filter_map(Value::as_f64).fold(0.0, f64::max);
         assert_eq!(format!("{:.1}", widest * 1e3), told);
-        let line = shown.lines().find(|l| l.contains(&format!(" {rule} ")));
+        let mut rows = shown.lines().filter(|l| l.starts_with('|'));
+        let line = rows.find(|l| l.contains(&format!(" {rule} ")));
         let cells: Vec<&str> = line.unwrap().split('|').map(str::trim).collect();
         assert_eq!(cells[4..7], [told, "no", "-"], "{shown}");
     }
@@ -614,6 +615,67 @@ fn one_code_decides_by_its_statistic() {
     );
     let all = [&arguments[..], &["--all"]].concat();
     assert!(text(&gap("gap_check", &all).stdout).contains("nzs_1170_5"));
+}
+
+/// Records that the case scales to a code: the mean spectrum beside the target, and each
+/// factor. The factor of a record is that of `motion process` to the same spectrum.
+#[test]
+fn a_suite_scaled_to_a_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = root().join("examples/gap_check/case.toml");
+    let records = root().join("ground_motions").canonicalize().unwrap();
+    let case = std::fs::read_to_string(file).unwrap();
+    let case = case.replace("../../ground_motions", records.to_str().unwrap());
+    let scale = "scale = { code = \"eurocode_8_2004\", ground_type = \"C\", ag = \"0.25 g\", from = \"0.2 s\", to = \"2 s\" }";
+    let case = case.replace("[ground_motion]", &format!("[ground_motion]\n{scale}"));
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let place = folder.path().to_str().unwrap();
+    let arguments = ["--records", "ground_motions", "--points", "0"];
+    let result = json(&gap(place, &[&arguments[..], &["--json"]].concat()));
+    let target = &result["spectra"]["target"];
+    assert!(
+        target["name"]
+            .as_str()
+            .unwrap()
+            .starts_with("eurocode_8_2004, ag 0.25 g")
+    );
+    assert_eq!((&target["from"], &target["to"]), (&0.2.into(), &2.0.into()));
+    let spectra = &result["spectra"];
+    assert_eq!(spectra["periods"].as_array().unwrap().len(), 200);
+    let at = |list: &Value| list[100].as_f64().unwrap();
+    let both = &spectra["pseudo_acceleration"];
+    close(
+        &spectra["mean"][100],
+        0.5 * (at(&both[0]) + at(&both[1])),
+        1e-14,
+    );
+    let least = target["least_ratio_of_mean"].as_f64().unwrap();
+    assert!(least < 1.0 && least > 0.3, "{least}");
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args([
+            "motion",
+            "process",
+            "ground_motions/kobe_1995_jma_ns.csv",
+            "--json",
+            "-o",
+        ])
+        .arg(folder.path().join("o.csv"))
+        .args([
+            "--scale",
+            "code=eurocode_8_2004, ground_type=C, ag=0.25 g, from=0.2 s, to=2 s",
+        ])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    let numbers = json(&output)["steps"][0]["numbers"].clone();
+    let factor = named(&numbers, "name", "factor")["value"].as_f64().unwrap();
+    close(&result["records"][1]["factor"], factor, 1e-15);
+    let shown = text(&gap(place, &arguments).stdout);
+    assert!(
+        shown.contains("by least squares of the logarithm"),
+        "{shown}"
+    );
+    assert!(shown.contains(&format!("{factor:.4}")), "{factor} {shown}");
 }
 
 /// Another property needs a sum: 0.7 (137.3 + 20.4) is 110.4 mm, above 105 mm; one property

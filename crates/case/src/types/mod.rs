@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use pounding_ground_motion::Offset;
 use pounding_ground_motion::processing::{ProcessingStep, Scale};
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 use serde::Deserialize;
 
 use crate::error::CaseError;
@@ -394,9 +395,9 @@ pub struct GroundMotion {
     /// What becomes of the mean.
     pub offset: Offset,
     /// What is done to the record, in this order.
-    pub process: Vec<Located<ProcessingStep<SpectrumFile>>>,
+    pub process: Vec<Located<ProcessingStep<SpectrumSource>>>,
     /// Scale, after that; `None`: as recorded.
-    pub scale: Option<Located<Scale<SpectrumFile>>>,
+    pub scale: Option<Located<Scale<SpectrumSource>>>,
 }
 
 /// A turn of two components at right angles.
@@ -406,6 +407,26 @@ pub struct Rotation {
     pub second_component: Located<String>,
     /// Angle (degrees).
     pub angle: f64,
+}
+
+/// A spectrum to which a record is scaled.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SpectrumSource {
+    /// Of a file.
+    File(SpectrumFile),
+    /// Of a code.
+    Code(Located<CodeSpectrum>),
+}
+
+impl SpectrumSource {
+    /// Its file, if it is of one.
+    #[must_use]
+    pub fn file(&self) -> Option<&SpectrumFile> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::Code(_) => None,
+        }
+    }
 }
 
 /// The file of a spectrum to which a record is scaled.

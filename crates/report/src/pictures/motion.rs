@@ -3,6 +3,7 @@
 use pounding_catalogue::STANDARD_GRAVITY as G;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::{GroundMotion, Husid};
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 use pounding_ground_motion::spectra::{
     Evaluation, ResponseSpectrum, RotatedSpectrum, TargetSpectrum, logarithmic_periods,
     response_spectrum,
@@ -131,6 +132,19 @@ pub fn responses(spectra: &[ResponseSpectrum]) -> Result<String, ReportError> {
         drawn("Pseudo-velocity PSV (m/s)", |s| &s.pseudo_velocity, 1.0),
         drawn("Displacement SD (mm)", |s| &s.displacement, 1.0e3),
     ])
+}
+
+/// Spectra of a code at these periods (s), one for each damping ratio.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn codes(spectra: &[CodeSpectrum], periods: &[f64]) -> Result<String, ReportError> {
+    let curves = spectra.iter().map(|spectrum| {
+        let values: Vec<f64> = periods.iter().map(|t| spectrum.acceleration(*t)).collect();
+        over(&spectrum.title(), periods, &values, 1.0 / G)
+    });
+    let caption = "Pseudo-acceleration PSA (g)";
+    figure(&[panel(caption, "period (s)", curves.collect())])
 }
 
 /// Median and maximum over all directions, for each damping ratio.

@@ -8,6 +8,7 @@ mod error;
 mod parallel;
 mod records;
 mod required;
+mod spectra;
 mod statistics;
 mod suite;
 mod sweep;
@@ -20,6 +21,7 @@ pub use error::CheckError;
 pub use parallel::Progress;
 pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
 pub use required::{LognormalFit, RequiredGap};
+pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
@@ -103,6 +105,8 @@ pub struct GapCheck {
     pub options: GapCheckOptions,
     /// Each record with its demands, isolated responses and responses with pounding.
     pub records: Vec<RecordDemand>,
+    /// Spectra of the records as they are used, beside the target of the case's scale.
+    pub spectra: SuiteSpectra,
     /// Gaps in the order of the case.
     pub gaps: Vec<GapReport>,
     /// Sweep over widths.
@@ -224,6 +228,7 @@ pub fn gap_check(
     });
     Ok(GapCheck {
         options: options.clone(),
+        spectra: spectra::spectra(case, records, options.threads)?,
         records: demands,
         gaps,
         sweep: sweep.transpose()?,

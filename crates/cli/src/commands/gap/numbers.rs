@@ -18,6 +18,7 @@ pub struct Check<'c> {
     confidence: f64,
     warnings: &'c [String],
     records: Vec<Record<'c>>,
+    spectra: Spectra<'c>,
     gaps: Vec<Gap<'c>>,
     sweep: Option<Sweep<'c>>,
 }
@@ -35,8 +36,54 @@ impl<'c> Check<'c> {
             confidence: check.options.confidence,
             warnings: &check.warnings,
             records: check.records.iter().map(Record::of).collect(),
+            spectra: Spectra::of(&check.spectra),
             gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
             sweep: check.sweep.as_ref().map(Sweep::of),
+        }
+    }
+}
+
+/// Pseudo-accelerations of the records as they are used.
+#[derive(Serialize)]
+struct Spectra<'c> {
+    damping: f64,
+    periods: &'c [f64],
+    /// By record.
+    pseudo_acceleration: &'c [Vec<f64>],
+    mean: &'c [f64],
+    target: Option<Target<'c>>,
+}
+
+/// The spectrum to which the records are scaled.
+#[derive(Serialize)]
+struct Target<'c> {
+    name: &'c str,
+    from: f64,
+    to: f64,
+    pseudo_acceleration: &'c [Option<f64>],
+    least_ratio_of_mean: f64,
+    period_of_least_ratio: f64,
+    greatest_ratio_of_mean: f64,
+    period_of_greatest_ratio: f64,
+}
+
+impl<'c> Spectra<'c> {
+    fn of(spectra: &'c gap_check::SuiteSpectra) -> Self {
+        Self {
+            damping: spectra.damping,
+            periods: &spectra.periods,
+            pseudo_acceleration: &spectra.records,
+            mean: &spectra.mean,
+            target: spectra.target.as_ref().map(|t| Target {
+                name: &t.name,
+                from: t.band.0,
+                to: t.band.1,
+                pseudo_acceleration: &t.values,
+                least_ratio_of_mean: t.least.0,
+                period_of_least_ratio: t.least.1,
+                greatest_ratio_of_mean: t.greatest.0,
+                period_of_greatest_ratio: t.greatest.1,
+            }),
         }
     }
 }

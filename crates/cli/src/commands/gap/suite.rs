@@ -7,6 +7,20 @@ use crate::tables::{G, decimal, new_table};
 /// More records than this are listed on demand only.
 const LISTED: usize = 20;
 
+/// How near the mean spectrum of the records comes to the target of the case's scale, if it has
+/// one.
+pub fn target(check: &GapCheck) -> String {
+    let Some(target) = &check.spectra.target else {
+        return String::new();
+    };
+    let (ratio, period) = target.least;
+    let (most, at) = target.greatest;
+    format!(
+        "  records are scaled to {} from {} to {} s, by least squares of the logarithm: their mean spectrum is {ratio:.2} (at {period:.2} s) to {most:.2} (at {at:.2} s) of it\n",
+        target.name, target.band.0, target.band.1
+    )
+}
+
 /// Statistics of the demand, and the demand of each record with factor, peak ground acceleration
 /// and time; nothing of a single record.
 pub fn suite(check: &GapCheck, index: usize, all: bool) -> String {

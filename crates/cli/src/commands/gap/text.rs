@@ -7,7 +7,7 @@ use pounding_study::gap_check::{Amplification, GapCheck, GapSweep, RecordDemand}
 
 use super::answer::answer;
 use super::rules;
-use super::suite::suite;
+use super::suite::{suite, target};
 use crate::tables::{against_capacity, decimal, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
@@ -27,6 +27,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
         );
     }
     text.push_str(&foundations(case, check));
+    text.push_str(&target(check));
     text.push_str(&warning_lines(&check.warnings));
     for gap in &check.gaps {
         text.push_str(&answer(check, gap));

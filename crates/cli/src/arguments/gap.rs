@@ -49,9 +49,12 @@ pub struct GapArguments {
     /// Write demand, code gaps and their ratios for every record and level into this CSV file
     #[arg(long, value_name = "FILE")]
     pub codes_csv: Option<OutputPath>,
-    /// Draw amplification over the width into this SVG file
+    /// Draw amplification over the width into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
+    /// Draw the spectra of the records, their mean and the target of the scale into this file (.svg, .png, .pdf)
+    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    pub spectra: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

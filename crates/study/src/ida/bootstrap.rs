@@ -1,6 +1,6 @@
 //! Confidence of a mean annual frequency: the records are drawn anew.
 
-use super::fragility::{Counts, fit};
+use super::fragility::{Counts, FragilityFit, fit};
 use super::hazard::mean_annual_frequency;
 use crate::design::mixing::unit;
 use crate::fractiles::fractile;
@@ -28,7 +28,8 @@ pub(super) type RecordCounts = Vec<(usize, usize)>;
 /// Two-sided bounds of the mean annual frequency by percentiles of the bootstrap (Efron 1979,
 /// Annals of Statistics 7, 1) over records: so many records are drawn with replacement from
 /// them, with all their runs, since runs of one record at different intensities depend on one
-/// another. The hazard is taken as known. `None` with fewer than two records, or where more than
+/// another. The hazard is taken as known. A set that leaves a step between two intensities counts
+/// with their geometric mean. `None` with fewer than two records, or where more than
 /// one in twenty of the sets has no frequency.
 pub(super) fn frequency_bounds(
     intensities: &[f64],
@@ -56,7 +57,13 @@ pub(super) fn frequency_bounds(
                 count.reached += reached;
             }
         }
-        mean_annual_frequency(&fit(&counts), hazard)
+        match fit(&counts) {
+            // Any narrow curve between the two is as likely: neither end stands for them all.
+            FragilityFit::Step { lower, upper } if lower > 0.0 && upper.is_finite() => {
+                Some(hazard.frequency((lower * upper).sqrt()))
+            }
+            fit => mean_annual_frequency(&fit, hazard),
+        }
     };
     let mut found: Vec<f64> = (0..RESAMPLES).filter_map(drawn).collect();
     if (RESAMPLES - found.len()) as f64 > MOST_WITHOUT * RESAMPLES as f64 {
@@ -75,7 +82,6 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::ida::fragility::FragilityFit;
 
     /// Records whose capacities are lognormal, at their quantiles, under a power law: the
     /// frequency is `k0 median^-k exp(k^2 beta^2 / 2)`, and the logarithm of its estimate has,

@@ -298,7 +298,8 @@ impl Evaluation<'_> {
         let hazard = self.settings.hazard.as_ref();
         let frequency = hazard.and_then(|h| mean_annual_frequency(&fit, h));
         let confidence = self.settings.confidence;
-        let bounds = hazard.filter(|_| frequency.is_some()).and_then(|hazard| {
+        let fitted = matches!(fit, FragilityFit::Lognormal(_));
+        let bounds = hazard.filter(|_| fitted).and_then(|hazard| {
             let records = self.of_records(reached);
             frequency_bounds(self.intensities, &records, hazard, confidence)
         });

@@ -113,7 +113,10 @@ impl fmt::Display for FitRemark {
                 f,
                 "{records} of {of} records reach it and miss it again at a higher intensity"
             ),
-            Self::NotTested => write!(f, "too few records or intensities for a test of the fit"),
+            Self::NotTested => write!(
+                f,
+                "too few intensities at which some records reach it and others do not: the fit cannot be tested"
+            ),
         }
     }
 }

@@ -100,7 +100,7 @@ pub struct InfoArguments {
     /// Write a row of measures for each series into this CSV file, in SI units
     #[arg(long)]
     pub csv: Option<OutputPath>,
-    /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
+    /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object
@@ -164,7 +164,7 @@ pub struct SpectrumArguments {
     /// Write the spectra into this CSV file, in SI units
     #[arg(long)]
     pub csv: Option<OutputPath>,
-    /// Draw the spectra into this SVG file
+    /// Draw the spectra into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object
@@ -223,7 +223,7 @@ pub struct OutputArguments {
     /// File to write, in our CSV layout with a header that says what was done
     #[arg(short, long)]
     pub output: OutputPath,
-    /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
+    /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object

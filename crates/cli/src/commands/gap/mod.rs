@@ -12,7 +12,7 @@ use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
-use pounding_report::pictures::gap::amplifications;
+use pounding_report::pictures::gap::{amplifications, spectra};
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
@@ -37,6 +37,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
+        arguments.spectra.as_deref(),
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
@@ -108,11 +109,12 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
         return Err(Failure::input(message, Some(help)));
     }
     write(&arguments.csv, &|| files::sweep(check))?;
+    if let Some(path) = arguments.spectra.as_deref() {
+        plot::write_drawn(path, spectra(check))?;
+    }
     let Some(path) = arguments.plot.as_deref() else {
         return Ok(());
     };
-    match amplifications(check) {
-        Some(picture) => plot::write_drawn(path, picture),
-        None => plot::write(path, ""),
-    }
+    let picture = amplifications(check);
+    picture.map_or(Ok(()), |picture| plot::write_drawn(path, picture))
 }

@@ -2,7 +2,7 @@
 
 use pounding_catalogue::wording::counted;
 use pounding_study::{
-    FragilityFit, IdaReport, IdaSettings, LimitResult, POOR, PoundingDemand, RESAMPLES,
+    FitRemark, FragilityFit, IdaReport, IdaSettings, LimitResult, POOR, PoundingDemand, RESAMPLES,
 };
 
 use crate::tables::{Table, new_table};
@@ -128,14 +128,9 @@ fn quality(state: &LimitResult) -> String {
     match (state.fit, state.goodness) {
         (FragilityFit::Lognormal(_), Some(test)) => {
             let word = if test.p_value < POOR { "POOR, " } else { "" };
-            let mark = if word.is_empty() && !state.remarks.is_empty() {
-                "*"
-            } else {
-                ""
-            };
-            format!("{word}p = {}{mark}", probability(test.p_value))
+            format!("{word}p = {}", probability(test.p_value))
         }
-        (FragilityFit::Lognormal(_), None) => "not tested*".to_owned(),
+        (FragilityFit::Lognormal(_), None) => "not tested".to_owned(),
         _ => "-".to_owned(),
     }
 }
@@ -159,10 +154,19 @@ fn poor_fits<'s>(
         for remark in &state.remarks {
             text.push_str(&format!("  {name}: {remark}\n"));
         }
+        let shows = |r: &FitRemark| !matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
         let FragilityFit::Lognormal(fit) = state.fit else {
             continue;
         };
+        if !state.remarks.iter().any(shows) {
+            continue;
+        }
         let made = state.counts.iter().filter(|c| c.runs > 0);
+        // Where both are none or all there is nothing to see.
+        let made = made.filter(|c| {
+            let fitted = fit.probability(c.intensity);
+            (0.005..0.995).contains(&fitted) || (c.reached > 0 && c.reached < c.runs)
+        });
         let pairs = made.map(|c| {
             format!(
                 "{} {unit} {:.2}/{:.2}",

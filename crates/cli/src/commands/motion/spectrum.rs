@@ -23,6 +23,8 @@ use crate::plot;
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
 const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
 const FREQUENCIES: (f64, f64, usize) = (0.1, 25.0, 30);
+/// Periods of a smooth picture.
+const SMOOTH: usize = 200;
 
 /// What `--json` prints of one record.
 #[derive(Serialize)]
@@ -134,7 +136,18 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> 
         plot::write(path, &tables::response_csv(&spectra, &codes))?;
     }
     if let Some(path) = &arguments.svg {
-        plot::write_drawn(path, motion::responses(&spectra))?;
+        // A picture is smooth unless its places are given.
+        let smooth = arguments.at.is_none() && arguments.count.is_none();
+        let drawn = if smooth {
+            let ends = (periods[0], periods[periods.len() - 1]);
+            let many =
+                logarithmic_periods(ends.0, ends.1, SMOOTH).map_err(|e| named(e, arguments))?;
+            response_spectra(&record, &many, &dampings, evaluation(arguments))
+                .map_err(|e| named(e, arguments))?
+        } else {
+            spectra.clone()
+        };
+        plot::write_drawn(path, motion::responses(&drawn, &codes))?;
     }
     print(&if arguments.json {
         pretty(&OfRecord {

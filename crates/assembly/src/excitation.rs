@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumFile};
-use pounding_ground_motion::processing::{process, rotate};
+use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumSource};
+use pounding_ground_motion::processing::{ProcessingStep, Scale, process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions,
@@ -83,33 +83,65 @@ fn scaled(
         return Ok(record);
     };
     let made = scale.value.with_target(|spectrum| target(case, spectrum))?;
-    let factor = made.factor(&record).map_err(|e| match e {
+    let refused = |e| match e {
         // What the scale asks for, not what the record is.
         GroundMotionError::OutOfRange { .. } => {
             let place = scale.span.clone();
             AssemblyError::Case(case.error(place, e.to_string(), e.help()))
         }
         error => error.into(),
-    })?;
+    };
+    // Nobody could tell the factor of a band from the case: it is noted.
+    if made.target().is_some() {
+        let scaled = process(&record, &[ProcessingStep::Scale(made)]);
+        return Ok(scaled.map_err(refused)?.accelerogram);
+    }
+    let factor = made.factor(&record).map_err(refused)?;
     Ok(record.scaled_by(factor)?)
 }
 
+/// The spectrum to which a case scales its record, with the first and the last period (s) of
+/// the band; `None` if it does not scale to one.
+///
+/// # Errors
+/// A file that cannot be read or is no spectrum, or parameters out of range: with the place in
+/// the case.
+pub fn scale_target(case: &Case) -> Result<Option<(TargetSpectrum, (f64, f64))>, CaseError> {
+    match case.ground_motion.scale.as_ref().map(|s| &s.value) {
+        Some(Scale::Band {
+            target: spectrum,
+            from,
+            to,
+        }) => Ok(Some((target(case, spectrum)?, (*from, *to)))),
+        _ => Ok(None),
+    }
+}
+
 /// The spectrum that a scale of the case names.
-fn target(case: &Case, spectrum: &SpectrumFile) -> Result<TargetSpectrum, CaseError> {
-    let place = || spectrum.file.span.clone();
+fn target(case: &Case, spectrum: &SpectrumSource) -> Result<TargetSpectrum, CaseError> {
+    let place = || match spectrum {
+        SpectrumSource::File(spectrum) => spectrum.file.span.clone(),
+        SpectrumSource::Code(code) => code.span.clone(),
+    };
     read_target(spectrum, |path| case.resolve(path))
         .map_err(|e| case.error(place(), e.to_string(), e.help()))
 }
 
-/// Reads the spectrum that a scale or a step of a case names. `resolve` finds its file.
+/// Makes or reads the spectrum that a scale or a step of a case names. `resolve` finds its
+/// file.
 ///
 /// # Errors
-/// A file that cannot be read, or is no spectrum.
+/// A file that cannot be read, or is no spectrum; parameters of a code out of range.
 pub fn read_target(
-    spectrum: &SpectrumFile,
+    spectrum: &SpectrumSource,
     resolve: impl Fn(&Path) -> PathBuf,
 ) -> Result<TargetSpectrum, GroundMotionError> {
-    TargetSpectrum::read(&resolve(&spectrum.file.value), spectrum.damping)
+    match spectrum {
+        SpectrumSource::File(spectrum) => {
+            TargetSpectrum::read(&resolve(&spectrum.file.value), spectrum.damping)
+        }
+        SpectrumSource::Code(code) => code.value.target(),
+    }
 }
 
 fn read_options(case: &Case, motion: &GroundMotion) -> Result<ReadOptions, CaseError> {

@@ -15,6 +15,7 @@ impl Case {
             let steps = motion.process.iter().filter_map(|step| step.value.target());
             let scale = motion.scale.as_ref();
             let targets = steps.chain(scale.and_then(|scale| scale.value.target()));
+            let targets = targets.filter_map(|t| t.file());
             files.extend(targets.map(|t| ("target spectrum", self.resolve(&t.file.value))));
         };
         add("record", &self.ground_motion);

@@ -3,10 +3,13 @@
 
 use std::path::Path;
 
-use pounding_case::{Case, CaseError, process_steps, schema};
+use pounding_case::{Case, CaseError, SpectrumSource, process_steps, schema};
 use pounding_ground_motion::processing::{
     Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, Scale,
     SegmentWindow, Trim,
+};
+use pounding_ground_motion::spectra::design::{
+    Asce7Of2016, CodeSpectrum, Eurocode8Of2004, GroundType, SpectrumType,
 };
 use pounding_ground_motion::{AccelerationUnit, Offset};
 
@@ -177,13 +180,66 @@ fn scales() {
     let band = scale("{ target = \"s.csv\", from = \"0.2 s\", to = \"2 s\", damping = \"2 %\" }");
     assert!(matches!(
         band.unwrap(),
-        Scale::Band { target, from: 0.2, to: 2.0 }
+        Scale::Band { target: SpectrumSource::File(target), from: 0.2, to: 2.0 }
             if target.file.value == Path::new("s.csv") && target.damping == 0.02
     ));
+    let of_code = |text: &str| match scale(text).unwrap() {
+        Scale::Band {
+            target: SpectrumSource::Code(code),
+            from,
+            to,
+        } => (code.value, from, to),
+        other => panic!("{other:?}"),
+    };
+    let eurocode = CodeSpectrum::Eurocode8Of2004(Eurocode8Of2004 {
+        ground_acceleration: 0.25 * 9.80665,
+        ground: GroundType::C,
+        spectrum: SpectrumType::Type1,
+        damping: 0.05,
+    });
+    let text = "{ code = \"eurocode_8_2004\", ground_type = \"C\", ag = \"0.25 g\" }";
+    assert_eq!(of_code(text), (eurocode, 0.1, 3.0));
+    let asce = CodeSpectrum::Asce7Of2016(Asce7Of2016 {
+        short_period: 9.80665,
+        one_second: 6.0,
+        long_transition: 8.0,
+    });
+    let text = "{ code = \"asce_7_2016\", s_ds = \"1 g\", s_d1 = 6.0, t_l = \"8 s\", from = \"0.2 s\", to = 2 }";
+    assert_eq!(of_code(text), (asce, 0.2, 2.0));
 }
 
 /// What is wrong, its column in line 9, and a part of message or remedy.
 const WRONG: &[(&str, usize, &str)] = &[
+    (
+        "scale = { code = \"eurocode_8\", ag = 1 }",
+        18,
+        "eurocode_8_2004",
+    ),
+    (
+        "scale = { code = \"eurocode_8_2004\", ag = 1 }",
+        9,
+        "needs `ground_type`",
+    ),
+    (
+        "scale = { code = \"eurocode_8_2004\", ag = 1, ground_type = \"F\" }",
+        59,
+        "`ground_type`",
+    ),
+    (
+        "scale = { code = \"eurocode_8_2004\", ag = 1, ground_type = \"A\", spectrum_type = 3 }",
+        9,
+        "write 1 or 2",
+    ),
+    (
+        "scale = { code = \"asce_7_2016\", s_ds = 1, s_d1 = 1, t_l = 8, ag = 1 }",
+        9,
+        "has no `ag`",
+    ),
+    (
+        "scale = { code = \"asce_7_2016\", s_ds = 1, s_d1 = 1, t_l = 8, damping = 0.02 }",
+        9,
+        "damping ratio of 5 %",
+    ),
     ("rotate = 30", 10, "belong together"),
     ("rotate = \"30 mm\"", 10, "a plain number of degrees"),
     (
@@ -396,6 +452,6 @@ fn schema_of_the_record() {
     );
     assert_eq!(
         keys["scale"]["anyOf"][1]["oneOf"].as_array().unwrap().len(),
-        5
+        6
     );
 }

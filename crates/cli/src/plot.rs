@@ -2,18 +2,22 @@
 
 use std::path::Path;
 
-use pounding_report::ReportError;
 use pounding_report::documentation::DocumentationFile;
+use pounding_report::{PictureFormat, ReportError};
 
 use crate::failure::Failure;
 
-/// A picture of a library, written as a file.
+/// A picture of a library, written as a file of the form that its ending says.
 pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<(), Failure> {
     let picture = picture.map_err(|e| match e {
         ReportError::Motion(error) => error.into(),
         error => not_drawn(&error),
     })?;
-    write(path, &picture)
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
+    let bytes = format.of(&picture).map_err(|e| not_drawn(&e))?;
+    pounding_files::write(path, &bytes)
+        .map_err(|e| Failure::output(&e, &path.display().to_string()))
 }
 
 /// A picture that could not be drawn.

@@ -14,6 +14,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 use statrs::function::beta::beta_reg;
 use statrs::function::gamma::gamma_lr;
+use statrs::function::gamma::gamma_ur;
 pub(crate) use statrs::function::gamma::ln_gamma;
 
 /// Distribution function of the standard normal distribution, relative error 2e-16 near
@@ -37,6 +38,17 @@ pub fn normal_quantile(probability: f64) -> f64 {
         Normal::standard().inverse_cdf(probability)
     } else {
         f64::NAN
+    }
+}
+
+/// Probability that a chi-square variable of so many degrees of freedom, at least one, exceeds
+/// this number; one for zero and below.
+#[must_use]
+pub fn chi_square_exceedance(x: f64, degrees_of_freedom: usize) -> f64 {
+    if x > 0.0 {
+        gamma_ur(0.5 * degrees_of_freedom as f64, 0.5 * x)
+    } else {
+        1.0
     }
 }
 
@@ -114,6 +126,23 @@ mod tests {
         assert_eq!(normal_quantile(1.0), f64::INFINITY);
         assert!(normal_quantile(1.5).is_nan() && normal_quantile(f64::NAN).is_nan());
         near(normal_density(0.0), 0.398_942_280_401_432_7, 1e-15);
+    }
+
+    /// Closed forms for two and four degrees, the normal distribution for one, and the 5 % points
+    /// of the tables (Pearson and Hartley, Biometrika Tables for Statisticians I, table 8).
+    #[test]
+    fn chi_square() {
+        for x in [0.1_f64, 1.0, 7.5, 40.0] {
+            near(chi_square_exceedance(x, 2), (-0.5 * x).exp(), 1e-12);
+            let four = (-0.5 * x).exp() * (1.0 + 0.5 * x);
+            near(chi_square_exceedance(x, 4), four, 1e-12);
+            let one = 2.0 * normal_distribution(-x.sqrt());
+            near(chi_square_exceedance(x, 1), one, 1e-9);
+        }
+        for (degrees, point) in [(1, 3.841_46), (5, 11.070_5), (10, 18.307_0), (30, 43.773_0)] {
+            near(chi_square_exceedance(point, degrees), 0.05, 2e-5);
+        }
+        assert_eq!(chi_square_exceedance(0.0, 3), 1.0);
     }
 
     /// Closed forms: factorials, Gamma(1/2), exponential law, polynomials, arc sine.

@@ -10,6 +10,8 @@
 pub mod documentation;
 pub mod pictures;
 
+mod chart;
+mod conversion;
 mod decimation;
 mod error;
 mod figure;
@@ -18,6 +20,7 @@ mod page;
 mod reading;
 mod result;
 
+pub use conversion::PictureFormat;
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
 pub use loops::cycle_cells;

@@ -103,6 +103,12 @@ impl ProvisionDescriptor {
         self.inputs.contains(&Input::IsolationPeriod)
     }
 
+    /// Whether it takes displacements, and not only what is known without an analysis.
+    #[must_use]
+    pub fn depends_on_displacement(&self) -> bool {
+        self.basis == Basis::Displacement
+    }
+
     /// What the rule measures.
     #[must_use]
     pub fn place(&self) -> Place {

@@ -13,6 +13,7 @@ pub mod gap_check;
 mod case_text;
 mod design;
 mod error;
+mod fractiles;
 mod ida;
 mod merge;
 mod parts;

@@ -239,9 +239,11 @@ impl MotionTable {
                 .value()
                 .and_then(|steps| steps.read(reader))
                 .unwrap_or_default(),
-            scale: self.scale.located().map(|scale| Located {
-                value: scale_of(scale.value),
-                span: scale.span,
+            scale: self.scale.located().and_then(|scale| {
+                Some(Located {
+                    value: scale_of(reader, scale.value, &scale.span)?,
+                    span: scale.span,
+                })
             }),
         }
     }

@@ -18,7 +18,7 @@ use crate::document::{
     Signed, TableOr, Time,
 };
 use crate::error::{CaseError, Errors};
-use crate::types::{Located, SpectrumFile};
+use crate::types::{Located, SpectrumSource};
 
 /// A text that holds nothing but steps.
 #[derive(Deserialize)]
@@ -207,7 +207,7 @@ impl<T: JsonSchema> JsonSchema for Words<T> {
 pub fn process_steps(
     source: &str,
     name: &str,
-) -> Result<Vec<Located<ProcessingStep<SpectrumFile>>>, CaseError> {
+) -> Result<Vec<Located<ProcessingStep<SpectrumSource>>>, CaseError> {
     let errors = Errors::default();
     let reader = Reader {
         file: name,
@@ -223,7 +223,7 @@ impl Process {
     pub(super) fn read(
         self,
         reader: &Reader<'_>,
-    ) -> Option<Vec<Located<ProcessingStep<SpectrumFile>>>> {
+    ) -> Option<Vec<Located<ProcessingStep<SpectrumSource>>>> {
         let made = |step: Field<Step>| {
             let step = step.located()?;
             Some(Located {
@@ -255,7 +255,7 @@ impl Step {
         self,
         reader: &Reader<'_>,
         place: &Range<usize>,
-    ) -> Option<ProcessingStep<SpectrumFile>> {
+    ) -> Option<ProcessingStep<SpectrumSource>> {
         let or_zero = |time: Option<NotNegative<Time>>| time.map_or(0.0, f64::from);
         Some(match self {
             Self::TrueUnit(unit) => {
@@ -327,7 +327,7 @@ impl Step {
                 time_step: table.time_step.into(),
                 interpolation: table.interpolation.unwrap_or(Interpolation::Linear),
             },
-            Self::Scale(scale) => ProcessingStep::Scale(scale_of(scale)),
+            Self::Scale(scale) => ProcessingStep::Scale(scale_of(reader, scale, place)?),
         })
     }
 }

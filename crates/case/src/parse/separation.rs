@@ -55,6 +55,8 @@ pub(super) struct SeparationTable {
     /// Eccentricity of mass and isolators with the accidental one (m), one for all buildings or
     /// a list
     plan_eccentricity: PerBuilding<Length>,
+    /// Code whose answer is the verdict, such as eurocode_8_2004; by default the demand is
+    code: Optional<String>,
     /// Provisions to apply, by default all that apply
     provisions: Optional<Texts>,
 }
@@ -94,6 +96,7 @@ impl SeparationTable {
             plan_length: lengths(self.plan_length),
             plan_width: lengths(self.plan_width),
             plan_eccentricity: lengths(self.plan_eccentricity),
+            code: self.code.located(),
             provisions: self.provisions.value().map(|names| names.into_list()),
         }
     }

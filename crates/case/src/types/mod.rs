@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use pounding_ground_motion::Offset;
 use pounding_ground_motion::processing::{ProcessingStep, Scale};
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 use serde::Deserialize;
 
 use crate::error::CaseError;
@@ -455,9 +456,9 @@ pub struct GroundMotion {
     /// What becomes of the mean.
     pub offset: Offset,
     /// What is done to the record, in this order.
-    pub process: Vec<Located<ProcessingStep<SpectrumFile>>>,
+    pub process: Vec<Located<ProcessingStep<SpectrumSource>>>,
     /// Scale, after that; `None`: as recorded.
-    pub scale: Option<Located<Scale<SpectrumFile>>>,
+    pub scale: Option<Located<Scale<SpectrumSource>>>,
 }
 
 /// A turn of two components at right angles.
@@ -467,6 +468,26 @@ pub struct Rotation {
     pub second_component: Located<String>,
     /// Angle (degrees).
     pub angle: f64,
+}
+
+/// A spectrum to which a record is scaled.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SpectrumSource {
+    /// Of a file.
+    File(SpectrumFile),
+    /// Of a code.
+    Code(Located<CodeSpectrum>),
+}
+
+impl SpectrumSource {
+    /// Its file, if it is of one.
+    #[must_use]
+    pub fn file(&self) -> Option<&SpectrumFile> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::Code(_) => None,
+        }
+    }
 }
 
 /// The file of a spectrum to which a record is scaled.
@@ -554,6 +575,8 @@ pub struct Separation {
     pub plan_width: Option<Vec<f64>>,
     /// Eccentricities in plan (m).
     pub plan_eccentricity: Option<Vec<f64>>,
+    /// The code whose answer is asked for.
+    pub code: Option<Located<String>>,
     /// Names of the provisions to apply; all by default.
     pub provisions: Option<Vec<Located<String>>>,
 }
@@ -599,6 +622,7 @@ impl Separation {
             plan_length: other.plan_length.or(self.plan_length),
             plan_width: other.plan_width.or(self.plan_width),
             plan_eccentricity: other.plan_eccentricity.or(self.plan_eccentricity),
+            code: other.code.or(self.code),
             provisions: other.provisions.or(self.provisions),
         }
     }

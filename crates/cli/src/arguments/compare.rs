@@ -32,7 +32,7 @@ pub struct CompareArguments {
     /// Write every value, of storeys and levels too, into this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<OutputPath>,
-    /// Draw peaks over the models into this SVG file
+    /// Draw peaks over the models into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
     /// Threads [default: all cores]

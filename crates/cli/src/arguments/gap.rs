@@ -16,6 +16,9 @@ pub struct GapArguments {
     /// Records, or folders of them [default: that of the case]
     #[arg(long, num_args = 1.., value_name = "FILE")]
     pub records: Vec<InputPath>,
+    /// Code whose answer is the verdict, such as eurocode_8_2004 [default: that of the case; without one the demand decides]
+    #[arg(long, value_name = "NAME")]
+    pub code: Option<String>,
     /// Provisions to apply [default: those of the case, or all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
     pub provisions: Vec<String>,
@@ -46,13 +49,16 @@ pub struct GapArguments {
     /// Write demand, code gaps and their ratios for every record and level into this CSV file
     #[arg(long, value_name = "FILE")]
     pub codes_csv: Option<OutputPath>,
-    /// Draw amplification over the width into this SVG file
+    /// Draw amplification over the width into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
+    /// Draw the spectra of the records, their mean and the target of the scale into this file (.svg, .png, .pdf)
+    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    pub spectra: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// Show provisions that lack an input or do not apply too
+    /// Show every rule by itself, provisions that lack an input or do not apply, and every record
     #[arg(long)]
     pub all: bool,
     /// Print one JSON object instead of tables

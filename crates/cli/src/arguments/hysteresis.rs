@@ -65,7 +65,7 @@ pub struct HysteresisArguments {
     /// Write the loop, or else the dissipation curve or the fit, into this CSV file
     #[arg(long, requires = "law")]
     pub csv: Option<OutputPath>,
-    /// Draw the loop and the dissipation curve into this SVG file
+    /// Draw the loop and the dissipation curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), requires = "law")]
     pub svg: Option<OutputPath>,
     /// Print one JSON object

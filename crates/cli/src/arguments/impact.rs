@@ -70,7 +70,7 @@ pub struct ImpactArguments {
     /// Write the histories, or the table, into this CSV file
     #[arg(long)]
     pub csv: Option<OutputPath>,
-    /// Draw the histories, or the table, into this SVG file
+    /// Draw the histories, or the table, into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Compare with a measured force history: columns time, force with units in the header

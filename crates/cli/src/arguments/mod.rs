@@ -119,7 +119,7 @@ pub struct RunArguments {
     /// Do not write a result file
     #[arg(long, conflicts_with = "output")]
     pub no_output: bool,
-    /// Draw roof displacements and contact forces into this SVG file
+    /// Draw roof displacements and contact forces into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub plot: Option<OutputPath>,
     /// Print one JSON object instead of tables

@@ -2,6 +2,7 @@
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use pounding_case::{Dimension, parse_quantity};
+use pounding_report::PictureFormat;
 
 use super::OutputPath;
 use crate::failure::Failure;
@@ -16,15 +17,14 @@ pub fn velocity(text: &str) -> Result<f64, String> {
     of_dimension(text, Dimension::VELOCITY)
 }
 
-/// A file for a figure: figures are SVG, and the name says so.
+/// A file for a figure, in the form that its ending says.
 pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
     OsStringValueParser::new().try_map(|name| {
         let path = OutputPath::from(name);
-        let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
-        if svg {
-            Ok(path)
-        } else {
-            Err("figures are written as SVG: give a name that ends in .svg, and convert the file for other formats")
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        match PictureFormat::of_ending(&ending) {
+            Some(_) => Ok(path),
+            None => Err("figures are written as SVG, PNG or PDF: give a name that ends in .svg, .png or .pdf"),
         }
     })
 }

@@ -87,7 +87,7 @@ pub struct IdaArguments {
     /// Write the counts of every state at every intensity as a CSV table
     #[arg(long, value_name = "FILE")]
     pub table: Option<OutputPath>,
-    /// Draw fragilities and frequencies into this SVG file
+    /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
     /// Print one JSON object instead of tables

@@ -140,7 +140,7 @@ fn a_match_holds_in_the_file() {
         "match",
         &file,
         "--code",
-        "eurocode_8_2004, ag=0.25 g, ground=B, type=1",
+        "eurocode_8_2004, ag=0.25 g, ground_type=B",
         "--from",
         "0.1 s",
         "--to",

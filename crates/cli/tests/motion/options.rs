@@ -74,7 +74,7 @@ fn bounds_are_short_and_options_named() {
             "-o",
             &out,
             "--code",
-            "eurocode_8_2004, ag=0.25 g, ground=B, type=1",
+            "eurocode_8_2004, ag=0.25 g, ground_type=B",
             "--from",
             "2 s",
             "--to",

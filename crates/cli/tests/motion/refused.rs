@@ -156,9 +156,9 @@ fn bad_input() {
             "-o",
             &out,
             "--code",
-            "eurocode_8_2004, ag=0.2 g, ground=F, type=1",
+            "eurocode_8_2004, ag=0.2 g, ground_type=F",
         ],
-        &["ground cannot be \"F\""],
+        &["`ground_type`"],
     );
     refused(
         2,
@@ -168,7 +168,7 @@ fn bad_input() {
             "-o",
             &out,
             "--code",
-            "eurocode_8_2004, ag=0.2 g, ground=B, type=1",
+            "eurocode_8_2004, ag=0.2 g, ground_type=B",
             "--to",
             "5 s",
         ],
@@ -182,7 +182,7 @@ fn what_cannot_be_computed_or_written() {
     let folder = Folder::new();
     let file = el_centro();
     let out = folder.name("o.csv");
-    let code = "eurocode_8_2004, ag=0.25 g, ground=B, type=1";
+    let code = "eurocode_8_2004, ag=0.25 g, ground_type=B";
     refused(
         3,
         &[

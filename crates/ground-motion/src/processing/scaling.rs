@@ -133,7 +133,14 @@ impl Scale {
             Self::Band { target, from, to } => step
                 .number("first period", *from, "s")
                 .number("last period", *to, "s")
-                .number("damping ratio", target.damping(), "-"),
+                .number("damping ratio", target.damping(), "-")
+                .remark(format!(
+                    "to {}: least squares of the logarithm at {BAND_PERIODS} periods",
+                    match target.name() {
+                        "" => "a spectrum",
+                        name => name,
+                    }
+                )),
         };
         Ok((
             record.scaled_by(factor)?,

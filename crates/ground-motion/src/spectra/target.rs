@@ -10,6 +10,7 @@ const STEP: &str = "target spectrum";
 /// both axes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetSpectrum {
+    name: String,
     damping: f64,
     periods: Vec<f64>,
     accelerations: Vec<f64>,
@@ -53,10 +54,26 @@ impl TargetSpectrum {
             }
         }
         Ok(Self {
+            name: String::new(),
             damping,
             periods,
             accelerations,
         })
+    }
+
+    /// The same under this name.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..self
+        }
+    }
+
+    /// What it is: the title of a code's spectrum, or a file; empty where it has none.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Damping ratio (-).

@@ -78,6 +78,6 @@ impl TargetSpectrum {
         if unit.is_none() {
             return Err(wrong(0, 0, "there is no header".to_owned()));
         }
-        Self::new(periods, accelerations, damping)
+        Ok(Self::new(periods, accelerations, damping)?.named(file))
     }
 }

@@ -2,42 +2,83 @@
 
 use pounding_study::comparison::{Comparison, QuantityKind};
 
-use super::panel;
+use crate::chart::{Axis, Chart, Limit, LimitPlace, Look, Plot, Scale, Series, drawn};
 use crate::error::ReportError;
-use crate::figure::{Curve, figure};
 
-/// Peaks over those without pounding, over the models in the order of the tables; a curve
-/// a building and record.
+/// Height of a row with the name of a model (pt).
+const ROW: f64 = 13.0;
+/// Part of a row over which the marks of its buildings are spread.
+const SPREAD: f64 = 0.5;
+
+/// Peaks with pounding over those of the isolated buildings, a row a model in the order of the
+/// tables: a dot for each building, with a bar from the least to the greatest record around their
+/// median. No line joins models.
 ///
 /// # Errors
 /// [`ReportError::Figure`].
 pub fn peak_ratios(c: &Comparison) -> Result<String, ReportError> {
-    let panel_of = |kind: QuantityKind, name: &str| {
+    let names = c.models.iter().map(|m| m.descriptor.name.to_owned());
+    let names: Vec<String> = names.collect();
+    let plot = |kind: QuantityKind, name: &str| {
         let quantities = c.quantities.iter().enumerate();
-        let curves = quantities
-            .filter(|(_, q)| q.kind == kind)
-            .flat_map(|(q, quantity)| {
-                c.records.iter().enumerate().map(move |(r, record)| {
-                    let isolated = c.isolated[r][q];
-                    let ratio = |m: usize| ((m + 1) as f64, c.value(m, r, q) / isolated);
-                    Curve {
-                        name: format!("{}, {record}", quantity.of),
-                        points: (0..c.models.len())
-                            .map(ratio)
-                            .filter(|p| p.1.is_finite())
-                            .collect(),
-                    }
-                })
+        let quantities: Vec<_> = quantities.filter(|(_, q)| q.kind == kind).collect();
+        let count = quantities.len();
+        let mut series = Vec::new();
+        for (turn, (q, quantity)) in quantities.into_iter().enumerate() {
+            let shift = SPREAD * ((turn as f64 + 0.5) / count as f64 - 0.5);
+            let mut dots = Vec::new();
+            for m in 0..c.models.len() {
+                let ratios = (0..c.records.len()).map(|r| c.value(m, r, q) / c.isolated[r][q]);
+                let mut ratios: Vec<f64> = ratios.filter(|x| x.is_finite()).collect();
+                ratios.sort_by(f64::total_cmp);
+                let (Some(least), Some(most)) = (ratios.first(), ratios.last()) else {
+                    continue;
+                };
+                let row = m as f64 + shift;
+                if most > least {
+                    series.push(Series {
+                        name: String::new(),
+                        points: vec![(*least, row), (*most, row)],
+                        look: Look {
+                            dash: Some(""),
+                            width: 0.9,
+                            ..Look::line(turn)
+                        },
+                    });
+                }
+                dots.push((ratios[ratios.len() / 2], row));
+            }
+            let of_records = if c.records.len() > 1 {
+                format!(", median and range of {} records", c.records.len())
+            } else {
+                String::new()
+            };
+            series.push(Series {
+                name: format!("{}, with pounding{of_records}", quantity.of),
+                points: dots,
+                look: Look::points(turn),
             });
-        panel(
-            &format!("Maximum {name} over the storeys, over that without pounding (-)"),
-            "number of the model, in the order of the table",
-            curves.collect(),
-        )
+        }
+        Plot {
+            heading: format!("Maximum {name} over the storeys, over that of the isolated building"),
+            horizontal: Axis::linear("ratio to the isolated building (-)"),
+            vertical: Axis {
+                label: String::new(),
+                scale: Scale::Names(names.clone()),
+                range: None,
+            },
+            series,
+            limits: vec![Limit {
+                name: "1.0: isolated".to_owned(),
+                at: LimitPlace::Horizontal(1.0),
+                look: Look::limit("1 1.5"),
+            }],
+            height: 8.0 + ROW * names.len() as f64,
+        }
     };
-    figure(&[
-        panel_of(QuantityKind::Displacement, "displacement"),
-        panel_of(QuantityKind::StoreyShear, "storey shear"),
-        panel_of(QuantityKind::AccelerationAbsolute, "absolute acceleration"),
-    ])
+    Ok(drawn(&Chart::of_page(vec![
+        plot(QuantityKind::Displacement, "displacement"),
+        plot(QuantityKind::StoreyShear, "storey shear"),
+        plot(QuantityKind::AccelerationAbsolute, "absolute acceleration"),
+    ])))
 }

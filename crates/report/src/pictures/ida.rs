@@ -1,54 +1,105 @@
 //! Incremental dynamic analyses.
 
-use pounding_study::{Counts, FragilityFit, IdaReport, LimitResult};
+use pounding_study::{Counts, FragilityFit, GapResult, IdaReport, LimitResult};
 
-use super::panel;
+use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series, drawn};
 use crate::error::ReportError;
-use crate::figure::{Curve, figure};
 
 /// Points of a drawn curve.
 const POINTS: usize = 200;
 /// Curves of one panel that can still be told apart.
 const MOST: usize = 7;
+/// Demands whose curves are drawn at most.
+const DEMANDS: usize = 4;
 
-/// Fragility curves with the fractions they were fitted to, of the limits and of pounding by
-/// width of each gap, and the mean annual frequency of pounding over the width.
+/// Curves of the analysis, one line a record with its fractiles; fragility curves with the
+/// fractions they were fitted to, of the limits and of pounding by width of each gap; and the
+/// mean annual frequency of pounding over the width with its bounds.
 ///
 /// # Errors
 /// [`ReportError::Figure`].
 pub fn fragility(report: &IdaReport) -> Result<String, ReportError> {
     let highest = last_that_differs(report);
-    let horizontal = format!("{} ({})", report.measure, report.unit);
-    let states: Vec<&LimitResult> = report.limits.iter().collect();
-    let mut panels = vec![panel(
-        "Probability of a state: counts (broken lines) and fitted curves",
-        &horizontal,
-        fragilities(&states, highest),
-    )];
+    let mut plots = curves(report);
+    let states: Vec<(String, &LimitResult)> = report
+        .limits
+        .iter()
+        .map(|state| (state.name.clone(), state))
+        .collect();
+    plots.push(fragilities(
+        report,
+        "Probability of a state",
+        &states,
+        highest,
+    ));
     for gap in &report.gaps {
-        let widths: Vec<&LimitResult> = gap.widths.iter().map(|w| &w.result).collect();
-        if !widths.is_empty() {
-            let caption = format!("Probability of pounding, {}, by width of the gap", gap.gap);
-            panels.push(panel(&caption, &horizontal, fragilities(&widths, highest)));
-        }
-        let frequencies: Vec<(f64, f64)> = gap
+        let widths: Vec<(String, &LimitResult)> = gap
             .widths
             .iter()
-            .filter_map(|w| Some((w.width * 1e3, w.result.frequency?.log10())))
+            .map(|w| (format!("{:.0} mm", w.width * 1e3), &w.result))
             .collect();
-        if frequencies.len() > 1 {
-            let caption = format!(
-                "Mean annual frequency of pounding, {} (decimal logarithm)",
-                gap.gap
-            );
-            let curve = Curve {
-                name: gap.gap.clone(),
-                points: frequencies,
-            };
-            panels.push(panel(&caption, "gap (mm)", vec![curve]));
+        if !widths.is_empty() {
+            let heading = format!("Probability of pounding, {}, by width of the gap", gap.gap);
+            plots.push(fragilities(report, &heading, &widths, highest));
         }
+        plots.extend(frequencies(&gap.gap, &gap.widths));
     }
-    figure(&panels)
+    Ok(drawn(&Chart::of_page(plots)))
+}
+
+/// Intensity over drift ratios of the buildings, a line a record.
+fn curves(report: &IdaReport) -> Vec<Plot> {
+    let (scale, unit) = report.shown_intensity();
+    let demands = report.demands.iter().enumerate();
+    let drifts = demands.filter(|(_, (name, _))| name.starts_with("peak_drift_ratio"));
+    let plot = |(index, (name, _)): (usize, &(String, String))| {
+        let building = name.split_once(": ").map_or("", |(_, building)| building);
+        let line = |values: &mut dyn Iterator<Item = f64>| {
+            let levels = report.levels.iter().map(|l| l.intensity / scale);
+            let points = values.zip(levels).map(|(d, i)| (100.0 * d, i));
+            std::iter::once((0.0, 0.0)).chain(points).collect()
+        };
+        let records = report.curves[index].iter().enumerate();
+        let mut series: Vec<Series> = records
+            .map(|(number, values)| Series {
+                name: match number {
+                    0 => format!("{} records, with pounding", report.curves[index].len()),
+                    _ => String::new(),
+                },
+                points: line(&mut values.iter().copied()),
+                look: Look::one_of_many(),
+            })
+            .collect();
+        for (fractile, (name, dash)) in [("16 %", "1.5 1.5"), ("median", ""), ("84 %", "6 2")]
+            .into_iter()
+            .enumerate()
+        {
+            let values = report.levels.iter().map(|l| l.fractiles[index][fractile]);
+            series.push(Series {
+                name: name.to_owned(),
+                points: line(&mut values.into_iter()),
+                look: Look::summary(dash),
+            });
+        }
+        // Where half of the records are shown: the greatest are few.
+        let finite = |x: &f64| x.is_finite();
+        let upper = report.levels.iter().map(|l| 100.0 * l.fractiles[index][2]);
+        let upper = upper.filter(finite).fold(0.0, f64::max);
+        let horizontal = Axis::linear("maximum drift ratio (%)");
+        Plot {
+            heading: format!("Maximum drift ratio of {building}"),
+            horizontal: if upper > 0.0 {
+                horizontal.over(0.0, 1.25 * upper)
+            } else {
+                horizontal
+            },
+            vertical: Axis::linear(&format!("intensity ({unit})")),
+            series,
+            limits: Vec::new(),
+            height: HEIGHT,
+        }
+    };
+    drifts.take(DEMANDS).map(plot).collect()
 }
 
 /// The intensity from which on every run reaches every state: there is nothing more to see.
@@ -70,27 +121,88 @@ fn last_that_differs(report: &IdaReport) -> f64 {
     shown.map_or(1.0, |l| l.intensity)
 }
 
-/// Fitted curves with the fractions they were fitted to.
-fn fragilities(states: &[&LimitResult], highest: f64) -> Vec<Curve> {
-    let mut curves = Vec::new();
-    for state in states.iter().take(MOST) {
-        if let FragilityFit::Lognormal(f) = state.fit {
-            let at = |i: usize| highest * i as f64 / POINTS as f64;
-            curves.push(Curve {
-                name: state.name.clone(),
-                points: (0..=POINTS)
-                    .map(|i| (at(i), f.probability(at(i))))
-                    .collect(),
-            });
-        }
+/// Fitted curves, and as markers the fractions they were fitted to.
+fn fragilities(
+    report: &IdaReport,
+    heading: &str,
+    states: &[(String, &LimitResult)],
+    highest: f64,
+) -> Plot {
+    let (scale, unit) = report.shown_intensity();
+    let mut series = Vec::new();
+    for (number, (name, state)) in states.iter().take(MOST).enumerate() {
+        let fitted = match state.fit {
+            FragilityFit::Lognormal(f) => {
+                let at = |i: usize| highest * i as f64 / POINTS as f64;
+                let points = (0..=POINTS).map(|i| (at(i) / scale, f.probability(at(i))));
+                series.push(Series {
+                    name: name.clone(),
+                    points: points.collect(),
+                    look: Look::fitted(number),
+                });
+                true
+            }
+            _ => false,
+        };
         let shown = |c: &&Counts| c.runs > 0 && c.intensity <= highest;
         let fractions = state.counts.iter().filter(shown);
-        curves.push(Curve {
-            name: format!("{}, counts", state.name),
+        series.push(Series {
+            name: if fitted { String::new() } else { name.clone() },
             points: fractions
-                .map(|c| (c.intensity, c.reached as f64 / c.runs as f64))
+                .map(|c| (c.intensity / scale, c.reached as f64 / c.runs as f64))
                 .collect(),
+            look: Look::points(number),
         });
     }
-    curves
+    Plot {
+        heading: format!("{heading}: counted fractions as markers, fitted curves"),
+        horizontal: Axis::linear(&format!("{} ({unit})", report.measure)),
+        vertical: Axis::linear("probability (-)").over(0.0, 1.03),
+        series,
+        limits: Vec::new(),
+        height: HEIGHT,
+    }
+}
+
+/// Frequency of pounding over the width of a gap, with bounds; nothing of a single width.
+fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
+    let points: Vec<(f64, f64)> = widths
+        .iter()
+        .filter_map(|w| Some((w.width * 1e3, w.result.frequency?)))
+        .collect();
+    if points.len() < 2 {
+        return None;
+    }
+    let mut series = vec![Series {
+        name: "estimate".to_owned(),
+        points,
+        look: Look {
+            few_markers: false,
+            ..Look::points(0)
+        },
+    }];
+    let bounds = widths
+        .iter()
+        .filter_map(|w| Some((w.width * 1e3, w.result.frequency_bounds?)));
+    for (number, (width, bounds)) in bounds.enumerate() {
+        series.push(Series {
+            name: match number {
+                0 => "bounds, bootstrap over records".to_owned(),
+                _ => String::new(),
+            },
+            points: vec![(width, bounds.low), (width, bounds.high)],
+            look: Look {
+                dash: Some(""),
+                ..Look::line(0)
+            },
+        });
+    }
+    Some(Plot {
+        heading: format!("Mean annual frequency of pounding, {gap}"),
+        horizontal: Axis::linear("width of the gap (mm)"),
+        vertical: Axis::logarithmic("frequency (1/year)"),
+        series,
+        limits: Vec::new(),
+        height: HEIGHT,
+    })
 }

@@ -3,19 +3,21 @@
 use pounding_catalogue::STANDARD_GRAVITY as G;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::{GroundMotion, Husid};
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 use pounding_ground_motion::spectra::{
     Evaluation, ResponseSpectrum, RotatedSpectrum, TargetSpectrum, logarithmic_periods,
     response_spectrum,
 };
 
 use super::{over, panel};
+use crate::chart::{Axis, Chart, Plot, drawn};
 use crate::error::ReportError;
-use crate::figure::{Curve, Panel, Reference, figure, figure_with_references};
+use crate::figure::{Curve, Panel, Reference, figure, plots};
 
 /// Points of a curve: as many as a picture can show; peaks of each stretch are kept.
 const POINTS: usize = 4000;
 /// Periods at which spectra are drawn.
-const PERIODS: usize = 300;
+const PERIODS: usize = 200;
 
 /// A motion with its name in the picture.
 #[derive(Debug, Clone)]
@@ -111,26 +113,74 @@ pub fn percent(damping: f64) -> String {
 }
 
 /// Pseudo-acceleration, pseudo-velocity and displacement over the period, a curve for each
-/// damping ratio.
+/// damping ratio; spectra of a code beside the pseudo-acceleration.
 ///
 /// # Errors
 /// [`ReportError::Figure`].
-pub fn responses(spectra: &[ResponseSpectrum]) -> Result<String, ReportError> {
+pub fn responses(
+    spectra: &[ResponseSpectrum],
+    codes: &[CodeSpectrum],
+) -> Result<String, ReportError> {
     type Values = for<'s> fn(&'s ResponseSpectrum) -> &'s [f64];
-    let drawn = |caption: &str, values: Values, factor: f64| {
+    let panel_of = |caption: &str, values: Values, factor: f64| {
         let curves = spectra.iter();
         let curves = curves.map(|s| over(&percent(s.damping), &s.periods, values(s), factor));
         panel(caption, "period (s)", curves.collect())
     };
-    figure(&[
-        drawn(
+    let mut panels = [
+        panel_of(
             "Pseudo-acceleration PSA (g)",
             |s| &s.pseudo_acceleration,
             1.0 / G,
         ),
-        drawn("Pseudo-velocity PSV (m/s)", |s| &s.pseudo_velocity, 1.0),
-        drawn("Displacement SD (mm)", |s| &s.displacement, 1.0e3),
-    ])
+        panel_of("Pseudo-velocity PSV (m/s)", |s| &s.pseudo_velocity, 1.0),
+        panel_of("Displacement SD (mm)", |s| &s.displacement, 1.0e3),
+    ];
+    let mut references = Vec::new();
+    if let Some(first) = spectra.first() {
+        for code in codes {
+            let values = first.periods.iter();
+            let values = values.map(|t| (*t, code.acceleration(*t) / G));
+            references.push(Reference {
+                panel: 0,
+                curve: Curve {
+                    name: code.title(),
+                    points: values.collect(),
+                },
+            });
+        }
+        if panels[0].curves.len() == 1 && !codes.is_empty() {
+            panels[0].curves[0].name = format!("record, {}", percent(first.damping));
+        }
+    }
+    Ok(over_periods(&panels, &references, false))
+}
+
+/// Panels over periods or frequencies, whose axis is logarithmic; with `both` the vertical one
+/// too.
+fn over_periods(panels: &[Panel], references: &[Reference], both: bool) -> String {
+    let mut plots: Vec<Plot> = plots(panels, references);
+    for plot in &mut plots {
+        plot.horizontal = Axis::logarithmic(&plot.horizontal.label);
+        if both {
+            plot.vertical = Axis::logarithmic("");
+        }
+    }
+    drawn(&Chart::of_page(plots))
+}
+
+/// Spectra of a code at these periods (s), one for each damping ratio.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn codes(spectra: &[CodeSpectrum], periods: &[f64]) -> Result<String, ReportError> {
+    let curves = spectra.iter().map(|spectrum| {
+        let values: Vec<f64> = periods.iter().map(|t| spectrum.acceleration(*t)).collect();
+        over(&spectrum.title(), periods, &values, 1.0 / G)
+    });
+    let caption = "Pseudo-acceleration PSA (g)";
+    let panel = panel(caption, "period (s)", curves.collect());
+    Ok(over_periods(&[panel], &[], false))
 }
 
 /// Median and maximum over all directions, for each damping ratio.
@@ -146,7 +196,11 @@ pub fn rotated(spectra: &[RotatedSpectrum]) -> Result<String, ReportError> {
         }
     }
     let caption = "Pseudo-acceleration over all directions (g)";
-    figure(&[panel(caption, "period (s)", curves)])
+    Ok(over_periods(
+        &[panel(caption, "period (s)", curves)],
+        &[],
+        false,
+    ))
 }
 
 /// Fourier amplitudes (m/s) over the frequency (Hz); `name` says how they are smoothed.
@@ -156,7 +210,8 @@ pub fn rotated(spectra: &[RotatedSpectrum]) -> Result<String, ReportError> {
 pub fn fourier(name: &str, frequencies: &[f64], amplitudes: &[f64]) -> Result<String, ReportError> {
     let caption = "Fourier amplitude of acceleration (m/s)";
     let curve = over(name, frequencies, amplitudes, 1.0);
-    figure(&[panel(caption, "frequency (Hz)", vec![curve])])
+    let panel = panel(caption, "frequency (Hz)", vec![curve]);
+    Ok(over_periods(&[panel], &[], true))
 }
 
 /// Spectra from one period (s) to another before and after a motion was brought to a target,
@@ -189,11 +244,14 @@ pub fn matched(
             points: wanted,
         },
     };
-    let mut panels = vec![spectra];
+    let mut all = plots(&[spectra], &[reference]);
+    for plot in &mut all {
+        plot.horizontal = Axis::logarithmic(&plot.horizontal.label);
+    }
     let named = [
         Named::at_rest("as read", before),
         Named::at_rest("matched", after),
     ];
-    panels.extend(history_panels(&named)?);
-    figure_with_references(&panels, &[reference])
+    all.extend(plots(&history_panels(&named)?, &[]));
+    Ok(drawn(&Chart::of_page(all)))
 }

@@ -110,7 +110,11 @@ impl<'s> Responses<'s> {
         let forces = forces.map(|(c, level)| c.curve(system.name_of_level(level)));
         let forces_at = "Contact force at the highest level (kN), sampled on the output grid";
         figure(&[
-            panel("Roof displacement (mm)", "time (s)", roofs.collect()),
+            panel(
+                "Roof displacement with pounding (mm)",
+                "time (s)",
+                roofs.collect(),
+            ),
             panel(forces_at, "time (s)", forces.collect()),
         ])
     }

@@ -2,26 +2,26 @@
 
 use crate::descriptor::{ProvisionDescriptor, Unavailable};
 
-mod as_1170_4;
-mod asce_41;
-mod asce_7;
-mod asce_7_isolation;
-mod e_030;
-mod eak_2000;
-mod eurocode_8;
-mod gb_50011;
-mod iran_2800;
-mod is_1893;
-mod is_4326;
-mod japan;
-mod mexico_city_2004;
-mod nbcc;
-mod nch_433;
-mod ntc_2018;
-mod nzs_1170_5;
-mod taiwan_2011;
-mod turkey;
-mod ubc_1997;
+pub(crate) mod as_1170_4;
+pub(crate) mod asce_41;
+pub(crate) mod asce_7;
+pub(crate) mod asce_7_isolation;
+pub(crate) mod e_030;
+pub(crate) mod eak_2000;
+pub(crate) mod eurocode_8;
+pub(crate) mod gb_50011;
+pub(crate) mod iran_2800;
+pub(crate) mod is_1893;
+pub(crate) mod is_4326;
+pub(crate) mod japan;
+pub(crate) mod mexico_city_2004;
+pub(crate) mod nbcc;
+pub(crate) mod nch_433;
+pub(crate) mod ntc_2018;
+pub(crate) mod nzs_1170_5;
+pub(crate) mod taiwan_2011;
+pub(crate) mod turkey;
+pub(crate) mod ubc_1997;
 
 /// Descriptors of all provisions, in the order in which users see them.
 pub(crate) static ALL: &[&ProvisionDescriptor] = &[

@@ -9,7 +9,7 @@ fn mix(mut z: u64) -> u64 {
 }
 
 /// Sixty-four bits for a list of numbers.
-pub(super) fn bits(numbers: &[u64]) -> u64 {
+pub(crate) fn bits(numbers: &[u64]) -> u64 {
     let golden = 0x9e37_79b9_7f4a_7c15;
     numbers.iter().fold(golden, |state, n| {
         mix(state.wrapping_add(golden) ^ mix(n.wrapping_add(golden)))
@@ -17,6 +17,6 @@ pub(super) fn bits(numbers: &[u64]) -> u64 {
 }
 
 /// An even number from 0 to 1, one excluded, for a list of numbers.
-pub(super) fn unit(numbers: &[u64]) -> f64 {
+pub(crate) fn unit(numbers: &[u64]) -> f64 {
     (bits(numbers) >> 11) as f64 * f64::powi(2.0, -53)
 }

@@ -2,7 +2,7 @@
 //! number alone, so that memory does not grow with the number of runs.
 
 mod latin_hypercube;
-mod mixing;
+pub(crate) mod mixing;
 mod sobol;
 
 use crate::study_file::{Value, Variable};

@@ -2,12 +2,13 @@
 
 use pounding_case::{Case, CaseError, Located, Separation};
 use pounding_separation::{
-    CombinationRule, EffectiveProperties, Oscillator, ProvisionDescriptor, Requirement,
-    SeparationError, Site, Situation, SoilZone, StructuralSystem, Structure, Verification,
-    YieldingOscillator, correlation_coefficient, descriptors, find,
+    CodeDescriptor, CombinationRule, EffectiveProperties, Oscillator, Ownership,
+    ProvisionDescriptor, Requirement, SeparationError, Site, Situation, SoilZone, StructuralSystem,
+    Structure, Verification, YieldingOscillator, correlation_coefficient, descriptors, find,
+    find_code,
 };
 use pounding_shear_building::{ShearBuilding, are_level};
-use pounding_time_history::{BuildingOutcome, Gap, System};
+use pounding_time_history::{Gap, System};
 
 use super::SAME;
 use super::demand::{GapLevel, RecordDemand};
@@ -119,7 +120,7 @@ impl GapPlace<'_> {
     }
 
     /// Building and storey (from zero) on both sides of each level; `None` is a wall.
-    fn levels(&self) -> Vec<[Option<(usize, usize)>; 2]> {
+    pub(super) fn levels(&self) -> Vec<[Option<(usize, usize)>; 2]> {
         let gap = self.gap();
         let levels = self.system.levels_of(gap).iter();
         levels
@@ -127,8 +128,13 @@ impl GapPlace<'_> {
             .collect()
     }
 
-    fn elevation(&self, level: usize) -> f64 {
+    pub(super) fn elevation(&self, level: usize) -> f64 {
         self.system.levels_of(self.gap())[level].place.elevation()
+    }
+
+    /// Provided width of a level (m).
+    pub(super) fn width(&self, level: usize) -> f64 {
+        self.system.levels_of(self.gap())[level].width
     }
 
     /// Whether every floor of the lower building faces a floor of the other.
@@ -172,8 +178,16 @@ impl<'a> Inputs<'a> {
         })
     }
 
+    /// Who owns the ground, if the case says it.
+    pub(super) fn ownership(&self) -> Option<Ownership> {
+        self.separation.same_owner.map(|same| match same {
+            true => Ownership::SameProperty,
+            false => Ownership::DifferentProperties,
+        })
+    }
+
     /// With the relative displacement of the ground (m) on both sides of a level.
-    fn site(&self, place: &GapPlace<'_>, relative_ground_displacement: f64) -> Site {
+    pub(super) fn site(&self, place: &GapPlace<'_>, relative_ground_displacement: f64) -> Site {
         let s = self.separation;
         let intensity = s.fortification_intensity;
         Site {
@@ -189,11 +203,12 @@ impl<'a> Inputs<'a> {
         }
     }
 
-    fn structure(
+    /// A building with its displacement at a level (m), and whether it yields.
+    pub(super) fn structure(
         &self,
         building: &ShearBuilding,
-        (index, storey): (usize, usize),
-        isolated: &[BuildingOutcome],
+        index: usize,
+        (displacement, inelastic): (f64, bool),
     ) -> Structure {
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
@@ -202,10 +217,10 @@ impl<'a> Inputs<'a> {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
             storeys: building.storeys(),
-            displacement: Some(isolated[index].storeys[storey].displacement.value),
+            displacement: Some(displacement),
             // Of the run that the displacement is taken from. Links that yield leave the
             // storeys elastic, and no code reduces forces for them.
-            inelastic: !isolated[index].inelastic_storeys().is_empty(),
+            inelastic,
             elastic_displacement: None,
             response_modification: of(&self.separation.response_modification),
             displacement_amplification: of(&self.separation.displacement_amplification),
@@ -245,8 +260,21 @@ fn provision_of(
     find(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
 }
 
+fn code_of(case: &Case, name: &Located<String>) -> Result<&'static CodeDescriptor, CheckError> {
+    find_code(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
+}
+
+/// The code whose answer is asked for, if there is one.
+pub(crate) fn chosen_code(
+    case: &Case,
+    separation: &Separation,
+) -> Result<Option<&'static CodeDescriptor>, CheckError> {
+    let name = separation.code.as_ref();
+    name.map(|name| code_of(case, name)).transpose()
+}
+
 /// Every word of `[separation]` in a case that is not known: structural systems, the soil zone,
-/// provisions.
+/// provisions, the code.
 #[must_use]
 pub fn unknown_words(case: &Case) -> Vec<CaseError> {
     let given = &case.separation;
@@ -260,7 +288,9 @@ pub fn unknown_words(case: &Case) -> Vec<CaseError> {
         CheckError::Case(error) => Some(error),
         _ => None,
     };
-    let all = systems.chain(zone).chain(provisions);
+    let code = given.code.iter();
+    let code = code.filter_map(|name| code_of(case, name).err());
+    let all = systems.chain(zone).chain(provisions).chain(code);
     all.filter_map(placed).collect()
 }
 
@@ -305,7 +335,12 @@ pub(crate) fn by_code(
 ) -> Vec<CodeGap> {
     let buildings = place.system.buildings();
     let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
-        at.map(|at| inputs.structure(&buildings[at.0], at, &record.isolated))
+        at.map(|(index, storey)| {
+            let isolated = &record.isolated[index];
+            let displacement = isolated.storeys[storey].displacement.value;
+            let inelastic = !isolated.inelastic_storeys().is_empty();
+            inputs.structure(&buildings[index], index, (displacement, inelastic))
+        })
     };
     let apply = |descriptor: &ProvisionDescriptor,
                  record: &RecordDemand,

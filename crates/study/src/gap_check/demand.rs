@@ -49,6 +49,8 @@ impl Amplification {
 pub struct RecordDemand {
     /// Name.
     pub name: String,
+    /// What the recorded values were multiplied by (-).
+    pub factor: f64,
     /// Peak ground acceleration as used (m/s2).
     pub peak_ground_acceleration: f64,
     /// Width that the record would just not close, for each gap and level (m).
@@ -178,6 +180,7 @@ fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
     let pounding = run(system, options, &mut [], &mut |_| {});
     Ok(RecordDemand {
         name: record.name.clone(),
+        factor: record.assembly.accelerogram.scale(),
         peak_ground_acceleration: record.assembly.accelerogram.peak().value.abs(),
         demand: system.gaps().iter().map(of_gap).collect(),
         relative_ground_displacement: system.gaps().iter().map(ground).collect(),

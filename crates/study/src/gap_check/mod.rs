@@ -1,23 +1,29 @@
 //! Is the gap wide enough? Demand by simulation of the isolated buildings, gaps by code,
 //! and what pounding does at the provided gap and at many others.
 
+mod code_answer;
 mod codes;
 mod demand;
 mod error;
 mod parallel;
 mod records;
 mod required;
+mod spectra;
 mod statistics;
+mod suite;
 mod sweep;
 mod systems;
 
+pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words};
 pub use demand::{Amplification, AmplifiedQuantity, GapLevel, RecordDemand};
 pub use error::CheckError;
 pub use parallel::Progress;
 pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
 pub use required::{LognormalFit, RequiredGap};
+pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
+pub use suite::SuiteStatistics;
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
 
 pub(crate) use demand::{amplification, closes, demands, levels};
@@ -65,11 +71,16 @@ pub struct GapReport {
     pub contact_bounds: (f64, f64),
     /// Uniform width for the target probability.
     pub required: RequiredGap,
+    /// Statistics of that demand over the records.
+    pub suite: SuiteStatistics,
+    /// The answer of the one code that is asked for.
+    pub code: Option<CodeAnswer>,
     /// Gaps by code, in the order of the registry.
     pub codes: Vec<CodeGap>,
     /// Gaps by combination rules; none beside a wall.
     pub combinations: Vec<CombinationGap>,
-    /// Whether no more records than the target probability allows close the gap.
+    /// Whether no more records than the target probability allows close the gap, whatever a
+    /// code says.
     pub adequate: bool,
     /// Shear of columns that are hit, at the provided widths: of each such level the record
     /// under which it is a maximum; none where no run could be made.
@@ -94,6 +105,8 @@ pub struct GapCheck {
     pub options: GapCheckOptions,
     /// Each record with its demands, isolated responses and responses with pounding.
     pub records: Vec<RecordDemand>,
+    /// Spectra of the records as they are used, beside the target of the case's scale.
+    pub spectra: SuiteSpectra,
     /// Gaps in the order of the case.
     pub gaps: Vec<GapReport>,
     /// Sweep over widths.
@@ -107,6 +120,16 @@ pub struct GapCheck {
 pub(crate) const SAME: f64 = 1.0e-6;
 
 impl GapReport {
+    /// Whether the gap is wide enough: by the code that is asked for, which must give an answer,
+    /// else by the demand of the records.
+    #[must_use]
+    pub fn wide_enough(&self) -> bool {
+        match &self.code {
+            Some(code) => code.satisfied() == Some(true),
+            None => self.adequate,
+        }
+    }
+
     /// Records whose demand exceeds a width (m) that may differ between them, by more than
     /// two computations of one number differ.
     #[must_use]
@@ -152,10 +175,10 @@ impl GapReport {
 }
 
 impl GapCheck {
-    /// Whether every gap is adequate.
+    /// Whether every gap is wide enough.
     #[must_use]
     pub fn adequate(&self) -> bool {
-        self.gaps.iter().all(|g| g.adequate)
+        self.gaps.iter().all(GapReport::wide_enough)
     }
 }
 
@@ -173,6 +196,7 @@ pub fn gap_check(
 ) -> Result<GapCheck, CheckError> {
     check_options(options)?;
     let chosen = codes::chosen(case, separation)?;
+    let code = codes::chosen_code(case, separation)?;
     let inputs = codes::Inputs::of(case, separation)?;
     let first = records.first().ok_or(CheckError::NoGap)?;
     if first.assembly.system.gaps().is_empty() {
@@ -193,7 +217,10 @@ pub fn gap_check(
         };
         let codes = codes::by_code(&place, &chosen, &inputs, &demands);
         let combinations = codes::combinations(&place, &inputs, &demands)?;
-        gaps.push(report(&place, &demands, options, (codes, combinations))?);
+        let mut report = report(&place, &demands, options, (codes, combinations))?;
+        report.code = code
+            .map(|code| code_answer::code_answer(code, &place, &inputs, &demands, &report.demand));
+        gaps.push(report);
     }
     let sweep = swept.map(|asked| {
         let tell = |done, _| progress(records.len() + done, total);
@@ -201,6 +228,7 @@ pub fn gap_check(
     });
     Ok(GapCheck {
         options: options.clone(),
+        spectra: spectra::spectra(case, records, options.threads)?,
         records: demands,
         gaps,
         sweep: sweep.transpose()?,
@@ -271,6 +299,8 @@ fn report(
         adequate: records_in_contact <= allowed,
         records_in_contact,
         records_driven,
+        suite: SuiteStatistics::of(&demand),
+        code: None,
         demand,
         columns: (0..levels.len())
             .filter_map(|level| column_demand(records, (place.gap, level)))

@@ -1,9 +1,16 @@
 //! The evaluation of an incremental dynamic analysis.
 
+use std::collections::BTreeMap;
+
+use pounding_catalogue::STANDARD_GRAVITY;
+
+use super::bootstrap::{FrequencyBounds, frequency_bounds};
 use super::demands::{Demand, of_gap, of_limit, usual};
 use super::fragility::{Counts, FragilityFit, fit};
+use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit};
 use super::hazard::mean_annual_frequency;
 use crate::error::StudyError;
+use crate::fractiles::fractiles;
 use crate::study_file::{IdaSettings, Study, Value};
 use pounding_results::study::ResultReader;
 
@@ -32,8 +39,14 @@ pub struct LimitResult {
     pub counts: Vec<Counts>,
     /// Lognormal fragility by maximum likelihood.
     pub fit: FragilityFit,
+    /// Test of the lognormal curve; `None` where there is none, or too few classes.
+    pub goodness: Option<GoodnessOfFit>,
+    /// What must be said of the fit.
+    pub remarks: Vec<FitRemark>,
     /// Mean annual frequency (1/year), if there is a hazard curve and the counts give one.
     pub frequency: Option<f64>,
+    /// Its bounds at the confidence of the study, by a bootstrap over records.
+    pub frequency_bounds: Option<FrequencyBounds>,
 }
 
 /// Pounding at one width of a gap.
@@ -80,15 +93,34 @@ pub struct IdaReport {
     pub demands: Vec<(String, String)>,
     /// The intensities, rising.
     pub levels: Vec<IntensityLevel>,
+    /// Each demand of each sample, a record or a record with other variables of the study, at
+    /// the intensities: infinite in a collapse, NaN where there is no run or it failed.
+    pub curves: Vec<Vec<Vec<f64>>>,
     /// Pounding at the widths of the case, then the states of the study.
     pub limits: Vec<LimitResult>,
     /// Pounding by width, for every gap of the case.
     pub gaps: Vec<PoundingDemand>,
 }
 
+impl IdaReport {
+    /// What intensities (SI) are divided by for people, and their unit then: g for
+    /// accelerations.
+    #[must_use]
+    pub fn shown_intensity(&self) -> (f64, &str) {
+        match self.unit.as_str() {
+            "m s-2" => (STANDARD_GRAVITY, "g"),
+            other => (1.0, other),
+        }
+    }
+}
+
 /// What is kept of a run.
 struct Run {
     level: usize,
+    /// Which record.
+    record: usize,
+    /// Which record with which other variables of the study.
+    sample: usize,
     failed: bool,
     collapsed: bool,
     demands: Vec<f64>,
@@ -159,6 +191,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
             .map(|d| (d.name.clone(), d.unit.to_owned()))
             .collect(),
         levels: evaluation.levels(shown.len()),
+        curves: evaluation.curves(shown.len()),
         limits: results,
         gaps: gaps
             .iter()
@@ -187,12 +220,22 @@ fn runs(
     intensities: &[f64],
 ) -> Result<Vec<Run>, StudyError> {
     let mut runs = Vec::new();
+    let mut samples: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     for start in (0..result.rows).step_by(BLOCK) {
         for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
             let Value::Number(x) = point[settings.intensity] else {
                 continue;
             };
+            let others = point.iter().enumerate();
+            let others = others.filter(|(i, _)| *i != settings.intensity);
+            let key: Vec<u64> = others.map(|(_, value)| bits(value)).collect();
+            let next = samples.len();
             runs.push(Run {
+                record: match point[settings.record] {
+                    Value::Choice(record) => record,
+                    Value::Number(_) => 0,
+                },
+                sample: *samples.entry(key).or_insert(next),
                 level: intensities.iter().position(|i| *i == x).unwrap_or(0),
                 failed: row.ending.failed(),
                 collapsed: row.ending.collapsed(),
@@ -204,6 +247,14 @@ fn runs(
         }
     }
     Ok(runs)
+}
+
+/// What tells values apart.
+fn bits(value: &Value) -> u64 {
+    match value {
+        Value::Number(x) => x.to_bits(),
+        Value::Choice(i) => *i as u64,
+    }
 }
 
 struct Evaluation<'a> {
@@ -239,13 +290,78 @@ impl Evaluation<'_> {
     fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> LimitResult {
         let counts = self.counts(reached);
         let fit = fit(&counts);
+        let capacities = self.capacities(reached);
+        let goodness = match &fit {
+            FragilityFit::Lognormal(f) => goodness::test(f, &counts, &capacities),
+            _ => None,
+        };
         let hazard = self.settings.hazard.as_ref();
+        let frequency = hazard.and_then(|h| mean_annual_frequency(&fit, h));
+        let confidence = self.settings.confidence;
+        let fitted = matches!(fit, FragilityFit::Lognormal(_));
+        let bounds = hazard.filter(|_| fitted).and_then(|hazard| {
+            let records = self.of_records(reached);
+            frequency_bounds(self.intensities, &records, hazard, confidence)
+        });
         LimitResult {
             name: name.to_owned(),
-            frequency: hazard.and_then(|h| mean_annual_frequency(&fit, h)),
+            remarks: goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities),
+            goodness,
+            frequency,
+            frequency_bounds: bounds,
             counts,
             fit,
         }
+    }
+
+    /// Where each sample first reaches a state. One with a run that failed is left out where
+    /// that could change it.
+    fn capacities(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Capacity> {
+        let levels = self.intensities.len();
+        let mut samples: BTreeMap<usize, Vec<Option<bool>>> = BTreeMap::new();
+        for run in self.runs {
+            let states = samples
+                .entry(run.sample)
+                .or_insert_with(|| vec![None; levels]);
+            states[run.level] = (!run.failed).then(|| reached(run));
+        }
+        let capacity = |states: Vec<Option<bool>>| {
+            let first = states.iter().position(|s| *s == Some(true));
+            let first = first.unwrap_or(levels);
+            let known = states[..first].iter().all(Option::is_some);
+            known.then(|| Capacity {
+                first,
+                returns: states[first..].contains(&Some(false)),
+            })
+        };
+        samples.into_values().filter_map(capacity).collect()
+    }
+
+    /// Runs of each record by intensity, and how many reach a state.
+    fn of_records(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Vec<(usize, usize)>> {
+        let levels = self.intensities.len();
+        let mut records: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+        for run in self.runs.iter().filter(|r| !r.failed) {
+            let counts = records
+                .entry(run.record)
+                .or_insert_with(|| vec![(0, 0); levels]);
+            counts[run.level].0 += 1;
+            counts[run.level].1 += usize::from(reached(run));
+        }
+        records.into_values().collect()
+    }
+
+    /// Demands of all samples at all intensities.
+    fn curves(&self, demands: usize) -> Vec<Vec<Vec<f64>>> {
+        let samples = self.runs.iter().map(|r| r.sample + 1).max().unwrap_or(0);
+        let none = vec![vec![f64::NAN; self.intensities.len()]; samples];
+        let mut curves = vec![none; demands];
+        for run in self.runs.iter().filter(|r| !r.failed) {
+            for (demand, curve) in curves.iter_mut().enumerate() {
+                curve[run.sample][run.level] = run.demands[demand];
+            }
+        }
+        curves
     }
 
     fn levels(&self, demands: usize) -> Vec<IntensityLevel> {
@@ -315,43 +431,5 @@ impl Evaluation<'_> {
             });
         }
         best
-    }
-}
-
-/// The 16, 50 and 84 % fractiles, linear between ordered values; NaN without any.
-fn fractiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_by(f64::total_cmp);
-    [0.16, 0.5, 0.84].map(|p| {
-        let Some(last) = values.len().checked_sub(1) else {
-            return f64::NAN;
-        };
-        let place = p * last as f64;
-        let below = place.floor() as usize;
-        let above = (below + 1).min(last);
-        let part = place - below as f64;
-        // Half the way to an infinite value is infinite, no way at all is none.
-        if part == 0.0 || values[below] == values[above] {
-            return values[below];
-        }
-        values[below] + part * (values[above] - values[below])
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fractiles;
-
-    /// By hand: places 0.16, 0.5 and 0.84 of the way from the first to the last value.
-    #[test]
-    fn fractiles_reach_into_collapses_only_where_they_lie_there() {
-        let f = f64::INFINITY;
-        let near = |found: f64, wanted: f64| (found - wanted).abs() < 1e-14;
-        let [low, middle, high] = fractiles(vec![3.0, 1.0, 2.0]);
-        assert!(near(low, 1.32) && near(middle, 2.0) && near(high, 2.68));
-        let [low, middle, high] = fractiles(vec![f, 1.0, 2.0]);
-        assert!(near(low, 1.32) && near(middle, 2.0) && high == f);
-        assert_eq!(fractiles(vec![f, f, 2.0]), [f, f, f]);
-        assert_eq!(fractiles(vec![f, f]), [f, f, f]);
-        assert!(fractiles(Vec::new()).iter().all(|x| x.is_nan()));
     }
 }

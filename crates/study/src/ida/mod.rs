@@ -1,12 +1,16 @@
 //! Incremental dynamic analysis: what the runs of records at rising intensities say.
 
+mod bootstrap;
 mod demands;
 mod evaluation;
 mod fragility;
+mod goodness;
 mod hazard;
 
+pub use bootstrap::{FrequencyBounds, RESAMPLES};
 pub use evaluation::{
     GapResult, IdaReport, IntensityLevel, LimitResult, MinimumGap, PoundingDemand, evaluate,
 };
 pub use fragility::{Counts, Fragility, FragilityFit, fit};
+pub use goodness::{Capacity, FitRemark, GoodnessOfFit, POOR};
 pub use hazard::mean_annual_frequency;

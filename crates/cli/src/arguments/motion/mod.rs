@@ -100,7 +100,7 @@ pub struct InfoArguments {
     /// Write a row of measures for each series into this CSV file, in SI units
     #[arg(long)]
     pub csv: Option<OutputPath>,
-    /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
+    /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object
@@ -115,7 +115,11 @@ pub struct InfoArguments {
 #[derive(Debug, clap::Args)]
 pub struct SpectrumArguments {
     /// Record file
-    pub file: InputPath,
+    #[arg(required_unless_present = "code")]
+    pub file: Option<InputPath>,
+    /// Spectrum of a code, beside that of the record or alone: "eurocode_8_2004, ag=0.25 g, ground_type=B" (with spectrum_type=2 for type 2) or "asce_7_2016, s_ds=1.0 g, s_d1=0.6 g, t_l=8 s"
+    #[arg(long, conflicts_with_all = ["fourier", "rotated"])]
+    pub code: Option<String>,
     /// Spectra over all directions of two components: RotD50 and RotD100
     #[arg(long, conflicts_with = "fourier")]
     pub rotated: bool,
@@ -160,7 +164,7 @@ pub struct SpectrumArguments {
     /// Write the spectra into this CSV file, in SI units
     #[arg(long)]
     pub csv: Option<OutputPath>,
-    /// Draw the spectra into this SVG file
+    /// Draw the spectra into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object
@@ -219,7 +223,7 @@ pub struct OutputArguments {
     /// File to write, in our CSV layout with a header that says what was done
     #[arg(short, long)]
     pub output: OutputPath,
-    /// Draw acceleration, velocity, displacement and Husid curve into this SVG file
+    /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
     /// Print one JSON object
@@ -270,7 +274,7 @@ pub struct MatchArguments {
     /// Table of the spectrum to reach: header period_s,psa_g (or psa_m_s2, psa_cm_s2)
     #[arg(long, required_unless_present = "code", conflicts_with = "code")]
     pub target: Option<InputPath>,
-    /// Spectrum of a code: "eurocode_8_2004, ag=0.25 g, ground=B, type=1" or "asce_7_2016, sds=1.0 g, sd1=0.6 g, tl=8 s"
+    /// Spectrum of a code: "eurocode_8_2004, ag=0.25 g, ground_type=B" (with spectrum_type=2 for type 2) or "asce_7_2016, s_ds=1.0 g, s_d1=0.6 g, t_l=8 s"
     #[arg(long)]
     pub code: Option<String>,
     /// Damping ratio of the spectrum

@@ -60,7 +60,7 @@ const STEPS: [(&str, &str, &str, &str); 10] = [
     (
         "scale",
         "scale",
-        "FACTOR | pga=0.35 g | pgv=0.4 m/s | psa=0.8 g, period=1 s | target=FILE, from=0.2 s, to=2 s",
+        "FACTOR | pga=0.35 g | pgv=0.4 m/s | psa=0.8 g, period=1 s | target=FILE, from=0.2 s, to=2 s | code=eurocode_8_2004, ag=0.25 g, ground_type=C | code=asce_7_2016, s_ds=1 g, s_d1=0.6 g, t_l=8 s",
         "Scale",
     ),
 ];

@@ -1,15 +1,18 @@
 //! `pounding gap`: is the gap wide enough?
 
+mod answer;
 mod files;
 pub mod numbers;
 mod provisions;
+mod rules;
+mod suite;
 mod text;
 
 use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
-use pounding_report::pictures::gap::amplifications;
+use pounding_report::pictures::gap::{amplifications, spectra};
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
@@ -34,6 +37,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
+        arguments.spectra.as_deref(),
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
@@ -57,6 +61,11 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
     for text in &arguments.set {
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
+    }
+    if let Some(code) = &arguments.code {
+        let text = format!("code = {code:?}");
+        let one = Separation::parse(&text, case.buildings.len());
+        separation = separation.overridden_by(one.map_err(|e| Failure::case(e, &text))?);
     }
     if !arguments.provisions.is_empty() {
         let quoted: Vec<_> = arguments
@@ -100,11 +109,12 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
         return Err(Failure::input(message, Some(help)));
     }
     write(&arguments.csv, &|| files::sweep(check))?;
+    if let Some(path) = arguments.spectra.as_deref() {
+        plot::write_drawn(path, spectra(check))?;
+    }
     let Some(path) = arguments.plot.as_deref() else {
         return Ok(());
     };
-    match amplifications(check) {
-        Some(picture) => plot::write_drawn(path, picture),
-        None => plot::write(path, ""),
-    }
+    let picture = amplifications(check);
+    picture.map_or(Ok(()), |picture| plot::write_drawn(path, picture))
 }

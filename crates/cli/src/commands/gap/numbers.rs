@@ -12,10 +12,13 @@ use super::provisions::Descriptor;
 #[derive(Serialize)]
 pub struct Check<'c> {
     adequate: bool,
+    /// The code that decides; `null` where the demand does.
+    decided_by_code: Option<&'static str>,
     target_probability: f64,
     confidence: f64,
     warnings: &'c [String],
     records: Vec<Record<'c>>,
+    spectra: Spectra<'c>,
     gaps: Vec<Gap<'c>>,
     sweep: Option<Sweep<'c>>,
 }
@@ -25,12 +28,62 @@ impl<'c> Check<'c> {
     pub fn of(check: &'c GapCheck) -> Self {
         Self {
             adequate: check.adequate(),
+            decided_by_code: check
+                .gaps
+                .iter()
+                .find_map(|g| g.code.as_ref().map(|c| c.code.name)),
             target_probability: check.options.target_probability,
             confidence: check.options.confidence,
             warnings: &check.warnings,
             records: check.records.iter().map(Record::of).collect(),
+            spectra: Spectra::of(&check.spectra),
             gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
             sweep: check.sweep.as_ref().map(Sweep::of),
+        }
+    }
+}
+
+/// Pseudo-accelerations of the records as they are used.
+#[derive(Serialize)]
+struct Spectra<'c> {
+    damping: f64,
+    periods: &'c [f64],
+    /// By record.
+    pseudo_acceleration: &'c [Vec<f64>],
+    mean: &'c [f64],
+    target: Option<Target<'c>>,
+}
+
+/// The spectrum to which the records are scaled.
+#[derive(Serialize)]
+struct Target<'c> {
+    name: &'c str,
+    from: f64,
+    to: f64,
+    pseudo_acceleration: &'c [Option<f64>],
+    least_ratio_of_mean: f64,
+    period_of_least_ratio: f64,
+    greatest_ratio_of_mean: f64,
+    period_of_greatest_ratio: f64,
+}
+
+impl<'c> Spectra<'c> {
+    fn of(spectra: &'c gap_check::SuiteSpectra) -> Self {
+        Self {
+            damping: spectra.damping,
+            periods: &spectra.periods,
+            pseudo_acceleration: &spectra.records,
+            mean: &spectra.mean,
+            target: spectra.target.as_ref().map(|t| Target {
+                name: &t.name,
+                from: t.band.0,
+                to: t.band.1,
+                pseudo_acceleration: &t.values,
+                least_ratio_of_mean: t.least.0,
+                period_of_least_ratio: t.least.1,
+                greatest_ratio_of_mean: t.greatest.0,
+                period_of_greatest_ratio: t.greatest.1,
+            }),
         }
     }
 }
@@ -108,6 +161,7 @@ impl<'c> Isolated<'c> {
 #[derive(Serialize)]
 struct Record<'c> {
     name: &'c str,
+    factor: f64,
     peak_ground_acceleration: f64,
     isolated: Vec<Isolated<'c>>,
     amplification: Option<Vec<Vec<Amplification>>>,
@@ -124,6 +178,7 @@ impl<'c> Record<'c> {
         });
         Self {
             name: &record.name,
+            factor: record.factor,
             peak_ground_acceleration: record.peak_ground_acceleration,
             isolated: record.isolated.iter().map(Isolated::of).collect(),
             amplification: record.amplification().map(|a| Amplification::of_all(&a)),
@@ -144,6 +199,8 @@ struct Gap<'c> {
     contact_probability_bounds: (f64, f64),
     governing_level: usize,
     demand: &'c [f64],
+    suite: Suite,
+    code: Option<Code<'c>>,
     levels: Vec<Level<'c>>,
     required: Required,
     combinations: Vec<Combination>,
@@ -203,6 +260,129 @@ impl<'c> Isolation<'c> {
     }
 }
 
+/// Statistics of the demand over the records.
+#[derive(Serialize)]
+struct Suite {
+    minimum: f64,
+    p16: f64,
+    median: f64,
+    p84: f64,
+    maximum: f64,
+    mean: f64,
+    standard_deviation: f64,
+}
+
+impl Suite {
+    fn of(s: &gap_check::SuiteStatistics) -> Self {
+        Self {
+            minimum: s.minimum,
+            p16: s.p16,
+            median: s.median,
+            p84: s.p84,
+            maximum: s.maximum,
+            mean: s.mean,
+            standard_deviation: s.standard_deviation,
+        }
+    }
+}
+
+/// The answer of the code that decides.
+#[derive(Serialize)]
+struct Code<'c> {
+    name: &'static str,
+    edition: &'static str,
+    statistic: &'static str,
+    statistic_rule: String,
+    statistic_clause: &'static str,
+    statistic_status: &'static str,
+    enough_records: bool,
+    /// Statistic of the demand.
+    demand: f64,
+    /// Ownership that the case states.
+    ownership: Option<&'static str>,
+    satisfied: Option<bool>,
+    cases: Vec<CodeCase<'c>>,
+}
+
+/// The answer of a code for one kind of ownership.
+#[derive(Serialize)]
+struct CodeCase<'c> {
+    ownership: Option<&'static str>,
+    satisfied: Option<bool>,
+    governing_level: Option<usize>,
+    /// At the governing level.
+    required: Option<f64>,
+    provided: Option<f64>,
+    refusal: Option<String>,
+    levels: Vec<CodeLevel<'c>>,
+}
+
+/// The width of a code at a level.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum CodeLevel<'c> {
+    Required {
+        provision: Descriptor,
+        displacement: [Option<f64>; 2],
+        required: f64,
+        provided: f64,
+        satisfied: Option<bool>,
+        explanation: &'c str,
+        caution: Option<&'c str>,
+    },
+    Refused {
+        refusal: String,
+    },
+}
+
+impl<'c> Code<'c> {
+    fn of(answer: &'c gap_check::CodeAnswer) -> Self {
+        let suite = &answer.code.suite;
+        Self {
+            name: answer.code.name,
+            edition: answer.code.edition(),
+            statistic: answer.statistic.name(),
+            statistic_rule: suite.explanation(),
+            statistic_clause: suite.clause,
+            statistic_status: suite.status.name(),
+            enough_records: answer.enough_records,
+            demand: answer.demand,
+            ownership: answer.ownership.map(|o| o.name()),
+            satisfied: answer.satisfied(),
+            cases: answer.cases.iter().map(CodeCase::of).collect(),
+        }
+    }
+}
+
+impl<'c> CodeCase<'c> {
+    fn of(case: &'c gap_check::OwnershipAnswer) -> Self {
+        let governing = case.governing();
+        let level = |level: &'c Result<gap_check::LevelAnswer, _>| match level {
+            Ok(answer) => CodeLevel::Required {
+                provision: Descriptor::of(answer.width.provision),
+                displacement: answer.displacement,
+                required: answer.width.requirement.width,
+                provided: answer.provided,
+                satisfied: answer.satisfied(),
+                explanation: &answer.width.requirement.explanation,
+                caution: answer.width.requirement.caution.as_deref(),
+            },
+            Err(e) => CodeLevel::Refused {
+                refusal: ToString::to_string(e),
+            },
+        };
+        Self {
+            ownership: case.ownership.map(|o| o.name()),
+            satisfied: case.satisfied(),
+            governing_level: governing.map(|(l, _)| l + 1),
+            required: governing.map(|(_, l)| l.width.requirement.width),
+            provided: governing.map(|(_, l)| l.provided),
+            refusal: case.refusal().map(ToString::to_string),
+            levels: case.levels.iter().map(level).collect(),
+        }
+    }
+}
+
 /// The width that the target probability asks for.
 #[derive(Serialize)]
 struct Required {
@@ -255,6 +435,8 @@ impl<'c> Gap<'c> {
                 })
                 .collect(),
             demand: &gap.demand,
+            suite: Suite::of(&gap.suite),
+            code: gap.code.as_ref().map(Code::of),
             levels: gap.levels.iter().enumerate().map(level).collect(),
             required: Required {
                 by_count: gap.required.by_count,

@@ -1,7 +1,8 @@
 //! The list of provisions.
 
 use pounding_separation::{
-    CombinationRule, EffectiveProperties, ProvisionDescriptor, descriptors, unavailable,
+    CodeDescriptor, CombinationRule, EffectiveProperties, ProvisionDescriptor, codes, descriptors,
+    unavailable,
 };
 use serde::Serialize;
 
@@ -63,6 +64,16 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
             status.remark()
         ));
     }
+    text.push_str("\nCodes for --code, with what they take of many records\n");
+    for code in codes() {
+        text.push_str(&format!(
+            "  {} ({}): {}; {}\n",
+            code.name,
+            code.edition(),
+            code.suite.explanation(),
+            code.suite.status.name()
+        ));
+    }
     text.push_str("\nNot here\n");
     for code in unavailable() {
         text.push_str(&format!(
@@ -77,6 +88,7 @@ pub fn list(as_json: bool) -> Result<(), Failure> {
 #[derive(Serialize)]
 struct Provisions {
     provisions: Vec<Provision>,
+    codes: Vec<Code>,
     unavailable: Vec<Missing>,
 }
 
@@ -125,6 +137,43 @@ struct Provision {
     inputs: Vec<&'static str>,
 }
 
+/// A code whose answer can be asked for.
+#[derive(Serialize)]
+struct Code {
+    name: &'static str,
+    edition: &'static str,
+    statistic_rule: String,
+    statistic_clause: &'static str,
+    statistic_status: &'static str,
+    /// Provisions by ownership; `null` where the code does not ask.
+    rules: Vec<CodeRules>,
+}
+
+/// Provisions of a code for one kind of ownership.
+#[derive(Serialize)]
+struct CodeRules {
+    ownership: Option<&'static str>,
+    provisions: Vec<&'static str>,
+}
+
+impl Code {
+    fn of(code: &CodeDescriptor) -> Self {
+        let rules = code.rules().into_iter();
+        let rules = rules.map(|(ownership, rules)| CodeRules {
+            ownership: ownership.map(|o| o.name()),
+            provisions: rules.provisions().map(|p| p.name).collect(),
+        });
+        Self {
+            name: code.name,
+            edition: code.edition(),
+            statistic_rule: code.suite.explanation(),
+            statistic_clause: code.suite.clause,
+            statistic_status: code.suite.status.name(),
+            rules: rules.collect(),
+        }
+    }
+}
+
 /// A code that is not here, and why.
 #[derive(Serialize)]
 struct Missing {
@@ -149,6 +198,7 @@ impl Provisions {
         });
         Self {
             provisions: provisions.collect(),
+            codes: codes().iter().map(|c| Code::of(c)).collect(),
             unavailable: unavailable.collect(),
         }
     }

@@ -1,13 +1,13 @@
 //! The gap check for people.
 
 use pounding_case::Case;
-use pounding_catalogue::wording::{agreeing, counted};
-use pounding_separation::{Basis, EffectiveProperties};
+use pounding_catalogue::wording::counted;
 use pounding_shear_building::OVERTURNING_RATIO;
-use pounding_study::gap_check::{
-    Amplification, CodeGap, GapCheck, GapReport, GapSweep, RecordDemand,
-};
+use pounding_study::gap_check::{Amplification, GapCheck, GapSweep, RecordDemand};
 
+use super::answer::answer;
+use super::rules;
+use super::suite::{suite, target};
 use crate::tables::{against_capacity, decimal, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
@@ -27,19 +27,20 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
         );
     }
     text.push_str(&foundations(case, check));
+    text.push_str(&target(check));
     text.push_str(&warning_lines(&check.warnings));
+    for gap in &check.gaps {
+        text.push_str(&answer(check, gap));
+    }
     for gap in 0..check.gaps.len() {
         text.push_str(&demand(check, gap));
         text.push_str(&isolation(check, gap));
-        text.push_str(&codes(check, gap, all));
-        text.push_str(&required(check, &check.gaps[gap]));
+        text.push_str(&suite(check, gap, all));
+        text.push_str(&rules::table(check, &check.gaps[gap], all));
     }
     text.push_str(&provided(check));
     if let Some(sweep) = &check.sweep {
         text.push_str(&swept(check, sweep));
-    }
-    for gap in &check.gaps {
-        text.push_str(&verdict(check, gap));
     }
     text
 }
@@ -150,218 +151,6 @@ fn isolation(check: &GapCheck, index: usize) -> String {
             "Level {}: {building} on isolators demands {demand:.2} mm ({}), clearance {width:.1} mm: {left}{force}\n",
             level.place, record.name
         ));
-    }
-    text
-}
-
-/// Stands in place of a judgement by a rule for elastic displacements where buildings
-/// yield.
-const ELASTIC_ONLY: &str = "not judged: elastic only";
-
-/// What a rule says of the provided widths.
-enum Judgement {
-    /// Whether they reach it, if it says anything.
-    Satisfied(Option<bool>),
-    /// It holds for elastic displacements, and a building yields.
-    ElasticOnly,
-}
-
-fn row(
-    gap: &GapReport,
-    name: &str,
-    kind: &str,
-    (judgement, status): (Judgement, &str),
-    width: impl Fn(usize) -> Option<f64> + Copy,
-) -> [String; 7] {
-    let widths = (0..gap.demand.len()).filter_map(width);
-    let (low, high) = widths.fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(w), h.max(w)));
-    let range = if high - low > 5.0e-5 {
-        format!("{:.1} to {:.1}", low * 1e3, high * 1e3)
-    } else {
-        format!("{:.1}", high * 1e3)
-    };
-    let ratio = gap
-        .least_ratio(width)
-        .map_or("-".to_owned(), |(_, x)| format!("{x:.3}"));
-    let few = format!("{} of {}", gap.records_beyond(width), gap.demand.len());
-    let (satisfied, ratio, few) = match judgement {
-        Judgement::Satisfied(Some(true)) => ("yes", ratio, few),
-        Judgement::Satisfied(Some(false)) => ("no", ratio, few),
-        Judgement::Satisfied(None) => ("-", ratio, few),
-        Judgement::ElasticOnly => (ELASTIC_ONLY, "-".to_owned(), "-".to_owned()),
-    };
-    [
-        name.to_owned(),
-        kind.to_owned(),
-        range,
-        satisfied.to_owned(),
-        ratio,
-        few,
-        status.to_owned(),
-    ]
-}
-
-/// Gaps by code and by combination rules.
-fn codes(check: &GapCheck, index: usize, all: bool) -> String {
-    let gap = &check.gaps[index];
-    let mut table = new_table([
-        "rule",
-        "kind",
-        "elastic displacement times",
-        "width (mm)",
-        "provided reaches it",
-        "minimum of width / demand",
-        "records that exceed it",
-        "status",
-    ]);
-    for c in &gap.combinations {
-        let level = gap.reported_level(c);
-        let width = |r: usize| c.records.get(r)?.get(level).map(|l| l.width);
-        let name = c.rule.title(c.effective.map(EffectiveProperties::name));
-        let satisfied = Judgement::Satisfied(c.satisfied_by(&gap.levels));
-        let judged = (satisfied, c.status.name());
-        table.add_row(with_factor(
-            row(gap, &name, "combination", judged, width),
-            None,
-        ));
-    }
-    let spoken = |basis| {
-        let of = move |c: &&CodeGap| c.refusal().is_none() && c.provision.basis == basis;
-        gap.codes.iter().filter(of)
-    };
-    for c in spoken(Basis::Displacement).chain(spoken(Basis::Prescriptive)) {
-        let kind = format!(
-            "{}, {}",
-            c.provision.place().name(),
-            c.provision.basis.name()
-        );
-        let judgement = match c.caution() {
-            Some(_) => Judgement::ElasticOnly,
-            None => Judgement::Satisfied(c.satisfied_by(&gap.levels)),
-        };
-        let judged = (judgement, c.provision.status.name());
-        table.add_row(with_factor(
-            row(gap, c.provision.name, &kind, judged, |r| c.width(r)),
-            c.provision.elastic_displacement_factor,
-        ));
-    }
-    let mut text = format!(
-        "\nGap {}: widths by rule under {}; boundary rules summed over both sides\n{table}\n",
-        gap.name,
-        counted(check.records.len(), "record"),
-    );
-    text.push_str(
-        "\"unverified\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
-    );
-    text.push_str(&ground_added(check, index));
-    if gap.codes.iter().any(|c| c.caution().is_some()) {
-        text.push_str(&elastic_only(check));
-    }
-    let refused: Vec<_> = gap.codes.iter().filter_map(CodeGap::refusal).collect();
-    if all {
-        for refusal in refused {
-            text.push_str(&format!("  {refusal}\n"));
-        }
-    } else if !refused.is_empty() {
-        text.push_str(&format!(
-            "{} {}: --all says which\n",
-            counted(refused.len(), "provision"),
-            agreeing(
-                &refused.len(),
-                "lacks an input or does not apply",
-                "lack an input or do not apply"
-            )
-        ));
-    }
-    text
-}
-
-/// What widths by rules hold beside the rule where the ground on both sides moves differently.
-fn ground_added(check: &GapCheck, index: usize) -> String {
-    let of = |record: &RecordDemand| {
-        let levels = record.relative_ground_displacement[index].iter().flatten();
-        let most = levels.copied().max_by(|a, b| a.value.total_cmp(&b.value))?;
-        Some((record.name.clone(), most))
-    };
-    let peaks = check.records.iter().filter_map(of);
-    let Some((record, most)) = peaks.max_by(|a, b| a.1.value.total_cmp(&b.1.value)) else {
-        return String::new();
-    };
-    let uncorrelated = if check.gaps[index].combinations.is_empty() {
-        ""
-    } else {
-        "; double differences (DDC) suppose one motion under both buildings, and may be too small here"
-    };
-    format!(
-        "The ground on both sides moves differently, by up to {:.2} mm ({record}, {:.3} s): under each record its maximum is added to the width of every rule and code, none of which has it{uncorrelated}. The demand contains it.\n",
-        most.value * 1e3,
-        most.time,
-    )
-}
-
-/// The factor of a rule after its kind.
-fn with_factor(row: [String; 7], factor: Option<&str>) -> Vec<String> {
-    let mut row = row.to_vec();
-    row.insert(2, factor.unwrap_or("-").to_owned());
-    row
-}
-
-/// Which buildings yield, and what that makes of rules for elastic displacements.
-fn elastic_only(check: &GapCheck) -> String {
-    let mut text = format!(
-        "\"{ELASTIC_ONLY}\": the code multiplies the displacement of an elastic analysis, and buildings yield here without contact:\n"
-    );
-    let buildings = check.records.first().map_or(&[][..], |r| &r.isolated);
-    for (index, building) in buildings.iter().enumerate() {
-        let storeys = check.records.iter().flat_map(|record| {
-            let storeys = record.isolated[index].inelastic_storeys();
-            storeys
-                .into_iter()
-                .map(|(s, d)| (record.name.as_str(), s, d))
-        });
-        let most = |a: Option<f64>, b: Option<f64>| a.unwrap_or(0.0).total_cmp(&b.unwrap_or(0.0));
-        let Some((record, storey, ductility)) = storeys.max_by(|a, b| most(a.2, b.2)) else {
-            continue;
-        };
-        let yields = |r: &&RecordDemand| !r.isolated[index].inelastic_storeys().is_empty();
-        let how_far = ductility.map_or("no elastic range".to_owned(), |d| {
-            format!("maximum ductility {d:.2}")
-        });
-        text.push_str(&format!(
-            "  {} under {} of {} ({how_far}, storey {} under {record})\n",
-            building.name,
-            check.records.iter().filter(yields).count(),
-            counted(check.records.len(), "record"),
-            storey + 1,
-        ));
-    }
-    text.push_str(
-        "  Their displacement is inelastic already, and a factor would count the ductility again: these widths decide nothing. Use a rule without such a factor, or a case with elastic storeys.\n",
-    );
-    text
-}
-
-fn required(check: &GapCheck, gap: &GapReport) -> String {
-    let p = check.options.target_probability;
-    let confidence = 100.0 * check.options.confidence;
-    let required = &gap.required;
-    let mut text = format!(
-        "\nGap {}: required {:.2} mm by count ({} of {} may touch)\n",
-        gap.name,
-        required.by_count * 1e3,
-        required.allowed_contacts,
-        counted(gap.demand.len(), "record"),
-    );
-    match &required.lognormal {
-        Ok(fit) => text.push_str(&format!(
-            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {:.2} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
-            fit.median * 1e3,
-            fit.dispersion,
-            fit.width * 1e3,
-            fit.bounds.0 * 1e3,
-            fit.bounds.1 * 1e3,
-        )),
-        Err(reason) => text.push_str(&format!("  no lognormal fit: {reason}\n")),
     }
     text
 }
@@ -548,32 +337,4 @@ fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
         }
     }
     text
-}
-
-fn verdict(check: &GapCheck, gap: &GapReport) -> String {
-    let (low, high) = gap.contact_bounds;
-    let driven = if gap.records_driven > 0 {
-        format!(
-            "  under {} of them only because another gap of the row closes: the widths above do not see that, make the other gap wide enough first\n",
-            gap.records_driven
-        )
-    } else {
-        String::new()
-    };
-    format!(
-        "\nGap {}: {} - {} of {} {} it, {} allowed (probability of contact {:.3} to {:.3} at {} % confidence)\n{driven}",
-        gap.name,
-        if gap.adequate {
-            "WIDE ENOUGH"
-        } else {
-            "TOO SMALL"
-        },
-        gap.records_in_contact,
-        counted(gap.demand.len(), "record"),
-        agreeing(&gap.demand.len(), "closes", "close"),
-        gap.required.allowed_contacts,
-        low,
-        high,
-        100.0 * check.options.confidence,
-    )
 }

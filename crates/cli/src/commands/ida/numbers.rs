@@ -1,6 +1,6 @@
 //! The analysis for machines: SI units, full precision.
 
-use pounding_study::{FragilityFit, IdaReport, LimitResult};
+use pounding_study::{FragilityFit, IdaReport, LimitResult, POOR};
 use serde::Serialize;
 
 use crate::study::Finished;
@@ -52,7 +52,23 @@ struct Limit<'a> {
     name: &'a str,
     counts: Vec<Counts>,
     fit: Fit,
+    /// Pearson's test of the lognormal curve on the capacities of the records.
+    goodness_of_fit: Option<Goodness>,
+    remarks: Vec<String>,
     mean_annual_frequency: Option<f64>,
+    /// By a bootstrap over records, at the confidence of the study.
+    mean_annual_frequency_bounds: Option<[f64; 2]>,
+}
+
+/// Pearson's test.
+#[derive(Serialize)]
+struct Goodness {
+    statistic: f64,
+    degrees_of_freedom: usize,
+    p_value: f64,
+    poor: bool,
+    largest_distance: f64,
+    intensity_of_largest_distance: f64,
 }
 
 /// How often a state was reached at one intensity.
@@ -185,7 +201,17 @@ impl<'a> Limit<'a> {
             name: &limit.name,
             counts: counts.collect(),
             fit,
+            goodness_of_fit: limit.goodness.map(|g| Goodness {
+                statistic: g.statistic,
+                degrees_of_freedom: g.degrees_of_freedom,
+                p_value: g.p_value,
+                poor: g.p_value < POOR,
+                largest_distance: g.distance.0,
+                intensity_of_largest_distance: g.distance.1,
+            }),
+            remarks: limit.remarks.iter().map(ToString::to_string).collect(),
             mean_annual_frequency: limit.frequency,
+            mean_annual_frequency_bounds: limit.frequency_bounds.map(|b| [b.low, b.high]),
         }
     }
 }

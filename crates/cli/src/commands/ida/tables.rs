@@ -1,27 +1,35 @@
 //! Tables of an incremental dynamic analysis.
 
 use pounding_catalogue::wording::counted;
-use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, PoundingDemand};
+use pounding_study::{
+    FitRemark, FragilityFit, IdaReport, IdaSettings, LimitResult, POOR, PoundingDemand, RESAMPLES,
+};
 
 use crate::tables::{Table, new_table};
 
 /// The report for people.
 pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
     let mut text = format!(
-        "\n{} in {}, {}; 16, 50 and 84 % fractiles (SI)\n{}\n",
+        "\n{} in {}, {}; 16, 50 and 84 % fractiles of demands (SI)\n{}\n",
         report.measure,
-        report.unit,
+        report.shown_intensity().1,
         counted(report.records, "record"),
         levels(report)
     );
     text.push_str(&format!(
-        "\nFragility: lognormal, maximum likelihood; bounds at {} % confidence\n{}\n",
+        "\nFragility: lognormal, maximum likelihood, medians in {}; bounds at {} % confidence\n{}\n",
+        report.shown_intensity().1,
         settings.confidence * 100.0,
         limits(report, settings)
     ));
+    text.push_str(&how_frequencies_are_bounded(settings));
+    text.push_str(&poor_fits(
+        report,
+        report.limits.iter().map(|l| (l.name.clone(), l)),
+    ));
     for gap in &report.gaps {
         let collapsed = report.levels.iter().any(|l| l.collapsed > 0);
-        text.push_str(&widths(gap, settings, collapsed));
+        text.push_str(&widths(report, gap, settings, collapsed));
     }
     if report.gaps.iter().filter(|g| !g.widths.is_empty()).count() > 1 {
         text.push_str("Widths of each gap of the row as if the others were wide enough: a building that is hit on one side can close the gap on its other side.\n");
@@ -30,7 +38,8 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
 }
 
 fn levels(report: &IdaReport) -> Table {
-    let mut header = vec!["intensity".to_owned(), "runs".to_owned()];
+    let unit = report.shown_intensity().1;
+    let mut header = vec![format!("intensity ({unit})"), "runs".to_owned()];
     let with_failures = report.levels.iter().any(|l| l.failed > 0);
     let with_collapses = report.levels.iter().any(|l| l.collapsed > 0);
     if with_failures {
@@ -50,7 +59,8 @@ fn levels(report: &IdaReport) -> Table {
     );
     let mut table = new_table(header);
     for level in &report.levels {
-        let mut cells = vec![digits(level.intensity), level.runs.to_string()];
+        let intensity = level.intensity / report.shown_intensity().0;
+        let mut cells = vec![digits(intensity), level.runs.to_string()];
         if with_failures {
             cells.push(level.failed.to_string());
         }
@@ -68,42 +78,128 @@ fn limits(report: &IdaReport, settings: &IdaSettings) -> Table {
         .limits
         .iter()
         .map(|limit| (limit.name.clone(), limit));
-    states(["state", "reached of runs, by intensity"], limits, settings)
+    states(
+        report,
+        ["state", "reached of runs, by intensity"],
+        limits,
+        settings,
+    )
 }
 
 /// How often states are reached, and their fragilities, below two headings.
 fn states<'s>(
+    report: &IdaReport,
     [name, reached]: [&str; 2],
     states: impl Iterator<Item = (String, &'s LimitResult)>,
     settings: &IdaSettings,
 ) -> Table {
-    let mut header = vec![name, reached, "median", "dispersion"];
+    let median = format!("median ({})", report.shown_intensity().1);
+    let mut header = vec![name, reached, &median, "dispersion", "fit"];
     if settings.hazard.is_some() {
         header.push("mean annual frequency");
     }
     let mut table = new_table(header);
     for (name, state) in states {
         let mut cells = vec![name, counts(state)];
-        cells.extend(fitted(state, settings.confidence));
+        let scale = report.shown_intensity().0;
+        cells.extend(fitted(state, settings.confidence, scale));
+        cells.push(quality(state));
         if settings.hazard.is_some() {
-            cells.push(frequency(state));
+            cells.push(frequency(state, scale));
         }
         table.add_row(cells);
     }
     table
 }
 
-fn widths(gap: &PoundingDemand, settings: &IdaSettings, collapsed: bool) -> String {
+/// What the bounds of frequencies are.
+fn how_frequencies_are_bounded(settings: &IdaSettings) -> String {
+    if settings.hazard.is_none() {
+        return String::new();
+    }
+    format!(
+        "Bounds of mean annual frequencies: percentiles of a bootstrap over records ({RESAMPLES} sets, fixed seed) at {} % confidence; the hazard is taken as known.\n",
+        settings.confidence * 100.0
+    )
+}
+
+/// Whether the test lets a fit stand.
+fn quality(state: &LimitResult) -> String {
+    match (state.fit, state.goodness) {
+        (FragilityFit::Lognormal(_), Some(test)) => {
+            let word = if test.p_value < POOR { "POOR, " } else { "" };
+            format!("{word}p = {}", probability(test.p_value))
+        }
+        (FragilityFit::Lognormal(_), None) => "not tested".to_owned(),
+        _ => "-".to_owned(),
+    }
+}
+
+fn probability(p: f64) -> String {
+    if p < 1e-3 {
+        "< 0.001".to_owned()
+    } else {
+        format!("{p:.3}")
+    }
+}
+
+/// What must be said of fits, with the counted fractions beside the fitted ones.
+fn poor_fits<'s>(
+    report: &IdaReport,
+    states: impl Iterator<Item = (String, &'s LimitResult)>,
+) -> String {
+    let mut text = String::new();
+    let (scale, unit) = report.shown_intensity();
+    for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
+        for remark in &state.remarks {
+            text.push_str(&format!("  {name}: {remark}\n"));
+        }
+        let shows = |r: &FitRemark| !matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
+        let FragilityFit::Lognormal(fit) = state.fit else {
+            continue;
+        };
+        if !state.remarks.iter().any(shows) {
+            continue;
+        }
+        let made = state.counts.iter().filter(|c| c.runs > 0);
+        // Where both are none or all there is nothing to see.
+        let made = made.filter(|c| {
+            let fitted = fit.probability(c.intensity);
+            (0.005..0.995).contains(&fitted) || (c.reached > 0 && c.reached < c.runs)
+        });
+        let pairs = made.map(|c| {
+            format!(
+                "{} {unit} {:.2}/{:.2}",
+                digits(c.intensity / scale),
+                c.reached as f64 / c.runs as f64,
+                fit.probability(c.intensity)
+            )
+        });
+        let pairs: Vec<String> = pairs.collect();
+        text.push_str(&format!("    counted/fitted: {}\n", pairs.join(", ")));
+    }
+    text
+}
+
+fn widths(
+    report: &IdaReport,
+    gap: &PoundingDemand,
+    settings: &IdaSettings,
+    collapsed: bool,
+) -> String {
     let mut text = String::new();
     if !gap.widths.is_empty() {
         let widths = gap.widths.iter();
         let widths = widths.map(|w| (format!("{:.1}", w.width * 1e3), &w.result));
         let header = ["gap (mm)", "pounding of runs, by intensity"];
-        let table = states(header, widths, settings);
+        let table = states(report, header, widths, settings);
         text.push_str(&format!(
             "\nPounding of {} by width of the gap\n{table}\n",
             gap.gap
         ));
+        let named = gap.widths.iter();
+        let named = named.map(|w| (format!("{:.1} mm", w.width * 1e3), &w.result));
+        text.push_str(&poor_fits(report, named));
     }
     if let (Some(minimum), Some(target)) = (gap.minimum, settings.target_frequency) {
         text.push_str(&match minimum.width {
@@ -139,18 +235,27 @@ fn counts(limit: &LimitResult) -> String {
 }
 
 /// The mean annual frequency, or why there is none.
-fn frequency(limit: &LimitResult) -> String {
+fn frequency(limit: &LimitResult, scale: f64) -> String {
     match (limit.frequency, limit.fit) {
-        (Some(frequency), _) => digits(frequency),
+        (Some(frequency), _) => match limit.frequency_bounds {
+            Some(bounds) => format!(
+                "{} ({}..{})",
+                digits(frequency),
+                digits(bounds.low),
+                digits(bounds.high)
+            ),
+            None => digits(frequency),
+        },
         (None, FragilityFit::Always { from }) => {
-            format!("- (all reach it already at {})", digits(from))
+            format!("- (all reach it already at {})", digits(from / scale))
         }
         (None, _) => "- (no fragility)".to_owned(),
     }
 }
 
 /// Median and dispersion with their bounds, or why there are none.
-fn fitted(limit: &LimitResult, confidence: f64) -> [String; 2] {
+fn fitted(limit: &LimitResult, confidence: f64, scale: f64) -> [String; 2] {
+    let intensity = |x: f64| digits(x / scale);
     let with = |value: f64, bounds: [f64; 2]| {
         format!(
             "{} ({}..{})",
@@ -161,16 +266,19 @@ fn fitted(limit: &LimitResult, confidence: f64) -> [String; 2] {
     };
     match limit.fit {
         FragilityFit::Lognormal(f) => [
-            with(f.median, f.median_bounds(confidence)),
+            with(
+                f.median / scale,
+                f.median_bounds(confidence).map(|b| b / scale),
+            ),
             with(f.dispersion, f.dispersion_bounds(confidence)),
         ],
         FragilityFit::Step { lower, upper } if upper.is_finite() => [
-            format!("between {} and {}", digits(lower), digits(upper)),
+            format!("between {} and {}", intensity(lower), intensity(upper)),
             "-".to_owned(),
         ],
-        FragilityFit::Step { lower, .. } => [format!("above {}", digits(lower)), "-".to_owned()],
-        FragilityFit::Never { up_to } => [format!("above {}", digits(up_to)), "-".to_owned()],
-        FragilityFit::Always { from } => [format!("below {}", digits(from)), "-".to_owned()],
+        FragilityFit::Step { lower, .. } => [format!("above {}", intensity(lower)), "-".to_owned()],
+        FragilityFit::Never { up_to } => [format!("above {}", intensity(up_to)), "-".to_owned()],
+        FragilityFit::Always { from } => [format!("below {}", intensity(from)), "-".to_owned()],
         FragilityFit::None => ["none".to_owned(), "-".to_owned()],
     }
 }

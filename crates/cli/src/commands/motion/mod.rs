@@ -1,5 +1,6 @@
 //! `pounding motion`: recorded and synthetic motions.
 
+mod code;
 mod convert;
 mod generators;
 mod info;
@@ -9,6 +10,7 @@ mod measures;
 mod process;
 mod reading;
 mod spectrum;
+mod spectrum_of_code;
 mod spectrum_tables;
 mod synth;
 mod words;

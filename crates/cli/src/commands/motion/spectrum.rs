@@ -1,5 +1,7 @@
 //! `pounding motion spectrum`: responses, all directions, Fourier amplitudes.
 
+use std::path::Path;
+
 use pounding_case::Dimension;
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::spectra::{
@@ -9,6 +11,7 @@ use pounding_ground_motion::spectra::{
 use pounding_report::pictures::motion;
 use serde::Serialize;
 
+use super::spectrum_of_code::{self, OfCode};
 use super::spectrum_tables as tables;
 use super::{reading, words};
 use crate::arguments::SpectrumArguments;
@@ -20,6 +23,8 @@ use crate::plot;
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
 const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
 const FREQUENCIES: (f64, f64, usize) = (0.1, 25.0, 30);
+/// Periods of a smooth picture.
+const SMOOTH: usize = 200;
 
 /// What `--json` prints of one record.
 #[derive(Serialize)]
@@ -33,6 +38,9 @@ struct OfRecord<T> {
 #[derive(Serialize)]
 struct Spectra {
     spectra: Vec<ResponseSpectrum>,
+    /// Of the code, for each damping ratio.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    codes: Vec<OfCode>,
 }
 
 /// A spectrum of Fourier amplitudes.
@@ -53,17 +61,20 @@ struct OfTwo {
 
 /// One kind of spectrum.
 pub fn spectrum(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    let Some(file) = &arguments.file else {
+        return spectrum_of_code::alone(arguments);
+    };
     if arguments.fourier {
-        fourier(arguments)
+        fourier(arguments, file)
     } else if arguments.rotated {
-        rotated(arguments)
+        rotated(arguments, file)
     } else {
-        responses(arguments)
+        responses(arguments, file)
     }
 }
 
 /// Places of a spectrum: those given, or evenly spaced in their logarithm.
-fn places(
+pub(super) fn places(
     arguments: &SpectrumArguments,
     default: (f64, f64, usize),
     dimension: Dimension,
@@ -114,33 +125,51 @@ fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
     }
 }
 
-fn responses(arguments: &SpectrumArguments) -> Result<(), Failure> {
+fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
-    let record = reading::acceleration(&arguments.file, &arguments.read)?;
+    let record = reading::acceleration(file, &arguments.read)?;
     let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))
         .map_err(|e| named(e, arguments))?;
+    let codes = spectrum_of_code::beside(arguments, &periods, &dampings)?;
     if let Some(path) = &arguments.csv {
-        plot::write(path, &tables::response_csv(&spectra))?;
+        plot::write(path, &tables::response_csv(&spectra, &codes))?;
     }
     if let Some(path) = &arguments.svg {
-        plot::write_drawn(path, motion::responses(&spectra))?;
+        // A picture is smooth unless its places are given.
+        let smooth = arguments.at.is_none() && arguments.count.is_none();
+        let drawn = if smooth {
+            let ends = (periods[0], periods[periods.len() - 1]);
+            let many =
+                logarithmic_periods(ends.0, ends.1, SMOOTH).map_err(|e| named(e, arguments))?;
+            response_spectra(&record, &many, &dampings, evaluation(arguments))
+                .map_err(|e| named(e, arguments))?
+        } else {
+            spectra.clone()
+        };
+        plot::write_drawn(path, motion::responses(&drawn, &codes))?;
     }
     print(&if arguments.json {
         pretty(&OfRecord {
-            results: Spectra { spectra },
+            results: Spectra {
+                spectra,
+                codes: codes
+                    .iter()
+                    .map(|code| OfCode::of(code, &periods))
+                    .collect(),
+            },
             record: record.echo(),
         })?
     } else {
         format!(
             "{}{}",
             reading::reported(&record),
-            tables::response_text(&spectra)
+            tables::response_text(&spectra, &codes)
         )
     })
 }
 
-fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
+fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     if arguments.second_file.is_none() && arguments.second_component.is_none() {
@@ -149,11 +178,11 @@ fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
             Some("give --component with --second-component, or --second-file".to_owned()),
         ));
     }
-    let first = reading::acceleration(&arguments.file, &arguments.read)?;
+    let first = reading::acceleration(file, &arguments.read)?;
     let mut read = arguments.read.clone();
     read.component.clone_from(&arguments.second_component);
-    let file = arguments.second_file.as_ref().unwrap_or(&arguments.file);
-    let second = reading::acceleration(file, &read)?;
+    let second = arguments.second_file.as_deref().unwrap_or(file);
+    let second = reading::acceleration(second, &read)?;
     let spectra = dampings
         .iter()
         .map(|d| rotated_spectrum(&first, &second, &periods, *d, evaluation(arguments)))
@@ -180,8 +209,8 @@ fn rotated(arguments: &SpectrumArguments) -> Result<(), Failure> {
     })
 }
 
-fn fourier(arguments: &SpectrumArguments) -> Result<(), Failure> {
-    let record = reading::acceleration(&arguments.file, &arguments.read)?;
+fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
+    let record = reading::acceleration(file, &arguments.read)?;
     let whole = fourier_spectrum(&record, 0);
     let (frequencies, amplitudes, how) = if arguments.unsmoothed {
         let how = "not smoothed".to_owned();

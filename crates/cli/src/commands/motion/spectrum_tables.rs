@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 use pounding_ground_motion::spectra::{ResponseSpectrum, RotatedSpectrum};
 
 use pounding_report::pictures::motion::percent;
@@ -9,40 +10,65 @@ use pounding_report::pictures::motion::percent;
 use crate::tables::{G, new_long_table};
 
 /// A table a damping ratio.
-pub fn response_text(spectra: &[ResponseSpectrum]) -> String {
+///
+/// `codes` are spectra of a code to stand beside, one for each damping ratio, or none.
+pub fn response_text(spectra: &[ResponseSpectrum], codes: &[CodeSpectrum]) -> String {
     let mut text = String::new();
-    for s in spectra {
-        let mut table = new_long_table([
+    for (number, s) in spectra.iter().enumerate() {
+        let mut header = vec![
             "period (s)",
             "displacement SD (mm)",
             "pseudo-velocity PSV (m/s)",
             "pseudo-acceleration PSA (g)",
             "relative velocity SV (m/s)",
             "absolute acceleration SA (g)",
-        ]);
+        ];
+        let code = codes.get(number);
+        if code.is_some() {
+            header.extend(["code (g)", "PSA / code"]);
+        }
+        let mut table = new_long_table(header);
         for (i, period) in s.periods.iter().enumerate() {
-            table.add_row([
+            let mut row = vec![
                 format!("{period:.4}"),
                 format!("{:.4}", s.displacement[i] * 1.0e3),
                 format!("{:.5}", s.pseudo_velocity[i]),
                 format!("{:.5}", s.pseudo_acceleration[i] / G),
                 format!("{:.5}", s.velocity[i]),
                 format!("{:.5}", s.acceleration[i] / G),
-            ]);
+            ];
+            if let Some(code) = code {
+                let target = code.acceleration(*period);
+                row.push(format!("{:.5}", target / G));
+                row.push(format!("{:.3}", s.pseudo_acceleration[i] / target));
+            }
+            table.add_row(row);
         }
         let _ = writeln!(text, "\n{}\n{table}", percent(s.damping));
+        if let Some(code) = code {
+            let _ = writeln!(text, "code: {} ({})", code.title(), code.clause());
+        }
     }
     text
 }
 
 /// A row a damping ratio and period.
-pub fn response_csv(spectra: &[ResponseSpectrum]) -> String {
-    let mut text = "damping_ratio,period_s,sd_m,psv_m_s,psa_m_s2,sv_m_s,sa_m_s2\n".to_owned();
-    for s in spectra {
+///
+/// A last column for spectra of a code, if there are any.
+pub fn response_csv(spectra: &[ResponseSpectrum], codes: &[CodeSpectrum]) -> String {
+    let mut text = "damping_ratio,period_s,sd_m,psv_m_s,psa_m_s2,sv_m_s,sa_m_s2".to_owned();
+    text.push_str(if codes.is_empty() {
+        "\n"
+    } else {
+        ",code_psa_m_s2\n"
+    });
+    for (number, s) in spectra.iter().enumerate() {
         for (i, period) in s.periods.iter().enumerate() {
+            let code = codes.get(number);
+            let code = code.map_or(String::new(), |c| format!(",{}", c.acceleration(*period)));
             let _ = writeln!(
                 text,
-                "{},{period},{},{},{},{},{}",
+                "{},{period},{},{},{},{},{}{code}",
                 s.damping,
                 s.displacement[i],
                 s.pseudo_velocity[i],

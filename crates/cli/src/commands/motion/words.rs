@@ -83,12 +83,15 @@ impl<'a> Words<'a> {
         if self.pairs.is_empty() {
             return format!("{key} = {}", literal(self.word));
         }
-        let pairs: Vec<_> = self
-            .pairs
-            .iter()
+        format!("{key} = {{ {} }}", self.pairs_as_toml().join(", "))
+    }
+
+    /// The pairs as lines of a case file.
+    pub fn pairs_as_toml(&self) -> Vec<String> {
+        let pairs = self.pairs.iter();
+        pairs
             .map(|(k, v)| format!("{k} = {}", literal(v)))
-            .collect();
-        format!("{key} = {{ {} }}", pairs.join(", "))
+            .collect()
     }
 }
 

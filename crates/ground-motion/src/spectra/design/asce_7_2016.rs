@@ -7,9 +7,6 @@ use crate::spectra::design::through;
 const STEP: &str = "asce_7_2016";
 const FIRST: f64 = 0.01;
 const LAST: f64 = 10.0;
-/// The damping ratio that the code's values are for.
-const DAMPING: f64 = 0.05;
-
 /// A design spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asce7Of2016 {
@@ -22,6 +19,9 @@ pub struct Asce7Of2016 {
 }
 
 impl Asce7Of2016 {
+    /// The damping ratio that the code's values are for (-).
+    pub const DAMPING: f64 = 0.05;
+
     /// TS = SD1/SDS (s).
     #[must_use]
     pub fn transition(&self) -> f64 {
@@ -60,6 +60,6 @@ impl Asce7Of2016 {
             self.long_transition.min(LAST),
             LAST,
         ];
-        through(&corners, DAMPING, |t| self.acceleration(t))
+        through(&corners, Self::DAMPING, |t| self.acceleration(t))
     }
 }

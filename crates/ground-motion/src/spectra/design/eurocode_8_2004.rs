@@ -28,16 +28,15 @@ pub enum GroundType {
 }
 
 impl GroundType {
-    /// The ground type of this letter in table 3.1.
+    /// Its letter in table 3.1.
     #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "A" => Some(Self::A),
-            "B" => Some(Self::B),
-            "C" => Some(Self::C),
-            "D" => Some(Self::D),
-            "E" => Some(Self::E),
-            _ => None,
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::D => "D",
+            Self::E => "E",
         }
     }
 }
@@ -49,6 +48,17 @@ pub enum SpectrumType {
     Type1,
     /// Surface-wave magnitudes of 5.5 and less.
     Type2,
+}
+
+impl SpectrumType {
+    /// Its number.
+    #[must_use]
+    pub fn number(self) -> u8 {
+        match self {
+            Self::Type1 => 1,
+            Self::Type2 => 2,
+        }
+    }
 }
 
 /// An elastic spectrum.

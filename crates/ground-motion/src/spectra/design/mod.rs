@@ -1,12 +1,14 @@
 //! Design spectra of codes, one code per file.
 
 mod asce_7_2016;
+mod code_spectrum;
 mod eurocode_8_2004;
 
 use crate::error::GroundMotionError;
 use crate::spectra::{TargetSpectrum, logarithmic_periods};
 
 pub use asce_7_2016::Asce7Of2016;
+pub use code_spectrum::CodeSpectrum;
 pub use eurocode_8_2004::{Eurocode8Of2004, GroundType, SpectrumType};
 
 /// Points between two corners: with straight lines between logarithms, the maximum

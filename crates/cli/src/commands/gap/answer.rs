@@ -1,0 +1,243 @@
+//! The answer for a gap, before everything else.
+
+use pounding_catalogue::wording::{agreeing, counted};
+use pounding_study::gap_check::{CodeAnswer, GapCheck, GapReport, LevelAnswer, OwnershipAnswer};
+
+use super::rules::widest;
+use crate::tables::new_table;
+
+/// Whether the gap is wide enough, by the code that is asked for or by the demand, and what
+/// decides.
+pub fn answer(check: &GapCheck, gap: &GapReport) -> String {
+    match &gap.code {
+        Some(code) => by_code(check, gap, code),
+        None => by_demand(check, gap),
+    }
+}
+
+fn by_demand(check: &GapCheck, gap: &GapReport) -> String {
+    let (low, high) = gap.contact_bounds;
+    format!(
+        "\nGap {}: {} - {} it, {} allowed (probability of contact {low:.3} to {high:.3} at {} % confidence)\n{}{}{}{}",
+        gap.name,
+        verdict(Some(gap.adequate)),
+        records_that_close(gap),
+        gap.required.allowed_contacts,
+        100.0 * check.options.confidence,
+        driven(gap),
+        required(check, gap),
+        provided(gap),
+        widest(gap),
+    )
+}
+
+fn verdict(enough: Option<bool>) -> &'static str {
+    match enough {
+        Some(true) => "WIDE ENOUGH",
+        Some(false) => "TOO SMALL",
+        None => "NO ANSWER",
+    }
+}
+
+/// `7 of 7 records close`.
+fn records_that_close(gap: &GapReport) -> String {
+    format!(
+        "{} of {} {}",
+        gap.records_in_contact,
+        counted(gap.demand.len(), "record"),
+        agreeing(&gap.demand.len(), "closes", "close")
+    )
+}
+
+fn driven(gap: &GapReport) -> String {
+    if gap.records_driven == 0 {
+        return String::new();
+    }
+    format!(
+        "  under {} of them only because another gap of the row closes: the widths below do not see that, make the other gap wide enough first\n",
+        gap.records_driven
+    )
+}
+
+/// The width that the records ask for.
+fn required(check: &GapCheck, gap: &GapReport) -> String {
+    let p = check.options.target_probability;
+    let confidence = 100.0 * check.options.confidence;
+    let required = &gap.required;
+    let mut text = format!(
+        "  required {:.2} mm by count ({} of {} may touch)",
+        required.by_count * 1e3,
+        required.allowed_contacts,
+        counted(gap.demand.len(), "record"),
+    );
+    let decides = gap.demand.iter().position(|d| *d == required.by_count);
+    if let Some(record) = decides.filter(|_| required.by_count > 0.0) {
+        text.push_str(&format!(
+            ": the demand of {}",
+            check.records[record].name.as_str()
+        ));
+    }
+    text.push('\n');
+    match &required.lognormal {
+        Ok(fit) => text.push_str(&format!(
+            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {:.2} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
+            fit.median * 1e3,
+            fit.dispersion,
+            fit.width * 1e3,
+            fit.bounds.0 * 1e3,
+            fit.bounds.1 * 1e3,
+        )),
+        Err(reason) if p > 0.0 => text.push_str(&format!("  no lognormal fit: {reason}\n")),
+        Err(_) => {}
+    }
+    text
+}
+
+/// Where the demand is greatest, and what is provided there.
+fn provided(gap: &GapReport) -> String {
+    let level = &gap.levels[gap.governing_level];
+    format!(
+        "  provided {:.1} mm at level {}, where the demand is greatest\n",
+        level.width * 1e3,
+        level.place.label()
+    )
+}
+
+fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
+    let code = answer.code;
+    let mut text = format!(
+        "\nGap {} by {} ({}): {}\n",
+        gap.name,
+        code.name,
+        code.edition(),
+        verdict(answer.satisfied())
+    );
+    text.push_str(&statistic(answer, check.records.len()));
+    text.push_str(&cases(gap, answer));
+    for case in &answer.cases {
+        text.push_str(&explained(case));
+    }
+    if answer.cases.len() > 1 && answer.ownership.is_none() {
+        text.push_str(
+            "  nothing says who owns the ground: both must be wide enough; --set same_owner=true or =false decides\n",
+        );
+    }
+    text.push_str(&format!(
+        "  the records themselves: {} demand {:.1} mm, {} the provided width\n{}",
+        answer.statistic.name(),
+        answer.demand * 1e3,
+        records_that_close(gap),
+        driven(gap)
+    ));
+    let width = gap
+        .levels
+        .iter()
+        .map(|l| l.width)
+        .fold(f64::INFINITY, f64::min);
+    if answer.satisfied() == Some(true) && answer.demand > width {
+        text.push_str(&format!(
+            "  warning: that is a width that the code accepts and the {} of the records does not: the buildings touch\n",
+            answer.statistic.name()
+        ));
+    }
+    text
+}
+
+/// What decides: which number of the responses, and whether there are records enough.
+fn statistic(answer: &CodeAnswer, records: usize) -> String {
+    let suite = &answer.code.suite;
+    let clause = match suite.clause {
+        "" => String::new(),
+        clause => format!(" ({clause}, {})", suite.status.name()),
+    };
+    let few = if answer.enough_records {
+        String::new()
+    } else {
+        format!(
+            "  warning: the code asks for {} records at least: with {records} the maximum is no answer by the code\n",
+            suite.least
+        )
+    };
+    format!(
+        "  decided by the {} of the displacements under {}: {}{clause}\n{few}",
+        answer.statistic.name(),
+        counted(records, "record"),
+        suite.explanation(),
+    )
+}
+
+fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
+    let name = answer.statistic.name();
+    let mut table = new_table(&[
+        "ownership".to_owned(),
+        "level".to_owned(),
+        format!("{name} displacement {} (mm)", gap.between[0]),
+        format!("{name} displacement {} (mm)", gap.between[1]),
+        "required (mm)".to_owned(),
+        "provided (mm)".to_owned(),
+        "verdict".to_owned(),
+        "rule".to_owned(),
+        "status".to_owned(),
+    ]);
+    for case in &answer.cases {
+        let ownership = case.ownership.map_or("any", |o| o.name()).to_owned();
+        let Some((level, governing)) = case.governing() else {
+            let mut row = vec![ownership];
+            row.extend(["-", "-", "-", "-", "-", "no answer", "-", "-"].map(str::to_owned));
+            table.add_row(row);
+            continue;
+        };
+        let LevelAnswer {
+            displacement,
+            width,
+            provided,
+        } = governing;
+        let shown = |u: Option<f64>| u.map_or("-".to_owned(), |u| format!("{:.1}", u * 1e3));
+        let reached = match case.satisfied() {
+            Some(true) => "wide enough",
+            Some(false) => "too small",
+            None => "no answer",
+        };
+        table.add_row([
+            ownership,
+            gap.levels[level].place.label(),
+            shown(displacement[0]),
+            shown(displacement[1]),
+            format!("{:.1}", width.requirement.width * 1e3),
+            format!("{:.1}", provided * 1e3),
+            reached.to_owned(),
+            width.provision.name.to_owned(),
+            width.provision.status.name().to_owned(),
+        ]);
+    }
+    format!("{table}\n")
+}
+
+/// Why a code gives no answer, or its formula with what is not verified.
+fn explained(case: &OwnershipAnswer) -> String {
+    let ownership = case
+        .ownership
+        .map_or(String::new(), |o| format!("{}: ", o.name()));
+    if let Some(refusal) = case.refusal() {
+        let help = refusal.help().map_or(String::new(), |h| format!("; {h}"));
+        return format!("  {ownership}{refusal}{help}\n");
+    }
+    let Some((_, governing)) = case.governing() else {
+        return String::new();
+    };
+    let provision = governing.width.provision;
+    let status = if provision.status.is_verified() {
+        String::new()
+    } else {
+        format!("; {}", provision.status)
+    };
+    format!(
+        "  {ownership}{}{}{status}\n",
+        if provision.clause.is_empty() {
+            String::new()
+        } else {
+            format!("clause {}: ", provision.clause)
+        },
+        governing.width.requirement.explanation
+    )
+}

@@ -1,0 +1,162 @@
+//! Spectra of codes, alone or beside those of a record.
+
+use std::fmt::Write as _;
+
+use pounding_case::Dimension;
+use pounding_ground_motion::spectra::design::CodeSpectrum;
+use pounding_ground_motion::spectra::logarithmic_periods;
+use pounding_report::pictures::motion;
+use serde::Serialize;
+
+use super::code::code_spectrum;
+use super::{spectrum, words};
+use crate::arguments::SpectrumArguments;
+use crate::failure::Failure;
+use crate::output::{pretty, print};
+use crate::plot;
+use crate::tables::{G, new_long_table};
+
+/// Periods of files and pictures where none are given, beside the corners of the code.
+const PERIODS: usize = 200;
+/// Periods of the printed table.
+const ROWS: usize = 30;
+
+/// What `--json` prints of a code.
+#[derive(Serialize)]
+pub struct OfCode {
+    code: &'static str,
+    title: String,
+    clause: &'static str,
+    damping: f64,
+    periods: Vec<f64>,
+    pseudo_acceleration: Vec<f64>,
+}
+
+impl OfCode {
+    /// At these periods (s).
+    pub fn of(code: &CodeSpectrum, periods: &[f64]) -> Self {
+        Self {
+            code: code.name(),
+            title: code.title(),
+            clause: code.clause(),
+            damping: code.damping(),
+            periods: periods.to_vec(),
+            pseudo_acceleration: periods.iter().map(|t| code.acceleration(*t)).collect(),
+        }
+    }
+}
+
+/// What `--json` prints of codes alone.
+#[derive(Serialize)]
+struct Answer {
+    codes: Vec<OfCode>,
+}
+
+/// The spectra of the code that is asked for, one for each damping ratio; none if none is.
+pub fn beside(
+    arguments: &SpectrumArguments,
+    periods: &[f64],
+    dampings: &[f64],
+) -> Result<Vec<CodeSpectrum>, Failure> {
+    let Some(text) = &arguments.code else {
+        return Ok(Vec::new());
+    };
+    let spectra = dampings.iter().map(|damping| {
+        let spectrum = code_spectrum(text, *damping)?;
+        let checked = spectrum.check_periods(periods);
+        checked.map_err(|e| Failure::input(format!("--code: {e}"), e.help()))?;
+        Ok(spectrum)
+    });
+    spectra.collect()
+}
+
+/// Spectra of a code without a record.
+pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let (shown, written) = periods(arguments, &dampings)?;
+    let spectra = beside(arguments, &shown, &dampings)?;
+    if let Some(path) = &arguments.csv {
+        plot::write(path, &csv(&spectra, &written)?)?;
+    }
+    if let Some(path) = &arguments.svg {
+        plot::write_drawn(path, motion::codes(&spectra, &written))?;
+    }
+    print(&if arguments.json {
+        let codes = spectra.iter().map(|s| OfCode::of(s, &written)).collect();
+        pretty(&Answer { codes })?
+    } else {
+        text(&spectra, &shown)
+    })
+}
+
+/// Periods of the table, and of files and pictures: those that are given, else many over the
+/// range of the code, with its corners.
+fn periods(
+    arguments: &SpectrumArguments,
+    dampings: &[f64],
+) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let range = (0.01, 4.0);
+    let default = (range.0, range.1, ROWS);
+    let shown = spectrum::places(arguments, default, Dimension::TIME)?;
+    if arguments.at.is_some() || arguments.count.is_some() {
+        return Ok((shown.clone(), shown));
+    }
+    let [from, to] = [shown[0], shown[shown.len() - 1]];
+    let corners = beside(arguments, &[], &dampings[..1])?;
+    let corners = corners.iter().flat_map(CodeSpectrum::corners);
+    let corners: Vec<f64> = corners.filter(|t| (from..=to).contains(t)).collect();
+    let with_corners = |mut periods: Vec<f64>| {
+        periods.extend(&corners);
+        periods.sort_by(f64::total_cmp);
+        periods.dedup();
+        periods
+    };
+    let many = logarithmic_periods(from, to, PERIODS)?;
+    Ok((with_corners(shown), with_corners(many)))
+}
+
+/// The columns that `--target` reads; of several damping ratios a table each would not be one.
+fn csv(spectra: &[CodeSpectrum], periods: &[f64]) -> Result<String, Failure> {
+    let [spectrum] = spectra else {
+        return Err(Failure::input(
+            "--csv: a table holds the spectrum of one damping ratio",
+            Some("give one --damping, or --json".to_owned()),
+        ));
+    };
+    let mut text = format!(
+        "# {} ({})\nperiod_s,psa_m_s2\n",
+        spectrum.title(),
+        spectrum.clause()
+    );
+    for period in periods {
+        let _ = writeln!(text, "{period},{}", spectrum.acceleration(*period));
+    }
+    Ok(text)
+}
+
+fn text(spectra: &[CodeSpectrum], periods: &[f64]) -> String {
+    let mut text = String::new();
+    for spectrum in spectra {
+        let mut table = new_long_table([
+            "period (s)",
+            "pseudo-acceleration PSA (g)",
+            "displacement SD (mm)",
+        ]);
+        for period in periods {
+            let acceleration = spectrum.acceleration(*period);
+            let frequency = std::f64::consts::TAU / period;
+            table.add_row([
+                format!("{period:.4}"),
+                format!("{:.5}", acceleration / G),
+                format!("{:.4}", 1e3 * acceleration / (frequency * frequency)),
+            ]);
+        }
+        let _ = writeln!(
+            text,
+            "\n{} ({})\n{table}",
+            spectrum.title(),
+            spectrum.clause()
+        );
+    }
+    text
+}

@@ -1,0 +1,399 @@
+//! A chart as SVG.
+
+use std::fmt::Write as _;
+
+use super::axis::Range;
+use super::look::{Look, Marker};
+use super::{Chart, LimitPlace, Plot};
+
+/// Size of text (pt).
+const TEXT: f64 = 8.5;
+/// Width of a letter over the size of the text: no letter of a sentence in a usual sans-serif
+/// face is wider on average.
+const LETTER: f64 = 0.58;
+/// Distance of lines of text (pt).
+const LINE: f64 = 11.5;
+/// Sample of a line in the legend (pt).
+const SAMPLE: f64 = 24.0;
+/// Space around the picture and between parts (pt).
+const SPACE: f64 = 6.0;
+/// Length of a tick (pt).
+const TICK: f64 = 3.0;
+/// Margins of the ranges of horizontal and vertical axes.
+const MARGINS: (f64, f64) = (0.015, 0.05);
+/// Markers along a line that is told apart by them.
+const MARKERS: usize = 9;
+
+/// The width of a text (pt).
+fn width_of(text: &str) -> f64 {
+    LETTER * TEXT * text.chars().count() as f64
+}
+
+/// A legend: its rows of entries, each with its place from the left (pt).
+type Rows<'c> = Vec<Vec<(f64, &'c str, &'c Look)>>;
+
+/// The chart as SVG.
+pub fn drawn(chart: &Chart) -> String {
+    let whole = Picture::of(chart);
+    whole.svg()
+}
+
+struct Picture<'c> {
+    chart: &'c Chart,
+    /// One legend for all plots.
+    shared: Option<Rows<'c>>,
+    left: f64,
+}
+
+fn entries(plot: &Plot) -> Vec<(&str, &Look)> {
+    let series = plot.series.iter().map(|s| (s.name.as_str(), &s.look));
+    let limits = plot.limits.iter().map(|l| (l.name.as_str(), &l.look));
+    let named = series.chain(limits).filter(|(name, _)| !name.is_empty());
+    let mut entries: Vec<(&str, &Look)> = Vec::new();
+    for entry in named {
+        if !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
+}
+
+/// Entries in rows no wider than this (pt).
+fn rows<'c>(entries: &[(&'c str, &'c Look)], width: f64) -> Rows<'c> {
+    let mut rows: Rows<'c> = Vec::new();
+    let mut x = 0.0;
+    for (name, look) in entries {
+        let wide = SAMPLE + SPACE + width_of(name) + 2.0 * SPACE;
+        if rows.is_empty() || x + wide > width + 2.0 * SPACE {
+            rows.push(Vec::new());
+            x = 0.0;
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((x, *name, *look));
+        }
+        x += wide;
+    }
+    rows
+}
+
+impl<'c> Picture<'c> {
+    fn of(chart: &'c Chart) -> Self {
+        let width = chart.width - 2.0 * SPACE;
+        let lists: Vec<_> = chart.plots.iter().map(entries).collect();
+        let same = lists.windows(2).all(|pair| pair[0] == pair[1]);
+        let first = lists.first().filter(|first| same && first.len() > 1);
+        let shared = first.map(|first| rows(first, width));
+        let label = |plot: &Plot| {
+            let range = vertical_range(plot);
+            let ticks = range.ticks(ticks_of(plot.height));
+            let widest = ticks.iter().map(|(_, label)| width_of(label));
+            let title = if plot.vertical.label.is_empty() {
+                0.0
+            } else {
+                LINE
+            };
+            widest.fold(0.0, f64::max) + title
+        };
+        let widest = chart.plots.iter().map(label).fold(0.0, f64::max);
+        Self {
+            chart,
+            shared,
+            left: SPACE + widest.min(0.45 * chart.width) + TICK + 3.0,
+        }
+    }
+
+    fn svg(&self) -> String {
+        let chart = self.chart;
+        let mut body = String::new();
+        let mut y = SPACE;
+        if let Some(rows) = &self.shared {
+            y = legend(&mut body, rows, y);
+        }
+        let spare = chart.height.map(|height| {
+            let needed = y + self.needed();
+            (height - needed) / chart.plots.len().max(1) as f64
+        });
+        for (number, plot) in chart.plots.iter().enumerate() {
+            let height = (plot.height + spare.unwrap_or(0.0)).max(30.0);
+            y = self.plot(&mut body, plot, number, (y, height));
+        }
+        let height = chart.height.unwrap_or(y + 1.0);
+        let width = chart.width;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{TEXT}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+            chart.stated_width
+        )
+    }
+
+    /// Height of all plots (pt).
+    fn needed(&self) -> f64 {
+        let plots = self.chart.plots.iter().enumerate();
+        plots
+            .map(|(number, plot)| {
+                let legend = self.own_legend(plot).len() as f64 * LINE;
+                let heading = if plot.heading.is_empty() { 0.0 } else { LINE };
+                heading + legend + plot.height + self.below(number)
+            })
+            .sum::<f64>()
+            + SPACE
+    }
+
+    fn own_legend(&self, plot: &'c Plot) -> Rows<'c> {
+        let entries = entries(plot);
+        if self.shared.is_some() || entries.len() < 2 && plot.limits.is_empty() {
+            return Vec::new();
+        }
+        rows(&entries, self.chart.width - 2.0 * SPACE)
+    }
+
+    /// Whether the label of the horizontal axis stands below this plot, and not below a later
+    /// one of the same axis.
+    fn labelled(&self, number: usize) -> bool {
+        let plots = &self.chart.plots;
+        let next = plots.get(number + 1);
+        next.is_none_or(|next| next.horizontal != plots[number].horizontal)
+    }
+
+    /// Height below the axes (pt).
+    fn below(&self, number: usize) -> f64 {
+        let label = if self.labelled(number) { LINE } else { 0.0 };
+        TICK + LINE + label + SPACE
+    }
+
+    fn plot(
+        &self,
+        body: &mut String,
+        plot: &'c Plot,
+        number: usize,
+        (top, height): (f64, f64),
+    ) -> f64 {
+        let mut y = top;
+        if !plot.heading.is_empty() {
+            y += LINE;
+            text(
+                body,
+                (SPACE, y - 3.0),
+                &plot.heading,
+                "start",
+                " font-weight=\"bold\"",
+            );
+        }
+        y = legend(body, &self.own_legend(plot), y);
+        let (left, right) = (self.left, self.chart.width - SPACE - 4.0);
+        let (upper, lower) = (y + 2.0, y + height);
+        let horizontal = horizontal_range(plot);
+        let vertical = vertical_range(plot);
+        let x_at = |x: f64| horizontal.place(x).map(|p| left + p * (right - left));
+        let y_at = |y: f64| vertical.place(y).map(|p| lower - p * (lower - upper));
+        for (value, label) in vertical.ticks(ticks_of(height)) {
+            let Some(y) = y_at(value) else { continue };
+            line(
+                body,
+                (left, y),
+                (right, y),
+                "stroke=\"#dddddd\" stroke-width=\"0.4\"",
+            );
+            line(body, (left - TICK, y), (left, y), AXIS);
+            text(
+                body,
+                (left - TICK - 2.0, y + 0.35 * TEXT),
+                &label,
+                "end",
+                "",
+            );
+        }
+        let most = ((right - left) / 50.0) as usize;
+        let mut free = f64::NEG_INFINITY;
+        for (value, label) in horizontal.ticks(most) {
+            let Some(x) = x_at(value) else { continue };
+            line(
+                body,
+                (x, upper),
+                (x, lower),
+                "stroke=\"#dddddd\" stroke-width=\"0.4\"",
+            );
+            line(body, (x, lower), (x, lower + TICK), AXIS);
+            // A label over another could not be read.
+            let half = 0.5 * width_of(&label);
+            if x - half > free {
+                text(body, (x, lower + TICK + TEXT), &label, "middle", "");
+                free = x + half + 2.0;
+            }
+        }
+        for x in horizontal.minor_ticks().into_iter().filter_map(x_at) {
+            line(body, (x, lower), (x, lower + 0.5 * TICK), AXIS);
+        }
+        for y in vertical.minor_ticks().into_iter().filter_map(y_at) {
+            line(body, (left - 0.5 * TICK, y), (left, y), AXIS);
+        }
+        // Named by its place: figures of one page may share a name, but not with another place.
+        let clip = format!("clip-{left:.2}-{upper:.2}-{right:.2}-{lower:.2}");
+        let _ = writeln!(
+            body,
+            "<clipPath id=\"{clip}\"><rect x=\"{left:.2}\" y=\"{upper:.2}\" width=\"{:.2}\" height=\"{:.2}\"/></clipPath>\n<g clip-path=\"url(#{clip})\">",
+            right - left,
+            lower - upper
+        );
+        for limit in &plot.limits {
+            let ends = match limit.at {
+                LimitPlace::Horizontal(value) => x_at(value).map(|x| [(x, upper), (x, lower)]),
+                LimitPlace::Vertical(value) => y_at(value).map(|y| [(left, y), (right, y)]),
+            };
+            if let Some([from, to]) = ends {
+                line(body, from, to, &limit.look.stroke());
+            }
+        }
+        for (turn, series) in plot.series.iter().enumerate() {
+            let places = series.points.iter();
+            let places = places.map(|(x, y)| Some((x_at(*x)?, y_at(*y)?)));
+            let places: Vec<Option<(f64, f64)>> = places.collect();
+            curve(body, &series.look, &places, turn);
+        }
+        body.push_str("</g>\n");
+        line(body, (left, upper), (left, lower), AXIS);
+        line(body, (left, lower), (right, lower), AXIS);
+        let mut below = lower + TICK + LINE;
+        if self.labelled(number) {
+            below += LINE;
+            let middle = 0.5 * (left + right);
+            text(
+                body,
+                (middle, below - 2.0),
+                &plot.horizontal.label,
+                "middle",
+                "",
+            );
+        }
+        if !plot.vertical.label.is_empty() {
+            let (x, y) = (SPACE + TEXT, 0.5 * (upper + lower));
+            let turned = format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"");
+            text(body, (x, y), &plot.vertical.label, "middle", &turned);
+        }
+        below + SPACE
+    }
+}
+
+const AXIS: &str = "stroke=\"#000000\" stroke-width=\"0.6\"";
+
+fn ticks_of(height: f64) -> usize {
+    ((height / 24.0) as usize).clamp(2, 10)
+}
+
+fn horizontal_range(plot: &Plot) -> Range {
+    let points = plot
+        .series
+        .iter()
+        .flat_map(|s| s.points.iter().map(|p| p.0));
+    let limits = plot.limits.iter().filter_map(|l| match l.at {
+        LimitPlace::Horizontal(x) => Some(x),
+        LimitPlace::Vertical(_) => None,
+    });
+    Range::of(&plot.horizontal, points.chain(limits), MARGINS.0)
+}
+
+fn vertical_range(plot: &Plot) -> Range {
+    let points = plot
+        .series
+        .iter()
+        .flat_map(|s| s.points.iter().map(|p| p.1));
+    let limits = plot.limits.iter().filter_map(|l| match l.at {
+        LimitPlace::Vertical(y) => Some(y),
+        LimitPlace::Horizontal(_) => None,
+    });
+    Range::of(&plot.vertical, points.chain(limits), MARGINS.1)
+}
+
+/// Rows of a legend from a height on; the height below it.
+fn legend(body: &mut String, rows: &Rows<'_>, top: f64) -> f64 {
+    let mut y = top;
+    for row in rows {
+        y += LINE;
+        for (x, name, look) in row {
+            let (from, middle) = (SPACE + x, y - 0.5 * TEXT);
+            if look.dash.is_some() {
+                line(
+                    body,
+                    (from, middle),
+                    (from + SAMPLE, middle),
+                    &look.stroke(),
+                );
+            }
+            body.push_str(&look.marker_at((from + 0.5 * SAMPLE, middle)));
+            text(body, (from + SAMPLE + 4.0, y - 1.5), name, "start", "");
+        }
+    }
+    if rows.is_empty() { y } else { y + 3.0 }
+}
+
+fn line(body: &mut String, from: (f64, f64), to: (f64, f64), style: &str) {
+    let _ = writeln!(
+        body,
+        "<line x1=\"{:.2}\" y1=\"{:.2}\" x2=\"{:.2}\" y2=\"{:.2}\" {style}/>",
+        from.0, from.1, to.0, to.1
+    );
+}
+
+fn text(body: &mut String, at: (f64, f64), content: &str, anchor: &str, more: &str) {
+    let _ = writeln!(
+        body,
+        "<text x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\"{more}>{}</text>",
+        at.0,
+        at.1,
+        escaped(content)
+    );
+}
+
+/// As a text of SVG, without characters that XML does not have.
+fn escaped(content: &str) -> String {
+    let mut out = String::with_capacity(content.len());
+    for c in content.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A curve, broken where a point has no place, with its markers.
+fn curve(body: &mut String, look: &Look, places: &[Option<(f64, f64)>], turn: usize) {
+    if look.dash.is_some() {
+        for part in places.split(Option::is_none).filter(|p| p.len() > 1) {
+            let points: Vec<String> = part
+                .iter()
+                .flatten()
+                .map(|(x, y)| format!("{x:.2},{y:.2}"))
+                .collect();
+            let _ = writeln!(
+                body,
+                "<polyline points=\"{}\" {}/>",
+                points.join(" "),
+                look.stroke()
+            );
+        }
+    }
+    if !matches!(look.marker, Marker::Shape(_)) {
+        return;
+    }
+    let known: Vec<(f64, f64)> = places.iter().flatten().copied().collect();
+    let every = if look.few_markers {
+        (known.len() / MARKERS).max(1)
+    } else {
+        1
+    };
+    // Markers of neighbouring curves stand at different points.
+    let first = if look.few_markers {
+        (turn * every) / 3 % every.max(1)
+    } else {
+        0
+    };
+    for place in known.iter().skip(first).step_by(every) {
+        body.push_str(&look.marker_at(*place));
+        body.push('\n');
+    }
+}

@@ -1,0 +1,94 @@
+//! Charts: panels of curves, points and limits below one another, as SVG of a width that
+//! journals print, text of 8.5 pt.
+//!
+//! Lines differ by dash, width and marker, never by colour alone; legends stand above the
+//! panels, off the data.
+
+mod axis;
+mod drawing;
+mod look;
+
+pub use axis::{Axis, Scale};
+pub use drawing::drawn;
+pub use look::Look;
+
+/// A series of points with its look.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty for a series that has none there.
+    pub name: String,
+    /// Points in the units of the axes.
+    pub points: Vec<(f64, f64)>,
+    /// How it is drawn.
+    pub look: Look,
+}
+
+/// A straight line across a panel, with its name in the legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Name.
+    pub name: String,
+    /// Where it crosses: a value of the horizontal axis or of the vertical one.
+    pub at: LimitPlace,
+    /// How it is drawn.
+    pub look: Look,
+}
+
+/// Where a limit crosses a panel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LimitPlace {
+    /// Upright, at this value of the horizontal axis.
+    Horizontal(f64),
+    /// Level, at this value of the vertical axis.
+    Vertical(f64),
+}
+
+/// One set of axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// Heading above it, with quantity and unit of the vertical axis if that has no label.
+    pub heading: String,
+    /// Horizontal axis.
+    pub horizontal: Axis,
+    /// Vertical axis.
+    pub vertical: Axis,
+    /// Series, later ones over earlier ones.
+    pub series: Vec<Series>,
+    /// Limits, below the series.
+    pub limits: Vec<Limit>,
+    /// Height of the axes (pt).
+    pub height: f64,
+}
+
+/// A picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    /// Plots from the top.
+    pub plots: Vec<Plot>,
+    /// Width (pt).
+    pub width: f64,
+    /// Width that the file states, with unit.
+    pub stated_width: String,
+    /// Height of the whole (pt); by default what the plots need.
+    pub height: Option<f64>,
+}
+
+/// Points of an inch in a millimetre.
+const POINTS_PER_MILLIMETRE: f64 = 72.0 / 25.4;
+/// Width of a page (mm).
+const PAGE: f64 = 190.0;
+
+impl Chart {
+    /// A picture as wide as a page of a journal, 190 mm.
+    pub fn of_page(plots: Vec<Plot>) -> Self {
+        Self {
+            plots,
+            width: PAGE * POINTS_PER_MILLIMETRE,
+            stated_width: format!("{PAGE}mm"),
+            height: None,
+        }
+    }
+}
+
+/// Height of the axes (pt) where nothing asks for another.
+pub const HEIGHT: f64 = 125.0;

@@ -1,0 +1,206 @@
+//! The answer of one code for a suite of records.
+
+use pounding_separation::{
+    CodeDescriptor, CodeWidth, Ownership, SeparationError, Sides, Situation, Statistic,
+};
+
+use super::SAME;
+use super::codes::{GapPlace, Inputs};
+use super::demand::RecordDemand;
+
+/// What one code says of a gap under a suite of records.
+#[derive(Debug, Clone)]
+pub struct CodeAnswer {
+    /// The code.
+    pub code: &'static CodeDescriptor,
+    /// Which number of the responses under the records it takes.
+    pub statistic: Statistic,
+    /// Whether there are as many records as it asks for.
+    pub enough_records: bool,
+    /// That statistic of the demand (m), the maximum approach of the buildings without contact:
+    /// what the records say themselves, beside any rule.
+    pub demand: f64,
+    /// Who owns the ground, if the case says it and the code asks.
+    pub ownership: Option<Ownership>,
+    /// A width for each kind of ownership that the code tells apart.
+    pub cases: Vec<OwnershipAnswer>,
+}
+
+/// What a code says for one kind of ownership.
+#[derive(Debug, Clone)]
+pub struct OwnershipAnswer {
+    /// The ownership; `None` where the code does not ask.
+    pub ownership: Option<Ownership>,
+    /// Widths at the levels from the bottom, or why there is none.
+    pub levels: Vec<Result<LevelAnswer, SeparationError>>,
+}
+
+/// The width of a code at a level.
+#[derive(Debug, Clone)]
+pub struct LevelAnswer {
+    /// Statistic of the peak displacements of the left and the right building without contact
+    /// (m); `None` for a wall.
+    pub displacement: [Option<f64>; 2],
+    /// The width with the provision that gives it.
+    pub width: CodeWidth,
+    /// Provided width (m).
+    pub provided: f64,
+}
+
+impl LevelAnswer {
+    /// Provided over required width (-).
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        self.provided / self.width.requirement.width
+    }
+
+    /// Whether the provided width is no less; `None` for a rule that does not hold for
+    /// displacements of buildings that yield.
+    #[must_use]
+    pub fn satisfied(&self) -> Option<bool> {
+        let required = self.width.requirement.width;
+        match self.width.requirement.caution {
+            Some(_) => None,
+            None => Some(self.provided >= required * (1.0 - SAME)),
+        }
+    }
+}
+
+impl OwnershipAnswer {
+    /// The level with the least ratio of provided to required width (from zero), with its
+    /// answer; `None` where the code says nothing.
+    #[must_use]
+    pub fn governing(&self) -> Option<(usize, &LevelAnswer)> {
+        let levels = self.levels.iter().enumerate().rev();
+        let known = levels.filter_map(|(l, answer)| Some((l, answer.as_ref().ok()?)));
+        known.min_by(|a, b| a.1.ratio().total_cmp(&b.1.ratio()))
+    }
+
+    /// Why the code says nothing at some level for want of an input, or nothing at all.
+    #[must_use]
+    pub fn refusal(&self) -> Option<&SeparationError> {
+        let errors = || self.levels.iter().filter_map(|l| l.as_ref().err());
+        let missing = errors().find(|e| !matches!(e, SeparationError::NotApplicable { .. }));
+        let none = self.levels.iter().all(Result::is_err);
+        missing.or_else(|| errors().next().filter(|_| none))
+    }
+
+    /// Whether the provided width reaches the required one at every level of which the code
+    /// speaks; `None` if it gives no answer.
+    #[must_use]
+    pub fn satisfied(&self) -> Option<bool> {
+        if self.refusal().is_some() {
+            return None;
+        }
+        let levels = self.levels.iter().flatten().map(LevelAnswer::satisfied);
+        let all: Option<Vec<bool>> = levels.collect();
+        all.map(|all| all.into_iter().all(|reached| reached))
+    }
+}
+
+impl CodeAnswer {
+    /// The answers that decide: that of the ownership that the case states, else all.
+    pub fn deciding(&self) -> impl Iterator<Item = &OwnershipAnswer> {
+        let stated = self.ownership;
+        self.cases
+            .iter()
+            .filter(move |c| stated.is_none() || c.ownership.is_none() || c.ownership == stated)
+    }
+
+    /// Whether the gap is wide enough by the code; `None` if it gives no answer. Where the case
+    /// does not say who owns the ground, it must be for both.
+    #[must_use]
+    pub fn satisfied(&self) -> Option<bool> {
+        let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
+        answers.map(|all| all.into_iter().all(|reached| reached))
+    }
+}
+
+/// The answer of a code at one gap: its rules take the code's statistic of the displacements
+/// under all records.
+pub(super) fn code_answer(
+    code: &'static CodeDescriptor,
+    place: &GapPlace<'_>,
+    inputs: &Inputs<'_>,
+    records: &[RecordDemand],
+    demand: &[f64],
+) -> CodeAnswer {
+    let statistic = code.suite.statistic(records.len());
+    let levels = place.levels();
+    let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule| {
+        answer_at(place, inputs, records, statistic, (level, *sides), rule)
+    };
+    let beside_wall = levels.iter().any(|sides| sides.contains(&None));
+    let rules = if beside_wall {
+        vec![(None, code.beside_a_wall())]
+    } else {
+        code.rules()
+    };
+    let cases = rules.into_iter().map(|(ownership, rules)| OwnershipAnswer {
+        ownership,
+        levels: levels
+            .iter()
+            .enumerate()
+            .map(|(level, sides)| at(level, sides, (ownership, rules)))
+            .collect(),
+    });
+    CodeAnswer {
+        code,
+        statistic,
+        enough_records: records.len() >= code.suite.least,
+        demand: statistic.of(demand),
+        ownership: inputs.ownership(),
+        cases: cases.collect(),
+    }
+}
+
+fn answer_at(
+    place: &GapPlace<'_>,
+    inputs: &Inputs<'_>,
+    records: &[RecordDemand],
+    statistic: Statistic,
+    (level, sides): (usize, [Option<(usize, usize)>; 2]),
+    (ownership, rules): (Option<Ownership>, pounding_separation::Rules),
+) -> Result<LevelAnswer, SeparationError> {
+    let buildings = place.system.buildings();
+    let structures = sides.map(|side| {
+        side.map(|at| {
+            let peaks = records.iter();
+            let peaks: Vec<f64> = peaks
+                .map(|r| r.isolated[at.0].storeys[at.1].displacement.value)
+                .collect();
+            let mut yields = records.iter().map(|r| &r.isolated[at.0]);
+            let inelastic = yields.any(|b| !b.inelastic_storeys().is_empty());
+            inputs.structure(&buildings[at.0], at.0, (statistic.of(&peaks), inelastic))
+        })
+    });
+    let displacement = [0, 1].map(|i: usize| structures[i].as_ref().and_then(|s| s.displacement));
+    let moves = records.iter().map(|r| r.ground_moves(place.gap, level));
+    let moves: Vec<f64> = moves.collect();
+    let site = inputs.site(place, statistic.of(&moves));
+    let elevation = place.elevation(level);
+    let sides = match structures {
+        [Some(left), Some(right)] => Sides::Between(Box::new(Situation {
+            left,
+            right,
+            elevation,
+            site,
+        })),
+        [Some(one), None] | [None, Some(one)] => Sides::Wall {
+            structure: Box::new(one),
+            elevation,
+            site,
+        },
+        [None, None] => {
+            return Err(SeparationError::NotApplicable {
+                provision: "the code",
+                reason: "the level lies between two walls".to_owned(),
+            });
+        }
+    };
+    Ok(LevelAnswer {
+        displacement,
+        width: rules.width(&sides.owned(ownership))?,
+        provided: place.width(level),
+    })
+}

@@ -279,24 +279,18 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
         })
     };
     let place_of =
-        |place: (usize, usize)| shown.iter().position(|c| scene.contacts[*c].place == place);
-    let mut impacts: Vec<(f64, Value)> = Vec::new();
-    for (g, gap) in result.gaps.iter().enumerate() {
-        for impact in &gap.impacts {
-            let Some(contact) = place_of((g, impact.level as usize - 1)) else {
-                continue;
-            };
-            let value = json!({
-                "contact": contact,
-                "closes": impact.t_close,
-                "opens": impact.t_open,
-                "force": impact.force(),
-                "impulse": impact.impulse,
-            });
-            impacts.push((impact.t_close, value));
-        }
-    }
-    impacts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        &|place: (usize, usize)| shown.iter().position(|c| scene.contacts[*c].place == place);
+    let of_gaps = result.gaps.iter().enumerate();
+    let impacts = of_gaps.flat_map(|(g, gap)| {
+        let impacts = gap.impacts.iter();
+        impacts.filter_map(move |i| Some((place_of((g, i.level as usize - 1))?, i)))
+    });
+    let mut impacts: Vec<(usize, &ImpactResult)> = impacts.collect();
+    impacts.sort_by(|a, b| a.1.t_close.total_cmp(&b.1.t_close));
+    let column = |of: fn(&ImpactResult) -> f64, kind: Kind| {
+        let values: Vec<f64> = impacts.iter().map(|(_, i)| of(i)).collect();
+        packed(&values, kind)
+    };
     let hardest = hardest(result).and_then(|(g, i)| place_of((g, i.level as usize - 1)));
     json!({
         "time": result.time[row],
@@ -312,7 +306,13 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
         "frames": packed(&times, Kind::Float64),
         "bodies": scene.bodies.iter().enumerate().map(body).collect::<Vec<Value>>(),
         "contacts": shown.iter().map(contact).collect::<Vec<Value>>(),
-        "impacts": impacts.into_iter().map(|(_, value)| value).collect::<Vec<Value>>(),
+        "impacts": {
+            "contact": impacts.iter().map(|(contact, _)| *contact).collect::<Vec<usize>>(),
+            "closes": column(|i| i.t_close, Kind::Float64),
+            "opens": column(|i| i.t_open, Kind::Float64),
+            "force": column(ImpactResult::force, Kind::Float32),
+            "impulse": column(|i| i.impulse, Kind::Float32),
+        },
         "series": series::all(result, |place| place_of(place)),
     })
 }

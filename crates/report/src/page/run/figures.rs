@@ -1,5 +1,7 @@
 //! Figures of the page.
 
+use std::collections::BTreeMap;
+
 use super::words;
 use crate::decimation::decimated;
 use crate::error::ReportError;
@@ -14,6 +16,8 @@ const PROFILE: (u32, u32) = (540, 340);
 /// many pictures have to fit on a page.
 const COLUMNS: usize = 1000;
 const COLUMNS_OF_ALL: usize = 10_000;
+/// Levels whose stems can be told apart.
+const MOST_LEVELS: usize = 6;
 
 type Outcome = Result<String, ReportError>;
 
@@ -146,14 +150,14 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
         let force = |i: &ImpactResult| (i.peak_force_time, 1.0e-3 * i.force());
         panels.push(over_time(
             "Peak force of every impact (kN)",
-            stems(gap, end, force),
+            stems((gap, columns(result)), end, force),
         ));
     }
     if !gap.impacts.is_empty() {
         let velocity = |i: &ImpactResult| (i.t_close, i.approach_velocity);
         panels.push(over_time(
             "Approach velocity of every impact (m/s)",
-            stems(gap, end, velocity),
+            stems((gap, columns(result)), end, velocity),
         ));
     }
     let words = format!(
@@ -163,25 +167,45 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
     wide(&panels, &words)
 }
 
-/// A stem for each impact, a curve for each level that has any; all over the whole time.
-fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) -> Vec<Curve> {
-    let at = |l: usize| gap.impacts.iter().filter(move |i| i.level == l as u64 + 1);
-    (0..gap.levels.len())
-        .filter(|l| at(*l).next().is_some())
-        .map(|l| {
-            let known = at(l)
-                .map(&stem)
-                .filter(|(t, y)| t.is_finite() && y.is_finite());
-            let inner = known.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
-            Curve {
-                name: words::level(&gap.levels[l]),
-                points: [(0.0, 0.0)]
-                    .into_iter()
-                    .chain(inner)
-                    .chain([(end, 0.0)])
-                    .collect(),
+/// A stem for each impact, a curve for each level that has any, or one for all where there are
+/// many; all over the whole time. Of more stems than the picture can show the longest of each
+/// part of the time are left.
+fn stems(
+    (gap, columns): (&GapResult, usize),
+    end: f64,
+    stem: impl Fn(&ImpactResult) -> (f64, f64),
+) -> Vec<Curve> {
+    let hit = |l: &usize| gap.impacts.iter().any(|i| i.level == *l as u64 + 1);
+    let levels: Vec<usize> = (0..gap.levels.len()).filter(hit).collect();
+    let curve = |name: String, wanted: &dyn Fn(&ImpactResult) -> bool| {
+        let mut longest: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        let impacts = gap.impacts.iter().filter(|i| wanted(i)).map(&stem);
+        for (t, y) in impacts.filter(|(t, y)| t.is_finite() && y.is_finite()) {
+            let part = (t / end * columns as f64) as usize;
+            let known = longest.entry(part).or_insert((t, y));
+            if y > known.1 {
+                *known = (t, y);
             }
-        })
+        }
+        let inner = longest.into_values();
+        let inner = inner.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
+        let ends = [(0.0, 0.0), (end, 0.0)];
+        Curve {
+            name,
+            points: ends[..1]
+                .iter()
+                .copied()
+                .chain(inner)
+                .chain([ends[1]])
+                .collect(),
+        }
+    };
+    if levels.len() > MOST_LEVELS {
+        return vec![curve("all levels".to_owned(), &|_| true)];
+    }
+    let levels = levels.into_iter();
+    levels
+        .map(|l| curve(words::level(&gap.levels[l]), &|i| i.level == l as u64 + 1))
         .collect()
 }
 

@@ -45,7 +45,17 @@
     element: document.querySelector(`[data-contact="${i}"]`),
     edge: document.querySelector(`[data-edge="${i}"]`),
   }));
-  const impacts = data.impacts;
+  const columns = Object.fromEntries(
+    ["closes", "opens", "force", "impulse"].map((name) => [name, numbers(data.impacts[name])]),
+  );
+  const impacts = data.impacts.contact.map((contact, i) => ({
+    contact,
+    closes: columns.closes[i],
+    // A contact that outlasts the run has no end.
+    opens: Number.isNaN(columns.opens[i]) ? Infinity : columns.opens[i],
+    force: columns.force[i],
+    impulse: columns.impulse[i],
+  }));
   const picture = part("elevation");
   const [start, end] = [frames[0], frames[frames.length - 1]];
   let time = data.time;
@@ -339,7 +349,6 @@
     const contact = contacts[impact.contact];
     const size = impact.force > 0 ? `${shown(impact.force / 1e3)} kN` : `${shown(impact.impulse / 1e3)} kN s`;
     list.append(new Option(`${impact.closes.toFixed(4)} s, ${contact.name}, ${size}`, String(i)));
-    if (impact.opens === null) impact.opens = Infinity;
   });
   const jump = (i) => {
     if (!impacts.length) return;

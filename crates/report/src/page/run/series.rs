@@ -8,28 +8,20 @@ use super::packed::{Kind, packed};
 use crate::result::{GapResult, RunResult};
 
 /// Points of all curves on a page at most.
-const MOST_POINTS: usize = 80_000;
+const MOST_POINTS: usize = 70_000;
 /// Output times before and after a contact that are kept, if there is room.
 const AROUND: usize = 25;
 /// Parts of a motion whose extremes are kept.
 const PARTS: usize = 800;
 
-/// Curves of the levels that are hit, and of the governing level of each gap; `contact`
-/// finds the contact of a gap and level among those of the picture.
+/// Curves of the governing level of each gap and of the levels that are hit, the hardest
+/// first, as many as there is room for; `contact` finds the contact of a gap and level among
+/// those of the picture.
 pub(super) fn all(
     result: &RunResult,
     contact: impl Fn((usize, usize)) -> Option<usize>,
 ) -> Vec<Value> {
-    let levels = result.gaps.iter().enumerate().flat_map(|(g, gap)| {
-        let governing = governing_level(gap);
-        let hit = move |l: usize| gap.impacts.iter().any(|i| i.level == l as u64 + 1);
-        let wanted = (0..gap.levels.len()).filter(move |l| Some(*l) == governing || hit(*l));
-        wanted.map(move |l| (g, l))
-    });
-    let levels: Vec<(usize, usize)> = levels.collect();
-    if levels.is_empty() {
-        return Vec::new();
-    }
+    let levels = levels(result);
     let kept = |(around, parts): (usize, usize)| -> Vec<Vec<usize>> {
         let rows = levels.iter().map(|(g, l)| {
             let gap = &result.gaps[*g];
@@ -42,10 +34,16 @@ pub(super) fn all(
     };
     let mut asked = (AROUND, PARTS);
     let mut chosen = kept(asked);
-    while chosen.iter().map(Vec::len).sum::<usize>() > MOST_POINTS && asked.0 > 1 {
-        asked = (asked.0 / 2, (asked.1 / 2).max(16));
+    while chosen.iter().map(Vec::len).sum::<usize>() > MOST_POINTS && asked.0 > 3 {
+        asked = (asked.0 / 2, (asked.1 / 2).max(50));
         chosen = kept(asked);
     }
+    let mut points = 0;
+    let fits = |rows: &Vec<usize>| {
+        points += rows.len();
+        points <= MOST_POINTS
+    };
+    let chosen: Vec<Vec<usize>> = chosen.into_iter().take_while(fits).collect();
     let curves = levels.iter().zip(chosen);
     let curve = |((g, l), rows): (&(usize, usize), Vec<usize>)| {
         let gap = &result.gaps[*g];
@@ -67,6 +65,25 @@ pub(super) fn all(
         })
     };
     curves.map(curve).collect()
+}
+
+/// Gaps and levels whose curves are wanted, the most wanted first.
+fn levels(result: &RunResult) -> Vec<(usize, usize)> {
+    let of_gaps = result.gaps.iter().enumerate();
+    let mut levels: Vec<(bool, f64, (usize, usize))> = of_gaps
+        .flat_map(|(g, gap)| {
+            let governing = governing_level(gap);
+            (0..gap.levels.len()).filter_map(move |l| {
+                let here = gap.impacts.iter().filter(|i| i.level == l as u64 + 1);
+                let hit = here.clone().next().is_some();
+                let hardest = here.map(|i| i.impulse).filter(|x| x.is_finite());
+                let governs = governing == Some(l);
+                (hit || governs).then(|| (governs, hardest.fold(0.0, f64::max), (g, l)))
+            })
+        })
+        .collect();
+    levels.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    levels.into_iter().map(|(_, _, place)| place).collect()
 }
 
 /// Output times that a curve keeps: around contacts all of them, and elsewhere the extremes

@@ -271,20 +271,28 @@ fn elevations(path: &str) -> [Column; 2] {
     })
 }
 
-/// The levels of a gap, the top first. What is of all impacts of a level is in no single
-/// dataset.
+/// The levels of a gap, the top first.
 pub(super) fn levels(gap: &GapResult) -> String {
     let path = format!("gap/{}", gap.name);
+    let of_impacts = |heading: &str, word: &str, column: &str, factor: f64| {
+        let from = format!("{word} {path}/impacts[level=*+1].{column}");
+        Column::of(heading, from, factor)
+    };
     let mut columns = vec![Column::new("level")];
     columns.extend(elevations(&path));
     columns.extend([
         Column::of("width (mm)", format!("{path}/width[*]"), 1.0e3),
-        Column::new("impacts"),
-        Column::new("peak force (kN)"),
+        of_impacts("impacts", "count", "level", 1.0),
+        of_impacts("peak force (kN)", "maximum", "peak_force", 1.0e-3),
         Column::new("at (s)"),
-        Column::new("fastest approach (m/s)"),
+        of_impacts(
+            "fastest approach (m/s)",
+            "maximum",
+            "approach_velocity",
+            1.0,
+        ),
         Column::new("restitution"),
-        Column::new("dissipated (kJ)"),
+        of_impacts("dissipated (kJ)", "sum", "energy_dissipated", 1.0e-3),
     ]);
     if gap.clearance.is_some() {
         columns.push(Column::of(

@@ -20,7 +20,7 @@ from pypdf import PdfReader
 from sources import Result, walk
 
 # Columns of numbers that are of no single place in the result: counted or computed from a table.
-FREE = {"storey", "mode", "level", "left", "right", "at (s)", "restitution"}
+FREE = {"number", "storey", "mode", "level", "left", "right", "at (s)", "restitution"}
 PAPER = {"A4": (8.27, 11.69), "Letter": (8.5, 11.0)}
 MARGIN = 2 * 12 / 25.4
 

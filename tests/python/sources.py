@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import statistics
 from html.parser import HTMLParser
 
 import h5py
@@ -10,7 +11,7 @@ import numpy
 
 NUMBER = re.compile(r"[+-]?\d+(\.\d+)?(e[+-]?\d+)?")
 # Factors of SI units into those that heads of rows name.
-UNITS = {"mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "mrad": 1e3, "%": 1e2, "kJ": 1e-3, "MN/m": 1e-6}
+UNITS = {"mm": 1e3, "mrad": 1e3, "cm": 1e2, "cm/s": 1e2, "%": 1e2, "kN": 1e-3, "kN m": 1e-3, "g": 1 / 9.80665}
 
 
 class Tables(HTMLParser):
@@ -85,13 +86,14 @@ class Result:
             self.known[data] = self.file[data][()]
         dataset = self.known[data]
         if not rest:
-            return [float(dataset)]
+            return [float(x) for x in numpy.ravel(dataset)]
         index, _, column = rest.partition("]")
         if "=" in index:
             name, _, wanted = index.partition("=")
             dataset = dataset[dataset[name] == eval_sum(wanted)]
         else:
-            dataset = dataset[tuple(int(i) for i in index.split(","))]
+            places = (slice(None) if i == ":" else int(i) for i in index.split(","))
+            dataset = dataset[tuple(places)]
         if column:
             dataset = dataset[column.lstrip(".")]
         return [float(x) for x in numpy.atleast_1d(dataset)]
@@ -119,13 +121,17 @@ class Result:
             above, below = (self.value(part, row) for part in source.split(" / "))
             return above / below if below else math.nan
         word, _, path = source.partition(" ")
-        if path and word in ("count", "sum", "maximum", "minimum"):
+        if path and word in ("count", "known", "sum", "maximum", "minimum", "median"):
             known = [x for x in self.values(path, row) if not math.isnan(x)]
             if word == "count":
                 return len(self.values(path, row))
             if word == "sum":
                 return math.fsum(known)
             known = [x for x in known if math.isfinite(x)]
+            if word == "known":
+                return len(known)
+            if word == "median":
+                return statistics.median(known) if known else math.nan
             return {"maximum": max, "minimum": min}[word](known, default=math.nan)
         values = self.values(source, row)
         assert len(values) == 1, f"{source} {row}: {len(values)} numbers"
@@ -152,8 +158,8 @@ def agrees(text, value):
 
 def factor_of(attribute, head):
     if attribute == "unit":
-        unit = head[head.rindex("(") + 1 : head.rindex(")")]
-        return UNITS.get(unit, 1.0)
+        unit = re.search(r"\(([^(]*)\)$", head)
+        return UNITS.get(unit.group(1), 1.0) if unit else 1.0
     return float(attribute or 1)
 
 

@@ -12,6 +12,7 @@ mod faults;
 mod files;
 mod interruption;
 mod output;
+mod page;
 mod plot;
 mod progress;
 mod separate;

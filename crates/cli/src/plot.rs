@@ -9,11 +9,15 @@ use crate::failure::Failure;
 
 /// A picture of a library, written as a file.
 pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<(), Failure> {
-    let picture = picture.map_err(|e| match e {
+    write(path, &drawn(picture)?)
+}
+
+/// A picture of a library, or why there is none.
+pub fn drawn(picture: Result<String, ReportError>) -> Result<String, Failure> {
+    picture.map_err(|e| match e {
         ReportError::Motion(error) => error.into(),
         error => not_drawn(&error),
-    })?;
-    write(path, &picture)
+    })
 }
 
 /// A picture that could not be drawn.

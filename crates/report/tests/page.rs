@@ -4,7 +4,7 @@
 use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
     BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
-    LevelResult, NamedResponse, ReportError, RunResult, StoreyPeaks, Table, page,
+    LevelResult, NamedResponse, ReportError, RunResult, StoreyPeaks, Table, page::run as page,
 };
 
 fn peaks(value: [f64; 2], isolated: [f64; 2]) -> StoreyPeaks {

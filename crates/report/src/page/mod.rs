@@ -1,10 +1,23 @@
 //! Pages of results, each one HTML file: the answer in words first, then tables and figures.
 //! They need no other file and no network, and print.
 
+mod answer;
+mod comparison;
 mod document;
+mod gap;
 mod html;
+mod ida;
+mod motion;
 mod numbers;
 mod run;
+mod studies;
+mod sweep;
 mod table;
 
-pub use run::page;
+pub use comparison::comparison;
+pub use gap::gap;
+pub use ida::ida;
+pub use motion::motion;
+pub use run::page as run;
+pub use studies::{Inputs, Picture};
+pub use sweep::sweep;

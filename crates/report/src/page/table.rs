@@ -23,6 +23,8 @@ pub(super) struct Column {
     group: String,
     heading: String,
     source: Option<Source>,
+    /// Path of the words that a cell has, where it has no number.
+    words: String,
 }
 
 impl Column {
@@ -32,7 +34,27 @@ impl Column {
             group: String::new(),
             heading: heading.into(),
             source: None,
+            words: String::new(),
         }
+    }
+
+    /// Words of that path.
+    pub(super) fn words_of(heading: impl Into<String>, path: impl Into<String>) -> Self {
+        Self {
+            words: path.into(),
+            ..Self::new(heading)
+        }
+    }
+
+    /// Path and factor of its numbers.
+    pub(super) fn source(&self) -> Option<(&str, f64)> {
+        let source = self.source.as_ref();
+        source.map(|s| (s.from.as_str(), s.factor))
+    }
+
+    /// Path of its words.
+    pub(super) fn words(&self) -> &str {
+        &self.words
     }
 
     /// Numbers of that path, times a factor.

@@ -14,8 +14,8 @@ use crate::arguments::IdaArguments;
 use crate::failure::Failure;
 use crate::files::have_a_place;
 use crate::output::{comma_separated, pretty, print};
-use crate::plot;
 use crate::study::{Finished, all_failed, options, run, summary};
+use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
 pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -27,7 +27,11 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         ));
     };
     let options = options(&study, &arguments.running, Shard::WHOLE, &mut files)?;
-    have_a_place([arguments.plot.as_deref(), arguments.table.as_deref()])?;
+    have_a_place([
+        arguments.plot.as_deref(),
+        arguments.table.as_deref(),
+        arguments.running.report.as_deref(),
+    ])?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
@@ -38,10 +42,30 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;
     }
+    let answer = numbers::Answer {
+        analysis: numbers::Analysis::of(&report, settings.confidence),
+        sweep: Finished::of(&sweep, &options),
+    };
+    if let Some(path) = &arguments.running.report {
+        let words = "Fragilities with the counts that they were fitted to";
+        let drawn = [page::picture(fragility(&report), words)?];
+        let mut inputs = page::inputs("ida", &study.title, &arguments.study);
+        let hash = (
+            "SHA-256 of the study".to_owned(),
+            sweep.study_sha256.clone(),
+        );
+        inputs.facts.push(hash);
+        inputs.listings = vec![
+            ("The study file".to_owned(), study.source.clone()),
+            ("The case file".to_owned(), study.base.source.clone()),
+        ];
+        let answer = page::answer(&answer)?;
+        let target = settings.target_frequency;
+        let html = pounding_report::page::ida(&answer, target, &drawn, &inputs);
+        plot::write(path, &html)?;
+    }
     if arguments.json {
-        let analysis = numbers::Analysis::of(&report, settings.confidence);
-        let sweep = Finished::of(&sweep, &options);
-        return print(&pretty(&numbers::Answer { analysis, sweep })?);
+        return print(&pretty(&answer)?);
     }
     let mut text = summary(&study, &sweep, &options);
     text.push_str(&tables::report(&report, settings));

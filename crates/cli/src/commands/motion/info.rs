@@ -16,7 +16,7 @@ use crate::arguments::InfoArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
-use crate::plot;
+use crate::{page, plot};
 
 /// One series with its measures.
 pub struct Shown {
@@ -75,7 +75,17 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         plot::write(path, &comma_separated(&files))?;
     }
     if let Some(path) = &arguments.svg {
-        picture(path, &files)?;
+        let named = named(&files);
+        if named.is_empty() {
+            return Err(Failure::input(
+                "there is no acceleration to draw",
+                Some("give a file with an acceleration that is not zero".to_owned()),
+            ));
+        }
+        plot::write_drawn(path, histories(&named))?;
+    }
+    if let Some(path) = &arguments.report {
+        report(path, &files)?;
     }
     print(&if arguments.json {
         pretty(&Files::of(&files))?
@@ -154,7 +164,8 @@ fn one(
     })
 }
 
-fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+/// Accelerations with their names in a picture.
+fn named(files: &[ShownFile]) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for file in files {
         for one in &file.series {
@@ -171,11 +182,26 @@ fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
             }
         }
     }
-    if named.is_empty() {
-        return Err(Failure::input(
-            "there is no acceleration to draw",
-            Some("give a file with an acceleration that is not zero".to_owned()),
-        ));
+    named
+}
+
+/// The page of all series.
+fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+    let named = named(files);
+    let mut drawn = Vec::new();
+    if !named.is_empty() {
+        let words = "Acceleration, velocity, displacement and Husid curve over time";
+        drawn.push(page::picture(histories(&named), words)?);
     }
-    plot::write_drawn(path, histories(&named))
+    let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
+    let title = match files.len() {
+        1 => String::new(),
+        count => format!("{count} records"),
+    };
+    let inputs = page::inputs("motion info", &title, first);
+    let answer = page::answer(&Files::of(files))?;
+    plot::write(
+        path,
+        &pounding_report::page::motion(&answer, &drawn, &inputs),
+    )
 }

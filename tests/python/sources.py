@@ -11,7 +11,7 @@ import numpy
 
 NUMBER = re.compile(r"[+-]?\d+(\.\d+)?(e[+-]?\d+)?")
 # Factors of SI units into those that heads of rows name.
-UNITS = {"mm": 1e3, "mrad": 1e3, "cm": 1e2, "cm/s": 1e2, "%": 1e2, "kN": 1e-3, "kN m": 1e-3, "g": 1 / 9.80665}
+UNITS = {"mm": 1e3, "mrad": 1e3, "cm": 1e2, "cm/s": 1e2, "%": 1e2, "kN": 1e-3, "kN m": 1e-3, "kN s": 1e-3, "kJ": 1e-3, "g": 1 / 9.80665}
 
 
 class Tables(HTMLParser):
@@ -100,8 +100,9 @@ class Result:
 
     def pointer(self, path, row):
         found = [self.json]
-        for part in path.split("/")[1:]:
-            part = part.replace("*", row).replace("~1", "/").replace("~0", "~")
+        # What is missing was never there, except in a fit of another kind and in some of many.
+        lenient = "+" in path or "/fit/" in path
+        for part in path.replace("*", row).split("/")[1:]:
             after = []
             for value in found:
                 if value is None:
@@ -110,8 +111,10 @@ class Result:
                     after += value.values() if isinstance(value, dict) else value
                 elif isinstance(value, list):
                     after.append(value[int(part)])
-                else:
+                elif lenient:
                     after.append(value.get(part))
+                else:
+                    after.append(value[part])
             found = after
         return [math.nan if x is None else float(x) for x in found]
 

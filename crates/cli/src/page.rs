@@ -43,6 +43,7 @@ pub fn inputs(command: &str, title: &str, file: &Path) -> Inputs {
             name,
             format!("pounding {}", env!("CARGO_PKG_VERSION")),
         ],
+        warnings: Vec::new(),
         facts: vec![("build".to_owned(), pounding_study::BUILD.to_owned())],
         listings: Vec::new(),
     }

@@ -59,6 +59,9 @@ pub enum Command {
         /// Page; by default the result's name with .html beside it
         #[arg(short, long)]
         output: Option<OutputPath>,
+        /// Study file of a result of `ida`, for the page of its fragilities
+        #[arg(long, value_name = "FILE")]
+        study: Option<InputPath>,
         /// Read a result without checksum here, not in a process of its own
         #[arg(long, hide = true)]
         accept_without_checksum: bool,

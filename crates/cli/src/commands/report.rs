@@ -15,14 +15,22 @@ use crate::output::warn;
 use crate::plot;
 use crate::separate::{Reading, reading, warnings};
 
+use super::ida::page_of_result;
+
+/// What is to have a page.
+pub struct Asked<'a> {
+    /// Result.
+    pub result: &'a Path,
+    /// Page; none is beside the result.
+    pub output: Option<&'a Path>,
+    /// Study of an incremental dynamic analysis.
+    pub study: Option<&'a Path>,
+}
+
 /// Reads a result, writes its page, says where.
-pub fn report(
-    path: &Path,
-    output: Option<&Path>,
-    child: bool,
-    mut files: FileUse,
-) -> Result<(), Failure> {
-    let output = match output {
+pub fn report(asked: &Asked<'_>, child: bool, mut files: FileUse) -> Result<(), Failure> {
+    let path = asked.result;
+    let output = match asked.output {
         Some(output) => output.to_owned(),
         None => {
             let beside = path.with_extension("html");
@@ -34,8 +42,8 @@ pub fn report(
             beside
         }
     };
-    let files = [path.to_owned()];
-    let without = match reading(&files, child)? {
+    let read = [path.to_owned()];
+    let without = match reading(&read, child)? {
         Reading::Here(without) => without,
         Reading::Done => return Ok(()),
     };
@@ -43,13 +51,20 @@ pub fn report(
         // HDF5, but no run: it may be a study.
         Err(no_run @ ReportError::NotAResult { .. }) => {
             let result = ResultReader::open(path, without).map_err(|_| failed(no_run))?;
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let html = page::sweep(&result, &name).map_err(failed)?;
-            plot::write(&output, &html)?;
+            match asked.study {
+                Some(study) => page_of_result(study, &result, &output, &mut files)?,
+                None => write_sweep(&result, path, &output)?,
+            }
             (counted(result.rows, "run"), result.checksum)
         }
         result => {
             let result = result.map_err(failed)?;
+            if asked.study.is_some() {
+                return Err(Failure::input(
+                    format!("{} is the result of a run, not of a study", path.display()),
+                    Some("leave --study away".to_owned()),
+                ));
+            }
             write_run(&result, path, &output)?;
             let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
             let held = [
@@ -61,7 +76,7 @@ pub fn report(
         }
     };
     if checksum == Checksum::Absent {
-        warnings(&files).iter().for_each(|text| warn(text));
+        warnings(&read).iter().for_each(|text| warn(text));
     }
     print(&format!("{held}: page written to {}", output.display()))
 }
@@ -76,8 +91,12 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Failure> {
 pub fn sweep(path: &Path, output: &Path) -> Result<(), Failure> {
     let result = ResultReader::open(path, WithoutChecksum::Refuse);
     let result = result.map_err(|e| failed(ReportError::Study(e)))?;
+    write_sweep(&result, path, output)
+}
+
+fn write_sweep(result: &ResultReader, path: &Path, output: &Path) -> Result<(), Failure> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    plot::write(output, &page::sweep(&result, &name).map_err(failed)?)
+    plot::write(output, &page::sweep(result, &name).map_err(failed)?)
 }
 
 fn write_run(result: &RunResult, path: &Path, output: &Path) -> Result<(), Failure> {

@@ -20,10 +20,9 @@ impl<'a> Answer<'a> {
     /// All members of a path, in order; nothing where one is absent.
     fn all(self, path: &str, row: &str) -> Vec<&'a Value> {
         let mut found = vec![self.0];
-        for part in path.split('/').skip(1) {
-            let part = part.replace('*', row);
+        for part in path.replace('*', row).split('/').skip(1) {
             let next = |value: &'a Value| -> Vec<&'a Value> {
-                match (part.as_str(), value) {
+                match (part, value) {
                     ("+", Value::Array(list)) => list.iter().collect(),
                     ("+", Value::Object(map)) => map.values().collect(),
                     (index, Value::Array(list)) => {
@@ -89,6 +88,13 @@ impl<'a> Answer<'a> {
         )
     }
 
+    /// A part of a whole in percent, in a sentence: as many digits as it has.
+    pub(super) fn say_percent(self, source: &str) -> String {
+        let text = numbers::significant(1.0e2 * self.number(source, ""));
+        let from = escaped(source);
+        format!("<data data-from=\"{from}\" data-factor=\"1e2\" value=\"{text}\">{text}</data> %")
+    }
+
     /// A text of the answer in a sentence, as HTML.
     pub(super) fn quote(self, path: &str) -> String {
         escaped(self.text(path))
@@ -118,8 +124,8 @@ impl<'a> Answer<'a> {
             factor
         };
         let value = factor * self.number(source, row);
-        let whole = source.starts_with("count ") || self.is_whole(source, row);
-        match whole && factor == 1.0 && value.is_finite() {
+        let whole = column.counts() || source.starts_with("count ") || self.is_whole(source, row);
+        match whole && value.is_finite() {
             true => format!("{value}"),
             false => figures(value),
         }
@@ -127,8 +133,11 @@ impl<'a> Answer<'a> {
 
     /// Whether a source is a number of things.
     fn is_whole(self, source: &str, row: &str) -> bool {
+        if source.contains(" / ") {
+            return false;
+        }
         let path = source.rsplit(' ').next().unwrap_or(source);
-        !source.contains(" / ") && self.all(path, row).iter().all(|v| v.is_u64())
+        self.all(path, row).iter().all(|v| v.is_u64())
     }
 
     /// Words of a path: texts as they are, yes and no, lists with commas, a dash for nothing.
@@ -157,11 +166,23 @@ impl<'a> Answer<'a> {
     }
 }
 
-/// A unit as people read it, in parentheses; nothing for pure numbers.
-pub(super) fn shown_unit(unit: &str) -> String {
+/// The factor from SI to the unit that people read, and that unit; empty for pure numbers.
+pub(super) fn unit_of(unit: &str) -> (f64, &str) {
     match numbers::shown_unit(unit) {
-        (_, "" | "-") => String::new(),
-        (_, shown) => format!(" ({shown})"),
+        (factor, "-") => (factor, ""),
+        (factor, "m/s2") => (factor, "m/s\u{b2}"),
+        (factor, "m s-1") => (factor, "m/s"),
+        (_, "J") => (1.0e-3, "kJ"),
+        (_, "N s") => (1.0e-3, "kN s"),
+        known => known,
+    }
+}
+
+/// A unit as people read it, in parentheses; nothing for pure numbers.
+pub(super) fn in_parentheses(unit: &str) -> String {
+    match unit_of(unit).1 {
+        "" => String::new(),
+        shown => format!(" ({shown})"),
     }
 }
 
@@ -173,7 +194,7 @@ fn unit_factor(head: &str) -> f64 {
     match unit.unwrap_or_default() {
         "mm" | "mrad" => 1.0e3,
         "cm" | "cm/s" | "%" => 1.0e2,
-        "kN" | "kN m" => 1.0e-3,
+        "kN" | "kN m" | "kN s" | "kJ" => 1.0e-3,
         "g" => 1.0 / STANDARD_GRAVITY,
         _ => 1.0,
     }

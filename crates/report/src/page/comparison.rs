@@ -1,10 +1,9 @@
 //! The page of a comparison of impact models.
 
-use pounding_catalogue::numbers;
 use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
-use super::answer::{Answer, shown_unit};
+use super::answer::{Answer, in_parentheses, unit_of};
 use super::html::{escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
@@ -127,7 +126,7 @@ fn quantities(answer: Answer<'_>) -> Vec<(String, String)> {
     let head = |(i, q): (usize, &Value)| {
         let text = |key: &str| q[key].as_str().unwrap_or_default();
         let what = text("name").replace('_', " ");
-        let head = format!("{what}, {}{}", text("of"), shown_unit(text("unit")));
+        let head = format!("{what}, {}{}", text("of"), in_parentheses(text("unit")));
         (i.to_string(), head)
     };
     answer
@@ -166,13 +165,13 @@ fn values(answer: Answer<'_>) -> String {
     let columns = |of: &dyn Fn(usize) -> String, head: &str, chunk: &[usize]| {
         let column = |q: &usize| {
             let text = |key: &str| answer.text(&format!("/quantities/{q}/{key}"));
-            let (factor, _) = numbers::shown_unit(text("unit"));
-            let what = format!(
-                "{}{}",
-                text("name").replace('_', " "),
-                shown_unit(text("unit"))
-            );
-            Column::of(what, of(*q), factor).below(text("of"))
+            let (factor, _) = unit_of(text("unit"));
+            let what = text("name").replace('_', " ") + &in_parentheses(text("unit"));
+            let column = match text("name") {
+                "impacts" => Column::count_of(what, of(*q)),
+                _ => Column::of(what, of(*q), factor),
+            };
+            column.below(text("of"))
         };
         let columns = std::iter::once(Column::new(head));
         columns
@@ -204,7 +203,7 @@ fn values(answer: Answer<'_>) -> String {
     }
     if records.len() > TABLES {
         out.push_str(&note(&format!(
-            "{} more: `--json` and `--csv` write all.",
+            "{} more: --json and --csv write all.",
             counted(records.len() - TABLES, "record")
         )));
     }
@@ -241,7 +240,9 @@ fn models(answer: Answer<'_>) -> String {
         )
     );
     if answer.list("/gaps").len() > 1 {
-        out.push_str(&note("In the first gap; the others are in `--json`."));
+        out.push_str(&note(
+            "In the first gap; the others are in the output of --json.",
+        ));
     }
     out.push_str("<h3>The collision in which they agree</h3>\n");
     out + &answer.table("Reference collisions", &collision, rows(gaps))

@@ -1,6 +1,6 @@
 //! The page of a gap check.
 
-use pounding_catalogue::wording::counted;
+use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
 use super::answer::Answer;
@@ -81,29 +81,38 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         points.push(format!("<strong>Gap {name} is {word}.</strong>"));
     }
     let records = answer.list("/records").len();
+    let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
     points.push(format!(
-        "{} of {} bring its buildings into contact; {} may. The greatest demand is {} mm, the least width \
+        "{} of {} {} its buildings into contact; {} may. The greatest demand is {} mm, the least width \
          of its levels {} mm.",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
-        answer.at(&at("required/allowed_contacts")),
+        agreeing(&records, "brings", "bring"),
+        match allowed {
+            0 => "none".to_owned(),
+            some => some.to_string(),
+        },
         answer.say(&format!("maximum {}", at("demand/+")), 1.0e3),
         answer.say(&format!("minimum {}", at("levels/+/width")), 1.0e3),
     ));
     let mut required = format!(
-        "That no more than the allowed records close it takes {} mm.",
-        answer.say(&at("required/by_count"), 1.0e3)
+        "A width of {} mm is needed so that {} closes it.",
+        answer.say(&at("required/by_count"), 1.0e3),
+        match allowed {
+            0 => "no record".to_owned(),
+            some => format!("no more than {}", counted(some, "record")),
+        },
     );
     if answer.at(&at("required/lognormal")).is_object() {
         required.push_str(&format!(
-            " By a lognormal demand (median {} mm, dispersion {}) it takes {} mm, between {} and {} mm at \
-             {} % confidence.",
+            " By a lognormal demand (median {} mm, dispersion {}) {} mm are needed, between {} and {} mm at \
+             {} confidence.",
             answer.say(&at("required/lognormal/median"), 1.0e3),
             answer.say(&at("required/lognormal/dispersion"), 1.0),
             answer.say(&at("required/lognormal/width"), 1.0e3),
             answer.say(&at("required/lognormal/bounds/0"), 1.0e3),
             answer.say(&at("required/lognormal/bounds/1"), 1.0e3),
-            answer.say("/confidence", 1.0e2),
+            answer.say_percent("/confidence"),
         ));
     }
     points.push(required);
@@ -286,7 +295,7 @@ fn swept(answer: Answer<'_>) -> String {
     let table = answer.table("Sweep over widths", &columns, shown);
     match every {
         1 => table,
-        every => table + &note(&format!("One width of {every}; `--csv` writes all.")),
+        every => table + &note(&format!("One width of {every}; --csv writes all.")),
     }
 }
 

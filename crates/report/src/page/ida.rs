@@ -3,7 +3,7 @@
 use pounding_catalogue::wording::counted;
 use serde_json::Value;
 
-use super::answer::{Answer, shown_unit};
+use super::answer::{Answer, in_parentheses, unit_of};
 use super::html::{escaped, note, section, sentences, warnings};
 use super::numbers::figures;
 use super::studies::{Inputs, Picture, pictures, rows};
@@ -17,18 +17,13 @@ const BESIDE: usize = 4;
 #[must_use]
 pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inputs) -> String {
     let answer = Answer(answer);
-    let warned: Vec<String> = answer
-        .list("/sweep/warnings")
-        .iter()
-        .filter_map(|w| Some(w.as_str()?.to_owned()))
-        .collect();
     let mut body = section(
         "How likely is pounding?",
-        &(sentences(&points(answer, target)) + &warnings(&warned)),
+        &(sentences(&points(answer, target)) + &warnings(&inputs.warnings)),
     );
     body.push_str(&section(
         "Fragility",
-        &(pictures(drawn) + &fits(answer, "/limits", "state")),
+        &(pictures(drawn) + &fits(answer, "/limits")),
     ));
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let widths = format!("/gaps/{g}/widths");
@@ -37,7 +32,7 @@ pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inpu
                 "By width of the gap {}",
                 gap["gap"].as_str().unwrap_or_default()
             );
-            body.push_str(&section(&title, &fits(answer, &widths, "gap (mm)")));
+            body.push_str(&section(&title, &fits(answer, &widths)));
         }
     }
     body.push_str(&section("Runs by intensity", &counts(answer)));
@@ -50,15 +45,16 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
     for l in 0..answer.list("/limits").len() {
         let at = |path: &str| format!("/limits/{l}/{path}");
         let name = answer.quote(&at("name"));
-        let unit = answer.quote("/unit");
+        let (_, unit) = unit_of(answer.text("/unit"));
+        let unit = escaped(unit);
         let mut sentence = format!("<strong>{name}:</strong> ");
         sentence.push_str(&match answer.text(&at("fit/kind")) {
             "lognormal" => format!(
-                "median intensity {} {unit} ({} to {} at {} % confidence), dispersion {}",
+                "median intensity {} {unit} ({} to {} at {} confidence), dispersion {}",
                 answer.say(&at("fit/median"), 1.0),
                 answer.say(&at("fit/median_bounds/0"), 1.0),
                 answer.say(&at("fit/median_bounds/1"), 1.0),
-                answer.say(&at("fit/confidence"), 1.0e2),
+                answer.say_percent(&at("fit/confidence")),
                 answer.say(&at("fit/dispersion"), 1.0),
             ),
             "step" => format!(
@@ -106,7 +102,7 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
     }
     points.push(format!(
         "{} over {} and {}; intensity: {}.",
-        counted(answer.number("/sweep/runs", "") as usize, "run"),
+        counted(answer.number("sum /levels/+/runs", "") as usize, "run"),
         counted(answer.number("/records", "") as usize, "record"),
         match answer.list("/levels").len() {
             1 => "one intensity".to_owned(),
@@ -118,9 +114,9 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
 }
 
 /// Fitted fragilities of the states of a list.
-fn fits(answer: Answer<'_>, list: &str, head: &str) -> String {
+fn fits(answer: Answer<'_>, list: &str) -> String {
     let of = |path: &str| format!("{list}/*/{path}");
-    let unit = shown_unit(answer.text("/unit"));
+    let unit = in_parentheses(answer.text("/unit"));
     let median = format!("median{unit}");
     let states = answer.list(list);
     let mut columns = vec![Column::new("state")];
@@ -143,23 +139,16 @@ fn fits(answer: Answer<'_>, list: &str, head: &str) -> String {
             1.0,
         ));
     }
-    let heads: Vec<String> = states
+    let heads = states
         .iter()
-        .map(|s| match s["width"].as_f64() {
-            Some(width) => figures(1.0e3 * width),
-            None => s["name"].as_str().unwrap_or_default().to_owned(),
-        })
-        .collect();
-    answer.table(
-        "Fragility",
-        &columns,
-        rows(heads.iter().map(String::as_str)),
-    ) + &note("From and to: bounds at the confidence of the study.")
+        .map(|s| s["name"].as_str().unwrap_or_default());
+    answer.table("Fragility", &columns, rows(heads))
+        + &note("From and to: bounds at the confidence of the study.")
 }
 
 /// How often states were reached, by intensity.
 fn counts(answer: Answer<'_>) -> String {
-    let unit = shown_unit(answer.text("/unit"));
+    let unit = in_parentheses(answer.text("/unit"));
     let mut columns = vec![
         Column::new("number"),
         Column::of(format!("intensity{unit}"), "/levels/*/intensity", 1.0),
@@ -184,7 +173,7 @@ fn numbered(answer: Answer<'_>) -> Vec<(String, String)> {
 
 /// Fractiles of demands, by intensity.
 fn demands(answer: Answer<'_>) -> String {
-    let unit = shown_unit(answer.text("/unit"));
+    let unit = in_parentheses(answer.text("/unit"));
     let demands = answer.list("/levels/0/demands");
     let mut out = String::new();
     for (first, chunk) in demands.chunks(BESIDE).enumerate() {
@@ -194,13 +183,8 @@ fn demands(answer: Answer<'_>) -> String {
         ];
         for (d, demand) in chunk.iter().enumerate() {
             let text = |key: &str| demand[key].as_str().unwrap_or_default();
-            let (factor, of) = pounding_catalogue::numbers::shown_unit(text("unit"));
-            let of = if of == "1" {
-                String::new()
-            } else {
-                format!(" ({of})")
-            };
-            let head = format!("{}{of}", text("name").replace('_', " "));
+            let (factor, _) = unit_of(text("unit"));
+            let head = text("name").replace('_', " ") + &in_parentheses(text("unit"));
             for (word, key) in [("16 %", "p16"), ("50 %", "p50"), ("84 %", "p84")] {
                 let from = format!("/levels/*/demands/{}/{key}", first * BESIDE + d);
                 columns.push(Column::of(word, from, factor).below(&head));

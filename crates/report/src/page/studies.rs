@@ -20,6 +20,8 @@ pub struct Inputs {
     pub title: String,
     /// Below the title: command, file, version.
     pub origin: Vec<String>,
+    /// What the user should know, beside warnings in the answer itself.
+    pub warnings: Vec<String>,
     /// Names and values, such as hashes.
     pub facts: Vec<(String, String)>,
     /// Headings and texts of files that were read.

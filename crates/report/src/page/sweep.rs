@@ -1,9 +1,9 @@
 //! The page of the result of a sweep.
 
-use pounding_catalogue::numbers;
 use pounding_catalogue::wording::counted;
 use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError};
 
+use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
 use super::html::{escaped, figure, note, section, sentences, warnings};
@@ -125,13 +125,10 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
     Ok(runs)
 }
 
-/// A number from the result with the place that it comes from.
-fn say(from: &str, value: f64) -> String {
-    let text = figures(value);
-    format!(
-        "<data data-from=\"{}\" value=\"{text}\">{text}</data>",
-        escaped(from)
-    )
+/// A number of things with the place that it comes from.
+fn count(from: &str, number: f64) -> String {
+    let from = escaped(from);
+    format!("<data data-from=\"{from}\" value=\"{number}\">{number}</data>")
 }
 
 fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
@@ -145,11 +142,11 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
     let impacts = columns(layout, "impacts");
     if !impacts.is_empty() {
         let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
-        let count = (0..result.rows).filter(touches).count();
+        let closed = (0..result.rows).filter(touches).count();
         points.push(format!(
             "In {} a gap closes, with up to {} impacts at a level.",
-            counted(count, "run"),
-            say("maximum impacts", greatest(runs, &impacts)),
+            counted(closed, "run"),
+            count("maximum impacts", greatest(runs, &impacts)),
         ));
     }
     for name in &DRAWN[1..] {
@@ -164,12 +161,12 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let place = found.iter().find(|c| runs.values[**c].contains(&most));
         let at = place.map(|c| of_column(layout, quantity, c - found[0]));
         let row = place.and_then(|c| runs.values[*c].iter().position(|x| *x == most));
-        let (factor, unit) = numbers::shown_unit(quantity.unit);
+        let (factor, unit) = unit_of(quantity.unit);
         let text = figures(factor * most);
         points.push(format!(
             "The {} is at most <data data-from=\"maximum {name}\" data-factor=\"{factor:e}\" value=\"{text}\">{text}</data> {}{}{}.",
             quantity.long_name.replace("maximum ", "peak ").split(',').next().unwrap_or_default(),
-            unit.replace('-', ""),
+            unit,
             at.map_or(String::new(), |at| format!(", at {}", escaped(&at))),
             row.map_or(String::new(), |row| format!(" in row {} of the result", row + 1)),
         ));
@@ -236,57 +233,73 @@ fn variables(result: &ResultReader, runs: &Runs) -> String {
 fn statistics(result: &ResultReader, runs: &Runs) -> String {
     let layout = &result.description.layout;
     let mut out = String::new();
-    for axis in [Axis::Level, Axis::Storey, Axis::Building, Axis::Run] {
+    for (axis, of) in [
+        (Axis::Level, "level"),
+        (Axis::Storey, "storey"),
+        (Axis::Building, "building"),
+    ] {
         let of_axis = layout.quantities.iter().filter(|q| q.axis == axis);
+        let mut tables = String::new();
         for quantity in of_axis.filter(|q| !columns(layout, q.name).is_empty()) {
-            let (factor, unit) = numbers::shown_unit(quantity.unit);
-            let unit = match unit {
-                "-" | "1" | "" => String::new(),
-                unit => format!(" ({unit})"),
+            let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
+            let (factor, _) = unit_of(quantity.unit);
+            let from = format!("{}[:,*]", quantity.name);
+            let statistic = |word: &str| {
+                let from = format!("{word} {from}");
+                Column::of(word, from, factor).below(&head)
             };
-            let found = columns(layout, quantity.name);
-            let path = match axis {
-                Axis::Run => quantity.name.to_owned(),
-                _ => format!("{}[:,*]", quantity.name),
-            };
-            let head = format!("{}{unit}", quantity.long_name);
-            let statistic =
-                |word: &str| Column::of(word, format!("{word} {path}"), factor).below(&head);
-            let columns = [
-                Column::new(match axis {
-                    Axis::Level => "level",
-                    Axis::Storey => "storey",
-                    Axis::Building => "building",
-                    Axis::Run => "run",
-                }),
+            let columns_shown = [
+                Column::new(of),
                 statistic("minimum"),
                 statistic("median"),
                 statistic("maximum"),
-                Column::of("runs", format!("known {path}"), 1.0).below(&head),
+                Column::count_of("runs", format!("known {from}")).below(&head),
             ];
-            let rows = found.iter().enumerate().map(|(i, c)| {
-                let mut known: Vec<f64> = runs.values[*c]
-                    .iter()
-                    .copied()
-                    .filter(|x| x.is_finite())
-                    .collect();
-                known.sort_by(f64::total_cmp);
-                let ends = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
-                let cells = vec![
-                    of_column(layout, quantity, i),
-                    figures(factor * ends[0]),
-                    figures(factor * median(&known)),
-                    figures(factor * ends[1]),
-                    known.len().to_string(),
-                ];
+            let rows = columns(layout, quantity.name).into_iter().enumerate();
+            let rows = rows.map(|(i, c)| {
+                let mut cells = vec![of_column(layout, quantity, i)];
+                cells.extend(cells_of(&runs.values[c], quantity));
                 Row::new(i, cells)
             });
-            out.push_str(&table(quantity.long_name, &columns, rows));
+            tables.push_str(&table(quantity.long_name, &columns_shown, rows));
         }
+        out.push_str(&format!("<div class=\"tables\">\n{tables}</div>\n"));
     }
+    let of_run = layout.quantities.iter().filter(|q| q.axis == Axis::Run);
+    let rows = of_run.filter_map(|quantity| {
+        let column = *columns(layout, quantity.name).first()?;
+        let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
+        let mut cells = vec![head];
+        cells.extend(cells_of(&runs.values[column], quantity));
+        Some(Row::new(quantity.name, cells))
+    });
+    let mut columns_shown = vec![Column::new("of the run")];
+    for word in ["minimum", "median", "maximum"] {
+        columns_shown.push(Column::in_unit_of_row(word, format!("{word} *")));
+    }
+    columns_shown.push(Column::count_of("runs", "known *"));
+    out.push_str(&table("Of the run", &columns_shown, rows));
     out + &note(
         "Runs: those in which the quantity has a value; a time of first contact, for one, is of runs with contact.",
     )
+}
+
+/// Minimum, median and maximum of a column, and how many runs have a value.
+fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
+    let (factor, _) = unit_of(quantity.unit);
+    let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    let [least, most] = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
+    let shown = |x: f64| match quantity.name {
+        "impacts" if x.fract() == 0.0 => x.to_string(),
+        _ => figures(factor * x),
+    };
+    [
+        shown(least),
+        shown(median(&known)),
+        shown(most),
+        known.len().to_string(),
+    ]
 }
 
 /// The value in the middle of sorted ones.
@@ -310,14 +323,14 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
         if groups.len() < 2 {
             continue;
         }
-        let (scale, unit) = numbers::shown_unit(&coordinate.unit);
+        let (scale, _) = unit_of(&coordinate.unit);
         let mut panels = Vec::new();
         for name in DRAWN {
             let found = columns(&d.layout, name);
             let Some(quantity) = d.layout.quantities.iter().find(|q| q.name == name) else {
                 continue;
             };
-            let (factor, of) = numbers::shown_unit(quantity.unit);
+            let (factor, _) = unit_of(quantity.unit);
             let of_row = |row: &usize| {
                 let values = found.iter().map(|c| runs.values[*c][*row]);
                 factor * values.fold(f64::NAN, f64::max)
@@ -337,10 +350,11 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             };
             panels.push(Panel {
                 caption: format!(
-                    "{}, greatest of a run ({of})",
-                    quantity.long_name.split(',').next().unwrap_or_default()
+                    "{}, greatest of a run{}",
+                    quantity.long_name.split(',').next().unwrap_or_default(),
+                    in_parentheses(quantity.unit)
                 ),
-                horizontal: format!("{} ({unit})", coordinate.long_name),
+                horizontal: coordinate.long_name.clone() + &in_parentheses(&coordinate.unit),
                 curves: vec![
                     curve("median", 0.5),
                     curve("16 %", 0.16),

@@ -25,6 +25,8 @@ pub(super) struct Column {
     source: Option<Source>,
     /// Path of the words that a cell has, where it has no number.
     words: String,
+    /// Whether its numbers are numbers of things.
+    counts: bool,
 }
 
 impl Column {
@@ -35,7 +37,21 @@ impl Column {
             heading: heading.into(),
             source: None,
             words: String::new(),
+            counts: false,
         }
+    }
+
+    /// Numbers of things of that path.
+    pub(super) fn count_of(heading: impl Into<String>, from: impl Into<String>) -> Self {
+        Self {
+            counts: true,
+            ..Self::of(heading, from, 1.0)
+        }
+    }
+
+    /// Whether its numbers are numbers of things.
+    pub(super) fn counts(&self) -> bool {
+        self.counts
     }
 
     /// Words of that path.
@@ -83,6 +99,13 @@ impl Column {
         }
     }
 
+    fn class(&self) -> &'static str {
+        match self.words.is_empty() {
+            true => "",
+            false => " class=\"words\"",
+        }
+    }
+
     fn head(&self, spans: bool) -> String {
         let source = self.source.as_ref().map(|s| {
             let factor = match s.factor {
@@ -94,8 +117,9 @@ impl Column {
         });
         let source = source.unwrap_or_default();
         let rows = if spans { " rowspan=\"2\"" } else { "" };
+        let class = self.class();
         format!(
-            "<th scope=\"col\"{rows}{source}>{}</th>",
+            "<th scope=\"col\"{rows}{class}{source}>{}</th>",
             escaped(&self.heading)
         )
     }
@@ -124,7 +148,7 @@ pub(super) fn table(name: &str, columns: &[Column], rows: impl IntoIterator<Item
     out.push_str(&format!("<thead>\n{}</thead>\n<tbody>\n", head(columns)));
     for row in rows {
         out.push_str(&format!("<tr data-row=\"{}\">", escaped(&row.index)));
-        out.push_str(&cells(&row.cells));
+        out.push_str(&cells(&row.cells, columns));
         out.push_str("</tr>\n");
     }
     out.push_str("</tbody>\n</table></div>\n");
@@ -136,7 +160,7 @@ pub(super) fn facts(name: &str, rows: &[(&str, String)]) -> String {
     let mut out = begin(name);
     out.push_str("<tbody class=\"facts\">\n");
     for (fact, value) in rows.iter().filter(|(_, value)| !value.is_empty()) {
-        let row = cells(&[(*fact).to_owned(), value.clone()]);
+        let row = cells(&[(*fact).to_owned(), value.clone()], &[]);
         out.push_str(&format!("<tr>{row}</tr>\n"));
     }
     out.push_str("</tbody>\n</table></div>\n");
@@ -168,13 +192,16 @@ fn head(columns: &[Column]) -> String {
     format!("<tr>{above}</tr>\n<tr>{below}</tr>\n")
 }
 
-fn cells(cells: &[String]) -> String {
+fn cells(cells: &[String], columns: &[Column]) -> String {
     let mut out = String::new();
     for (i, cell) in cells.iter().enumerate() {
         let cell = escaped(cell);
         out.push_str(&match i {
             0 => format!("<th scope=\"row\">{cell}</th>"),
-            _ => format!("<td>{cell}</td>"),
+            _ => {
+                let class = columns.get(i).map_or("", Column::class);
+                format!("<td{class}>{cell}</td>")
+            }
         });
     }
     out

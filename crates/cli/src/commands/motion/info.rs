@@ -4,11 +4,12 @@ use std::path::Path;
 
 use pounding_case::Dimension;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::Evaluation;
+use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
 use pounding_report::pictures::motion::{Named, histories};
+use pounding_report::{Curve, Panel, ReportError, figure};
 
 use super::info_output::{Files, as_text, comma_separated};
 use super::reading;
@@ -16,7 +17,13 @@ use crate::arguments::InfoArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
+use crate::tables::G;
 use crate::{page, plot};
+
+/// Periods of spectra on the page: first, last (s), number.
+const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
+/// Damping of spectra on the page (-).
+const DAMPING: f64 = 0.05;
 
 /// One series with its measures.
 pub struct Shown {
@@ -192,6 +199,7 @@ fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
     if !named.is_empty() {
         let words = "Acceleration, velocity, displacement and Husid curve over time";
         drawn.push(page::picture(histories(&named), words)?);
+        drawn.push(page::picture(spectra(&named)?, "Response spectra")?);
     }
     let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
     let title = match files.len() {
@@ -204,4 +212,25 @@ fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
         path,
         &pounding_report::page::motion(&answer, &drawn, &inputs),
     )
+}
+
+/// Pseudo-acceleration of motions over the period.
+fn spectra(named: &[Named<'_>]) -> Result<Result<String, ReportError>, Failure> {
+    let periods = logarithmic_periods(PERIODS.0, PERIODS.1, PERIODS.2)?;
+    let mut curves = Vec::new();
+    for motion in named {
+        let linear = Evaluation::PiecewiseLinear;
+        let spectrum = response_spectrum(motion.record, &periods, DAMPING, linear)?;
+        let values = spectrum.pseudo_acceleration.iter().map(|a| a / G);
+        curves.push(Curve {
+            name: motion.name.clone(),
+            points: periods.iter().copied().zip(values).collect(),
+        });
+    }
+    let panel = Panel {
+        caption: "Pseudo-acceleration (g), 5 % damping".to_owned(),
+        horizontal: "period (s)".to_owned(),
+        curves,
+    };
+    Ok(figure(&[panel]))
 }

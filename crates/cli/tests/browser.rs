@@ -8,7 +8,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::text;
+use crate::support::{run, text};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -137,4 +137,104 @@ fn towers() {
     file.close().unwrap();
     assert!(impacts >= 1500, "{impacts}");
     open_with(&["--brief"], &[(page, result)]);
+}
+
+/// Pages of commands with many runs, each beside the object that the command prints, or the
+/// result that it writes.
+#[test]
+fn studies() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let root = root();
+    let case = root.join("examples/three_storey_pair/case.toml");
+    let records = ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv"];
+    let records = records.map(|name| root.join("ground_motions").join(name));
+    let records = records.map(|path| path.display().to_string()).join(" ");
+    let case = case.display();
+    let mut pages = Vec::new();
+    for (name, command, arguments) in [
+        (
+            "gap",
+            "gap",
+            format!("{case} --points 12 --records {records}"),
+        ),
+        (
+            "compare",
+            "compare",
+            format!(
+                "{case} --models jankowski_2005,linear_elastic,stereomechanical --records {records}"
+            ),
+        ),
+        ("motion", "motion", format!("info {records}")),
+    ] {
+        let page = at(&format!("{name}.html"));
+        let arguments = format!("{arguments} --json --report {}", page.display());
+        let output = run(command, &arguments);
+        let told = String::from_utf8_lossy(&output.stderr);
+        // The answer "too small" is exit code 1.
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{told}");
+        let answer = at(&format!("{name}.json"));
+        std::fs::write(&answer, output.stdout).unwrap();
+        pages.push((page, answer));
+    }
+    let study = at("study.toml");
+    let text_of_study =
+        std::fs::read_to_string(root.join("examples/fragility_three_storey_pair/study.toml"));
+    let examples = root.join("examples").display().to_string();
+    let hazard = root.join("examples/fragility_three_storey_pair/hazard.csv");
+    let text_of_study = text_of_study
+        .unwrap()
+        .replace(
+            "../three_storey_pair",
+            &format!("{examples}/three_storey_pair"),
+        )
+        .replace("hazard.csv", &hazard.display().to_string())
+        .replace("count = 40", "count = 6");
+    std::fs::write(&study, text_of_study).unwrap();
+    let (page, result, answer) = (at("ida.html"), at("ida.h5"), at("ida.json"));
+    let arguments = format!("{} -o {} --json", study.display(), result.display());
+    let told = text("ida", &format!("{arguments} --report {}", page.display()));
+    std::fs::write(&answer, told).unwrap();
+    // The result gives the same page.
+    let again = at("again.html");
+    let arguments = format!("{} --study {}", result.display(), study.display());
+    text("report", &format!("{arguments} -o {}", again.display()));
+    let pages_of_ida = [&page, &again].map(|page| std::fs::read_to_string(page).unwrap());
+    assert_eq!(pages_of_ida[0], pages_of_ida[1]);
+    pages.push((page, answer));
+    // Without the study the runs have a page.
+    text("report", &result.display().to_string());
+    let runs = at("runs.html");
+    std::fs::rename(at("ida.html"), &runs).unwrap();
+    std::fs::write(at("ida.html"), &pages_of_ida[0]).unwrap();
+    pages.push((runs, result));
+    open(&pages);
+}
+
+/// A study that is not that of the result, and a study for a run.
+#[test]
+fn the_study_is_that_of_the_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let examples = root().join("examples");
+    let study = |name: &str| examples.join(name).join("study.toml").display().to_string();
+    let refused = |arguments: &str, word: &str| {
+        let output = run("report", arguments);
+        let told = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(word), "{told}");
+    };
+    let case = examples.join("three_storey_pair/case.toml");
+    text("run", &format!("{} -o {}", case.display(), at("run.h5")));
+    let fragility = study("fragility_three_storey_pair");
+    refused(
+        &format!("{} --study {fragility}", at("run.h5")),
+        "result of a run, not of a study",
+    );
+    text("ida", &format!("{fragility} -o {}", at("ida.h5")));
+    let other = study("sweep_three_storey_pair");
+    refused(
+        &format!("{} --study {other}", at("ida.h5")),
+        "is not the study that the result is of",
+    );
 }

@@ -14,6 +14,7 @@ mod faults;
 mod files;
 mod interruption;
 mod output;
+mod page;
 mod plot;
 mod progress;
 mod separate;

@@ -9,15 +9,20 @@ use crate::failure::Failure;
 
 /// A picture of a library, written as a file of the form that its ending says.
 pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<(), Failure> {
-    let picture = picture.map_err(|e| match e {
-        ReportError::Motion(error) => error.into(),
-        error => not_drawn(&error),
-    })?;
+    let picture = drawn(picture)?;
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
     let bytes = format.of(&picture).map_err(|e| not_drawn(&e))?;
     pounding_files::write(path, &bytes)
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
+}
+
+/// A picture of a library, or why there is none.
+pub fn drawn(picture: Result<String, ReportError>) -> Result<String, Failure> {
+    picture.map_err(|e| match e {
+        ReportError::Motion(error) => error.into(),
+        error => not_drawn(&error),
+    })
 }
 
 /// A picture that could not be drawn.

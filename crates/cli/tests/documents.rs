@@ -429,3 +429,20 @@ fn formats_and_generators_are_in_their_tables() {
         assert!(own.contains(&format!("Source: {}", g.source)), "{own}");
     }
 }
+
+/// The gallery shows every example.
+#[test]
+fn the_gallery_names_every_example() {
+    let gallery = page("docs/gallery.md");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(root().join("examples")).unwrap() {
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_dir() {
+            let name = entry.file_name().into_string().unwrap();
+            let link = format!("(../examples/{name}/README.md)");
+            assert!(gallery.contains(&link), "docs/gallery.md lacks {name}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 20, "{seen}");
+}

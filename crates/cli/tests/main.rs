@@ -4,6 +4,7 @@ mod argument_units;
 mod bad_input;
 mod bad_laws;
 mod base_moments;
+mod browser;
 mod calibrate;
 mod columns;
 mod compare;

@@ -356,7 +356,7 @@ impl Run {
         py.detach(|| {
             // What was never on a disk cannot have been damaged there.
             let read = RunResult::of_file(&self.in_memory()?, Path::new(name), Checksum::Matches);
-            let drawn = read.and_then(|result| page(&result, name));
+            let drawn = read.and_then(|result| page::run(&result, name));
             drawn.map_err(|e| Failure::computation(e.to_string(), None).into())
         })
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use pounding_ground_motion::GroundMotionError;
 use pounding_results::OpenError;
+use pounding_results::study::StudyFileError;
 use thiserror::Error;
 
 /// Why a page could not be made.
@@ -35,6 +36,9 @@ pub enum ReportError {
         /// What HDF5 says.
         reason: String,
     },
+    /// The result of a study that cannot be read.
+    #[error(transparent)]
+    Study(StudyFileError),
     /// A motion or spectrum that cannot be drawn.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
@@ -53,15 +57,20 @@ impl ReportError {
         match self {
             Self::Unreadable { source, .. } => {
                 let help = source.help();
-                Some(help.unwrap_or("give the .h5 file that `pounding run` has written").to_owned())
+                Some(
+                    help.unwrap_or("give the .h5 file that `pounding run` has written")
+                        .to_owned(),
+                )
             }
-            Self::NotAResult { .. } => Some(
-                "results of `pounding run` have a page; those of sweep and ida are tables: read them with `--csv` or in Python".to_owned(),
-            ),
+            Self::NotAResult { .. } => {
+                Some("give the result of `pounding run` or `sweep`".to_owned())
+            }
             Self::Damaged { .. } => Some(
-                "run the case again: its text stands in the file as the attribute `case`".to_owned(),
+                "run the case again: its text stands in the file as the attribute `case`"
+                    .to_owned(),
             ),
             Self::Motion(error) => error.help(),
+            Self::Study(error) => Some(error.help().to_owned()),
             Self::Figure { .. } => None,
         }
     }

@@ -1,13 +1,14 @@
 //! Figures and pages: layer 4.
 //!
-//! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`), [`page()`] makes one
-//! HTML file of it that needs nothing else: words, tables, figures. [`figure()`] draws
+//! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`); [`page`] makes one
+//! HTML file of it, and of what studies answer, that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves as SVG for the command line as well. Values are SI as in the result
 //! file; the page shows them in the units that engineers write. [`documentation`] has the
 //! reference pages of impact models and laws, and [`pictures`] draws what runs, studies,
 //! laboratories and motions show.
 
 pub mod documentation;
+pub mod page;
 pub mod pictures;
 
 mod chart;
@@ -16,7 +17,6 @@ mod decimation;
 mod error;
 mod figure;
 mod loops;
-mod page;
 mod reading;
 mod result;
 
@@ -24,7 +24,6 @@ pub use conversion::PictureFormat;
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
 pub use loops::cycle_cells;
-pub use page::page;
 pub use result::{
     BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
     LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,

@@ -362,6 +362,7 @@ impl Reader {
             width: self.column(group, "width")?,
             clearance: clearance.transpose()?,
             penetration: self.table(group, "penetration")?,
+            force: self.table(group, "force")?,
             impacts: impacts().map_err(self.failed(&object))?,
             responses: self.level_responses(group)?,
             levels,
@@ -370,6 +371,7 @@ impl Reader {
         let known = |i: &ImpactResult| (1..=levels as u64).contains(&i.level);
         let fits = gap.width.len() == levels
             && gap.penetration.columns == levels
+            && gap.force.columns == levels
             && gap.clearance.as_ref().is_none_or(|c| c.len() == levels)
             && gap.impacts.iter().all(known)
             && (gap.responses.iter()).all(|r| {

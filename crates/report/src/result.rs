@@ -193,6 +193,8 @@ pub struct GapResult {
     pub clearance: Option<Vec<f64>>,
     /// Penetration (m), negative while the gap is open.
     pub penetration: Table,
+    /// Contact force (N), positive pushes apart.
+    pub force: Table,
     /// Impacts in order of closure.
     pub impacts: Vec<ImpactResult>,
     /// What its levels bear beside contact forces.

@@ -35,6 +35,9 @@ pub struct CompareArguments {
     /// Draw peaks over the models into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
+    /// Write a page of the answer into this HTML file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

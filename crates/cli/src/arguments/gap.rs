@@ -55,6 +55,9 @@ pub struct GapArguments {
     /// Draw the spectra of the records, their mean and the target of the scale into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub spectra: Option<OutputPath>,
+    /// Write a page of the answer into this HTML file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<OutputPath>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

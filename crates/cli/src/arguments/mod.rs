@@ -52,13 +52,16 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Write one HTML page of a result: what happened, tables, figures
+    /// Write one HTML page of a result: the answer, tables, figures, buildings in motion
     Report {
-        /// Result file of `run` (HDF5)
+        /// Result file of `run`, `sweep` or `merge` (HDF5)
         result: InputPath,
         /// Page; by default the result's name with .html beside it
         #[arg(short, long)]
         output: Option<OutputPath>,
+        /// Study file of a result of `ida`, for the page of its fragilities
+        #[arg(long, value_name = "FILE")]
+        study: Option<InputPath>,
         /// Read a result without checksum here, not in a process of its own
         #[arg(long, hide = true)]
         accept_without_checksum: bool,
@@ -122,6 +125,9 @@ pub struct RunArguments {
     /// Draw roof displacements and contact forces into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub plot: Option<OutputPath>,
+    /// Write the page of the result into this HTML file
+    #[arg(long, value_name = "FILE", conflicts_with = "no_output")]
+    pub report: Option<OutputPath>,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

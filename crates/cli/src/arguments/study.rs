@@ -38,6 +38,9 @@ pub struct RunningArguments {
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
     #[arg(long, visible_alias = "export", value_name = "FILE")]
     pub csv: Option<OutputPath>,
+    /// Write a page of the result into this HTML file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<OutputPath>,
     /// Threads; all cores by default. Results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,

@@ -52,8 +52,16 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Report {
             result,
             output,
+            study,
             accept_without_checksum,
-        } => report::report(&result, output.as_deref(), accept_without_checksum, files),
+        } => {
+            let asked = report::Asked {
+                result: &result,
+                output: output.as_deref(),
+                study: study.as_deref(),
+            };
+            report::report(&asked, accept_without_checksum, files)
+        }
         Command::Schema { file } => print(&pretty(&match file {
             SchemaOf::Case => pounding_case::schema(),
             SchemaOf::Study => pounding_study::study_schema(),

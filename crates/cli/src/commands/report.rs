@@ -4,8 +4,9 @@ use std::path::Path;
 
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
-use pounding_files::checksum::Checksum;
+use pounding_files::checksum::{Checksum, WithoutChecksum};
 use pounding_report::{ReportError, RunResult, page};
+use pounding_study::ResultReader;
 
 use crate::failure::Failure;
 use crate::files::name_left_over;
@@ -14,14 +15,22 @@ use crate::output::warn;
 use crate::plot;
 use crate::separate::{Reading, reading, warnings};
 
+use super::ida::page_of_result;
+
+/// What is to have a page.
+pub struct Asked<'a> {
+    /// Result.
+    pub result: &'a Path,
+    /// Page; none is beside the result.
+    pub output: Option<&'a Path>,
+    /// Study of an incremental dynamic analysis.
+    pub study: Option<&'a Path>,
+}
+
 /// Reads a result, writes its page, says where.
-pub fn report(
-    path: &Path,
-    output: Option<&Path>,
-    child: bool,
-    mut files: FileUse,
-) -> Result<(), Failure> {
-    let output = match output {
+pub fn report(asked: &Asked<'_>, child: bool, mut files: FileUse) -> Result<(), Failure> {
+    let path = asked.result;
+    let output = match asked.output {
         Some(output) => output.to_owned(),
         None => {
             let beside = path.with_extension("html");
@@ -33,25 +42,66 @@ pub fn report(
             beside
         }
     };
-    let files = [path.to_owned()];
-    let without = match reading(&files, child)? {
+    let read = [path.to_owned()];
+    let without = match reading(&read, child)? {
         Reading::Here(without) => without,
         Reading::Done => return Ok(()),
     };
-    let result = RunResult::read(path, without).map_err(failed)?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    plot::write(&output, &page(&result, &name).map_err(failed)?)?;
-    if result.checksum == Checksum::Absent {
-        warnings(&files).iter().for_each(|text| warn(text));
+    let (held, checksum) = match RunResult::read(path, without) {
+        // HDF5, but no run: it may be a study.
+        Err(no_run @ ReportError::NotAResult { .. }) => {
+            let result = ResultReader::open(path, without).map_err(|_| failed(no_run))?;
+            match asked.study {
+                Some(study) => page_of_result(study, &result, &output, &mut files)?,
+                None => write_sweep(&result, path, &output)?,
+            }
+            (counted(result.rows, "run"), result.checksum)
+        }
+        result => {
+            let result = result.map_err(failed)?;
+            if asked.study.is_some() {
+                return Err(Failure::input(
+                    format!("{} is the result of a run, not of a study", path.display()),
+                    Some("leave --study away".to_owned()),
+                ));
+            }
+            write_run(&result, path, &output)?;
+            let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
+            let held = [
+                counted(result.buildings.len(), "building"),
+                counted(result.gaps.len(), "gap"),
+                counted(impacts, "impact"),
+            ];
+            (held.join(", "), result.checksum)
+        }
+    };
+    if checksum == Checksum::Absent {
+        warnings(&read).iter().for_each(|text| warn(text));
     }
-    let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
-    print(&format!(
-        "{}, {}, {}: page written to {}",
-        counted(result.buildings.len(), "building"),
-        counted(result.gaps.len(), "gap"),
-        counted(impacts, "impact"),
-        output.display()
-    ))
+    print(&format!("{held}: page written to {}", output.display()))
+}
+
+/// The page of a run that has just been written.
+pub fn run(path: &Path, output: &Path) -> Result<(), Failure> {
+    let result = RunResult::read(path, WithoutChecksum::Refuse).map_err(failed)?;
+    write_run(&result, path, output)
+}
+
+/// The page of a sweep that has just been written.
+pub fn sweep(path: &Path, output: &Path) -> Result<(), Failure> {
+    let result = ResultReader::open(path, WithoutChecksum::Refuse);
+    let result = result.map_err(|e| failed(ReportError::Study(e)))?;
+    write_sweep(&result, path, output)
+}
+
+fn write_sweep(result: &ResultReader, path: &Path, output: &Path) -> Result<(), Failure> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    plot::write(output, &page::sweep(result, &name).map_err(failed)?)
+}
+
+fn write_run(result: &RunResult, path: &Path, output: &Path) -> Result<(), Failure> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    plot::write(output, &page::run(result, &name).map_err(failed)?)
 }
 
 fn failed(e: ReportError) -> Failure {

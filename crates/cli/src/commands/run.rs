@@ -20,6 +20,8 @@ use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit};
 use crate::{plot, tables};
 
+use super::report;
+
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
     let case = read_case(&arguments.case, true)?;
@@ -31,7 +33,11 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     }
     reads_too(&mut files, case.files())?;
     let assembly = assembled(&case)?;
-    have_a_place([output.as_deref(), arguments.plot.as_deref()])?;
+    have_a_place([
+        output.as_deref(),
+        arguments.plot.as_deref(),
+        arguments.report.as_deref(),
+    ])?;
     if output.is_some() {
         responses_fit(&assembly, &case)?;
     }
@@ -76,6 +82,9 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             warnings: &warnings,
             wall_time,
         })?;
+    }
+    if let (Some(result), Some(page)) = (&output, &arguments.report) {
+        report::run(result, page)?;
     }
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
         plot::write_drawn(path, picture.responses.picture())?;

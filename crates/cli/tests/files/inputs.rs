@@ -18,9 +18,23 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 30] = [
+const CALLS: [Call; 31] = [
     call("run case.toml", CASE),
     call("report result.h5", &["result.h5"]),
+    call(
+        "report ida.h5 --study study.toml",
+        &[
+            "ida.h5",
+            "study.toml",
+            "case.toml",
+            "record.csv",
+            "second.csv",
+            "step.csv",
+            "other_step.csv",
+            "target.csv",
+            "hazard.csv",
+        ],
+    ),
     call(
         "gap case.toml --points 3 --records record.csv second.csv",
         &[
@@ -226,6 +240,7 @@ fn bench() -> Fixture {
     let fixture = Fixture::new();
     for words in [
         "run case.toml -o result.h5",
+        "ida study.toml -o ida.h5",
         "sweep study.toml --shard 1/2 -o 1.h5",
         "sweep study.toml --shard 2/2 -o 2.h5",
     ] {

@@ -18,6 +18,22 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
+/// JSON as it may stand in a `script`: no text in it ends the element or opens another, and
+/// none is a line end to JavaScript.
+pub(super) fn escaped_json(json: &serde_json::Value) -> String {
+    let text = json.to_string();
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
+                out.push_str(&format!("\\u{:04x}", u32::from(c)));
+            }
+            c => out.push(c),
+        }
+    }
+    out
+}
+
 /// A section with a heading.
 pub(super) fn section(title: &str, inside: &str) -> String {
     format!(
@@ -26,31 +42,37 @@ pub(super) fn section(title: &str, inside: &str) -> String {
     )
 }
 
-/// A table; without headings if there are none. Cells are texts.
-pub(super) fn table(headings: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut out = "<div class=\"wide\"><table>\n".to_owned();
-    if !headings.is_empty() {
-        let cells = headings.iter().map(|h| format!("<th>{}</th>", escaped(h)));
-        let cells: String = cells.collect();
-        out.push_str(&format!("<thead><tr>{cells}</tr></thead>\n"));
-    }
-    out.push_str("<tbody>\n");
-    for row in rows {
-        let cells = row.iter().map(|c| format!("<td>{}</td>", escaped(c)));
-        let cells: String = cells.collect();
-        out.push_str(&format!("<tr>{cells}</tr>\n"));
-    }
-    out.push_str("</tbody>\n</table></div>\n");
-    out
+/// A figure with what it says in words, for those who do not see it.
+pub(super) fn figure(svg: &str, words: &str) -> String {
+    let words = escaped(words);
+    let named = svg.replacen(
+        "<svg ",
+        &format!("<svg role=\"img\" aria-label=\"{words}\" "),
+        1,
+    );
+    format!("<figure tabindex=\"0\" aria-label=\"{words}\">{named}</figure>\n")
 }
 
 /// Figures beside one another.
-pub(super) fn figures(svgs: &[String]) -> String {
-    let inside: String = svgs
-        .iter()
-        .map(|svg| format!("<figure>{svg}</figure>\n"))
-        .collect();
-    format!("<div class=\"figures\">\n{inside}</div>\n")
+pub(super) fn beside(figures: &[String]) -> String {
+    format!("<div class=\"figures\">\n{}</div>\n", figures.concat())
+}
+
+/// A list of sentences, which are HTML.
+pub(super) fn sentences(points: &[String]) -> String {
+    let items: String = points.iter().map(|p| format!("<li>{p}</li>\n")).collect();
+    format!("<ul class=\"summary\">\n{items}</ul>\n")
+}
+
+/// Warnings, one below the other.
+pub(super) fn warnings(texts: &[String]) -> String {
+    let one = |text: &String| format!("<p class=\"warning\">Warning: {}</p>\n", escaped(text));
+    texts.iter().map(one).collect()
+}
+
+/// A remark in small print.
+pub(super) fn note(text: &str) -> String {
+    format!("<p class=\"note\">{}</p>\n", escaped(text))
 }
 
 #[cfg(test)]
@@ -63,7 +85,14 @@ mod tests {
             escaped("<script>a & \"b\" 'c'\u{0}"),
             "&lt;script&gt;a &amp; &quot;b&quot; &#39;c&#39;\u{fffd}"
         );
-        let rows = [vec!["<b>".to_owned(), "2".to_owned()]];
-        assert!(table(&["a<", "b"], rows.into_iter()).contains("<td>&lt;b&gt;</td>"));
+        let json = serde_json::json!({ "</script>": "<!-- \u{2028} & \"" });
+        let text = escaped_json(&json);
+        assert!(!text.contains(['<', '>', '&', '\u{2028}']), "{text}");
+        let again: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+        assert_eq!(again, json);
+        assert!(
+            figure("<svg width=\"1\"/>", "a \"b\"")
+                .contains("aria-label=\"a &quot;b&quot;\" width")
+        );
     }
 }

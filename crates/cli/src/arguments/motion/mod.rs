@@ -103,6 +103,9 @@ pub struct InfoArguments {
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
+    /// Write a page of the series into this HTML file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<OutputPath>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

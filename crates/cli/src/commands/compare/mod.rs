@@ -13,8 +13,8 @@ use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
 use crate::output::{pretty, print};
-use crate::plot;
 use crate::progress::{Progress, Unit, threads};
+use crate::{page, plot};
 
 /// Runs every model on every record. Models that fail are listed with their diagnosis;
 /// if none is left, the computation failed.
@@ -22,7 +22,11 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
-    have_a_place([arguments.csv.as_deref(), arguments.plot.as_deref()])?;
+    have_a_place([
+        arguments.csv.as_deref(),
+        arguments.plot.as_deref(),
+        arguments.report.as_deref(),
+    ])?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {
@@ -46,6 +50,14 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     }
     if let Some(path) = &arguments.plot {
         plot::write_drawn(path, peak_ratios(&comparison))?;
+    }
+    if let Some(output) = &arguments.report {
+        let answer = page::answer(&numbers::Compared::of(&comparison))?;
+        let words = "Peaks over those without pounding, by impact model";
+        let drawn = [page::picture(peak_ratios(&comparison), words)?];
+        let inputs = page::of_case("compare", &case, &arguments.case, &records);
+        let html = pounding_report::page::comparison(&answer, &drawn, &inputs);
+        plot::write(output, &html)?;
     }
     if arguments.json {
         print(&pretty(&numbers::Compared::of(&comparison))?)?;

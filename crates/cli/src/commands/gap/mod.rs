@@ -20,8 +20,8 @@ use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
 use crate::output::{pretty, print};
-use crate::plot;
 use crate::progress::{Progress, Unit, threads};
+use crate::{page, plot};
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
 pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -38,12 +38,24 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
+        arguments.report.as_deref(),
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
     let check = gap_check(&case, &separation, &records, &options, &tell).map_err(failed)?;
     drop(progress);
     write_files(arguments, &check)?;
+    if let Some(output) = &arguments.report {
+        let answer = page::answer(&numbers::Check::of(&check))?;
+        let words = "Amplification of peaks by pounding over the width of the gap";
+        let drawn = amplifications(&check).map(|drawn| page::picture(drawn, words));
+        let inputs = page::of_case("gap", &case, path, &records);
+        let drawn: Vec<_> = drawn.transpose()?.into_iter().collect();
+        plot::write(
+            output,
+            &pounding_report::page::gap(&answer, &drawn, &inputs),
+        )?;
+    }
     if arguments.json {
         print(&pretty(&numbers::Check::of(&check))?)?;
     } else {

@@ -7,41 +7,49 @@ use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_report::page::Inputs;
 use pounding_report::pictures::ida::fragility;
 use pounding_study::{IdaReport, ResultReader, Shard, Study, StudyError, evaluate};
 
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
-use crate::files::have_a_place;
+use crate::files::{have_a_place, reads_too};
 use crate::output::{comma_separated, pretty, print};
-use crate::plot;
 use crate::study::{Finished, all_failed, options, run, summary};
+use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
 pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
     let Some(settings) = &study.ida else {
-        return Err(Failure::input(
-            format!("{} has no [ida]", arguments.study.display()),
-            Some("add it, or run the study with pounding sweep".to_owned()),
-        ));
+        return Err(no_analysis(&study));
     };
     let options = options(&study, &arguments.running, Shard::WHOLE, &mut files)?;
-    have_a_place([arguments.plot.as_deref(), arguments.table.as_deref()])?;
+    have_a_place([
+        arguments.plot.as_deref(),
+        arguments.table.as_deref(),
+        arguments.running.report.as_deref(),
+    ])?;
     let sweep = run(&study, &options)?;
     all_failed(&sweep)?;
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
-    let report = evaluate(&study, &result.map_err(StudyError::from)?)?;
+    let result = result.map_err(StudyError::from)?;
+    let report = evaluate(&study, &result)?;
     if let Some(path) = &arguments.plot {
         plot::write_drawn(path, fragility(&report))?;
     }
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;
     }
+    let answer = numbers::Answer {
+        analysis: numbers::Analysis::of(&report, settings.confidence),
+        sweep: Finished::of(&sweep, &options),
+    };
+    if let Some(path) = &arguments.running.report {
+        write_page(path, &study, &result, &report)?;
+    }
     if arguments.json {
-        let analysis = numbers::Analysis::of(&report, settings.confidence);
-        let sweep = Finished::of(&sweep, &options);
-        return print(&pretty(&numbers::Answer { analysis, sweep })?);
+        return print(&pretty(&answer)?);
     }
     let mut text = summary(&study, &sweep, &options);
     text.push_str(&tables::report(&report, settings));
@@ -69,4 +77,69 @@ fn write_table(path: &Path, report: &IdaReport) -> Result<(), Failure> {
         })
     });
     plot::write(path, &comma_separated(&header, rows)?)
+}
+
+/// Writes the page of a result of the study; one of another study is refused.
+pub fn page_of_result(
+    study: &Path,
+    result: &ResultReader,
+    output: &Path,
+    files: &mut FileUse,
+) -> Result<(), Failure> {
+    let study = Study::read(study)?;
+    reads_too(files, study.files())?;
+    let d = &result.description;
+    if study.source != d.study || study.base.source != d.case {
+        return Err(Failure::input(
+            format!(
+                "{} is not the study that the result is of, or its case has changed",
+                study.file.display()
+            ),
+            Some("the result has both texts, as its attributes `study` and `case`".to_owned()),
+        ));
+    }
+    let report = evaluate(&study, result)?;
+    write_page(output, &study, result, &report)
+}
+
+fn write_page(
+    output: &Path,
+    study: &Study,
+    result: &ResultReader,
+    report: &IdaReport,
+) -> Result<(), Failure> {
+    let Some(settings) = &study.ida else {
+        return Err(no_analysis(study));
+    };
+    let d = &result.description;
+    let words = "Fragilities with the counts that they were fitted to";
+    let drawn = [page::picture(fragility(report), words)?];
+    let inputs = Inputs {
+        title: d.title.clone(),
+        origin: vec![
+            "ida".to_owned(),
+            study.file.display().to_string(),
+            format!("pounding {}", d.version),
+        ],
+        warnings: d.warnings.clone(),
+        facts: vec![
+            ("build".to_owned(), d.build.clone()),
+            ("SHA-256 of the study".to_owned(), d.study_sha256.clone()),
+            ("SHA-256 of the records".to_owned(), d.records.clone()),
+        ],
+        listings: vec![
+            ("The study file".to_owned(), d.study.clone()),
+            ("The case file".to_owned(), d.case.clone()),
+        ],
+    };
+    let answer = page::answer(&numbers::Analysis::of(report, settings.confidence))?;
+    let html = pounding_report::page::ida(&answer, settings.target_frequency, &drawn, &inputs);
+    plot::write(output, &html)
+}
+
+fn no_analysis(study: &Study) -> Failure {
+    Failure::input(
+        format!("{} has no [ida]", study.file.display()),
+        Some("add it, or run the study with pounding sweep".to_owned()),
+    )
 }

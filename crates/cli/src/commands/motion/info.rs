@@ -4,11 +4,12 @@ use std::path::Path;
 
 use pounding_case::Dimension;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::Evaluation;
+use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
 use pounding_report::pictures::motion::{Named, histories};
+use pounding_report::{Curve, Panel, ReportError, figure};
 
 use super::info_output::{Files, as_text, comma_separated};
 use super::reading;
@@ -16,7 +17,13 @@ use crate::arguments::InfoArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
-use crate::plot;
+use crate::tables::G;
+use crate::{page, plot};
+
+/// Periods of spectra on the page: first, last (s), number.
+const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
+/// Damping of spectra on the page (-).
+const DAMPING: f64 = 0.05;
 
 /// One series with its measures.
 pub struct Shown {
@@ -75,7 +82,17 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         plot::write(path, &comma_separated(&files))?;
     }
     if let Some(path) = &arguments.svg {
-        picture(path, &files)?;
+        let named = named(&files);
+        if named.is_empty() {
+            return Err(Failure::input(
+                "there is no acceleration to draw",
+                Some("give a file with an acceleration that is not zero".to_owned()),
+            ));
+        }
+        plot::write_drawn(path, histories(&named))?;
+    }
+    if let Some(path) = &arguments.report {
+        report(path, &files)?;
     }
     print(&if arguments.json {
         pretty(&Files::of(&files))?
@@ -154,7 +171,8 @@ fn one(
     })
 }
 
-fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+/// Accelerations with their names in a picture.
+fn named(files: &[ShownFile]) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for file in files {
         for one in &file.series {
@@ -171,11 +189,48 @@ fn picture(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
             }
         }
     }
-    if named.is_empty() {
-        return Err(Failure::input(
-            "there is no acceleration to draw",
-            Some("give a file with an acceleration that is not zero".to_owned()),
-        ));
+    named
+}
+
+/// The page of all series.
+fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+    let named = named(files);
+    let mut drawn = Vec::new();
+    if !named.is_empty() {
+        let words = "Acceleration, velocity, displacement and Husid curve over time";
+        drawn.push(page::picture(histories(&named), words)?);
+        drawn.push(page::picture(spectra(&named)?, "Response spectra")?);
     }
-    plot::write_drawn(path, histories(&named))
+    let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
+    let title = match files.len() {
+        1 => String::new(),
+        count => format!("{count} records"),
+    };
+    let inputs = page::inputs("motion info", &title, first);
+    let answer = page::answer(&Files::of(files))?;
+    plot::write(
+        path,
+        &pounding_report::page::motion(&answer, &drawn, &inputs),
+    )
+}
+
+/// Pseudo-acceleration of motions over the period.
+fn spectra(named: &[Named<'_>]) -> Result<Result<String, ReportError>, Failure> {
+    let periods = logarithmic_periods(PERIODS.0, PERIODS.1, PERIODS.2)?;
+    let mut curves = Vec::new();
+    for motion in named {
+        let linear = Evaluation::PiecewiseLinear;
+        let spectrum = response_spectrum(motion.record, &periods, DAMPING, linear)?;
+        let values = spectrum.pseudo_acceleration.iter().map(|a| a / G);
+        curves.push(Curve {
+            name: motion.name.clone(),
+            points: periods.iter().copied().zip(values).collect(),
+        });
+    }
+    let panel = Panel {
+        caption: "Pseudo-acceleration (g), 5 % damping".to_owned(),
+        horizontal: "period (s)".to_owned(),
+        curves,
+    };
+    Ok(figure(&[panel]))
 }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::arguments::{MergeArguments, SweepArguments};
 use crate::failure::Failure;
+use crate::files::have_a_place;
 use crate::output::{pretty, print, print_as_it_is, warn};
 use crate::separate::{Reading, reading, warnings};
 use crate::study::{Finished, all_failed, options, run, summary};
@@ -27,7 +28,11 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
         None => Shard::WHOLE,
     };
     let options = options(&study, &arguments.running, shard, &mut files)?;
+    have_a_place([arguments.running.report.as_deref()])?;
     let report = run(&study, &options)?;
+    if let Some(path) = &arguments.running.report {
+        super::report::sweep(&options.output, path)?;
+    }
     if arguments.json {
         print(&pretty(&Finished::of(&report, &options))?)?;
     } else {

@@ -1,17 +1,13 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
-use super::html::escaped;
-use super::numbers::{figures, percent, ratio as times};
+use crate::page::html::{escaped, sentences, warnings};
+use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
-    let mut out = String::new();
-    for warning in &result.warnings {
-        out.push_str(&format!("<p class=\"warning\">{}</p>\n", escaped(warning)));
-    }
     let mut points: Vec<String> = result.gaps.iter().filter_map(hit).collect();
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
@@ -20,8 +16,7 @@ pub(super) fn summary(result: &RunResult) -> String {
         points.extend(result.buildings.iter().filter_map(changed));
     }
     points.push(ledger(result));
-    let items: String = points.iter().map(|p| format!("<li>{p}</li>\n")).collect();
-    out + &format!("<ul class=\"summary\">\n{items}</ul>\n")
+    sentences(&points) + &warnings(&result.warnings)
 }
 
 /// How hard the floors on both sides of a gap hit.

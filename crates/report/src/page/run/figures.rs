@@ -1,17 +1,23 @@
 //! Figures of the page.
 
-use super::html::figures;
+use std::collections::BTreeMap;
+
 use super::words;
 use crate::decimation::decimated;
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, figure_of_size};
+use crate::page::html::{beside, figure};
 use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult, StoreyPeaks};
 
 /// Size of a history, and of a profile beside another (pixels).
 const HISTORY: (u32, u32) = (1100, 260);
 const PROFILE: (u32, u32) = (540, 340);
-/// Parts of a history: a curve has no more points than the picture can show.
+/// Parts of a history: a curve has no more points than the picture can show, and fewer where
+/// many pictures have to fit on a page.
 const COLUMNS: usize = 1000;
+const COLUMNS_OF_ALL: usize = 10_000;
+/// Levels whose stems can be told apart.
+const MOST_LEVELS: usize = 6;
 
 type Outcome = Result<String, ReportError>;
 
@@ -19,8 +25,13 @@ fn history(result: &RunResult, name: &str, values: impl Iterator<Item = f64>) ->
     let points: Vec<(f64, f64)> = result.time.iter().copied().zip(values).collect();
     Curve {
         name: name.to_owned(),
-        points: decimated(&points, COLUMNS),
+        points: decimated(&points, columns(result)),
     }
+}
+
+fn columns(result: &RunResult) -> usize {
+    let curves = result.buildings.len() + result.gaps.len() + 6;
+    (COLUMNS_OF_ALL / curves).clamp(100, COLUMNS)
 }
 
 fn over_time(caption: &str, curves: Vec<Curve>) -> Panel {
@@ -31,18 +42,18 @@ fn over_time(caption: &str, curves: Vec<Curve>) -> Panel {
     }
 }
 
-fn wide(panels: &[Panel]) -> Outcome {
-    Ok(format!(
-        "<figure>{}</figure>\n",
-        figure_of_size(panels, HISTORY)?
-    ))
+fn wide(panels: &[Panel], words: &str) -> Outcome {
+    Ok(figure(&figure_of_size(panels, HISTORY)?, words))
 }
 
 /// Ground acceleration.
 pub(super) fn ground(result: &RunResult) -> Outcome {
     let a = result.ground_acceleration.iter().copied();
     let curve = history(result, "ground", a);
-    wide(&[over_time("Ground acceleration (m/s\u{b2})", vec![curve])])
+    wide(
+        &[over_time("Ground acceleration (m/s\u{b2})", vec![curve])],
+        "Ground acceleration over time",
+    )
 }
 
 /// Displacement of the roof.
@@ -51,7 +62,11 @@ pub(super) fn roof(result: &RunResult, index: usize) -> Outcome {
     let top = building.displacement.columns.saturating_sub(1);
     let u = building.displacement.column(top).map(|u| 1.0e3 * u);
     let curve = history(result, &building.name, u);
-    wide(&[over_time("Displacement of the roof (mm)", vec![curve])])
+    let words = format!("Displacement of the roof of {} over time", building.name);
+    wide(
+        &[over_time("Displacement of the roof (mm)", vec![curve])],
+        &words,
+    )
 }
 
 /// Peaks over the height, with and without pounding.
@@ -79,13 +94,14 @@ pub(super) fn profiles(result: &RunResult, building: &BuildingResult) -> Outcome
             caption: format!("Elevation (m) over {caption}"),
             horizontal: caption.to_owned(),
             curves: vec![
-                curve("as built", &peaks.value),
-                curve("without gaps and links", &peaks.isolated),
+                curve("with pounding", &peaks.value),
+                curve("isolated", &peaks.isolated),
             ],
         };
-        figure_of_size(&[panel], PROFILE)
+        let words = format!("Elevation over {caption} of {}", building.name);
+        Ok::<_, ReportError>(figure(&figure_of_size(&[panel], PROFILE)?, &words))
     };
-    Ok(figures(&[
+    Ok(beside(&[
         profile(
             "peak displacement (mm)",
             (&building.displacement_peaks, 1.0e3),
@@ -134,38 +150,62 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
         let force = |i: &ImpactResult| (i.peak_force_time, 1.0e-3 * i.force());
         panels.push(over_time(
             "Peak force of every impact (kN)",
-            stems(gap, end, force),
+            stems((gap, columns(result)), end, force),
         ));
     }
     if !gap.impacts.is_empty() {
         let velocity = |i: &ImpactResult| (i.t_close, i.approach_velocity);
         panels.push(over_time(
             "Approach velocity of every impact (m/s)",
-            stems(gap, end, velocity),
+            stems((gap, columns(result)), end, velocity),
         ));
     }
-    wide(&panels)
+    let words = format!(
+        "Opening of the gap {}, and its impacts, over time",
+        gap.name
+    );
+    wide(&panels, &words)
 }
 
-/// A stem for each impact, a curve for each level that has any; all over the whole time.
-fn stems(gap: &GapResult, end: f64, stem: impl Fn(&ImpactResult) -> (f64, f64)) -> Vec<Curve> {
-    let at = |l: usize| gap.impacts.iter().filter(move |i| i.level == l as u64 + 1);
-    (0..gap.levels.len())
-        .filter(|l| at(*l).next().is_some())
-        .map(|l| {
-            let known = at(l)
-                .map(&stem)
-                .filter(|(t, y)| t.is_finite() && y.is_finite());
-            let inner = known.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
-            Curve {
-                name: words::level(&gap.levels[l]),
-                points: [(0.0, 0.0)]
-                    .into_iter()
-                    .chain(inner)
-                    .chain([(end, 0.0)])
-                    .collect(),
+/// A stem for each impact, a curve for each level that has any, or one for all where there are
+/// many; all over the whole time. Of more stems than the picture can show the longest of each
+/// part of the time are left.
+fn stems(
+    (gap, columns): (&GapResult, usize),
+    end: f64,
+    stem: impl Fn(&ImpactResult) -> (f64, f64),
+) -> Vec<Curve> {
+    let hit = |l: &usize| gap.impacts.iter().any(|i| i.level == *l as u64 + 1);
+    let levels: Vec<usize> = (0..gap.levels.len()).filter(hit).collect();
+    let curve = |name: String, wanted: &dyn Fn(&ImpactResult) -> bool| {
+        let mut longest: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        let impacts = gap.impacts.iter().filter(|i| wanted(i)).map(&stem);
+        for (t, y) in impacts.filter(|(t, y)| t.is_finite() && y.is_finite()) {
+            let part = (t / end * columns as f64) as usize;
+            let known = longest.entry(part).or_insert((t, y));
+            if y > known.1 {
+                *known = (t, y);
             }
-        })
+        }
+        let inner = longest.into_values();
+        let inner = inner.flat_map(|(t, y)| [(t, 0.0), (t, y), (t, 0.0)]);
+        let ends = [(0.0, 0.0), (end, 0.0)];
+        Curve {
+            name,
+            points: ends[..1]
+                .iter()
+                .copied()
+                .chain(inner)
+                .chain([ends[1]])
+                .collect(),
+        }
+    };
+    if levels.len() > MOST_LEVELS {
+        return vec![curve("all levels".to_owned(), &|_| true)];
+    }
+    let levels = levels.into_iter();
+    levels
+        .map(|l| curve(words::level(&gap.levels[l]), &|i| i.level == l as u64 + 1))
         .collect()
 }
 
@@ -199,5 +239,8 @@ pub(super) fn energy(result: &RunResult) -> Outcome {
     // Nothing yields in elastic buildings.
     .filter(|(_, values)| values.iter().any(|x| *x != 0.0))
     .map(|(name, values)| history(result, name, values.iter().map(|x| 1.0e-3 * x)));
-    wide(&[over_time("Energy (kJ)", curves.collect())])
+    wide(
+        &[over_time("Energy (kJ)", curves.collect())],
+        "Energies over time",
+    )
 }

@@ -1,0 +1,249 @@
+//! The page of a comparison of impact models.
+
+use pounding_catalogue::wording::{agreeing, counted};
+use serde_json::Value;
+
+use super::answer::{Answer, in_parentheses, unit_of};
+use super::html::{escaped, note, section, sentences, warnings};
+use super::studies::{Inputs, Picture, pictures, rows};
+use super::table::Column;
+
+/// Quantities side by side in a table of values.
+const BESIDE: usize = 7;
+/// Records whose values have a table.
+const TABLES: usize = 7;
+
+/// The page of what `compare --json` prints.
+#[must_use]
+pub fn comparison(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
+    let answer = Answer(answer);
+    let warned: Vec<String> = answer
+        .list("/warnings")
+        .iter()
+        .filter_map(|w| Some(w.as_str()?.to_owned()))
+        .collect();
+    let mut body = section(
+        "Does the answer depend on the impact model?",
+        &(sentences(&points(answer)) + &warnings(&warned)),
+    );
+    body.push_str(&section("Conclusions", &conclusions(answer)));
+    let spread = spread(answer) + &pictures(drawn);
+    body.push_str(&section("Models beside records", &spread));
+    body.push_str(&section("Values", &values(answer)));
+    body.push_str(&section("Models", &models(answer)));
+    inputs.page(&body)
+}
+
+fn name(value: &Value) -> &str {
+    value["name"].as_str().unwrap_or_default()
+}
+
+fn points(answer: Answer<'_>) -> Vec<String> {
+    let models = answer.list("/models");
+    let failed: Vec<&str> = models
+        .iter()
+        .filter(|m| m["failures"].as_array().is_some_and(|f| !f.is_empty()))
+        .map(name)
+        .collect();
+    let all = answer.list("/conclusions");
+    let depends: Vec<&str> = all
+        .iter()
+        .filter(|c| c["holds"].as_str() == Some("depends on the model"))
+        .filter_map(|c| c["statement"].as_str())
+        .collect();
+    let mut points = vec![match depends.len() {
+        0 => format!(
+            "<strong>No.</strong> None of {} depends on the model.",
+            counted(all.len(), "conclusion")
+        ),
+        some => format!(
+            "<strong>{some} of {} {} on the model:</strong> {}.",
+            counted(all.len(), "conclusion"),
+            agreeing(&some, "depends", "depend"),
+            escaped(&depends.join("; "))
+        ),
+    }];
+    let number =
+        |q: &usize, which: &str| answer.number(&format!("/quantities/{q}/spread/{which}"), "");
+    let between = |q: &usize| number(q, "between_models");
+    let known = 0..answer.list("/quantities").len();
+    let known = known.filter(|q| {
+        between(q).is_finite() && !answer.text(&format!("/quantities/{q}/unit")).is_empty()
+    });
+    let largest = known.max_by(|a, b| between(a).total_cmp(&between(b)));
+    if let Some(q) = largest {
+        let at = format!("/quantities/{q}");
+        let mut sentence = format!(
+            "Models lie furthest apart in {} of {}: by {} %",
+            escaped(&answer.text(&format!("{at}/name")).replace('_', " ")),
+            answer.quote(&format!("{at}/of")),
+            answer.say(&format!("{at}/spread/between_models"), 1.0e2),
+        );
+        if number(&q, "between_records").is_finite() {
+            sentence.push_str(&format!(
+                ", where records lie {} % apart",
+                answer.say(&format!("{at}/spread/between_records"), 1.0e2)
+            ));
+        }
+        points.push(sentence + " (standard deviation over mean).");
+    }
+    points.push(format!(
+        "{} ran under {}, calibrated to the same {} and the restitution {}.",
+        counted(models.len() - failed.len(), "model"),
+        counted(answer.list("/records").len(), "record"),
+        answer.quote("/stiffness_rule"),
+        answer.quote("/restitution_rule"),
+    ));
+    if !failed.is_empty() {
+        points.push(format!(
+            "Not under every record: {}.",
+            escaped(&failed.join(", "))
+        ));
+    }
+    points
+}
+
+fn conclusions(answer: Answer<'_>) -> String {
+    let all = answer.list("/conclusions");
+    let columns = [
+        Column::new("statement"),
+        Column::words_of("answer", "/conclusions/*/holds"),
+        Column::words_of("storey by storey", "/conclusions/*/by_storey/holds"),
+        Column::of("true", "sum /conclusions/*/counts/+/0", 1.0).below("models and records"),
+        Column::of("of", "sum /conclusions/*/counts/+/1", 1.0).below("models and records"),
+    ];
+    let heads = all
+        .iter()
+        .map(|c| c["statement"].as_str().unwrap_or_default());
+    format!(
+        "<div class=\"words\">\n{}</div>\n",
+        answer.table("Conclusions", &columns, rows(heads))
+    )
+}
+
+/// Heads of the rows of quantities, with the units that people read.
+fn quantities(answer: Answer<'_>) -> Vec<(String, String)> {
+    let head = |(i, q): (usize, &Value)| {
+        let text = |key: &str| q[key].as_str().unwrap_or_default();
+        let what = text("name").replace('_', " ");
+        let head = format!("{what}, {}{}", text("of"), in_parentheses(text("unit")));
+        (i.to_string(), head)
+    };
+    answer
+        .list("/quantities")
+        .iter()
+        .enumerate()
+        .map(head)
+        .collect()
+}
+
+fn spread(answer: Answer<'_>) -> String {
+    let of = |path: &str| format!("/quantities/*/{path}");
+    let columns = [
+        Column::new("quantity"),
+        Column::words_of("of storeys or levels", of("statistic")),
+        Column::of("models (%)", of("spread/between_models"), 1.0e2).below("spread between"),
+        Column::of("records (%)", of("spread/between_records"), 1.0e2).below("spread between"),
+        Column::of("greatest / least model", of("spread/greatest_ratio"), 1.0),
+        Column::of("agreement of records", of("ranking/concordance"), 1.0),
+        Column::words_of("greatest by", of("ranking/models/0")),
+    ];
+    answer.table("Spread", &columns, quantities(answer))
+        + &note(
+            "Spread: standard deviation over mean, root mean square over the others. Agreement of records on the \
+             order of the models: Kendall's W, from 0 to 1.",
+        )
+}
+
+fn values(answer: Answer<'_>) -> String {
+    let models: Vec<&str> = answer.list("/models").iter().map(name).collect();
+    let records: Vec<&str> = answer
+        .list("/records")
+        .iter()
+        .map(|r| r.as_str().unwrap_or_default())
+        .collect();
+    let columns = |of: &dyn Fn(usize) -> String, head: &str, chunk: &[usize]| {
+        let column = |q: &usize| {
+            let text = |key: &str| answer.text(&format!("/quantities/{q}/{key}"));
+            let (factor, _) = unit_of(text("unit"));
+            let what = text("name").replace('_', " ") + &in_parentheses(text("unit"));
+            let column = match text("name") {
+                "impacts" => Column::count_of(what, of(*q)),
+                _ => Column::of(what, of(*q), factor),
+            };
+            column.below(text("of"))
+        };
+        let columns = std::iter::once(Column::new(head));
+        columns
+            .chain(chunk.iter().map(column))
+            .collect::<Vec<Column>>()
+    };
+    let all: Vec<usize> = (0..answer.list("/quantities").len()).collect();
+    let mut out = "<h3>Without pounding</h3>\n".to_owned();
+    // Impacts have none.
+    let known = |q: &&usize| {
+        answer
+            .number(&format!("/quantities/{q}/isolated/0"), "")
+            .is_finite()
+    };
+    let isolated: Vec<usize> = all.iter().filter(known).copied().collect();
+    for chunk in isolated.chunks(BESIDE) {
+        let columns = columns(&|q| format!("/quantities/{q}/isolated/*"), "record", chunk);
+        out.push_str(&answer.table("Without pounding", &columns, rows(records.iter().copied())));
+    }
+    for (r, record) in records.iter().take(TABLES).enumerate() {
+        out.push_str(&format!(
+            "<h3>With pounding, under {}</h3>\n",
+            escaped(record)
+        ));
+        for chunk in all.chunks(BESIDE) {
+            let columns = columns(&|q| format!("/quantities/{q}/values/*/{r}"), "model", chunk);
+            out.push_str(&answer.table(record, &columns, rows(models.iter().copied())));
+        }
+    }
+    if records.len() > TABLES {
+        out.push_str(&note(&format!(
+            "{} more: --json and --csv write all.",
+            counted(records.len() - TABLES, "record")
+        )));
+    }
+    out
+}
+
+fn models(answer: Answer<'_>) -> String {
+    let columns = [
+        Column::new("model"),
+        Column::of(
+            "restitution returned",
+            "/models/*/gaps/0/free_restitution",
+            1.0,
+        ),
+        Column::words_of("parameters (SI)", "/models/*/gaps/0/parameters"),
+        Column::words_of("notes", "/models/*/gaps/0/notes"),
+        Column::words_of("failures", "/models/*/failures/+/diagnosis"),
+    ];
+    let collision = [
+        Column::new("gap"),
+        Column::of("approach (m/s)", "/references/*/approach_velocity", 1.0),
+        Column::of("effective mass (t)", "/references/*/effective_mass", 1.0e-3),
+        Column::of("stiffness (N/m^n)", "/references/*/stiffness", 1.0),
+        Column::of("exponent n", "/references/*/exponent", 1.0),
+        Column::of("restitution", "/references/*/restitution", 1.0),
+    ];
+    let gaps = answer.list("/gaps").iter().map(name);
+    let mut out = format!(
+        "<div class=\"words\">\n{}</div>\n",
+        answer.table(
+            "Models",
+            &columns,
+            rows(answer.list("/models").iter().map(name))
+        )
+    );
+    if answer.list("/gaps").len() > 1 {
+        out.push_str(&note(
+            "In the first gap; the others are in the output of --json.",
+        ));
+    }
+    out.push_str("<h3>The collision in which they agree</h3>\n");
+    out + &answer.table("Reference collisions", &collision, rows(gaps))
+}

@@ -1,0 +1,71 @@
+//! The file around what a page says: it needs no other file and no network, and prints.
+
+use super::html::{escaped, escaped_json};
+
+/// How pages look on screens, in the dark and in print.
+const STYLE: &str = include_str!("page.css");
+/// Policy of the browser: nothing is fetched, whatever stands in the page.
+const POLICY: &str = "default-src &#39;none&#39;; style-src &#39;unsafe-inline&#39;; script-src &#39;unsafe-inline&#39;";
+
+/// What runs in a page, with the data that it shows.
+pub(super) struct Script<'a> {
+    /// JavaScript, ours.
+    pub source: &'a str,
+    /// What it reads.
+    pub data: serde_json::Value,
+}
+
+/// A page.
+pub(super) struct Document<'a> {
+    /// Title, in the tab and above all.
+    pub title: &'a str,
+    /// What is below the title, part by part.
+    pub origin: &'a [String],
+    /// All the rest, as HTML.
+    pub body: &'a str,
+    /// What makes it move.
+    pub script: Option<Script<'a>>,
+}
+
+impl Document<'_> {
+    /// The whole file.
+    pub(super) fn html(&self) -> String {
+        let title = match self.title.is_empty() {
+            true => "Untitled",
+            false => self.title,
+        };
+        let title = escaped(title);
+        let origin: Vec<String> = self.origin.iter().map(|part| escaped(part)).collect();
+        let script = self.script.as_ref().map(|script| {
+            format!(
+                "<script type=\"application/json\" id=\"data\">{}</script>\n<script>\n{}</script>\n",
+                escaped_json(&script.data),
+                script.source,
+            )
+        });
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta name=\"color-scheme\" content=\"light dark\">\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+             <header>\n<h1>{title}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
+             <main>\n{}</main>\n{}</body>\n</html>\n",
+            origin.join(" &middot; "),
+            self.body,
+            script.unwrap_or_default(),
+        )
+    }
+}
+
+/// A file that was read, in full: the text of a case or a study.
+pub(super) fn listing(heading: &str, text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let heading = escaped(heading);
+    format!(
+        "<h3>{heading}</h3>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"{heading}\">{}</pre>\n",
+        escaped(text)
+    )
+}

@@ -1,0 +1,322 @@
+//! The page of a gap check.
+
+use pounding_catalogue::wording::{agreeing, counted};
+use serde_json::Value;
+
+use super::answer::Answer;
+use super::html::{escaped, note, section, sentences, warnings};
+use super::studies::{Inputs, Picture, pictures, rows};
+use super::table::Column;
+
+/// The page of what `gap --json` prints.
+#[must_use]
+pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
+    let answer = Answer(answer);
+    let gaps = answer.list("/gaps").len();
+    let mut points: Vec<String> = (0..gaps).flat_map(|g| verdict(answer, g)).collect();
+    points.extend(failures(answer));
+    let warned: Vec<String> = answer
+        .list("/warnings")
+        .iter()
+        .filter_map(|w| Some(w.as_str()?.to_owned()))
+        .collect();
+    let mut body = section(
+        "Is the gap wide enough?",
+        &(sentences(&points) + &warnings(&warned)),
+    );
+    for g in 0..gaps {
+        let title = format!("Gap {}", answer.text(&format!("/gaps/{g}/name")));
+        body.push_str(&section(&title, &(demand(answer, g) + &rules(answer, g))));
+    }
+    body.push_str(&section(
+        "With pounding at the provided gap",
+        &provided(answer),
+    ));
+    if !answer.at("/sweep").is_null() {
+        let inside = note(
+            "Peaks with pounding over those of the isolated buildings at many widths, the maximum over \
+             storeys and records: a gap a little too small can be worse than none.",
+        );
+        let inside = inside + &pictures(drawn) + &swept(answer);
+        body.push_str(&section("Other widths", &inside));
+    }
+    body.push_str(&section("Records", &records(answer)));
+    inputs.page(&body)
+}
+
+/// What is answered for a gap: the answer, why, and what would be wide enough.
+fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
+    let at = |path: &str| format!("/gaps/{g}/{path}");
+    let name = answer.quote(&at("name"));
+    let adequate = answer.at(&at("adequate")).as_bool() == Some(true);
+    let word = if adequate { "wide enough" } else { "too small" };
+    let mut points = Vec::new();
+    let code = at("code");
+    if answer.at(&code).is_object() {
+        points.push(format!(
+            "<strong>By {} gap {name} is {word}.</strong> Demand of the suite by its rule ({}): {} mm.",
+            answer.quote(&at("code/edition")),
+            answer.quote(&at("code/statistic")),
+            answer.say(&at("code/demand"), 1.0e3),
+        ));
+        for c in 0..answer.list(&at("code/cases")).len() {
+            let case = format!("{code}/cases/{c}");
+            let ownership = match answer.text(&format!("{case}/ownership")) {
+                "" => String::new(),
+                ownership => format!("{}: ", escaped(ownership)),
+            };
+            let refusal = answer.quote(&format!("{case}/refusal"));
+            if !refusal.is_empty() {
+                points.push(format!("{ownership}{refusal}."));
+                continue;
+            }
+            points.push(format!(
+                "{ownership}{} mm are required and {} mm are provided, at level {}.",
+                answer.say(&format!("{case}/required"), 1.0e3),
+                answer.say(&format!("{case}/provided"), 1.0e3),
+                answer.say(&format!("{case}/governing_level"), 1.0),
+            ));
+        }
+    } else {
+        points.push(format!("<strong>Gap {name} is {word}.</strong>"));
+    }
+    let records = answer.list("/records").len();
+    let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
+    points.push(format!(
+        "{} of {} {} its buildings into contact; {} may. The greatest demand is {} mm, the least width \
+         of its levels {} mm.",
+        answer.at(&at("records_in_contact")),
+        counted(records, "record"),
+        agreeing(&records, "brings", "bring"),
+        match allowed {
+            0 => "none".to_owned(),
+            some => some.to_string(),
+        },
+        answer.say(&format!("maximum {}", at("demand/+")), 1.0e3),
+        answer.say(&format!("minimum {}", at("levels/+/width")), 1.0e3),
+    ));
+    let mut required = format!(
+        "A width of {} mm is needed so that {} closes it.",
+        answer.say(&at("required/by_count"), 1.0e3),
+        match allowed {
+            0 => "no record".to_owned(),
+            some => format!("no more than {}", counted(some, "record")),
+        },
+    );
+    if answer.at(&at("required/lognormal")).is_object() {
+        required.push_str(&format!(
+            " By a lognormal demand (median {} mm, dispersion {}) {} mm are needed, between {} and {} mm at \
+             {} confidence.",
+            answer.say(&at("required/lognormal/median"), 1.0e3),
+            answer.say(&at("required/lognormal/dispersion"), 1.0),
+            answer.say(&at("required/lognormal/width"), 1.0e3),
+            answer.say(&at("required/lognormal/bounds/0"), 1.0e3),
+            answer.say(&at("required/lognormal/bounds/1"), 1.0e3),
+            answer.say_percent("/confidence"),
+        ));
+    }
+    points.push(required);
+    points
+}
+
+fn failures(answer: Answer<'_>) -> Vec<String> {
+    let failed = answer.list("/records").iter().filter_map(|record| {
+        let failure = record["failure"].as_str()?;
+        let name = record["name"].as_str().unwrap_or_default();
+        Some(format!(
+            "The run with pounding under {} failed: {}.",
+            escaped(name),
+            escaped(failure)
+        ))
+    });
+    failed.collect()
+}
+
+/// Demand by level and by record.
+fn demand(answer: Answer<'_>, g: usize) -> String {
+    let of = format!("/gaps/{g}/levels");
+    let levels = answer.list(&of);
+    let columns = [
+        Column::new("level"),
+        Column::of("left", format!("{of}/*/left_elevation"), 1.0).below("elevation (m)"),
+        Column::of("right", format!("{of}/*/right_elevation"), 1.0).below("elevation (m)"),
+        Column::of("provided (mm)", format!("{of}/*/width"), 1.0e3),
+        Column::of(
+            "greatest demand (mm)",
+            format!("maximum {of}/*/demand/+/peak"),
+            1.0e3,
+        ),
+        Column::of(
+            "provided / demand",
+            format!("{of}/*/width / maximum {of}/*/demand/+/peak"),
+            1.0,
+        ),
+    ];
+    let heads = levels
+        .iter()
+        .map(|l| l["level"].as_str().unwrap_or_default());
+    let mut by_level = rows(heads);
+    by_level.reverse();
+    note(
+        "Demand: the greatest approach of the isolated buildings, found inside the steps; the width that a \
+         record would just not close.",
+    ) + &answer.table("Demand by level", &columns, by_level)
+}
+
+/// Widths by rule, those that the provided gap does not reach first.
+fn rules(answer: Answer<'_>, g: usize) -> String {
+    let of = format!("/gaps/{g}/provisions");
+    let mut columns = vec![
+        Column::new("rule"),
+        Column::words_of("text", format!("{of}/*/edition")),
+        Column::words_of("place", format!("{of}/*/place")),
+    ];
+    let widths = |from: &str| {
+        ["minimum", "maximum"].map(|word| {
+            let heading = if word == "minimum" { "from" } else { "to" };
+            Column::of(heading, format!("{word} {from}"), 1.0e3).below("width over records (mm)")
+        })
+    };
+    columns.extend(widths(&format!("{of}/*/records/+/width")));
+    columns.extend([
+        Column::of(
+            "least width / demand",
+            format!("minimum {of}/*/records/+/ratio_to_demand"),
+            1.0,
+        ),
+        Column::words_of("provided reaches it", format!("{of}/*/satisfied")),
+        Column::words_of("status", format!("{of}/*/status")),
+    ]);
+    let all = answer.list(&of);
+    let speaks = |i: &usize| all[*i]["refusal"].is_null();
+    let row = |i: usize| {
+        let name = all[i]["name"].as_str().unwrap_or_default();
+        (i.to_string(), name.to_owned())
+    };
+    let mut spoken: Vec<usize> = (0..all.len()).filter(speaks).collect();
+    let order = |i: &usize| match all[*i]["satisfied"].as_bool() {
+        Some(false) => 0,
+        Some(true) => 1,
+        None => 2,
+    };
+    spoken.sort_by_key(order);
+    let silent: Vec<usize> = (0..all.len()).filter(|i| !speaks(i)).collect();
+    let mut out = String::new();
+    let combined = format!("/gaps/{g}/combinations");
+    let rules = answer.list(&combined);
+    if !rules.is_empty() {
+        let mut columns = vec![Column::new("combination")];
+        columns.extend(widths(&format!("{combined}/*/width/+/+")));
+        columns.extend([
+            Column::of("correlation", format!("{combined}/*/correlation"), 1.0),
+            Column::words_of("provided reaches it", format!("{combined}/*/satisfied")),
+            Column::words_of("status", format!("{combined}/*/status")),
+        ]);
+        let heads = rules.iter().map(|r| r["rule"].as_str().unwrap_or_default());
+        out.push_str("<h3>Combinations of the isolated peaks</h3>\n");
+        out.push_str(&note("Over all records and levels."));
+        out.push_str(&answer.table("Combinations", &columns, rows(heads)));
+    }
+    out.push_str("<h3>Widths by code</h3>\n");
+    out.push_str(&answer.table("Widths by code", &columns, spoken.into_iter().map(row)));
+    out.push_str(&note(
+        "Unverified: the formula was not compared with the text of the code; check it there before it enters a \
+         design report. A rule without yes or no holds for elastic displacements, and a building yields here.",
+    ));
+    if !silent.is_empty() {
+        let columns = [
+            Column::new("rule"),
+            Column::words_of("why it says nothing here", format!("{of}/*/refusal")),
+        ];
+        out.push_str("<h3>Codes that say nothing here</h3>\n<div class=\"words\">\n");
+        out.push_str(&answer.table(
+            "Codes that say nothing here",
+            &columns,
+            silent.into_iter().map(row),
+        ));
+        out.push_str("</div>\n");
+    }
+    out
+}
+
+/// Greatest amplifications at the provided gap, by building.
+fn provided(answer: Answer<'_>) -> String {
+    let buildings = answer.list("/records/0/isolated");
+    let of = |quantity: &str| format!("maximum /records/+/amplification/*/+/{quantity}");
+    let columns = [
+        Column::new("building"),
+        Column::of("displacement", of("displacement"), 1.0),
+        Column::of("storey shear", of("storey_shear"), 1.0),
+        Column::of("absolute acceleration", of("acceleration_absolute"), 1.0),
+    ];
+    let heads = buildings
+        .iter()
+        .map(|b| b["name"].as_str().unwrap_or_default());
+    note(
+        "Peak of a storey with pounding over its peak in the isolated building, the maximum over storeys and \
+         records.",
+    ) + &answer.table("Amplification at the provided gap", &columns, rows(heads))
+}
+
+/// Rows of the sweep in the table.
+const ROWS: usize = 20;
+
+fn swept(answer: Answer<'_>) -> String {
+    let widths = answer.list("/sweep/widths").len();
+    if widths == 0 {
+        return note(
+            "Under no record do the buildings approach each other: there is no width to try.",
+        );
+    }
+    let buildings = answer.list("/records/0/isolated");
+    let mut columns = vec![
+        Column::new("number"),
+        Column::of("width (mm)", "/sweep/widths/*", 1.0e3),
+    ];
+    for (b, building) in buildings.iter().enumerate() {
+        let name = building["name"].as_str().unwrap_or_default();
+        for (heading, quantity) in [
+            ("displacement", "displacement"),
+            ("shear", "storey_shear"),
+            ("acceleration", "acceleration_absolute"),
+        ] {
+            let from = format!("maximum /sweep/runs/*/+/amplification/{b}/+/{quantity}");
+            columns.push(Column::of(heading, from, 1.0).below(name));
+        }
+    }
+    columns.extend([
+        Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below("most of a record"),
+        Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3)
+            .below("most of a record"),
+    ]);
+    let every = widths.div_ceil(ROWS);
+    let shown = (0..widths).step_by(every);
+    let shown = shown.map(|i| (i.to_string(), (i + 1).to_string()));
+    let table = answer.table("Sweep over widths", &columns, shown);
+    match every {
+        1 => table,
+        every => table + &note(&format!("One width of {every}; --csv writes all.")),
+    }
+}
+
+fn records(answer: Answer<'_>) -> String {
+    let mut columns = vec![
+        Column::new("record"),
+        Column::of(
+            "peak ground acceleration (m/s\u{b2})",
+            "/records/*/peak_ground_acceleration",
+            1.0,
+        ),
+    ];
+    if !answer.at("/records/0/factor").is_null() {
+        columns.push(Column::of("factor", "/records/*/factor", 1.0));
+    }
+    for (g, gap) in answer.list("/gaps").iter().enumerate() {
+        let name = gap["name"].as_str().unwrap_or_default();
+        columns.push(Column::of(name, format!("/gaps/{g}/demand/*"), 1.0e3).below("demand (mm)"));
+    }
+    columns.push(Column::of("impacts", "sum /records/*/impacts/+/+", 1.0));
+    let list = answer.list("/records");
+    let heads = list.iter().map(|r| r["name"].as_str().unwrap_or_default());
+    answer.table("Records", &columns, rows(heads))
+}

@@ -1,0 +1,198 @@
+//! The page of an incremental dynamic analysis.
+
+use pounding_catalogue::wording::counted;
+use serde_json::Value;
+
+use super::answer::{Answer, in_parentheses, unit_of};
+use super::html::{escaped, note, section, sentences, warnings};
+use super::numbers::figures;
+use super::studies::{Inputs, Picture, pictures, rows};
+use super::table::Column;
+
+/// Demands side by side in a table.
+const BESIDE: usize = 4;
+
+/// The page of what `ida --json` prints; `target` is the frequency that the study asks a gap
+/// for (1/year).
+#[must_use]
+pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inputs) -> String {
+    let answer = Answer(answer);
+    let mut body = section(
+        "How likely is pounding?",
+        &(sentences(&points(answer, target)) + &warnings(&inputs.warnings)),
+    );
+    body.push_str(&section(
+        "Fragility",
+        &(pictures(drawn) + &fits(answer, "/limits")),
+    ));
+    for (g, gap) in answer.list("/gaps").iter().enumerate() {
+        let widths = format!("/gaps/{g}/widths");
+        if !answer.list(&widths).is_empty() {
+            let title = format!(
+                "By width of the gap {}",
+                gap["gap"].as_str().unwrap_or_default()
+            );
+            body.push_str(&section(&title, &fits(answer, &widths)));
+        }
+    }
+    body.push_str(&section("Runs by intensity", &counts(answer)));
+    body.push_str(&section("Demands by intensity", &demands(answer)));
+    inputs.page(&body)
+}
+
+fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
+    let mut points = Vec::new();
+    for l in 0..answer.list("/limits").len() {
+        let at = |path: &str| format!("/limits/{l}/{path}");
+        let name = answer.quote(&at("name"));
+        let (_, unit) = unit_of(answer.text("/unit"));
+        let unit = escaped(unit);
+        let mut sentence = format!("<strong>{name}:</strong> ");
+        sentence.push_str(&match answer.text(&at("fit/kind")) {
+            "lognormal" => format!(
+                "median intensity {} {unit} ({} to {} at {} confidence), dispersion {}",
+                answer.say(&at("fit/median"), 1.0),
+                answer.say(&at("fit/median_bounds/0"), 1.0),
+                answer.say(&at("fit/median_bounds/1"), 1.0),
+                answer.say_percent(&at("fit/confidence")),
+                answer.say(&at("fit/dispersion"), 1.0),
+            ),
+            "step" => format!(
+                "first reached above {} {unit}",
+                answer.say(&at("fit/lower"), 1.0)
+            ),
+            "never" => format!(
+                "not reached up to {} {unit}",
+                answer.say(&at("fit/up_to"), 1.0)
+            ),
+            "always" => format!(
+                "reached by all from {} {unit} on",
+                answer.say(&at("fit/from"), 1.0)
+            ),
+            _ => "the counts give no fragility".to_owned(),
+        });
+        if !answer.at(&at("mean_annual_frequency")).is_null() {
+            sentence.push_str(&format!(
+                "; mean annual frequency {} 1/year",
+                answer.say(&at("mean_annual_frequency"), 1.0)
+            ));
+        }
+        points.push(sentence + ".");
+    }
+    for (g, gap) in answer.list("/gaps").iter().enumerate() {
+        let at = |path: &str| format!("/gaps/{g}/{path}");
+        let name = escaped(gap["gap"].as_str().unwrap_or_default());
+        let minimum = &gap["minimum"];
+        let Some(target) = target.filter(|_| minimum.is_object()) else {
+            continue;
+        };
+        let asked = figures(target);
+        let frequency = answer.say(&at("minimum/mean_annual_frequency"), 1.0);
+        points.push(match minimum["width"].is_null() {
+            false => format!(
+                "<strong>Gap {name} needs {} mm</strong> for a mean annual frequency of {asked} 1/year; there it \
+                 is {frequency} 1/year.",
+                answer.say(&at("minimum/width"), 1.0e3)
+            ),
+            true => format!(
+                "The intensities do not reach far enough to find the gap {name} for {asked} 1/year: the least \
+                 frequency that they can show is {frequency} 1/year."
+            ),
+        });
+    }
+    points.push(format!(
+        "{} over {} and {}; intensity: {}.",
+        counted(answer.number("sum /levels/+/runs", "") as usize, "run"),
+        counted(answer.number("/records", "") as usize, "record"),
+        match answer.list("/levels").len() {
+            1 => "one intensity".to_owned(),
+            levels => format!("{levels} intensities"),
+        },
+        answer.quote("/measure"),
+    ));
+    points
+}
+
+/// Fitted fragilities of the states of a list.
+fn fits(answer: Answer<'_>, list: &str) -> String {
+    let of = |path: &str| format!("{list}/*/{path}");
+    let unit = in_parentheses(answer.text("/unit"));
+    let median = format!("median{unit}");
+    let states = answer.list(list);
+    let mut columns = vec![Column::new("state")];
+    if states.iter().any(|s| !s["width"].is_null()) {
+        columns.push(Column::of("width (mm)", of("width"), 1.0e3));
+    }
+    columns.extend([
+        Column::words_of("fragility", of("fit/kind")),
+        Column::of("fitted", of("fit/median"), 1.0).below(&median),
+        Column::of("from", of("fit/median_bounds/0"), 1.0).below(&median),
+        Column::of("to", of("fit/median_bounds/1"), 1.0).below(&median),
+        Column::of("fitted", of("fit/dispersion"), 1.0).below("dispersion"),
+        Column::of("from", of("fit/dispersion_bounds/0"), 1.0).below("dispersion"),
+        Column::of("to", of("fit/dispersion_bounds/1"), 1.0).below("dispersion"),
+    ]);
+    if states.iter().any(|s| !s["mean_annual_frequency"].is_null()) {
+        columns.push(Column::of(
+            "mean annual frequency (1/year)",
+            of("mean_annual_frequency"),
+            1.0,
+        ));
+    }
+    let heads = states
+        .iter()
+        .map(|s| s["name"].as_str().unwrap_or_default());
+    answer.table("Fragility", &columns, rows(heads))
+        + &note("From and to: bounds at the confidence of the study.")
+}
+
+/// How often states were reached, by intensity.
+fn counts(answer: Answer<'_>) -> String {
+    let unit = in_parentheses(answer.text("/unit"));
+    let mut columns = vec![
+        Column::new("number"),
+        Column::of(format!("intensity{unit}"), "/levels/*/intensity", 1.0),
+        Column::of("runs", "/levels/*/runs", 1.0),
+        Column::of("failed", "/levels/*/failed", 1.0),
+        Column::of("collapsed", "/levels/*/collapsed", 1.0),
+    ];
+    for (l, limit) in answer.list("/limits").iter().enumerate() {
+        let name = limit["name"].as_str().unwrap_or_default();
+        let from = format!("/limits/{l}/counts/*/reached");
+        columns.push(Column::of(name, from, 1.0).below("runs that reach"));
+    }
+    answer.table("Runs by intensity", &columns, numbered(answer))
+}
+
+fn numbered(answer: Answer<'_>) -> Vec<(String, String)> {
+    let levels = 0..answer.list("/levels").len();
+    levels
+        .map(|i| (i.to_string(), (i + 1).to_string()))
+        .collect()
+}
+
+/// Fractiles of demands, by intensity.
+fn demands(answer: Answer<'_>) -> String {
+    let unit = in_parentheses(answer.text("/unit"));
+    let demands = answer.list("/levels/0/demands");
+    let mut out = String::new();
+    for (first, chunk) in demands.chunks(BESIDE).enumerate() {
+        let mut columns = vec![
+            Column::new("number"),
+            Column::of(format!("intensity{unit}"), "/levels/*/intensity", 1.0),
+        ];
+        for (d, demand) in chunk.iter().enumerate() {
+            let text = |key: &str| demand[key].as_str().unwrap_or_default();
+            let (factor, _) = unit_of(text("unit"));
+            let head = text("name").replace('_', " ") + &in_parentheses(text("unit"));
+            for (word, key) in [("16 %", "p16"), ("50 %", "p50"), ("84 %", "p84")] {
+                let from = format!("/levels/*/demands/{}/{key}", first * BESIDE + d);
+                columns.push(Column::of(word, from, factor).below(&head));
+            }
+        }
+        out.push_str(&answer.table("Demands by intensity", &columns, numbered(answer)));
+    }
+    out + &note(
+        "Fractiles over the records. A collapse is above everything: a dash is a fractile among collapses.",
+    )
+}

@@ -1,0 +1,413 @@
+//! The page of the result of a sweep.
+
+use pounding_catalogue::wording::counted;
+use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError};
+
+use super::answer::{in_parentheses, unit_of};
+use super::document::Document;
+use super::document::listing;
+use super::html::{escaped, figure, note, section, sentences, warnings};
+use super::numbers::figures;
+use super::table::{Column, Row, facts, table};
+use crate::error::ReportError;
+use crate::figure::{Curve, Panel, figure_of_size};
+
+/// Rows that are read at once.
+const BLOCK: usize = 4096;
+/// Failures and collapses that are listed.
+const LISTED: usize = 20;
+/// Parts of the range of a variable that a curve has a point for.
+const PARTS: usize = 24;
+/// Size of a figure (pixels).
+const SIZE: (u32, u32) = (1100, 280);
+/// Quantities that have figures: of the run's levels or storeys the greatest.
+const DRAWN: [&str; 4] = [
+    "impacts",
+    "peak_force",
+    "peak_displacement",
+    "peak_acceleration_absolute",
+];
+
+/// All rows, column by column.
+struct Runs {
+    /// For each variable its numbers; of choices their places.
+    coordinates: Vec<Vec<f64>>,
+    /// Columns of the layout.
+    values: Vec<Vec<f64>>,
+    failed: Vec<(usize, String)>,
+    collapsed: Vec<(usize, String)>,
+}
+
+/// The page of the result of a sweep; `name` is that of its file.
+///
+/// # Errors
+/// A result that cannot be read; [`ReportError::Figure`].
+pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
+    let runs = read(result).map_err(ReportError::Study)?;
+    let d = &result.description;
+    let mut body = section(
+        "Summary",
+        &(sentences(&points(result, &runs)) + &warnings(&d.warnings)),
+    );
+    body.push_str(&section("What varied", &variables(result, &runs)));
+    body.push_str(&section("Peaks over the runs", &statistics(result, &runs)));
+    let drawn = figures_of(result, &runs)?;
+    if !drawn.is_empty() {
+        body.push_str(&section("Over the variables", &drawn));
+    }
+    for (heading, list) in [
+        ("Runs that failed", &runs.failed),
+        ("Collapses", &runs.collapsed),
+    ] {
+        if !list.is_empty() {
+            body.push_str(&section(heading, &listed(list)));
+        }
+    }
+    let rows = [
+        ("build", d.build.clone()),
+        (
+            "part",
+            match d.shard {
+                (_, 1) => String::new(),
+                (index, count) => format!("{index} of {count}"),
+            },
+        ),
+        ("SHA-256 of the study", d.study_sha256.clone()),
+        ("SHA-256 of the records", d.records.clone()),
+    ];
+    let computed = facts("How it was computed", &rows)
+        + &listing("The study file", &d.study)
+        + &listing("The case file", &d.case);
+    body.push_str(&section("How it was computed", &computed));
+    let origin = [
+        name.to_owned(),
+        format!("pounding {}", d.version),
+        "sweep".to_owned(),
+    ];
+    let document = Document {
+        title: &d.title,
+        origin: &origin,
+        body: &body,
+        script: None,
+    };
+    Ok(document.html())
+}
+
+fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
+    let mut runs = Runs {
+        coordinates: vec![Vec::new(); result.description.coordinates.len()],
+        values: vec![Vec::new(); result.description.layout.columns()],
+        failed: Vec::new(),
+        collapsed: Vec::new(),
+    };
+    let mut first = 0;
+    while first < result.rows {
+        let last = (first + BLOCK).min(result.rows);
+        for (row, coordinates) in result.block(first..last)? {
+            for (column, value) in runs.coordinates.iter_mut().zip(coordinates) {
+                column.push(match value {
+                    pounding_study::Value::Number(x) => x,
+                    pounding_study::Value::Choice(place) => place as f64,
+                });
+            }
+            for (column, value) in runs.values.iter_mut().zip(&row.values) {
+                column.push(*value);
+            }
+            let diagnosis = row.ending.diagnosis().unwrap_or_default().to_owned();
+            if row.ending.failed() {
+                runs.failed.push((row.run, diagnosis));
+            } else if row.ending.collapsed() {
+                runs.collapsed.push((row.run, diagnosis));
+            }
+        }
+        first = last;
+    }
+    Ok(runs)
+}
+
+/// A number of things with the place that it comes from.
+fn count(from: &str, number: f64) -> String {
+    let from = escaped(from);
+    format!("<data data-from=\"{from}\" value=\"{number}\">{number}</data>")
+}
+
+fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
+    let layout = &result.description.layout;
+    let mut points = vec![format!(
+        "<strong>{}</strong>: {} failed and {} collapsed.",
+        counted(result.rows, "run"),
+        runs.failed.len(),
+        runs.collapsed.len()
+    )];
+    let impacts = columns(layout, "impacts");
+    if !impacts.is_empty() {
+        let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
+        let closed = (0..result.rows).filter(touches).count();
+        points.push(format!(
+            "In {} a gap closes, with up to {} impacts at a level.",
+            counted(closed, "run"),
+            count("maximum impacts", greatest(runs, &impacts)),
+        ));
+    }
+    for name in &DRAWN[1..] {
+        let Some(quantity) = layout.quantities.iter().find(|q| q.name == *name) else {
+            continue;
+        };
+        let found = columns(layout, name);
+        let most = greatest(runs, &found);
+        if !most.is_finite() {
+            continue;
+        }
+        let place = found.iter().find(|c| runs.values[**c].contains(&most));
+        let at = place.map(|c| of_column(layout, quantity, c - found[0]));
+        let row = place.and_then(|c| runs.values[*c].iter().position(|x| *x == most));
+        let (factor, unit) = unit_of(quantity.unit);
+        let text = figures(factor * most);
+        points.push(format!(
+            "The {} is at most <data data-from=\"maximum {name}\" data-factor=\"{factor:e}\" value=\"{text}\">{text}</data> {}{}{}.",
+            quantity.long_name.replace("maximum ", "peak ").split(',').next().unwrap_or_default(),
+            unit,
+            at.map_or(String::new(), |at| format!(", at {}", escaped(&at))),
+            row.map_or(String::new(), |row| format!(" in row {} of the result", row + 1)),
+        ));
+    }
+    points
+}
+
+/// Columns of a quantity among the values of a row.
+fn columns(layout: &Layout, name: &str) -> Vec<usize> {
+    match layout.quantities.iter().any(|q| q.name == name) {
+        true => layout.range(name).collect(),
+        false => Vec::new(),
+    }
+}
+
+fn greatest(runs: &Runs, columns: &[usize]) -> f64 {
+    let values = columns.iter().flat_map(|c| &runs.values[*c]);
+    values.copied().fold(f64::NAN, f64::max)
+}
+
+/// What a column of a quantity is of.
+fn of_column(layout: &Layout, quantity: &Quantity, index: usize) -> String {
+    let labels = match quantity.axis {
+        Axis::Run => return "the run".to_owned(),
+        Axis::Storey => &layout.storeys,
+        Axis::Level => &layout.levels,
+        Axis::Building => return layout.buildings.get(index).cloned().unwrap_or_default(),
+    };
+    let place = labels.get(index);
+    place.map_or(String::new(), |p| p.label.clone())
+}
+
+fn variables(result: &ResultReader, runs: &Runs) -> String {
+    let all = &result.description.coordinates;
+    let rows = all.iter().zip(&runs.coordinates).map(|(c, values)| {
+        let mut known = values.clone();
+        known.sort_by(f64::total_cmp);
+        known.dedup();
+        let range = match &c.choices {
+            Some(choices) => choices.join(", "),
+            None => {
+                let ends = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
+                format!("{} to {} {}", figures(ends[0]), figures(ends[1]), c.unit)
+            }
+        };
+        Row::new(
+            &c.name,
+            vec![
+                c.name.clone(),
+                c.long_name.clone(),
+                range,
+                format!("{} values", known.len()),
+            ],
+        )
+    });
+    let columns = ["variable", "what it is", "from, to (SI)", "values"].map(Column::new);
+    format!(
+        "<div class=\"words\">\n{}</div>\n",
+        table("Variables", &columns, rows)
+    )
+}
+
+/// Minimum, median and maximum of every quantity at every place.
+fn statistics(result: &ResultReader, runs: &Runs) -> String {
+    let layout = &result.description.layout;
+    let mut out = String::new();
+    for (axis, of) in [
+        (Axis::Level, "level"),
+        (Axis::Storey, "storey"),
+        (Axis::Building, "building"),
+    ] {
+        let of_axis = layout.quantities.iter().filter(|q| q.axis == axis);
+        let mut tables = String::new();
+        for quantity in of_axis.filter(|q| !columns(layout, q.name).is_empty()) {
+            let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
+            let (factor, _) = unit_of(quantity.unit);
+            let from = format!("{}[:,*]", quantity.name);
+            let statistic = |word: &str| {
+                let from = format!("{word} {from}");
+                Column::of(word, from, factor).below(&head)
+            };
+            let columns_shown = [
+                Column::new(of),
+                statistic("minimum"),
+                statistic("median"),
+                statistic("maximum"),
+                Column::count_of("runs", format!("known {from}")).below(&head),
+            ];
+            let rows = columns(layout, quantity.name).into_iter().enumerate();
+            let rows = rows.map(|(i, c)| {
+                let mut cells = vec![of_column(layout, quantity, i)];
+                cells.extend(cells_of(&runs.values[c], quantity));
+                Row::new(i, cells)
+            });
+            tables.push_str(&table(quantity.long_name, &columns_shown, rows));
+        }
+        out.push_str(&format!("<div class=\"tables\">\n{tables}</div>\n"));
+    }
+    let of_run = layout.quantities.iter().filter(|q| q.axis == Axis::Run);
+    let rows = of_run.filter_map(|quantity| {
+        let column = *columns(layout, quantity.name).first()?;
+        let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
+        let mut cells = vec![head];
+        cells.extend(cells_of(&runs.values[column], quantity));
+        Some(Row::new(quantity.name, cells))
+    });
+    let mut columns_shown = vec![Column::new("of the run")];
+    for word in ["minimum", "median", "maximum"] {
+        columns_shown.push(Column::in_unit_of_row(word, format!("{word} *")));
+    }
+    columns_shown.push(Column::count_of("runs", "known *"));
+    out.push_str(&table("Of the run", &columns_shown, rows));
+    out + &note(
+        "Runs: those in which the quantity has a value; a time of first contact, for one, is of runs with contact.",
+    )
+}
+
+/// Minimum, median and maximum of a column, and how many runs have a value.
+fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
+    let (factor, _) = unit_of(quantity.unit);
+    let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    let [least, most] = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
+    let shown = |x: f64| match quantity.name {
+        "impacts" if x.fract() == 0.0 => x.to_string(),
+        _ => figures(factor * x),
+    };
+    [
+        shown(least),
+        shown(median(&known)),
+        shown(most),
+        known.len().to_string(),
+    ]
+}
+
+/// The value in the middle of sorted ones.
+fn median(sorted: &[f64]) -> f64 {
+    match sorted.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => sorted[n / 2],
+        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
+    }
+}
+
+/// Fractiles of the greatest value of a run over each variable.
+fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError> {
+    let d = &result.description;
+    let mut out = String::new();
+    for (c, coordinate) in d.coordinates.iter().enumerate() {
+        if coordinate.choices.is_some() {
+            continue;
+        }
+        let groups = groups(&runs.coordinates[c]);
+        if groups.len() < 2 {
+            continue;
+        }
+        let (scale, _) = unit_of(&coordinate.unit);
+        let mut panels = Vec::new();
+        for name in DRAWN {
+            let found = columns(&d.layout, name);
+            let Some(quantity) = d.layout.quantities.iter().find(|q| q.name == name) else {
+                continue;
+            };
+            let (factor, _) = unit_of(quantity.unit);
+            let of_row = |row: &usize| {
+                let values = found.iter().map(|c| runs.values[*c][*row]);
+                factor * values.fold(f64::NAN, f64::max)
+            };
+            let curve = |name: &str, part: f64| Curve {
+                name: name.to_owned(),
+                points: groups
+                    .iter()
+                    .filter_map(|(x, rows)| {
+                        let mut known: Vec<f64> =
+                            rows.iter().map(of_row).filter(|y| y.is_finite()).collect();
+                        known.sort_by(f64::total_cmp);
+                        let place = (part * known.len().saturating_sub(1) as f64).round() as usize;
+                        known.get(place).map(|y| (scale * x, *y))
+                    })
+                    .collect(),
+            };
+            panels.push(Panel {
+                caption: format!(
+                    "{}, greatest of a run{}",
+                    quantity.long_name.split(',').next().unwrap_or_default(),
+                    in_parentheses(quantity.unit)
+                ),
+                horizontal: coordinate.long_name.clone() + &in_parentheses(&coordinate.unit),
+                curves: vec![
+                    curve("median", 0.5),
+                    curve("16 %", 0.16),
+                    curve("84 %", 0.84),
+                ],
+            });
+        }
+        if panels
+            .iter()
+            .all(|p| p.curves.iter().all(|c| c.points.is_empty()))
+        {
+            continue;
+        }
+        let words = format!("Peaks of the runs over {}", coordinate.long_name);
+        out.push_str(&figure(&figure_of_size(&panels, SIZE)?, &words));
+    }
+    Ok(out)
+}
+
+/// Rows with the same value of a variable, or in the same part of its range: their mean and
+/// places.
+fn groups(values: &[f64]) -> Vec<(f64, Vec<usize>)> {
+    let mut order: Vec<usize> = (0..values.len())
+        .filter(|i| values[*i].is_finite())
+        .collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let same = order.chunk_by(|a, b| values[*a] == values[*b]);
+    let same: Vec<&[usize]> = same.collect();
+    let parts: Vec<Vec<usize>> = match same.len() <= 2 * PARTS {
+        true => same.into_iter().map(<[usize]>::to_vec).collect(),
+        false => {
+            let size = order.len().div_ceil(PARTS);
+            order.chunks(size).map(<[usize]>::to_vec).collect()
+        }
+    };
+    let mean = |rows: &[usize]| rows.iter().map(|r| values[*r]).sum::<f64>() / rows.len() as f64;
+    parts.into_iter().map(|rows| (mean(&rows), rows)).collect()
+}
+
+fn listed(list: &[(usize, String)]) -> String {
+    let columns = ["run", "why"].map(Column::new);
+    let rows = list
+        .iter()
+        .take(LISTED)
+        .map(|(run, why)| Row::new(run, vec![format!("run {run}"), why.clone()]));
+    let html = format!(
+        "<div class=\"words\">\n{}</div>\n",
+        table("Runs", &columns, rows)
+    );
+    match list.len().checked_sub(LISTED) {
+        Some(more @ 1..) => {
+            html + &note(&format!("{more} more in the group failures of the result."))
+        }
+        _ => html,
+    }
+}

@@ -3,7 +3,7 @@
 
 use pounding_gap_element::{Direction, Guard};
 
-use super::functions::{Function, Group, Place, Row};
+use super::functions::{Begin, Function, Group, Place, Row};
 use super::series_events::Scan;
 use super::{Driver, Mute};
 use crate::dynamics::{Layout, Segment};
@@ -27,8 +27,9 @@ pub(super) struct ExactSteps {
     /// All that has peaks, and those of buildings together.
     functions: Vec<Function>,
     groups: Vec<Group>,
-    /// Whether the groups have other peaks than the run.
-    pub stale: bool,
+    /// Whether the groups have other peaks than the run, and where the next step begins.
+    stale: bool,
+    begin: Begin,
     /// Numbers of the functions that may have a peak in the present step.
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
@@ -61,6 +62,7 @@ impl ExactSteps {
             functions,
             groups,
             stale: true,
+            begin: Begin::Unknown,
             levels: system
                 .levels()
                 .iter()
@@ -71,6 +73,12 @@ impl ExactSteps {
             recording: 0,
             propagation,
         })
+    }
+
+    /// Takes note of a step of the method, or of a jump of the ground's acceleration.
+    pub(super) fn interrupt(&mut self) {
+        self.stale = true;
+        self.begin = Begin::Unknown;
     }
 }
 
@@ -100,8 +108,10 @@ impl Driver<'_> {
                 && segment.start + segment.length >= duration * (1.0 - 1e-12);
             self.show(&mut exact, segment, (tau, next), last, recorders)?;
             self.take(&exact, segment, next);
+            exact.begin = Begin::AtEnd;
             if matches!(led, Advance::ToEvent(..)) {
                 exact.method_until = 0.0;
+                exact.begin = Begin::Unknown;
             }
         }
         self.exact = Some(exact);
@@ -261,6 +271,7 @@ impl Driver<'_> {
             functions,
             groups,
             stale,
+            begin,
             doubtful,
             levels,
             ..
@@ -271,9 +282,9 @@ impl Driver<'_> {
             if *stale {
                 group.refresh(functions, &self.peaks);
             }
-            grouped = group.doubt(&propagation.ends, doubtful);
+            grouped = group.doubt(&propagation.ends, *begin, doubtful);
         }
-        *stale = false;
+        (*stale, *begin) = (false, Begin::AtStart);
         let (levels, ends) = (levels.as_slice(), &propagation.ends);
         let now = Place {
             segment,

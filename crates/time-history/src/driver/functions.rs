@@ -248,6 +248,17 @@ impl Values {
     }
 }
 
+/// Where a step begins, as to the last one that was looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Begin {
+    /// At its start.
+    AtStart,
+    /// At its end.
+    AtEnd,
+    /// Somewhere else, or after a jump.
+    Unknown,
+}
+
 /// Functions of one building that are sums of displacements, or of absolute accelerations: one
 /// product tells the values of all.
 #[derive(Debug)]
@@ -302,7 +313,7 @@ impl Group {
 
     /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
     /// last function of the group.
-    pub(super) fn doubt(&mut self, ends: &Ends, doubtful: &mut Vec<usize>) -> usize {
+    pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
         let bounds = &ends.bounds[self.building];
         let (motion, bound) = match self.of_acceleration {
             true => (
@@ -311,8 +322,20 @@ impl Group {
             ),
             false => ([&ends.start, &ends.end].map(|x| [&x[0], &x[1]]), bounds[4]),
         };
-        let motion = motion.as_flattened();
-        for (values, motion) in self.values.iter_mut().zip(motion) {
+        if begin == Begin::AtEnd {
+            self.values.swap(0, 2);
+            self.values.swap(1, 3);
+        }
+        // The rate of the ground's acceleration jumps from interval to interval.
+        let known = match begin {
+            Begin::Unknown => [false; 2],
+            Begin::AtEnd => [true, !self.of_acceleration],
+            Begin::AtStart => [true; 2],
+        };
+        let known = known.into_iter().chain([false; 2]);
+        let motion = motion.as_flattened().iter().zip(known);
+        let wanted = self.values.iter_mut().zip(motion);
+        for (values, (motion, _)) in wanted.filter(|(_, (_, known))| !known) {
             for (x, i) in self.motion.iter_mut().zip(&self.dofs) {
                 *x = motion[*i];
             }

@@ -282,6 +282,9 @@ impl<'a> Driver<'a> {
         if !(self.last_ground).is_some_and(|last| self.system.same_ground(ground, last)) {
             // A jump of the ground acceleration, as at the end of a record.
             self.method.restart(true);
+            if let Some(exact) = &mut self.exact {
+                exact.interrupt();
+            }
         }
         self.last_ground = Some(segment.ground(segment.length));
         let mut tau = from;
@@ -462,7 +465,7 @@ impl<'a> Driver<'a> {
             recorder.step(&mut StepView::of_method(step, last))?;
         }
         if let Some(exact) = &mut self.exact {
-            exact.stale = true;
+            exact.interrupt();
         }
         self.method.accept(cut);
         std::mem::swap(&mut self.state, &mut self.new_state);

@@ -232,8 +232,9 @@ fn lengths(system: &System) -> Vec<f64> {
     found.into_iter().take(LENGTHS).map(|(l, _)| l).collect()
 }
 
-/// Rows that are summed side by side; outputs of a multiple of the lesser one need no others.
+/// Rows that are summed side by side; outputs of a multiple of the least one need no others.
 const WIDE: usize = 16;
+const MIDDLE: usize = 8;
 const NARROW: usize = 4;
 
 /// Rows with what fills them up to a multiple of the narrow block.
@@ -273,7 +274,11 @@ fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
         block::<WIDE>(matrix, (rows, first), x, out);
         first += WIDE;
     }
-    while first + NARROW <= out.len() {
+    if first + MIDDLE <= out.len() {
+        block::<MIDDLE>(matrix, (rows, first), x, out);
+        first += MIDDLE;
+    }
+    if first + NARROW <= out.len() {
         block::<NARROW>(matrix, (rows, first), x, out);
         first += NARROW;
     }

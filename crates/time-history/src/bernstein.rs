@@ -2,7 +2,7 @@
 //! degree 7: by the Bernstein hull of the series itself, halved until it decides.
 
 /// Coefficients at most.
-const MOST: usize = 32;
+const MOST: usize = 48;
 
 /// Intervals shorter than this part of a step are not halved again.
 const SHORTEST: f64 = 1.0e-13;
@@ -14,6 +14,63 @@ pub(crate) fn first_rise_of_series(terms: &[f64]) -> Option<f64> {
     let mut hull = [0.0; MOST];
     bernstein(terms, &mut hull);
     search(&hull, terms.len(), (0.0, 1.0))
+}
+
+/// What a search for the first rise of a series came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Rise {
+    /// The series stays negative.
+    Never,
+    /// It changes its sign once between these, for the first time.
+    Within(f64, f64),
+    /// It touches zero, or comes so close that halving does not tell.
+    Unclear,
+}
+
+/// First rise of a series that starts negative, isolated.
+pub(crate) fn isolated_rise_of_series(terms: &[f64]) -> Rise {
+    if terms.len() > MOST {
+        return Rise::Unclear;
+    }
+    let mut hull = [0.0; MOST];
+    bernstein(terms, &mut hull);
+    isolate(&hull, terms.len(), (0.0, 1.0))
+}
+
+/// Intervals shorter than this part of a step are not halved to isolate a rise.
+const SHORTEST_ISOLATED: f64 = 1.0e-4;
+
+fn isolate(hull: &Hull, count: usize, (left, right): (f64, f64)) -> Rise {
+    let inner = &hull[..count];
+    if inner.iter().all(|c| *c < 0.0) {
+        return Rise::Never;
+    }
+    let signs = inner.windows(2).filter(|c| (c[0] < 0.0) != (c[1] < 0.0));
+    if inner[0] < 0.0 && inner[count - 1] > 0.0 && signs.count() == 1 {
+        return Rise::Within(left, right);
+    }
+    // What is not a number ends here too.
+    if right - left < SHORTEST_ISOLATED || !inner[0].is_finite() {
+        return Rise::Unclear;
+    }
+    let middle = 0.5 * (left + right);
+    let (first, second) = halved(hull, count);
+    match isolate(&first, count, (left, middle)) {
+        Rise::Never => isolate(&second, count, (middle, right)),
+        found => found,
+    }
+}
+
+/// Coefficients of both halves.
+fn halved(hull: &Hull, count: usize) -> (Hull, Hull) {
+    let (mut first, mut second) = ([0.0; MOST], *hull);
+    for (level, out) in first.iter_mut().enumerate().take(count) {
+        *out = second[0];
+        for i in 0..count - 1 - level {
+            second[i] = 0.5 * (second[i] + second[i + 1]);
+        }
+    }
+    (first, second)
 }
 
 /// Bernstein coefficients on the unit interval from those of the powers.
@@ -44,13 +101,7 @@ fn search(hull: &Hull, count: usize, (left, right): (f64, f64)) -> Option<f64> {
     if right - left < SHORTEST {
         return (inner[count - 1] > 0.0).then_some(middle);
     }
-    let (mut first, mut second) = ([0.0; MOST], *hull);
-    for (level, out) in first.iter_mut().enumerate().take(count) {
-        *out = second[0];
-        for i in 0..count - 1 - level {
-            second[i] = 0.5 * (second[i] + second[i + 1]);
-        }
-    }
+    let (first, second) = halved(hull, count);
     if first[0] <= 0.0
         && let Some(found) = search(&first, count, (left, middle))
     {
@@ -83,5 +134,21 @@ mod tests {
         let touch = first_rise_of_series(&graze(1e-12));
         assert!(touch.is_some_and(|theta| (theta - (0.4 - 1e-6)).abs() < 1e-9));
         assert_eq!(first_rise_of_series(&graze(-1e-12)), None);
+    }
+
+    #[test]
+    fn a_rise_is_isolated_and_a_graze_is_not_decided() {
+        // Rises at 0.28 and falls at 0.52.
+        let Rise::Within(left, right) = isolated_rise_of_series(&graze(0.0144)) else {
+            panic!("no rise");
+        };
+        assert!(
+            left < 0.28 && right > 0.28 && right < 0.52,
+            "{left} {right}"
+        );
+        assert_eq!(isolated_rise_of_series(&graze(1e-12)), Rise::Unclear);
+        assert_eq!(isolated_rise_of_series(&graze(-0.01)), Rise::Never);
+        assert_eq!(isolated_rise_of_series(&[0.0; MOST + 1]), Rise::Unclear);
+        assert_eq!(isolated_rise_of_series(&[f64::NAN, 1.0]), Rise::Unclear);
     }
 }

@@ -6,6 +6,7 @@ mod abutment;
 mod base_moments;
 mod columns;
 mod condensed_stiffness;
+mod coupled;
 mod forces;
 mod general;
 mod isolation;

@@ -9,6 +9,7 @@ use super::block::{self, BLOCK};
 use super::closer_look::CloserLook;
 use super::constants::ContactFree;
 use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
+use super::sample_bound::SampleBound;
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
 
@@ -47,6 +48,7 @@ pub(super) struct Candidates {
     /// States in use: the first ones.
     used: usize,
     scratch: Modal,
+    bound: SampleBound,
     look: CloserLook,
 }
 
@@ -68,6 +70,7 @@ impl Candidates {
             states: vec![Lane::ZERO; SNAPSHOTS * 2 * lanes],
             used: 0,
             scratch: Modal::new(lanes),
+            bound: SampleBound::new(lanes),
             look: CloserLook::new(lanes),
         }
     }
@@ -145,7 +148,7 @@ impl Candidates {
     ) {
         let mut list = std::mem::take(&mut self.list);
         list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
-        for group in list.chunk_by(|a, b| a.sample == b.sample) {
+        for group in list.chunk_by_mut(|a, b| a.sample == b.sample) {
             if group.iter().any(|c| is_above(c, tracks)) {
                 self.look_at((constants, system), group, tracks);
             }
@@ -159,7 +162,7 @@ impl Candidates {
     fn look_at(
         &mut self,
         (constants, system): (&ContactFree, &System),
-        group: &[Candidate],
+        group: &mut [Candidate],
         tracks: &mut AllTracks<'_>,
     ) {
         let first = group[0];
@@ -170,10 +173,26 @@ impl Candidates {
         self.scratch.displacement.copy_from_slice(&state[..lanes]);
         self.scratch.velocity.copy_from_slice(&state[lanes..]);
         block::advance(constants, before, &mut self.scratch);
+        let (start, end) = (samples[sample], samples[sample + 1]);
+        let whole = Ground {
+            start,
+            end,
+            slope: (end - start) / constants.step,
+        };
+        self.bound.take(constants, &self.scratch, whole);
+        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+            let (quantity, floor) = (candidate.quantity, candidate.floor);
+            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+            if self.bound.is_below(constants, (quantity, floor), peak) {
+                candidate.upper = f64::NEG_INFINITY;
+            }
+        }
+        if !group.iter().any(|c| is_above(c, tracks)) {
+            return;
+        }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));
         self.look.begin(&self.scratch, functions);
-        let (start, end) = (samples[sample], samples[sample + 1]);
         let fine = &constants.fine;
         for part in 0..fine.parts {
             let at = |k: usize| start + (end - start) * (k as f64 / fine.parts as f64);
@@ -184,7 +203,7 @@ impl Candidates {
             };
             self.look.advance(constants, fine, ground);
             let from = sample as f64 * constants.step + part as f64 * fine.step;
-            for candidate in group {
+            for candidate in group.iter() {
                 if !is_above(candidate, tracks) {
                     continue;
                 }

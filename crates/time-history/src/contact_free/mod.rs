@@ -16,6 +16,7 @@ mod constants;
 mod lanes;
 mod mode_step;
 mod phase;
+mod sample_bound;
 mod transform;
 
 pub(crate) use block::step_over;

@@ -1,7 +1,7 @@
 //! Leaving contact-free motion to the exact step of the modes.
 
 use super::contact_episode::Open;
-use super::whole_intervals::WholeIntervals;
+use super::exact_steps::ExactSteps;
 use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
 use crate::dense_output::Observers;
@@ -25,7 +25,7 @@ impl Driver<'_> {
             self.open = Open::new(self.system, &self.options.method);
         }
         if self.method.flies() && self.system.contact_free().is_none() {
-            self.whole = WholeIntervals::new(self.system);
+            self.exact = ExactSteps::new(self.system);
         }
         self
     }

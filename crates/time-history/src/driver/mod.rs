@@ -4,11 +4,13 @@ mod contact_episode;
 mod contact_free;
 mod episode_steps;
 mod event_handling;
+mod exact_steps;
+mod functions;
 mod result;
 mod rigid_impacts;
+mod series_events;
 mod stepped_impacts;
 mod watch;
-mod whole_intervals;
 
 use pounding_hysteresis::History;
 use pounding_shear_building::ShearBuilding;
@@ -29,8 +31,8 @@ use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
 use crate::relative_displacement::RelativeDisplacement;
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
+use exact_steps::{Advance, ExactSteps};
 use rigid_impacts::RigidImpacts;
-use whole_intervals::WholeIntervals;
 
 /// Events closer together than this (s) are one event.
 const SIMULTANEOUS: f64 = 1.0e-12;
@@ -194,8 +196,8 @@ struct Driver<'a> {
     series_terms: u64,
     /// Space for the history of an element on trial.
     spare: Option<History>,
-    /// Exact steps over whole intervals, where modes are coupled.
-    whole: Option<WholeIntervals>,
+    /// Exact steps of the coordinates, where there are no modes to do them.
+    exact: Option<ExactSteps>,
 }
 
 impl<'a> Driver<'a> {
@@ -238,7 +240,7 @@ impl<'a> Driver<'a> {
             open: None,
             series_terms: 0,
             spare: None,
-            whole: None,
+            exact: None,
             dynamics,
         }
         .ready_for_contact_free()
@@ -280,19 +282,36 @@ impl<'a> Driver<'a> {
         if !(self.last_ground).is_some_and(|last| self.system.same_ground(ground, last)) {
             // A jump of the ground acceleration, as at the end of a record.
             self.method.restart(true);
+            if let Some(exact) = &mut self.exact {
+                exact.interrupt();
+            }
         }
         self.last_ground = Some(segment.ground(segment.length));
-        if from == 0.0 && self.whole_interval(segment, duration, recorders)? {
-            return Ok(());
-        }
         let mut tau = from;
         while tau < segment.length {
+            let until = match self.exact_step(segment, tau, duration, recorders)? {
+                Advance::To(next) => {
+                    tau = next;
+                    self.hand_out_impacts(recorders)?;
+                    continue;
+                }
+                Advance::ToEvent(next, (event, whole)) => {
+                    tau = next;
+                    self.process(segment, tau, event, whole)?;
+                    self.hand_out_impacts(recorders)?;
+                    continue;
+                }
+                Advance::LeftToMethod(until) => until,
+            };
             let context = Context {
                 dynamics: &mut self.dynamics,
                 contacts: &self.contacts,
                 segment,
             };
             let mut step = self.method.propose(&context, tau, &self.state);
+            if until < segment.length {
+                step = step.min(until - tau);
+            }
             for (mute, quiet) in self.mute.iter().zip(&self.quiet) {
                 if *mute != Mute::No {
                     step = step.min(*quiet);
@@ -444,6 +463,9 @@ impl<'a> Driver<'a> {
                 step,
             };
             recorder.step(&mut StepView::of_method(step, last))?;
+        }
+        if let Some(exact) = &mut self.exact {
+            exact.interrupt();
         }
         self.method.accept(cut);
         std::mem::swap(&mut self.state, &mut self.new_state);

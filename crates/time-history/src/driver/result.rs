@@ -58,7 +58,7 @@ impl Driver<'_> {
             });
         }
         let counts = self.method.counts();
-        let recording = self.whole.as_ref().map_or(0, |whole| whole.recording);
+        let recording = self.exact.as_ref().map_or(0, |exact| exact.recording);
         self.statistics.evaluations = counts.evaluations - recording + self.evaluations_in_modes();
         self.statistics.newton_iterations = counts.newton_iterations;
         let mut named = self.peaks.named.iter();

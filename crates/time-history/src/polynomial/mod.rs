@@ -7,8 +7,10 @@
 //! interval is halved until they decide. Source: G. Farin, Curves and Surfaces
 //! for CAGD, 5th edition, 2002, chapters 4 and 5 (hull property, de Casteljau).
 
+mod remainder;
 mod through;
 
+pub(crate) use remainder::hermite_range;
 pub(crate) use through::{fit, fit_nodes, hermite, septic};
 
 /// Number of power-basis coefficients (degree 7).

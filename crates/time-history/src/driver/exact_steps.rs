@@ -1,0 +1,400 @@
+//! Exact steps for buildings that are no sums of oscillators: over intervals between samples
+//! and parts of them without contact, and over series with contacts.
+
+use pounding_gap_element::{Direction, Guard};
+
+use super::functions::{Begin, Function, Group, Place, Row};
+use super::series_events::Scan;
+use super::{Driver, Mute};
+use crate::dynamics::{Layout, Segment};
+use crate::error::TimeHistoryError;
+use crate::events::Candidate;
+use crate::methods::Context;
+use crate::propagation::{ContactSeries, HALVINGS, Propagation};
+use crate::recorder::{MethodStep, Recorder, StepView};
+use crate::system::System;
+
+/// How often a series is halved before the step is left to the method.
+const SHORTENINGS: usize = 3;
+/// Part of a length that is round-off.
+const ROUND_OFF: f64 = 1.0e-9;
+
+/// Steps with what is looked at in each.
+#[derive(Debug)]
+pub(super) struct ExactSteps {
+    pub propagation: Propagation,
+    pub series: ContactSeries,
+    /// All that has peaks, and those of buildings together.
+    functions: Vec<Function>,
+    groups: Vec<Group>,
+    /// Whether the groups have other peaks than the run, and where the next step begins.
+    stale: bool,
+    begin: Begin,
+    /// Numbers of the functions that may have a peak in the present step.
+    doubtful: Vec<usize>,
+    /// Closings of the contact levels.
+    pub levels: Vec<Row>,
+    /// Time (s) in the interval until which steps are left to the method.
+    method_until: f64,
+    /// Space for the state while recorders are served.
+    saved: Vec<f64>,
+    /// Work counts of the method for steps that serve recorders alone.
+    pub recording: u64,
+}
+
+/// What became of an exact step.
+pub(super) enum Advance {
+    /// It led to this time (s) in the interval.
+    To(f64),
+    /// It led to this event, which a longer step (s) would have passed.
+    ToEvent(f64, (Candidate, f64)),
+    /// The method steps, no farther than to this time (s).
+    LeftToMethod(f64),
+}
+
+impl ExactSteps {
+    pub(super) fn new(system: &System) -> Option<Self> {
+        let propagation = system.propagation()?.for_system(system);
+        let (functions, groups) = Function::all(system);
+        Some(Self {
+            series: propagation.contact_series(system),
+            doubtful: Vec::with_capacity(functions.len()),
+            functions,
+            groups,
+            stale: true,
+            begin: Begin::Unknown,
+            levels: system
+                .levels()
+                .iter()
+                .map(|l| Row::of_level(system, l))
+                .collect(),
+            method_until: 0.0,
+            saved: Vec::with_capacity(Layout::of(system).dimension()),
+            recording: 0,
+            propagation,
+        })
+    }
+
+    /// Takes note of a step of the method, or of a jump of the ground's acceleration.
+    pub(super) fn interrupt(&mut self) {
+        self.stale = true;
+        self.begin = Begin::Unknown;
+    }
+}
+
+impl Driver<'_> {
+    /// Leads the run from `tau` (s) in an interval as far as it is sure that there is no event
+    /// and that no peak is missed.
+    pub(super) fn exact_step(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+        duration: f64,
+        recorders: &mut [&mut dyn Recorder],
+    ) -> Result<Advance, TimeHistoryError> {
+        let left = Ok(Advance::LeftToMethod(segment.length));
+        if self.mute.iter().any(|mute| *mute != Mute::No) {
+            return left;
+        }
+        let Some(mut exact) = self.exact.take() else {
+            return left;
+        };
+        if tau == 0.0 {
+            exact.method_until = 0.0;
+        }
+        let led = self.lead(&mut exact, segment, tau);
+        if let Advance::To(next) | Advance::ToEvent(next, _) = led {
+            let last = next >= segment.length
+                && segment.start + segment.length >= duration * (1.0 - 1e-12);
+            self.show(&mut exact, segment, (tau, next), last, recorders)?;
+            self.take(&exact, segment, next);
+            exact.begin = Begin::AtEnd;
+            if matches!(led, Advance::ToEvent(..)) {
+                exact.method_until = 0.0;
+                exact.begin = Begin::Unknown;
+            }
+        }
+        self.exact = Some(exact);
+        if let Advance::To(next) | Advance::ToEvent(next, _) = led {
+            self.balance(segment.start + next)?;
+        }
+        Ok(led)
+    }
+
+    fn lead(&mut self, exact: &mut ExactSteps, segment: &Segment, tau: f64) -> Advance {
+        if tau < exact.method_until {
+            return Advance::LeftToMethod(exact.method_until);
+        }
+        let closed = !self.contacts.closed().is_empty();
+        match exact.propagation.known_length(segment.length) {
+            Some(which) if !closed => self.lead_by_matrices(exact, segment, tau, which),
+            _ => self.lead_by_series(exact, segment, tau),
+        }
+    }
+
+    /// Over the interval, or the largest half, quarter and so on of it that begins here.
+    fn lead_by_matrices(
+        &mut self,
+        exact: &mut ExactSteps,
+        segment: &Segment,
+        tau: f64,
+        which: usize,
+    ) -> Advance {
+        let (system, rest) = (self.system, segment.length - tau);
+        let unit = segment.length / f64::from(1_u32 << HALVINGS);
+        let place = (tau / unit).round();
+        let aligned = (tau - place * unit).abs() <= ROUND_OFF * unit;
+        exact.series.contacts.clear();
+        let (mut tried, mut by_series) = (false, false);
+        for halvings in 0..=HALVINGS {
+            let length = segment.length / f64::from(1_u32 << halvings);
+            let begins = !aligned || place as u32 % (1 << (HALVINGS - halvings)) == 0;
+            if length > rest + ROUND_OFF * unit || !begins {
+                continue;
+            }
+            tried = true;
+            let part = (which, halvings);
+            exact
+                .propagation
+                .advance((system, segment), tau, part, &self.state);
+            if !self.holds_no_event(exact) {
+                // A gap may close: the series tells when.
+                if !by_series {
+                    let led = self.lead_by_series(exact, segment, tau);
+                    if !matches!(led, Advance::LeftToMethod(_)) {
+                        return led;
+                    }
+                    by_series = true;
+                }
+                continue;
+            }
+            if self.takes_peaks(exact, segment, tau) {
+                let next = tau + length;
+                let at_end = next >= segment.length - ROUND_OFF * unit;
+                return Advance::To(if at_end { segment.length } else { next });
+            }
+        }
+        let end = tau + unit;
+        let inside = tried && end < segment.length - ROUND_OFF * unit;
+        exact.method_until = if inside { end } else { segment.length };
+        Advance::LeftToMethod(exact.method_until)
+    }
+
+    /// Over a series of the buildings with the closed contacts.
+    fn lead_by_series(&mut self, exact: &mut ExactSteps, segment: &Segment, tau: f64) -> Advance {
+        let (system, rest) = (self.system, segment.length - tau);
+        let left = Advance::LeftToMethod(segment.length);
+        if !exact.series.take_laws(system, &self.contacts) {
+            return left;
+        }
+        let parts = (rest / exact.series.longest(system)).ceil().max(1.0);
+        let (place, from) = ((segment, tau), (self.state.as_slice(), rest / parts));
+        let (propagation, series) = (&mut exact.propagation, &mut exact.series);
+        if !propagation.expand(series, system, place, from) {
+            return left;
+        }
+        let whole = rest / parts;
+        exact.propagation.lead(&mut exact.series, system, place);
+        let scan = self.scan(exact);
+        let clear = !matches!(scan, Scan::Unclear);
+        if let Scan::First(event) = scan {
+            exact.series.cut(event.theta);
+        }
+        for shortenings in 0..=SHORTENINGS {
+            if shortenings > 0 {
+                exact.series.cut(0.5);
+            }
+            if shortenings > 0 || matches!(scan, Scan::First(_)) {
+                exact.propagation.lead(&mut exact.series, system, place);
+            }
+            let passes = clear || self.holds_no_event(exact);
+            if passes && self.takes_peaks(exact, segment, tau) {
+                let (propagation, series) = (&mut exact.propagation, &mut exact.series);
+                propagation.works(series, system, place);
+                let next = tau + series.length();
+                return match (shortenings, scan) {
+                    (0, Scan::First(event)) => Advance::ToEvent(next, (event, whole)),
+                    (0, _) if parts == 1.0 => Advance::To(segment.length),
+                    _ => Advance::To(next),
+                };
+            }
+        }
+        left
+    }
+
+    /// Whether the bounds exclude every event in the step.
+    fn holds_no_event(&self, exact: &ExactSteps) -> bool {
+        let (ends, closed) = (&exact.propagation.ends, &exact.series.contacts);
+        let mut closed = closed.iter().peekable();
+        for (l, row) in exact.levels.iter().enumerate() {
+            let (least, most) = row.range(ends, 0);
+            let Some(law) = closed.next_if(|c| c.level == l) else {
+                // What is not a number is no proof.
+                if !(most < self.contacts.width(l)) {
+                    return false;
+                }
+                continue;
+            };
+            let (level, Some(contact)) = (&self.system.levels()[l], self.contacts.contact(l))
+            else {
+                return false;
+            };
+            if !(least > self.contacts.width(l)) {
+                return false;
+            }
+            for transition in level.model.transitions(contact.phase) {
+                let (least, most) = match transition.guard {
+                    Guard::Velocity => row.range(ends, 1),
+                    Guard::RawForce if law.is_raw_force_of(contact, level, &self.contacts) => {
+                        row.range_of_force(law, ends)
+                    }
+                    _ => return false,
+                };
+                let passes = match transition.direction {
+                    Direction::Rising => !(most < 0.0),
+                    Direction::Falling => !(least > 0.0),
+                };
+                if passes {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Takes the peaks of a step without events; false if there may be one that would have to
+    /// be looked for in shorter steps.
+    fn takes_peaks(&mut self, exact: &mut ExactSteps, segment: &Segment, tau: f64) -> bool {
+        let ExactSteps {
+            propagation,
+            series,
+            functions,
+            groups,
+            stale,
+            begin,
+            doubtful,
+            levels,
+            ..
+        } = exact;
+        doubtful.clear();
+        let mut grouped = 0;
+        for group in groups {
+            if *stale {
+                group.refresh(functions, &self.peaks);
+            }
+            grouped = group.doubt(&propagation.ends, *begin, doubtful);
+        }
+        (*stale, *begin) = (false, Begin::AtStart);
+        let (levels, ends) = (levels.as_slice(), &propagation.ends);
+        let now = Place {
+            segment,
+            tau,
+            contacts: &series.contacts,
+            levels,
+        };
+        for (number, function) in functions.iter().enumerate().skip(grouped) {
+            if !function.stays_below(&now, ends, &self.peaks) {
+                doubtful.push(number);
+            }
+        }
+        if doubtful.is_empty() && series.contacts.is_empty() {
+            return true;
+        }
+        *stale = true;
+        propagation.deepen(series);
+        let ends = &propagation.ends;
+        let now = Place {
+            segment,
+            tau,
+            contacts: &series.contacts,
+            levels,
+        };
+        for number in doubtful {
+            if !functions[*number].takes_peak(&now, ends, &mut self.peaks) {
+                return false;
+            }
+        }
+        let peaks = &mut self.peaks;
+        series.contacts.iter().all(|law| {
+            let (row, width) = (&levels[law.level], self.contacts.width(law.level));
+            let penetration = &mut peaks.penetration[law.level];
+            row.takes_penetration(&now, ends, width, penetration)
+                && row.takes_force(&now, (law, ends), &mut peaks.force[law.level])
+        })
+    }
+
+    /// Serves recorders from steps of the method, of which nothing else remains.
+    fn show(
+        &mut self,
+        exact: &mut ExactSteps,
+        segment: &Segment,
+        (from, to): (f64, f64),
+        last: bool,
+        recorders: &mut [&mut dyn Recorder],
+    ) -> Result<(), TimeHistoryError> {
+        let end = segment.start + to;
+        if !recorders.iter().any(|r| r.next_time() <= end) {
+            return Ok(());
+        }
+        exact.saved.clone_from(&self.state);
+        let before = (self.method.counts(), self.statistics);
+        self.method.restart(true);
+        let mut tau = from;
+        while tau < to {
+            let context = Context {
+                dynamics: &mut self.dynamics,
+                contacts: &self.contacts,
+                segment,
+            };
+            let proposed = self.method.propose(&context, tau, &self.state);
+            let rest = to - tau;
+            let step = self.trial(segment, tau, proposed.min(rest))?;
+            let at_end = step >= rest * (1.0 - 1.0e-12);
+            let mut context = Context {
+                dynamics: &mut self.dynamics,
+                contacts: &self.contacts,
+                segment,
+            };
+            let until = segment.start + tau + step;
+            for recorder in recorders.iter_mut().filter(|r| r.next_time() <= until) {
+                let step = MethodStep {
+                    context: &mut context,
+                    method: self.method.as_ref(),
+                    state: &mut self.interpolated,
+                    tau,
+                    step,
+                };
+                recorder.step(&mut StepView::of_method(step, last && at_end))?;
+            }
+            self.method.accept(false);
+            std::mem::swap(&mut self.state, &mut self.new_state);
+            tau = if at_end { to } else { tau + step };
+        }
+        let (counts, statistics) = before;
+        self.statistics = statistics;
+        self.state.copy_from_slice(&exact.saved);
+        exact.recording += self.method.counts().evaluations - counts.evaluations;
+        Ok(())
+    }
+
+    /// Takes the end of the step.
+    fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
+        let ends = &exact.propagation.ends;
+        let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
+        self.state[..n].copy_from_slice(&ends.end[0]);
+        self.state[n..2 * n].copy_from_slice(&ends.end[1]);
+        self.state[layout.input()] += ends.input;
+        self.state[layout.viscous()] += ends.viscous;
+        for contact in &exact.series.contacts {
+            self.state[layout.work(contact.level)] += contact.work;
+            self.state[layout.impulse(contact.level)] += contact.impulse;
+        }
+        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
+        self.contacts.commit(self.system, u, v);
+        self.method.restart(true);
+        self.statistics.steps += 1;
+        self.at_once.fill(0);
+        self.stalled = 0;
+        self.last_ground = Some(segment.ground(next));
+    }
+}

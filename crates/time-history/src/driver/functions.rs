@@ -1,0 +1,543 @@
+//! What has peaks, over an exact step: bounds, and the peaks where the bounds tell where they
+//! are.
+
+use multiversion::multiversion;
+use std::ops::Range;
+
+use crate::contact::{Contact, Contacts};
+use crate::dynamics::Segment;
+use crate::outcome::Peak;
+use crate::peaks::Peaks;
+use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
+use crate::propagation::{AffineContact, Ends, multiply, pad, padded};
+use crate::system::{ContactLevel, SectionPlace, System};
+
+/// Part of a value that the polynomial of degree 7 may err by where a peak is read off it.
+const ALLOWED: f64 = 1.0e-10;
+
+/// A row over the degrees of freedom.
+#[derive(Debug)]
+pub(super) struct Row {
+    terms: Vec<(usize, f64)>,
+    /// `sqrt(w' M^-1 w)` of each building: what multiplies its bounds.
+    mobility: Vec<(usize, f64)>,
+}
+
+/// Where a step is.
+pub(super) struct Place<'a> {
+    pub segment: &'a Segment,
+    pub tau: f64,
+    /// Closed levels with their laws, and the rows of all levels.
+    pub contacts: &'a [AffineContact],
+    pub levels: &'a [Row],
+}
+
+/// A function of the motion with a peak.
+#[derive(Debug)]
+pub(super) struct Function {
+    row: Row,
+    what: What,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum What {
+    Displacement(usize),
+    /// Drift as the difference of two floors: floor, storey height (m), storey stiffness (N/m).
+    Drift(usize, f64, Option<f64>),
+    /// Absolute acceleration of a floor.
+    Acceleration(usize),
+    Section(SectionPlace),
+    /// A sum of absolute accelerations.
+    Accelerations(SectionPlace),
+    /// Response of a level, by its number, whether its sign counts, and the force that it holds
+    /// as level and factor.
+    OfLevel(usize, bool, (usize, f64)),
+}
+
+/// A function with derivatives at both ends, and bounds of its own.
+struct Values {
+    start: [f64; 4],
+    end: [f64; 4],
+    /// Of the fourth, fifth and eighth derivative.
+    bounds: [f64; 3],
+}
+
+impl Row {
+    fn new(system: &System, terms: Vec<(usize, f64)>) -> Self {
+        let mass = system.mass();
+        let mut mobility = Vec::new();
+        for building in 0..system.buildings().len() {
+            let parts = system.parts(building);
+            let own = terms
+                .iter()
+                .filter(|(i, _)| parts.iter().any(|p| p.contains(i)));
+            let square: f64 = own.map(|(i, w)| w * w / mass[*i]).sum();
+            if square > 0.0 {
+                mobility.push((building, square.sqrt()));
+            }
+        }
+        Self { terms, mobility }
+    }
+
+    /// The closing of a level.
+    pub(super) fn of_level(system: &System, level: &ContactLevel) -> Self {
+        let ends = [(level.left, 1.0), (level.right, -1.0)].into_iter();
+        let ends = ends.filter_map(|(i, w)| i.map(|i| (i, w)));
+        let further = level.terms.pushed.iter().chain(&level.terms.ground);
+        Self::new(system, ends.chain(further.copied()).collect())
+    }
+
+    fn sum(&self, x: &[f64]) -> f64 {
+        self.terms.iter().map(|(i, w)| w * x[*i]).sum()
+    }
+
+    fn bound(&self, ends: &Ends, order: usize) -> f64 {
+        let of = self.mobility.iter();
+        of.map(|(b, m)| m * ends.bounds[*b][order]).sum()
+    }
+
+    /// The derivative of this order at both ends.
+    fn both(&self, ends: &Ends, order: usize) -> (f64, f64) {
+        (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
+    }
+
+    /// Bounds from below and above of the derivative of this order.
+    pub(super) fn range(&self, ends: &Ends, order: usize) -> (f64, f64) {
+        let ((x0, x1), (v0, v1)) = (self.both(ends, order), self.both(ends, order + 1));
+        let fourth = self.bound(ends, order + 4);
+        hermite_range([x0, v0, x1, v1], fourth, ends.length)
+    }
+
+    /// The same of the force of a closed level.
+    pub(super) fn range_of_force(&self, law: &AffineContact, ends: &Ends) -> (f64, f64) {
+        let force = self.force(law, ends);
+        let [x0, v0, ..] = force.start;
+        let [x1, v1, ..] = force.end;
+        hermite_range([x0, v0, x1, v1], force.bounds[0], ends.length)
+    }
+
+    /// The row as a function, from the derivative of this order on.
+    fn values(&self, ends: &Ends, order: usize) -> Values {
+        let mut values = Values {
+            start: [0.0; 4],
+            end: [0.0; 4],
+            bounds: [4, 5, 8].map(|k| self.bound(ends, order + k)),
+        };
+        for k in 0..4 {
+            (values.start[k], values.end[k]) = self.both(ends, order + k);
+        }
+        values
+    }
+
+    fn force(&self, law: &AffineContact, ends: &Ends) -> Values {
+        let mut values = Values {
+            start: [0.0; 4],
+            end: [0.0; 4],
+            bounds: [4, 5, 8].map(|k| {
+                law.stiffness * self.bound(ends, k) + law.dashpot * self.bound(ends, k + 1)
+            }),
+        };
+        let mut now = self.both(ends, 0);
+        for k in 0..4 {
+            let later = self.both(ends, k + 1);
+            let constant = if k == 0 { law.at_rest } else { 0.0 };
+            values.start[k] = constant + law.stiffness * now.0 + law.dashpot * later.0;
+            values.end[k] = constant + law.stiffness * now.1 + law.dashpot * later.1;
+            now = later;
+        }
+        values
+    }
+
+    /// Takes the peak penetration of a closed level; false if it is not sure.
+    pub(super) fn takes_penetration(
+        &self,
+        place: &Place<'_>,
+        ends: &Ends,
+        width: f64,
+        peak: &mut Peak,
+    ) -> bool {
+        let mut values = self.values(ends, 0);
+        values.start[0] -= width;
+        values.end[0] -= width;
+        let present = (peak.value, true);
+        values.take(place, ends.length, present, |top, time| {
+            peak.raise(top, time)
+        })
+    }
+
+    /// The same of its force.
+    pub(super) fn takes_force(
+        &self,
+        place: &Place<'_>,
+        (law, ends): (&AffineContact, &Ends),
+        peak: &mut Peak,
+    ) -> bool {
+        let values = self.force(law, ends);
+        let present = (peak.value, true);
+        values.take(place, ends.length, present, |top, time| {
+            peak.raise(top, time)
+        })
+    }
+}
+
+impl AffineContact {
+    /// Whether its force is what the law would have without a limit, told by three motions.
+    pub(super) fn is_raw_force_of(
+        &self,
+        contact: &Contact,
+        level: &ContactLevel,
+        contacts: &Contacts,
+    ) -> bool {
+        let width = contacts.width(self.level);
+        let motions = [(0.0, 0.0), (1.0e-3, 0.3), (2.0e-3, -0.5)];
+        motions.iter().all(|(delta, rate)| {
+            let own = self.at_rest + self.stiffness * (delta + width) + self.dashpot * rate;
+            let size = (self.at_rest.abs() + self.stiffness * (delta + width)).max(own.abs());
+            (contact.raw_force(level, *delta, *rate) - own).abs() <= 1.0e-12 * size
+        })
+    }
+}
+
+impl Values {
+    fn range(&self, h: f64) -> (f64, f64) {
+        let ([x0, v0, ..], [x1, v1, ..]) = (self.start, self.end);
+        hermite_range([x0, v0, x1, v1], self.bounds[0], h)
+    }
+
+    /// Raises a peak if the function has a higher value; false if that is not sure.
+    fn take(
+        &self,
+        place: &Place<'_>,
+        h: f64,
+        (peak, one_sided): (f64, bool),
+        mut raise: impl FnMut(f64, f64),
+    ) -> bool {
+        let (least, most) = self.range(h);
+        let beyond = if one_sided { most } else { most.max(-least) };
+        if beyond <= peak {
+            return true;
+        }
+        let size = |x: f64| if one_sided { x } else { x.abs() };
+        let start = place.segment.start + place.tau;
+        let ([_, v0, a0, _], [_, v1, a1, _]) = (self.start, self.end);
+        let (slowest, fastest) = hermite_range([v0, a0, v1, a1], self.bounds[1], h);
+        if slowest >= 0.0 || fastest <= 0.0 {
+            raise(size(self.start[0]), start);
+            raise(size(self.end[0]), start + h);
+            return true;
+        }
+        let error = h.powi(8) / (40_320.0 * 256.0) * self.bounds[2];
+        let large = peak.max(self.start[0].abs()).max(self.end[0].abs());
+        if !(error <= ALLOWED * large) {
+            return false;
+        }
+        let polynomial = self.polynomial(h);
+        let found = match one_sided {
+            true => maximum_above(&polynomial, peak),
+            false => absolute_maximum(&polynomial, peak),
+        };
+        if let Some((theta, top)) = found {
+            raise(top, start + theta * h);
+        }
+        true
+    }
+
+    fn polynomial(&self, h: f64) -> Polynomial {
+        let scaled = |x: [f64; 4]| [x[0], h * x[1], h * h * x[2], h * h * h * x[3]];
+        septic(scaled(self.start), scaled(self.end))
+    }
+}
+
+/// Where a step begins, as to the last one that was looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Begin {
+    /// At its start.
+    AtStart,
+    /// At its end.
+    AtEnd,
+    /// Somewhere else, or after a jump.
+    Unknown,
+}
+
+/// Functions of one building that are sums of displacements, or of absolute accelerations: one
+/// product tells the values of all.
+#[derive(Debug)]
+pub(super) struct Group {
+    building: usize,
+    dofs: Vec<usize>,
+    of_acceleration: bool,
+    /// Numbers of the functions.
+    functions: Range<usize>,
+    /// One column a degree of freedom.
+    weights: Vec<f64>,
+    mobility: Vec<f64>,
+    peaks: Vec<f64>,
+    motion: Vec<f64>,
+    values: [Vec<f64>; 4],
+    beyond: Vec<f64>,
+}
+
+impl Group {
+    fn new(system: &System, building: usize, functions: Range<usize>, all: &[Function]) -> Self {
+        let dofs: Vec<usize> = system.parts(building).into_iter().flatten().collect();
+        let own = &all[functions.clone()];
+        let weight = |f: &Function, dof: usize| -> f64 {
+            let terms = f.row.terms.iter();
+            terms.filter(|(i, _)| *i == dof).map(|(_, w)| w).sum()
+        };
+        let columns = dofs.iter().flat_map(|i| own.iter().map(|f| weight(f, *i)));
+        let mobility = |f: &Function| f.row.mobility.iter().map(|(_, m)| m).sum();
+        let zeros = || vec![0.0; padded(own.len())];
+        let mut mobilities: Vec<f64> = own.iter().map(mobility).collect();
+        mobilities.resize(padded(own.len()), 0.0);
+        Self {
+            building,
+            weights: pad(own.len(), columns),
+            mobility: mobilities,
+            peaks: zeros(),
+            values: std::array::from_fn(|_| zeros()),
+            beyond: zeros(),
+            of_acceleration: own.first().is_some_and(|f| f.order() == 2),
+            motion: vec![0.0; dofs.len()],
+            functions,
+            dofs,
+        }
+    }
+
+    /// Takes the present peaks.
+    pub(super) fn refresh(&mut self, all: &[Function], peaks: &Peaks) {
+        for (peak, function) in self.peaks.iter_mut().zip(&all[self.functions.clone()]) {
+            *peak = function.peak(peaks).0;
+        }
+    }
+
+    /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
+    /// last function of the group.
+    pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
+        let bounds = &ends.bounds[self.building];
+        let (motion, bound) = match self.of_acceleration {
+            true => (
+                [&ends.absolute_start, &ends.absolute_end].map(|x| [&x[0], &x[1]]),
+                bounds[6],
+            ),
+            false => ([&ends.start, &ends.end].map(|x| [&x[0], &x[1]]), bounds[4]),
+        };
+        if begin == Begin::AtEnd {
+            self.values.swap(0, 2);
+            self.values.swap(1, 3);
+        }
+        // The rate of the ground's acceleration jumps from interval to interval.
+        let known = match begin {
+            Begin::Unknown => [false; 2],
+            Begin::AtEnd => [true, !self.of_acceleration],
+            Begin::AtStart => [true; 2],
+        };
+        let known = known.into_iter().chain([false; 2]);
+        let motion = motion.as_flattened().iter().zip(known);
+        let wanted = self.values.iter_mut().zip(motion);
+        for (values, (motion, _)) in wanted.filter(|(_, (_, known))| !known) {
+            for (x, i) in self.motion.iter_mut().zip(&self.dofs) {
+                *x = motion[*i];
+            }
+            multiply(&self.weights, values.len(), &self.motion, values);
+        }
+        let values = self.values.each_ref().map(Vec::as_slice);
+        reaches(
+            values,
+            (&self.mobility, bound),
+            ends.length,
+            &mut self.beyond,
+        );
+        let compared = self
+            .beyond
+            .iter()
+            .zip(&self.peaks)
+            .zip(self.functions.clone());
+        // What is not a number is no proof.
+        let above = compared.filter(|((beyond, peak), _)| !(*beyond <= *peak));
+        doubtful.extend(above.map(|(_, number)| number));
+        self.functions.end
+    }
+}
+
+/// Bounds of the magnitudes of functions from values and slopes at the start and at the end, as
+/// [`hermite_range`] has them for one.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn reaches(
+    [x0, v0, x1, v1]: [&[f64]; 4],
+    (mobility, bound): (&[f64], f64),
+    h: f64,
+    out: &mut [f64],
+) {
+    let n = out.len();
+    let (x0, v0, x1, v1) = (&x0[..n], &v0[..n], &x1[..n], &v1[..n]);
+    let mobility = &mobility[..n];
+    let (third, remainder) = (h / 3.0, h.powi(4) / 144.0 * bound);
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    for i in 0..n {
+        let (a, b) = (x0[i] + third * v0[i], x1[i] - third * v1[i]);
+        let error = remainder * mobility[i];
+        let ends = larger(x0[i].abs(), x1[i].abs());
+        let inner = larger(
+            (0.25 * x0[i] + 0.75 * a).abs(),
+            (0.25 * x1[i] + 0.75 * b).abs(),
+        );
+        let middle = (0.5 * (a + b)).abs() + error;
+        // The last term lets nothing pass that is not finite.
+        out[i] = larger(larger(ends, inner), middle) + 0.0 * error;
+    }
+}
+
+impl Function {
+    /// All that has peaks while no contact is closed: those of buildings in groups, responses of
+    /// levels after them.
+    pub(super) fn all(system: &System) -> (Vec<Self>, Vec<Group>) {
+        let mut all: Vec<Self> = Vec::new();
+        let mut groups = Vec::new();
+        let new = |what: What, mut terms: Vec<(usize, f64)>| {
+            terms.retain(|(_, w)| *w != 0.0);
+            let row = Row::new(system, terms);
+            Self { row, what }
+        };
+        for (b, building) in system.buildings().iter().enumerate() {
+            let parts = system.parts(b);
+            let own = |terms: &Vec<(usize, f64)>| {
+                terms
+                    .first()
+                    .is_some_and(|(i, _)| parts[0].contains(i) || parts[1].contains(i))
+            };
+            let first = all.len();
+            for (storey, i) in parts[0].clone().enumerate() {
+                all.push(new(What::Displacement(i), vec![(i, 1.0)]));
+                if building.drifts().is_none() {
+                    let mut terms = vec![(i, 1.0)];
+                    if storey > 0 {
+                        terms.push((i - 1, -1.0));
+                    }
+                    let stiffness = building.stiffness().get(storey).copied();
+                    let what = What::Drift(i, building.height()[storey], stiffness);
+                    all.push(new(what, terms));
+                }
+            }
+            for section in system.sections() {
+                let terms = section.terms().collect();
+                if own(&terms) {
+                    all.push(new(What::Section(section.place), terms));
+                }
+            }
+            groups.push(Group::new(system, b, first..all.len(), &all));
+            let first = all.len();
+            for i in parts[0].clone() {
+                all.push(new(What::Acceleration(i), vec![(i, 1.0)]));
+            }
+            for row in system.acceleration_rows() {
+                let terms = row.terms().collect();
+                if own(&terms) {
+                    all.push(new(What::Accelerations(row.place), terms));
+                }
+            }
+            groups.push(Group::new(system, b, first..all.len(), &all));
+        }
+        for (number, row) in system.level_rows().iter().enumerate() {
+            let force = (row.level, row.by_force);
+            let what = What::OfLevel(number, row.one_sided, force);
+            all.push(new(what, row.terms.clone()));
+        }
+        (all, groups)
+    }
+
+    fn order(&self) -> usize {
+        match self.what {
+            What::Acceleration(_) | What::Accelerations(_) => 2,
+            _ => 0,
+        }
+    }
+
+    /// The present peak, and whether the sign counts.
+    fn peak(&self, peaks: &Peaks) -> (f64, bool) {
+        match self.what {
+            What::Displacement(i) => (peaks.storeys[i].displacement.value, false),
+            What::Drift(i, height, stiffness) => {
+                let storey = &peaks.storeys[i];
+                let drift = storey.drift_ratio.value * height;
+                let shear = stiffness.map_or(drift, |k| storey.storey_shear.value / k);
+                (drift.min(shear), false)
+            }
+            What::Acceleration(i) => (peaks.storeys[i].acceleration_absolute.value, false),
+            What::Section(place) | What::Accelerations(place) => {
+                (peaks.of_section(place).value, false)
+            }
+            What::OfLevel(number, one_sided, _) => (peaks.of_levels[number].value, one_sided),
+        }
+    }
+
+    /// What the force of a closed level adds.
+    fn force(&self, place: &Place<'_>, ends: &Ends) -> Option<(f64, Values)> {
+        let What::OfLevel(_, _, (level, factor)) = self.what else {
+            return None;
+        };
+        let law = place.contacts.iter().find(|c| c.level == level);
+        let law = law.filter(|_| factor != 0.0)?;
+        Some((factor, place.levels[level].force(law, ends)))
+    }
+
+    /// Whether a response of a level is sure to stay below its peak, by values and slopes at the
+    /// ends alone.
+    pub(super) fn stays_below(&self, place: &Place<'_>, ends: &Ends, peaks: &Peaks) -> bool {
+        let h = ends.length;
+        let (mut x, mut v) = (self.row.both(ends, 0), self.row.both(ends, 1));
+        let mut fourth = self.row.bound(ends, 4);
+        if let Some((factor, force)) = self.force(place, ends) {
+            (x.0, x.1) = (x.0 + factor * force.start[0], x.1 + factor * force.end[0]);
+            (v.0, v.1) = (v.0 + factor * force.start[1], v.1 + factor * force.end[1]);
+            fourth += factor.abs() * force.bounds[0];
+        }
+        let (least, most) = hermite_range([x.0, v.0, x.1, v.1], fourth, h);
+        let (peak, one_sided) = self.peak(peaks);
+        let beyond = if one_sided { most } else { most.max(-least) };
+        beyond <= peak
+    }
+
+    /// Takes its peak; false if it is not sure where there is one.
+    pub(super) fn takes_peak(&self, place: &Place<'_>, ends: &Ends, peaks: &mut Peaks) -> bool {
+        let (order, h) = (self.order(), ends.length);
+        let mut values = self.row.values(ends, order);
+        if order == 2 {
+            for k in 0..2 {
+                values.start[k] = self.row.sum(&ends.absolute_start[k]);
+                values.end[k] = self.row.sum(&ends.absolute_end[k]);
+            }
+        }
+        if let Some((factor, force)) = self.force(place, ends) {
+            for k in 0..4 {
+                values.start[k] += factor * force.start[k];
+                values.end[k] += factor * force.end[k];
+            }
+            for (bound, further) in values.bounds.iter_mut().zip(force.bounds) {
+                *bound += factor.abs() * further;
+            }
+        }
+        let present = self.peak(peaks);
+        let raise = |top: f64, time: f64| match self.what {
+            What::Displacement(i) => peaks.storeys[i].displacement.raise(top, time),
+            What::Drift(i, height, stiffness) => {
+                let storey = &mut peaks.storeys[i];
+                storey.drift_ratio.raise(top / height, time);
+                if let Some(stiffness) = stiffness {
+                    storey.storey_shear.raise(stiffness * top, time);
+                }
+            }
+            What::Acceleration(i) => peaks.storeys[i].acceleration_absolute.raise(top, time),
+            What::Section(section) | What::Accelerations(section) => {
+                peaks.raise_section(section, top, time);
+            }
+            What::OfLevel(number, ..) => peaks.of_levels[number].raise(top, time),
+        };
+        values.take(place, h, present, raise)
+    }
+}

@@ -1,0 +1,369 @@
+//! Matrices of one building.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::{BOUNDED, Ends, HALVINGS, multiply, pad, padded};
+use crate::dynamics::Segment;
+use crate::polynomial::GAUSS;
+use crate::system::{Grounds, System};
+
+/// Coordinates of a building at most: the work of an interval grows with their square, that of
+/// the matrices with the cube.
+const COORDINATES: usize = 60;
+/// Product of rate and time over which the series of the matrix exponential is summed.
+const REACH: f64 = 0.5;
+/// Its terms.
+const TERMS: usize = 16;
+/// Blocks of rows of derivatives: those of order two to six, two for bounds, and the others.
+const FIRST: usize = 5;
+const ALL: usize = BOUNDED.end;
+
+#[derive(Debug, Clone)]
+pub(super) struct Building {
+    /// Degrees of freedom.
+    pub dofs: Vec<usize>,
+    pub mass: Vec<f64>,
+    /// Stiffness and damping over the masses, with their signs changed: column after column.
+    pub restoring: [Vec<f64>; 2],
+    /// Stiffness and damping.
+    pub stiffness: Vec<f64>,
+    pub damping: Vec<f64>,
+    /// Degrees of freedom whose ground accelerations, less those of forces, are the loads, one for each that differs.
+    loads: Vec<usize>,
+    /// Load of every coordinate.
+    load_of: Vec<usize>,
+    /// From displacements, velocities, and acceleration and slope of every load to the
+    /// derivatives of order two to six; the third and fifth times the root of the stiffness;
+    /// the derivatives of order seven and more.
+    derive: Vec<f64>,
+    /// By length, then by the number of halvings.
+    steps: Vec<Vec<Step>>,
+    /// Displacements, velocities and loads at both ends of the step; what comes of them.
+    start: Vec<f64>,
+    end: Vec<f64>,
+    led: Vec<f64>,
+    derived: Vec<f64>,
+    force: Vec<f64>,
+}
+
+/// Matrices for one length, column after column.
+#[derive(Debug, Clone)]
+struct Step {
+    /// From displacements, velocities, and acceleration and slope of every load to displacements,
+    /// velocities and integrals of displacements; then the quadratic form of the same for the
+    /// work of the damping.
+    rows: Vec<f64>,
+}
+
+impl Building {
+    pub(super) fn new(system: &System, index: usize, lengths: &[f64]) -> Option<Self> {
+        let building = &system.buildings()[index];
+        let dofs: Vec<usize> = system.parts(index).into_iter().flatten().collect();
+        let n = dofs.len();
+        if n > COORDINATES {
+            return None;
+        }
+        let mass = building.inertia().to_vec();
+        let (k, c) = (building.stiffness_matrix(), building.damping_matrix());
+        let stiffness = DMatrix::from_fn(n, n, |i, j| k.entry(i, j));
+        let damping = DMatrix::from_fn(n, n, |i, j| c.entry(i, j));
+        let scaled = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / (mass[i] * mass[j]).sqrt())
+        };
+        let values = |matrix: DMatrix<f64>| {
+            let symmetric = 0.5 * (&matrix + matrix.transpose());
+            let values = SymmetricEigen::new(symmetric).eigenvalues;
+            (values.min(), values.amax())
+        };
+        // The bounds rest on both.
+        let (soft, stiff) = values(scaled(&stiffness));
+        let (driven, damped) = values(scaled(&damping));
+        if !(soft > 0.0) || driven < -1.0e-9 * damped.max(f64::MIN_POSITIVE) {
+            return None;
+        }
+        let mut loads: Vec<usize> = Vec::new();
+        let load_of = dofs.iter().map(|i| {
+            let known = loads.iter().position(|j| system.same_load(*i, *j));
+            known.unwrap_or_else(|| {
+                loads.push(*i);
+                loads.len() - 1
+            })
+        });
+        let load_of: Vec<usize> = load_of.collect();
+        let columns = 2 * (n + loads.len());
+        let over_mass =
+            |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / mass[i]);
+        let (soft, damped) = (over_mass(&stiffness), over_mass(&damping));
+        let root = stiffness.clone().cholesky()?.l().transpose();
+        let derive = derivatives((&soft, &damped, &root), &load_of, columns);
+        let mut this = Self {
+            dofs,
+            restoring: [(-&soft).as_slice().to_vec(), (-&damped).as_slice().to_vec()],
+            stiffness: stiffness.as_slice().to_vec(),
+            damping: damping.as_slice().to_vec(),
+            loads,
+            load_of,
+            derive: pad(ALL * n, derive.iter().copied()),
+            steps: Vec::new(),
+            start: vec![0.0; columns],
+            end: vec![0.0; columns],
+            led: vec![0.0; padded(3 * n + columns)],
+            derived: vec![0.0; padded(ALL * n)],
+            force: vec![0.0; n],
+            mass,
+        };
+        for length in lengths {
+            let steps = this.steps(*length, stiff.sqrt(), (&soft, &damped));
+            let finite = |step: &Step| step.rows.iter().all(|x| x.is_finite());
+            if !steps.iter().all(finite) {
+                return None;
+            }
+            this.steps.push(steps);
+        }
+        Some(this)
+    }
+
+    /// Matrices of a step, and of its parts. The exponential is summed over a part of the step
+    /// and squared, with displacements times the fastest rate, so that all entries are of the
+    /// size of velocities.
+    fn steps(
+        &self,
+        h: f64,
+        rate: f64,
+        (stiffness, damping): (&DMatrix<f64>, &DMatrix<f64>),
+    ) -> Vec<Step> {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        // Integrals of the displacements stand last: they act on nothing.
+        let all = columns + n;
+        let mut a = DMatrix::zeros(all, all);
+        for i in 0..n {
+            a[(i, n + i)] = rate;
+            a[(columns + i, i)] = 1.0 / rate;
+            for j in 0..n {
+                a[(n + i, j)] = -stiffness[(i, j)] / rate;
+                a[(n + i, n + j)] = -damping[(i, j)];
+            }
+            a[(n + i, 2 * n + 2 * self.load_of[i])] = -1.0;
+        }
+        for load in 0..self.loads.len() {
+            a[(2 * n + 2 * load, 2 * n + 2 * load + 1)] = 1.0;
+        }
+        let size = a
+            .row_iter()
+            .map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
+        let norm = size.fold(0.0, f64::max);
+        let doublings = (norm * h / REACH).max(1.0).log2().ceil() as usize;
+        let doublings = doublings.max(HALVINGS);
+        let part = h / 2.0_f64.powi(doublings as i32);
+        let powers = powers(&(a * part));
+        let at = |theta: f64| {
+            let mut sum = powers[TERMS].clone();
+            for power in powers[..TERMS].iter().rev() {
+                sum *= theta;
+                sum += power;
+            }
+            sum
+        };
+        // The work of the damping over the part by Gauss's rule, then over twice the time:
+        // `W(2 t) = W(t) + E(t)' W(t) E(t)`.
+        let c = DMatrix::from_fn(n, n, |i, j| self.mass[i] * damping[(i, j)]);
+        let mut viscous = DMatrix::zeros(columns, columns);
+        for (theta, weight) in GAUSS {
+            let there = at(theta);
+            let velocity = there.view((n, 0), (n, columns));
+            viscous += velocity.transpose() * (&c * velocity) * (weight * part);
+        }
+        let mut whole = at(1.0);
+        let mut steps = Vec::with_capacity(HALVINGS + 1);
+        for left in (0..=doublings).rev() {
+            if left <= HALVINGS {
+                steps.push(step(n, rate, &whole, &viscous));
+            }
+            if left > 0 {
+                let lead = whole.view((0, 0), (columns, columns)).into_owned();
+                viscous += lead.transpose() * (&viscous * &lead);
+                whole = &whole * &whole;
+            }
+        }
+        steps.reverse();
+        steps
+    }
+
+    /// Leads the building over a step.
+    pub(super) fn advance(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        (tau, h, which, halvings): (f64, f64, usize, usize),
+        (state, dofs): (&[f64], usize),
+        (index, ends): (usize, &mut Ends),
+    ) {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let step = &self.steps[which][halvings];
+        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        for (k, i) in self.dofs.iter().enumerate() {
+            self.start[k] = state[*i];
+            self.start[n + k] = state[dofs + *i];
+        }
+        for (k, i) in self.loads.iter().enumerate() {
+            let place = 2 * n + 2 * k;
+            let slope = system.load_slope_on(*i, segment);
+            self.start[place] = system.load_on(*i, instants[0]);
+            self.end[place] = system.load_on(*i, instants[1]);
+            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
+        }
+        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
+        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
+        let weighed = self.led[3 * n..][..columns].iter().zip(&self.start);
+        ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
+        let (start, end) = (&self.start, &self.end);
+        for (k, i) in self.dofs.iter().enumerate() {
+            let load = 2 * n + 2 * self.load_of[k];
+            let moved =
+                end[k] * end[load] - start[k] * start[load] - start[load + 1] * self.led[2 * n + k];
+            ends.input -= self.mass[k] * moved;
+            for order in 0..2 {
+                ends.start[order][*i] = start[order * n + k];
+                ends.end[order][*i] = end[order * n + k];
+            }
+        }
+        let rows = self.derived.len();
+        let second = &mut self.derived[..padded(2 * n)];
+        multiply(&self.derive, rows, &self.end, second);
+        self.hand_out(2, &mut ends.end);
+        self.add_ground((system, segment), instants[1], &mut ends.absolute_end);
+        let first = &mut self.derived[..padded((FIRST + 2) * n)];
+        multiply(&self.derive, rows, &self.start, first);
+        self.hand_out(2, &mut ends.start);
+        self.add_ground((system, segment), instants[0], &mut ends.absolute_start);
+        for (order, place) in [(4, FIRST * n), (6, (FIRST + 1) * n)] {
+            let (y, x) = (&self.derived[place..][..n], self.derivative(order));
+            let mut sum = 0.0;
+            for i in 0..n {
+                sum += self.mass[i] * x[i] * x[i] + y[i] * y[i];
+            }
+            ends.bounds[index][order] = sum.sqrt();
+        }
+    }
+
+    /// The derivative of this order at the start.
+    fn derivative(&self, order: usize) -> &[f64] {
+        let n = self.dofs.len();
+        let place = if order < FIRST + 2 { order - 2 } else { order };
+        &self.derived[place * n..][..n]
+    }
+
+    /// Absolute acceleration and its rate at one end.
+    fn add_ground(
+        &self,
+        (system, segment): (&System, &Segment),
+        ground: Grounds,
+        out: &mut [Vec<f64>; 2],
+    ) {
+        let n = self.dofs.len();
+        for (k, i) in self.dofs.iter().enumerate() {
+            out[0][*i] = self.derived[k] + system.ground_on(*i, ground);
+            out[1][*i] = self.derived[n + k] + system.ground_slope_on(*i, segment);
+        }
+    }
+
+    /// Works out the other derivatives and bounds.
+    pub(super) fn deepen(&mut self, index: usize, ends: &mut Ends) {
+        let n = self.dofs.len();
+        let rows = self.derived.len();
+        let four = &mut self.derived[..padded(4 * n)];
+        multiply(&self.derive, rows, &self.end, four);
+        self.hand_out(4, &mut ends.end);
+        multiply(&self.derive, rows, &self.start, &mut self.derived);
+        self.hand_out(4, &mut ends.start);
+        for order in BOUNDED {
+            let mut force = std::mem::take(&mut self.force);
+            let (y, x) = (self.derivative(order - 1), self.derivative(order));
+            multiply(&self.stiffness, n, y, &mut force);
+            let mut sum = 0.0;
+            for i in 0..n {
+                sum += self.mass[i] * x[i] * x[i] + y[i] * force[i];
+            }
+            ends.bounds[index][order] = sum.max(0.0).sqrt();
+            self.force = force;
+        }
+    }
+
+    /// Gives so many derivatives, from the second on, to the degrees of freedom.
+    fn hand_out(&self, count: usize, out: &mut [Vec<f64>]) {
+        let n = self.dofs.len();
+        for (out, values) in out[2..].iter_mut().zip(self.derived.chunks(n)).take(count) {
+            for (i, value) in self.dofs.iter().zip(values) {
+                out[*i] = *value;
+            }
+        }
+    }
+}
+
+/// Rows of the derivatives of order two and more.
+fn derivatives(
+    (stiffness, damping, root): (&DMatrix<f64>, &DMatrix<f64>, &DMatrix<f64>),
+    load_of: &[usize],
+    columns: usize,
+) -> DMatrix<f64> {
+    let n = load_of.len();
+    let unit =
+        |first: usize| DMatrix::from_fn(n, columns, |i, j| f64::from(u8::from(j == first + i)));
+    let load = |place: usize| {
+        DMatrix::from_fn(n, columns, |i, j| {
+            f64::from(u8::from(j == 2 * n + 2 * load_of[i] + place))
+        })
+    };
+    let (mut y, mut x) = (unit(0), unit(n));
+    let mut all = DMatrix::zeros(ALL * n, columns);
+    let mut take = |block: usize, rows: &DMatrix<f64>| {
+        all.view_mut((block * n, 0), (n, columns)).copy_from(rows);
+    };
+    for order in 2..BOUNDED.end {
+        let mut next = -(stiffness * &y) - damping * &x;
+        if order < 4 {
+            next -= load(order - 2);
+        }
+        match order {
+            3 => take(FIRST, &(root * &next)),
+            5 => take(FIRST + 1, &(root * &next)),
+            _ => {}
+        }
+        take(if order < FIRST + 2 { order - 2 } else { order }, &next);
+        (y, x) = (x, next);
+    }
+    all
+}
+
+/// The matrices of a step in metres from those with displacements times a rate.
+fn step(n: usize, rate: f64, whole: &DMatrix<f64>, viscous: &DMatrix<f64>) -> Step {
+    let columns = viscous.ncols();
+    let unit = |j: usize| if j < n { rate } else { 1.0 };
+    let row = |i: usize| match i / n {
+        0 => (i, 1.0 / rate),
+        1 => (i, 1.0),
+        _ => (columns + i - 2 * n, 1.0),
+    };
+    let rows = DMatrix::from_fn(3 * n + columns, columns, |i, j| {
+        match i.checked_sub(3 * n) {
+            None => {
+                let (i, factor) = row(i);
+                whole[(i, j)] * factor * unit(j)
+            }
+            Some(i) => 0.5 * (viscous[(i, j)] + viscous[(j, i)]) * unit(i) * unit(j),
+        }
+    });
+    Step {
+        rows: pad(rows.nrows(), rows.iter().copied()),
+    }
+}
+
+/// Terms of the exponential of a matrix, from that of order zero.
+fn powers(a: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+    let n = a.nrows();
+    let mut powers = vec![DMatrix::identity(n, n)];
+    for k in 1..=TERMS {
+        let next = a * &powers[k - 1] / k as f64;
+        powers.push(next);
+    }
+    powers
+}

@@ -1,0 +1,308 @@
+//! Exact steps for buildings that are no sums of oscillators: damping that couples modes,
+//! coordinates that are no floors, several ground motions.
+//!
+//! Without contact every building is linear under a load that is linear in time, so that one
+//! matrix leads from start to end of an interval between samples, or of a half, a quarter of it and so on
+//! ([`building`]). With contacts whose laws are affine the buildings are linear together, and a
+//! Taylor series leads over a step ([`contact_series`]).
+//!
+//! Nothing may be missed inside a step. A function that is a row `w` over the displacements lies
+//! near the cubic with its values and slopes at both ends, by less than `h^4/384` times the bound
+//! of its fourth derivative, and near the polynomial of degree 7 with three derivatives at both
+//! ends by less than `h^8/(8! 256)` times that of its eighth (Hermite's remainders). The bounds follow
+//! from energy: derivatives of the motion obey the equation of motion themselves, from the second
+//! one on without load, so that with `C` positive semi-definite `x' M x + y' K y` of a derivative
+//! `y` and its rate `x` never grows, and `|w' x| <= sqrt(w' M^-1 w) sqrt(x' M x)`.
+
+mod building;
+mod contact_series;
+
+use multiversion::multiversion;
+
+use crate::dynamics::Segment;
+use crate::system::System;
+use building::Building;
+pub(crate) use contact_series::{AffineContact, ContactSeries};
+
+/// Lengths of intervals for which matrices are kept.
+const LENGTHS: usize = 4;
+/// How often an interval can be halved.
+pub(crate) const HALVINGS: usize = 6;
+/// Lengths closer than this, relative to each other, are one.
+const SAME: f64 = 1.0e-9;
+
+/// Orders of derivatives that are known at both ends of a step, from zero.
+pub(crate) const ORDERS: usize = 6;
+/// First order of which there are bounds over a step, and the one after the last.
+pub(crate) const BOUNDED: std::ops::Range<usize> = 4..11;
+
+/// Matrices of all buildings.
+#[derive(Debug, Clone)]
+pub(crate) struct Propagation {
+    buildings: Vec<Building>,
+    lengths: Vec<f64>,
+    pub ends: Ends,
+    /// Whether they are those of a series.
+    by_series: bool,
+}
+
+/// The motion at both ends of a step, and bounds over it.
+#[derive(Debug, Clone)]
+pub(crate) struct Ends {
+    /// Length (s).
+    pub length: f64,
+    /// Derivatives of the displacements relative to the ground with respect to time, of order
+    /// zero to five, by degree of freedom.
+    pub start: [Vec<f64>; ORDERS],
+    pub end: [Vec<f64>; ORDERS],
+    /// The second and third with what the ground adds: absolute acceleration and its rate.
+    pub absolute_start: [Vec<f64>; 2],
+    pub absolute_end: [Vec<f64>; 2],
+    /// Bounds of the derivatives by building and order, for a row with `w' M^-1 w = 1`.
+    pub bounds: Vec<[f64; BOUNDED.end]>,
+    /// Works over the step (J).
+    pub input: f64,
+    pub viscous: f64,
+}
+
+impl Ends {
+    fn new(buildings: usize) -> Self {
+        Self {
+            length: 0.0,
+            start: std::array::from_fn(|_| Vec::new()),
+            end: std::array::from_fn(|_| Vec::new()),
+            absolute_start: std::array::from_fn(|_| Vec::new()),
+            absolute_end: std::array::from_fn(|_| Vec::new()),
+            bounds: vec![[0.0; BOUNDED.end]; buildings],
+            input: 0.0,
+            viscous: 0.0,
+        }
+    }
+
+    fn resize(&mut self, dofs: usize) {
+        let relative = self.start.iter_mut().chain(&mut self.end);
+        let absolute = (self.absolute_start.iter_mut()).chain(&mut self.absolute_end);
+        for values in relative.chain(absolute) {
+            values.resize(dofs, 0.0);
+        }
+    }
+}
+
+impl Propagation {
+    /// `None` for large buildings, and where the bounds would not hold. Elements with memory are
+    /// not looked at.
+    pub(crate) fn new(system: &System) -> Option<Self> {
+        let lengths = lengths(system);
+        let buildings: Option<Vec<_>> = (0..system.buildings().len())
+            .map(|index| Building::new(system, index, &lengths))
+            .collect();
+        let buildings = buildings?;
+        Some(Self {
+            ends: Ends::new(buildings.len()),
+            by_series: false,
+            buildings,
+            lengths,
+        })
+    }
+
+    /// The same for a system that may have other displacements of the ground.
+    pub(crate) fn for_system(&self, system: &System) -> Self {
+        let mut this = self.clone();
+        this.ends.resize(system.degrees_of_freedom());
+        this
+    }
+
+    /// A series for contacts of a system with these buildings.
+    pub(crate) fn contact_series(&self, system: &System) -> ContactSeries {
+        ContactSeries::new(system, &self.buildings)
+    }
+
+    /// The length with matrices of an interval of this length (s).
+    pub(crate) fn known_length(&self, length: f64) -> Option<usize> {
+        let same = |known: &f64| (known - length).abs() <= SAME * length;
+        self.lengths.iter().position(same)
+    }
+
+    /// Leads the state from `tau` (s) in an interval over as much of it as is left after so many
+    /// halvings. Works out bounds of orders 4 and 6.
+    pub(crate) fn advance(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        tau: f64,
+        (which, halvings): (usize, usize),
+        state: &[f64],
+    ) {
+        let n = system.degrees_of_freedom();
+        let h = segment.length / f64::from(1_u32 << halvings);
+        self.by_series = false;
+        let ends = &mut self.ends;
+        ends.length = h;
+        (ends.input, ends.viscous) = (0.0, 0.0);
+        for (index, building) in self.buildings.iter_mut().enumerate() {
+            let place = (tau, h, which, halvings);
+            building.advance((system, segment), place, (state, n), (index, ends));
+        }
+        ground((system, segment), (tau, h), state, ends);
+    }
+
+    /// Works out what the last step left: derivatives of order 4 and 5 at both ends, and the
+    /// other bounds.
+    pub(crate) fn deepen(&mut self, series: &mut ContactSeries) {
+        if self.by_series {
+            series.deepen(&self.buildings, &mut self.ends);
+            return;
+        }
+        for (index, building) in self.buildings.iter_mut().enumerate() {
+            building.deepen(index, &mut self.ends);
+        }
+    }
+}
+
+impl Propagation {
+    /// Expands the motion with contacts over a step from `tau` in an interval. Returns whether
+    /// the terms have an end.
+    pub(crate) fn expand(
+        &self,
+        series: &mut ContactSeries,
+        system: &System,
+        place: (&Segment, f64),
+        (state, length): (&[f64], f64),
+    ) -> bool {
+        series.expand((system, &self.buildings), place, state, length)
+    }
+
+    /// Takes both ends of a series, and bounds of orders 4 to 6.
+    pub(crate) fn lead(
+        &mut self,
+        series: &mut ContactSeries,
+        system: &System,
+        place: (&Segment, f64),
+    ) {
+        self.by_series = true;
+        series.lead((system, &self.buildings), place, &mut self.ends);
+    }
+
+    /// Works out what works over a series.
+    pub(crate) fn works(
+        &mut self,
+        series: &mut ContactSeries,
+        system: &System,
+        place: (&Segment, f64),
+    ) {
+        series.works((system, &self.buildings), place, &mut self.ends);
+    }
+}
+
+/// Displacements of the ground, which are cubics.
+fn ground(
+    (system, segment): (&System, &Segment),
+    (tau, h): (f64, f64),
+    state: &[f64],
+    ends: &mut Ends,
+) {
+    let n = system.degrees_of_freedom();
+    let instants = [segment.ground(tau), segment.ground(tau + h)];
+    for i in system.with_mass()..n {
+        let [a, b] = instants.map(|ground| -system.load_on(i, ground));
+        let slope = -system.load_slope_on(i, segment);
+        let (x, v) = (state[i], state[n + i]);
+        let end = [
+            x + h * (v + h * (0.5 * a + h * slope / 6.0)),
+            v + h * (a + 0.5 * h * slope),
+        ];
+        let (start, end) = ([x, v, a, slope], [end[0], end[1], b, slope]);
+        for k in 0..4 {
+            ends.start[k][i] = start[k];
+            ends.end[k][i] = end[k];
+        }
+    }
+}
+
+/// Distinct lengths of the intervals of a run, the most frequent ones.
+fn lengths(system: &System) -> Vec<f64> {
+    let mut found: Vec<(f64, usize)> = Vec::new();
+    for length in system.interval_lengths() {
+        let known = |(l, _): &&mut (f64, usize)| (*l - length).abs() <= SAME * length;
+        match found.iter_mut().find(known) {
+            Some((_, count)) => *count += 1,
+            None => found.push((length, 1)),
+        }
+    }
+    found.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.total_cmp(&b.0)));
+    found.into_iter().take(LENGTHS).map(|(l, _)| l).collect()
+}
+
+/// Rows that are summed side by side; outputs of a multiple of the least one need no others.
+const WIDE: usize = 16;
+const MIDDLE: usize = 8;
+const NARROW: usize = 4;
+
+/// Rows with what fills them up to a multiple of the narrow block.
+pub(crate) fn padded(rows: usize) -> usize {
+    rows.next_multiple_of(NARROW)
+}
+
+/// Columns filled up with zeros to the padded number of rows, one after another.
+pub(crate) fn pad(rows: usize, columns: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut all = Vec::new();
+    for (k, x) in columns.enumerate() {
+        all.push(x);
+        if k % rows == rows - 1 {
+            all.resize(all.len() - rows + padded(rows), 0.0);
+        }
+    }
+    all
+}
+
+/// Product of the first `out.len()` rows of a matrix, whose columns of `rows` entries stand one
+/// after another.
+pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    accumulate(matrix, rows, x, out);
+}
+
+/// Adds that product.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    let mut first = 0;
+    while first + WIDE <= out.len() {
+        block::<WIDE>(matrix, (rows, first), x, out);
+        first += WIDE;
+    }
+    if first + MIDDLE <= out.len() {
+        block::<MIDDLE>(matrix, (rows, first), x, out);
+        first += MIDDLE;
+    }
+    if first + NARROW <= out.len() {
+        block::<NARROW>(matrix, (rows, first), x, out);
+        first += NARROW;
+    }
+    while first < out.len() {
+        block::<1>(matrix, (rows, first), x, out);
+        first += 1;
+    }
+}
+
+#[inline(always)]
+fn block<const ROWS: usize>(
+    matrix: &[f64],
+    (rows, first): (usize, usize),
+    x: &[f64],
+    out: &mut [f64],
+) {
+    let out = &mut out[first..first + ROWS];
+    let mut sums = [0.0; ROWS];
+    sums.copy_from_slice(out);
+    for (column, x) in matrix.chunks_exact(rows).zip(x) {
+        let entries = &column[first..first + ROWS];
+        for k in 0..ROWS {
+            sums[k] += entries[k] * x;
+        }
+    }
+    out.copy_from_slice(&sums);
+}

@@ -172,6 +172,7 @@ impl Pair {
         let motion = |delay: f64| GroundMotion {
             acceleration: acceleration.clone(),
             delay,
+            origin: Vec::new(),
         };
         let motions = match self.delay {
             None => vec![motion(0.0)],

@@ -315,6 +315,7 @@ fn buildings_that_turn_in_plan_collide_as_two_independent_codes_say() {
             time_step: record.time_step(),
         },
         delay: 0.0,
+        origin: Vec::new(),
     });
     for support in &mut case.supports {
         support.across = Some(1);

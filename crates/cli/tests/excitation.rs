@@ -44,7 +44,9 @@ fn forces_reach_every_command() {
         "building low: force on storey 2, blast.csv, column 3, up to 7600 kN at 1 s",
         "building tower: force on storey 6, constant, up to 150 kN at 0 s",
     ];
-    has(&bench.text("run case.toml -o case.h5"), &lines);
+    let shown = bench.text("run case.toml -o case.h5");
+    has(&shown, &lines);
+    has(&shown, &["all samples are zero: the ground stands still"]);
     has(&bench.text("check case.toml"), &lines);
     has(
         &bench.json("check case.toml")["ground_motion"]["echo"].to_string(),

@@ -118,6 +118,9 @@ impl Accelerogram {
                 "peak acceleration {:.3} m/s2 is larger than any recorded; check the unit",
                 peak.value
             ));
+        } else if peak.value == 0.0 {
+            let message = "all samples are zero: the ground stands still";
+            origin.warnings.push(message.to_owned());
         } else if peak.value < 1.0e-3 {
             origin.warnings.push(format!(
                 "peak acceleration {:.3e} m/s2 is not felt; check the unit",

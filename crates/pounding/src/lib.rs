@@ -198,7 +198,8 @@ pub mod prelude {
         Damping, Isolator, IsolatorKind, LateralStiffness, PostYield, Strength,
     };
     pub use pounding_time_history::{
-        GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink, Summary,
+        ForceHistory, GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink,
+        Summary,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};

@@ -1,9 +1,11 @@
 //! A row of buildings under a ground motion, and its run.
 
+use pounding_catalogue::suggestion;
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{NAMES, is_name};
 use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Outcome, Recorder, RunOptions, System, run,
+    Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, Recorder,
+    RunOptions, System, run,
 };
 
 use crate::building::Building;
@@ -24,6 +26,8 @@ pub struct Simulation {
     gaps: Vec<Gap>,
     links: Vec<Link>,
     motion: Option<GroundMotion>,
+    /// Building, storey from 1.
+    forces: Vec<(String, usize, ForceHistory)>,
     options: RunOptions,
 }
 
@@ -55,6 +59,7 @@ impl Simulation {
             gaps: Vec::new(),
             links: Vec::new(),
             motion: None,
+            forces: Vec::new(),
             options: RunOptions::default(),
         }
     }
@@ -77,6 +82,14 @@ impl Simulation {
     #[must_use]
     pub fn ground_motion(mut self, motion: impl Into<GroundMotion>) -> Self {
         self.motion = Some(motion.into());
+        self
+    }
+
+    /// Pushes the floor above a storey, from 1, of the building of this name, to the right where
+    /// the force is positive; several forces on one floor are added.
+    #[must_use]
+    pub fn force(mut self, building: &str, storey: usize, history: ForceHistory) -> Self {
+        self.forces.push((building.to_owned(), storey, history));
         self
     }
 
@@ -123,7 +136,8 @@ impl Simulation {
             velocity.extend(v);
         }
         let system = System::new(buildings, ground);
-        let mut system = system.with_initial_state(&displacement, &velocity)?;
+        let system = system.with_initial_state(&displacement, &velocity)?;
+        let mut system = system.with_forces(self.floor_forces()?)?;
         for gap in &self.gaps {
             self.add_gap(gap, &mut system)?;
         }
@@ -154,6 +168,29 @@ impl Simulation {
     /// Those of [`build`](Self::build) and of [`Model::run`].
     pub fn run(&self) -> Result<Outcome, Error> {
         self.build()?.run()
+    }
+
+    fn floor_forces(&self) -> Result<Vec<FloorForce>, Error> {
+        let force = |(name, storey, history): &(String, usize, ForceHistory)| {
+            let mut names = self.buildings.iter().map(Building::name);
+            let building = names.position(|n| n == name);
+            let building = building.ok_or_else(|| Error::UnknownBuilding {
+                of: "a force".to_owned(),
+                building: name.clone(),
+                nearest: suggestion::misspelt(name, self.buildings.iter().map(Building::name))
+                    .map(str::to_owned),
+            })?;
+            let storey = storey.checked_sub(1).ok_or_else(|| Error::StoreyZero {
+                of: format!("a force on \"{name}\""),
+            })?;
+            Ok(FloorForce {
+                building,
+                storey,
+                history: history.clone(),
+                origin: String::new(),
+            })
+        };
+        self.forces.iter().map(force).collect()
     }
 
     /// Buildings and gaps are called by their names, and stand under them in results.

@@ -675,3 +675,33 @@ fn an_isolated_building_is_that_of_its_case_file() {
     let slab = Building::isolated("slab", slab, strong);
     refused(slab, ["building slab: the isolators have", "usual are"]);
 }
+
+/// Forces by code are those of the case file; one on no building or no storey is refused.
+#[test]
+fn forces_by_code_are_those_of_the_case_file() {
+    let file = root().join("examples/three_storey_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let force = "\n[[building.force]]\nstorey = 3\npoints = [[1, 0], [1, \"90 kN\"], [\"1.2 s\", 0]]\n[[gap]]";
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("case.toml");
+    let motions = root().join("ground_motions");
+    let text = text.replacen("[[gap]]", force, 1);
+    let text = text.replace("../../ground_motions", motions.to_str().unwrap());
+    std::fs::write(&place, text).unwrap();
+    let model = Model::read(&place).unwrap();
+    let history = ForceHistory::new(&[(1.0, 0.0), (1.0, 9e4), (1.2, 0.0)], false).unwrap();
+    let push = |building: &str, storey| pair().force(building, storey, history.clone());
+    let by_code = push("heavy", 3).build().unwrap();
+    let read = &model.system().forces()[0];
+    let made = &by_code.system().forces()[0];
+    assert_eq!((read.building, read.storey), (made.building, made.storey));
+    assert_eq!(read.history, made.history);
+    let error = push("heavi", 3).build().unwrap_err();
+    assert!(
+        error.help().unwrap().contains("did you mean \"heavy\"?"),
+        "{error}"
+    );
+    assert!(push("heavy", 0).build().is_err());
+    assert!(push("heavy", 4).build().is_err());
+    assert!(ForceHistory::new(&[(1.0, 0.0), (0.5, 1.0)], false).is_err());
+}

@@ -5,14 +5,8 @@ use std::path::Path;
 use pounding_assembly::{Assembly, assemble};
 use pounding_case::Case;
 use pounding_time_history::{MethodChoice, Outcome, RunOptions, System, run};
-use serde::Deserialize;
 
 use super::reference::Reference;
-
-#[derive(Deserialize)]
-struct File {
-    reference: Reference,
-}
 
 /// Two buildings; `ground` stands in the table of the second one.
 fn pair(ground: &str) -> String {
@@ -69,7 +63,7 @@ fn by(assembly: &Assembly, method: MethodChoice) -> Outcome {
 #[test]
 fn a_delay_in_the_case_gives_the_reference() {
     let text = include_str!("../../data/structures/wave_passage_pair.json");
-    let File { reference } = serde_json::from_str(text).unwrap();
+    let reference = Reference::read(text);
     for ground in [
         "ground = { delay = \"0.13 s\" }",
         "ground = { distance = \"59.8 m\", wave_speed = \"460 m/s\" }",
@@ -89,7 +83,7 @@ fn a_delay_in_the_case_gives_the_reference() {
 #[test]
 fn newmark_converges_to_the_reference() {
     let text = include_str!("../../data/structures/wave_passage_pair.json");
-    let File { reference } = serde_json::from_str(text).unwrap();
+    let reference = Reference::read(text);
     let assembly = assembled(&pair("ground = { delay = \"0.13 s\" }"));
     let errors = [2e-4, 1e-4].map(|step| {
         let newmark = MethodChoice::Newmark {

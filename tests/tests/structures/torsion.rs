@@ -5,14 +5,8 @@ use std::path::Path;
 use pounding_assembly::{Assembly, assemble};
 use pounding_case::Case;
 use pounding_time_history::{MethodChoice, Outcome, RunOptions, run};
-use serde::Deserialize;
 
 use super::reference::Reference;
-
-#[derive(Deserialize)]
-struct File {
-    reference: Reference,
-}
 
 /// Two buildings of two storeys under both components; the figures of the reference.
 const PAIR: &str = r#"
@@ -118,7 +112,7 @@ fn named_as_in_the_reference(mut outcome: Outcome) -> Outcome {
 #[test]
 fn a_pair_that_turns_gives_the_reference() {
     let text = include_str!("../../data/structures/torsion_pair.json");
-    let File { reference } = serde_json::from_str(text).unwrap();
+    let reference = Reference::read(text);
     let assembly = assembled(PAIR);
     let adaptive = MethodChoice::Adaptive {
         relative_tolerance: 1e-11,

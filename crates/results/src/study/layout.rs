@@ -110,7 +110,7 @@ const QUANTITIES: [Quantity; 17] = [
         Axis::Run,
         "energy_input",
         "J",
-        "energy put in by the ground at the end of the run",
+        "energy put in by the ground and by forces on floors at the end of the run",
     ),
     quantity(
         Axis::Run,

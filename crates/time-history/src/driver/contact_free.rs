@@ -1,6 +1,7 @@
 //! Leaving contact-free motion to the exact step of the modes.
 
 use super::contact_episode::Open;
+use super::parts::Parts;
 use super::whole_intervals::WholeIntervals;
 use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
@@ -22,7 +23,10 @@ fn is_cheaper_by_series(system: &System) -> bool {
 impl Driver<'_> {
     pub(super) fn ready_for_contact_free(mut self) -> Self {
         if self.method.flies() && !is_cheaper_by_series(self.system) {
-            self.open = Open::new(self.system, &self.options.method);
+            self.open = Open::new(self.system, &self.options.method).map(Box::new);
+            let open = self.open.as_ref();
+            let parts = open.and_then(|open| Parts::new(self.system, &open.constants));
+            self.parts = parts.map(Box::new);
         }
         if self.method.flies() && self.system.contact_free().is_none() {
             self.whole = WholeIntervals::new(self.system);
@@ -42,7 +46,7 @@ impl Driver<'_> {
             constants,
             phase,
             contact_episode,
-        }) = &mut self.open
+        }) = self.open.as_deref_mut()
         else {
             return Ok(0);
         };

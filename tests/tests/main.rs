@@ -8,6 +8,7 @@ mod floors_in_touch;
 mod free_motion;
 mod impact_counts;
 mod isolated_demand;
+mod long_rows;
 mod loose_tolerance;
 mod moreau_jean;
 mod observers;

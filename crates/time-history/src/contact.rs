@@ -50,6 +50,11 @@ impl Contacts {
         self.widths[level]
     }
 
+    /// Those of all gaps (m).
+    pub(crate) fn widths(&self) -> &[f64] {
+        &self.widths
+    }
+
     /// Penetration (m), positive in contact.
     pub(crate) fn penetration(&self, system: &System, level: usize, u: &[f64]) -> f64 {
         system.levels()[level].relative(u) - self.widths[level]
@@ -81,6 +86,23 @@ impl Contacts {
     pub(crate) fn open(&mut self, level: usize) {
         self.modes[level] = Mode::Open;
         self.closed.retain(|l| *l != level);
+    }
+
+    /// Mode and width of a level, to go back to.
+    pub(crate) fn mark(&self, level: usize) -> (Mode, f64) {
+        (self.modes[level], self.widths[level])
+    }
+
+    /// Puts a level back to where it was.
+    pub(crate) fn go_back(&mut self, level: usize, (mode, width): (Mode, f64)) {
+        self.widths[level] = width;
+        match mode {
+            Mode::Open => self.open(level),
+            Mode::Closed(contact) => {
+                self.open(level);
+                self.close(level, contact);
+            }
+        }
     }
 
     pub(crate) fn set_phase(&mut self, level: usize, phase: Phase) {

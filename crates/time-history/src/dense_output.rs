@@ -135,6 +135,11 @@ impl<'a, 'b> Observers<'a, 'b> {
         self.recorders.is_empty()
     }
 
+    /// Whether anybody wants to see a time up to this one (s).
+    pub(crate) fn want(&self, end: f64) -> bool {
+        self.recorders.iter().any(|r| r.next_time() <= end)
+    }
+
     /// Shows a step to all.
     pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
         let last = step.start + step.length >= self.end * (1.0 - 1.0e-12);

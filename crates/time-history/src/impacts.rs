@@ -84,7 +84,61 @@ pub(crate) struct ImpactLog {
     handed_out: Vec<Impact>,
 }
 
+/// What the log holds of one level at one time, to go back to.
+#[derive(Debug, Clone)]
+pub(crate) struct LevelMark {
+    level: usize,
+    track: Track,
+    outcome: LevelOutcome,
+    /// The impact that may go on.
+    impact: Option<Impact>,
+}
+
+/// How long the lists of the log are at one time.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct LogMark {
+    impacts: usize,
+    finished: usize,
+}
+
 impl ImpactLog {
+    /// The present lengths of the lists.
+    pub(crate) fn mark(&self) -> LogMark {
+        LogMark {
+            impacts: self.impacts.len(),
+            finished: self.finished.len(),
+        }
+    }
+
+    /// What is known of a level at present.
+    pub(crate) fn mark_level(&self, level: usize) -> LevelMark {
+        let track = self.tracks[level];
+        LevelMark {
+            level,
+            track,
+            outcome: self.levels[level].clone(),
+            impact: track.episode.map(|e| self.impacts[e.index].clone()),
+        }
+    }
+
+    /// Forgets all impacts since the mark.
+    pub(crate) fn go_back(&mut self, mark: LogMark) {
+        self.impacts.truncate(mark.impacts);
+        self.constants.truncate(mark.impacts);
+        self.touches.truncate(mark.impacts);
+        self.finished.truncate(mark.finished);
+    }
+
+    /// Forgets what a level went through since the mark.
+    pub(crate) fn go_back_level(&mut self, mark: &LevelMark) {
+        self.tracks[mark.level] = mark.track;
+        self.levels[mark.level].clone_from(&mark.outcome);
+        if let (Some(episode), Some(impact)) = (mark.track.episode, &mark.impact) {
+            self.impacts[episode.index].clone_from(impact);
+            self.touches[episode.index] = false;
+        }
+    }
+
     pub(crate) fn new(system: &System) -> Self {
         let count = system.levels().len();
         let (u, v) = system

@@ -16,6 +16,30 @@ pub(crate) struct Tracks<'a> {
     pub displacement: &'a mut Track,
     pub drift: &'a mut Track,
     pub acceleration: &'a mut Track,
+    /// Least and greatest displacements, where they are followed.
+    pub extent: Option<&'a mut [Vec<Lane>; 2]>,
+}
+
+impl Tracks<'_> {
+    /// Takes the next displacements in, between which and the present ones floors stray from
+    /// the chord by at most this much.
+    #[inline(always)]
+    fn extend(&mut self, over: f64) {
+        let Some([least, greatest]) = &mut self.extent else {
+            return;
+        };
+        let ends = self.displacement.now.iter().zip(&self.displacement.next);
+        for (c, (now, next)) in ends.enumerate() {
+            let (low, high) = (&mut least[c], &mut greatest[c]);
+            for l in 0..WIDTH {
+                let (a, b) = (now[l], next[l]);
+                let (below, above) = if a < b { (a, b) } else { (b, a) };
+                let (below, above) = (below - over, above + over);
+                low[l] = if below < low[l] { below } else { low[l] };
+                high[l] = if above > high[l] { above } else { high[l] };
+            }
+        }
+    }
 }
 
 /// Absolute accelerations of the floors at the start of a step, which may have jumped.
@@ -132,6 +156,7 @@ fn values(
     to_floors(shapes, absolute, &mut tracks.acceleration.next);
     let bend = 0.125 * constants.rows.bound(&series.bend);
     let snap = 0.125 * constants.rows.bound(&series.snap);
+    tracks.extend(bend);
     // A drift is a difference of two floors.
     [
         exceeds(tracks.displacement, bend),
@@ -290,6 +315,7 @@ pub(crate) fn note_floors_of_span(
     // safety.
     let over = 0.1875 * length * length * bend(2);
     let bounds = [over, 2.0 * over, 0.75 * length * bend(3)];
+    tracks.extend(over);
     let mut taken = false;
     let mut sampled = false;
     for (which, track) in [

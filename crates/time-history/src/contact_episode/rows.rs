@@ -8,7 +8,7 @@ use crate::contact_free::{ContactFree, Lane, WIDTH};
 use crate::system::{ContactLevel, SectionForce, System};
 
 /// One linear function of the modal displacements, over the lanes where it is not zero.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct ModalRow {
     first_lane: usize,
     weights: Vec<Lane>,
@@ -26,6 +26,29 @@ impl ModalRow {
         let lane = (mode / WIDTH).checked_sub(self.first_lane);
         let lane = lane.and_then(|c| self.weights.get(c));
         lane.map_or(0.0, |lane| lane[mode % WIDTH])
+    }
+
+    /// The same row where only `count` modes from this one on are there.
+    pub(crate) fn of_part(&self, first: usize, count: usize) -> Self {
+        let own = self.modes();
+        let from = own.start.max(first) - first;
+        let end = own.end.min(first + count).saturating_sub(first);
+        let first_lane = from / WIDTH;
+        let lanes = end.div_ceil(WIDTH).saturating_sub(first_lane);
+        let weight = |c: usize| {
+            Lane::from_fn(|l| {
+                let mode = (first_lane + c) * WIDTH + l;
+                if mode < count {
+                    self.weight(first + mode)
+                } else {
+                    0.0
+                }
+            })
+        };
+        Self {
+            first_lane,
+            weights: (0..lanes).map(weight).collect(),
+        }
     }
 
     /// Its weights on all of the first `LANES` lanes.
@@ -189,16 +212,16 @@ fn dot_all(row: &ModalRow, x: &[Lane], lanes: usize, out: &mut [f64]) {
     }
 }
 
-/// Closings of all levels (m) at these displacements of the modes.
+/// Closings of these levels (m) at these displacements of the modes.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn closings(rows: &LevelRows, q: &[Lane], out: &mut [f64]) {
-    for (closing, row) in out.iter_mut().zip(&rows.levels) {
-        *closing = row.dot(q);
+pub(crate) fn closings(rows: &LevelRows, levels: &[usize], q: &[Lane], out: &mut [f64]) {
+    for l in levels {
+        out[*l] = rows.levels[*l].dot(q);
     }
 }
 
@@ -292,6 +315,15 @@ impl LevelRows {
         };
         let levels: Vec<_> = system.levels().iter().map(row).collect();
         Self { levels }
+    }
+
+    /// Rows of these levels over `count` modes from `first` on; those of the others are empty.
+    pub(crate) fn part(&self, levels: &[usize], first: usize, count: usize) -> Self {
+        let mut part = vec![ModalRow::default(); self.levels.len()];
+        for l in levels {
+            part[*l] = self.levels[*l].of_part(first, count);
+        }
+        Self { levels: part }
     }
 }
 

@@ -92,11 +92,12 @@ fn earliest(candidates: &[Candidate]) -> Option<Candidate> {
         .reduce(|a, b| if b.theta < a.theta { b } else { a })
 }
 
-/// Events inside a series, at whose end the levels have these closings and between whose
-/// ends no floor's displacement exceeds both by more than `over`. `penetration` holds those
-/// at the start.
+/// Events of these levels inside a series, at whose end they have these closings and between
+/// whose ends no floor's displacement exceeds both by more than `over`. `penetration` holds
+/// those at the start.
 pub(crate) fn in_series(
     (system, contacts, rows): (&System, &Contacts, &LevelRows),
+    levels: &[usize],
     (series, touches): (&Series, &[Touch]),
     (closings, over, penetration): (&[f64], f64, &[f64]),
     candidates: &mut Vec<Candidate>,
@@ -104,7 +105,7 @@ pub(crate) fn in_series(
 ) -> Option<Candidate> {
     candidates.clear();
     let mut closed = touches.iter().zip(&series.touches).peekable();
-    for l in 0..system.levels().len() {
+    for &l in levels {
         let mut first = None;
         if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
             let row = &rows.levels[l];
@@ -258,10 +259,10 @@ fn secant(theta: f64, function: impl Fn(f64) -> f64) -> f64 {
     y
 }
 
-/// Events inside a step of the pair, with `penetration` at its start and `after` at its
-/// end for all open levels.
+/// Events of these levels inside a step of the pair, with `penetration` at its start.
 pub(crate) fn in_span(
     scene: &Scene<'_>,
+    levels: &[usize],
     contacts: &Contacts,
     span: &Span<'_>,
     penetration: &[f64],
@@ -272,7 +273,7 @@ pub(crate) fn in_span(
     let system = scene.system;
     let length = span.clock.offset(1.0);
     let mut closed = scene.touches.iter().enumerate().peekable();
-    for l in 0..system.levels().len() {
+    for &l in levels {
         let mut first = None;
         if let Some((k, touch)) = closed.next_if(|(_, t)| t.level == l) {
             let (a, b) = span.touch(k);

@@ -12,11 +12,14 @@ pub(crate) struct Touch {
     pub width: f64,
 }
 
-/// Lists the closed levels. Returns false if one of them is stuck, which the equations of
-/// the modes do not cover.
-pub(crate) fn list(contacts: &Contacts, out: &mut Vec<Touch>) -> bool {
+/// Lists the closed ones of these levels. Returns false if one of them is stuck, which the
+/// equations of the modes do not cover.
+pub(crate) fn list(contacts: &Contacts, levels: &[usize], out: &mut Vec<Touch>) -> bool {
     out.clear();
     for &level in contacts.closed() {
+        if levels.binary_search(&level).is_err() {
+            continue;
+        }
         let Some(contact) = contacts.contact(level) else {
             continue;
         };

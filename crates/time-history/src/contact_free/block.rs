@@ -116,6 +116,28 @@ impl Block {
 }
 
 impl Block {
+    /// For what never takes blocks.
+    pub(super) fn none() -> Self {
+        let extremes = || Extremes::new(0);
+        Self {
+            end: Modal::new(0),
+            displacement: Vec::new(),
+            acceleration: Vec::new(),
+            watched: None,
+            size: Vec::new(),
+            floors: extremes(),
+            drifts: extremes(),
+            levels: extremes(),
+            between: Vec::new(),
+            accelerations: extremes(),
+            sections: extremes(),
+            over: std::array::from_fn(|_| Vec::new()),
+            own: [false; 4],
+            largest: (0.0, 0.0),
+            modal: Vec::new(),
+        }
+    }
+
     /// Keeps the whole motion at every sample from now on.
     pub(super) fn watch(&mut self) {
         if self.watched.is_none() {

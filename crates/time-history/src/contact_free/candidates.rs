@@ -75,6 +75,20 @@ impl Candidates {
         }
     }
 
+    /// For what never notes any.
+    pub(super) fn none() -> Self {
+        Self {
+            list: Vec::new(),
+            capacity: 0,
+            samples: [0; SNAPSHOTS],
+            states: Vec::new(),
+            used: 0,
+            scratch: Modal::new(0),
+            bound: SampleBound::new(0),
+            look: CloserLook::new(0),
+        }
+    }
+
     /// Makes space for those of one more block.
     pub(super) fn make_room(
         &mut self,

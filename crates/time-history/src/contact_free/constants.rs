@@ -240,7 +240,7 @@ impl ContactFree {
 }
 
 /// A square matrix over the lanes that hold rows `first..first + count`.
-fn spread(first: usize, count: usize, entry: impl Fn(usize, usize) -> f64) -> Shapes {
+pub(super) fn spread(first: usize, count: usize, entry: impl Fn(usize, usize) -> f64) -> Shapes {
     let first_lane = first / WIDTH;
     let lanes = (first + count).div_ceil(WIDTH) - first_lane;
     let mut columns: Vec<Lane> = vec![Lane::ZERO; lanes * count];

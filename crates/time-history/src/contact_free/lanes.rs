@@ -196,6 +196,13 @@ impl Modal {
 }
 
 impl Track {
+    /// Takes over another one of as many values.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.now.copy_from_slice(&other.now);
+        self.peak.copy_from_slice(&other.peak);
+        self.time.copy_from_slice(&other.time);
+    }
+
     /// For so many values: places beyond them never have a peak.
     pub(crate) fn new(count: usize) -> Self {
         let lanes = count.div_ceil(WIDTH);

@@ -13,17 +13,21 @@ mod block;
 mod candidates;
 mod closer_look;
 mod constants;
+mod free_sample;
 mod lanes;
 mod mode_step;
+mod part;
 mod phase;
 mod sample_bound;
 mod transform;
 
 pub(crate) use block::step_over;
 pub(crate) use constants::ContactFree;
+pub(crate) use free_sample::FreeSample;
 pub(crate) use lanes::{
     Ground, Lane, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
     restoring, scale, spread,
 };
+pub(crate) use part::{put_part, take_part};
 pub(crate) use phase::{BlockMotion, ContactFreePhase, EnergyAccounts, SampleMotion, SampleRange};
 pub(crate) use transform::{Four, to_floors, transform, transform_fours};

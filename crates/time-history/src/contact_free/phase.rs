@@ -97,23 +97,26 @@ impl<'a> BlockMotion<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct ContactFreePhase {
     pub now: Modal,
-    displacement: Track,
-    drift: Track,
-    acceleration: Track,
-    sections: Track,
+    pub(super) displacement: Track,
+    pub(super) drift: Track,
+    pub(super) acceleration: Track,
+    pub(super) sections: Track,
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
+    /// Least and greatest displacements of all floors in the present sample, where they are
+    /// followed.
+    pub(super) extent: Option<[Vec<Lane>; 2]>,
     /// Whether state and peaks are those of the run, and whether the state has changed
     /// since it was taken over.
     holds_state: bool,
     pub moved: bool,
-    modal: Vec<Lane>,
+    pub(super) modal: Vec<Lane>,
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
     block: Block,
-    candidates: Candidates,
+    pub(super) candidates: Candidates,
     /// The motion at the start of the block, for observers.
     block_start: Modal,
 }
@@ -132,6 +135,7 @@ impl ContactFreePhase {
             sections: Track::new(sections),
             acceleration_known: false,
             penetration: vec![0.0; system.levels().len()],
+            extent: None,
             holds_state: false,
             moved: false,
             modal: zeros(),
@@ -140,6 +144,30 @@ impl ContactFreePhase {
             block: Block::new(system),
             candidates: Candidates::new(lanes, 3 * dofs + sections),
             block_start: Modal::new(lanes),
+        }
+    }
+
+    /// For contacts among some buildings of a system alone, with so many degrees of freedom:
+    /// blocks are left to the whole system.
+    pub(crate) fn of_part(dofs: usize, levels: usize) -> Self {
+        let zeros = || vec![Lane::ZERO; dofs.div_ceil(WIDTH)];
+        Self {
+            now: Modal::new(dofs.div_ceil(WIDTH)),
+            displacement: Track::new(dofs),
+            drift: Track::new(dofs),
+            acceleration: Track::new(dofs),
+            sections: Track::new(0),
+            acceleration_known: false,
+            penetration: vec![0.0; levels],
+            extent: Some([zeros(), zeros()]),
+            holds_state: true,
+            moved: true,
+            modal: zeros(),
+            start_energy: Vec::new(),
+            drifted: Vec::new(),
+            block: Block::none(),
+            candidates: Candidates::none(),
+            block_start: Modal::new(0),
         }
     }
 
@@ -217,12 +245,11 @@ impl ContactFreePhase {
         &mut self,
         constants: &ContactFree,
         (q, p): (&[Lane], &[Lane]),
-        state: &mut [f64],
+        [displacement, velocity]: [&mut [f64]; 2],
     ) {
-        let n = state.len() / 2;
-        for (modal, place) in [(q, 0), (p, n)] {
+        for (modal, floors) in [(q, displacement), (p, velocity)] {
             transform(&constants.shapes, modal, &mut self.modal);
-            gather(&self.modal, &mut state[place..place + n]);
+            gather(&self.modal, floors);
         }
     }
 
@@ -237,6 +264,7 @@ impl ContactFreePhase {
             displacement: &mut self.displacement,
             drift: &mut self.drift,
             acceleration: &mut self.acceleration,
+            extent: self.extent.as_mut(),
         }
     }
 

@@ -1,5 +1,9 @@
 //! Following contacts in the coordinates of the modes.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::parts::Sample;
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS};
 use crate::contact_episode::{
     LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
@@ -15,13 +19,19 @@ use crate::system::System;
 
 /// Exact contact-free motion, and contacts between contact-free phases.
 pub(super) struct Open<'a> {
-    pub constants: &'a ContactFree,
+    /// Of the whole system, or of a part of it.
+    pub constants: Cow<'a, ContactFree>,
     pub phase: ContactFreePhase,
     pub contact_episode: ContactEpisode,
 }
 
 /// Work space of contacts.
 pub(super) struct ContactEpisode {
+    /// Degrees of freedom, and levels in ascending order, that it is about.
+    pub dofs: Range<usize>,
+    pub levels: Vec<usize>,
+    /// For a part of a system: what the balance of its energy counts from (J).
+    pub counted_from: Option<f64>,
     pub rows: LevelRows,
     pub touches: Vec<Touch>,
     pub series: Series,
@@ -35,7 +45,7 @@ pub(super) struct ContactEpisode {
     /// Terms of a series of powers.
     pub terms: usize,
     /// Whether the list of closed levels holds, and whether they all are affine.
-    listed: bool,
+    pub listed: bool,
     pub affine: bool,
     /// Whether they all can be expanded into series.
     powers: bool,
@@ -59,27 +69,44 @@ impl<'a> Open<'a> {
         let MethodChoice::EventDriven { relative_tolerance } = *method else {
             return None;
         };
-        let zeros = || vec![Lane::ZERO; lanes];
+        let rows = LevelRows::new(constants, system);
+        let dofs = 0..system.degrees_of_freedom();
+        let levels = (0..levels).collect();
         Some(Self {
             phase: ContactFreePhase::new(system),
-            contact_episode: ContactEpisode {
-                rows: LevelRows::new(constants, system),
-                touches: Vec::with_capacity(levels),
-                series: Series::new(lanes, levels),
-                pair: Pair::new(lanes, levels),
-                rates: Rates::new(lanes),
-                closings: vec![0.0; levels],
-                lengths: StepLength::new(),
-                absolute: zeros(),
-                tolerance: relative_tolerance,
-                terms: series_terms(relative_tolerance),
-                listed: false,
-                affine: false,
-                powers: false,
-                derived: false,
-            },
-            constants,
+            contact_episode: ContactEpisode::new(rows, (dofs, lanes, levels), relative_tolerance),
+            constants: Cow::Borrowed(constants),
         })
+    }
+}
+
+impl ContactEpisode {
+    /// For these degrees of freedom in so many lanes, and these levels.
+    pub(super) fn new(
+        rows: LevelRows,
+        (dofs, lanes, levels): (Range<usize>, usize, Vec<usize>),
+        relative_tolerance: f64,
+    ) -> Self {
+        let (all, count) = (rows.levels.len(), levels.len());
+        Self {
+            dofs,
+            levels,
+            counted_from: None,
+            rows,
+            touches: Vec::with_capacity(count),
+            series: Series::new(lanes, count),
+            pair: Pair::new(lanes, count),
+            rates: Rates::new(lanes),
+            closings: vec![0.0; all],
+            lengths: StepLength::new(),
+            absolute: vec![Lane::ZERO; lanes],
+            tolerance: relative_tolerance,
+            terms: series_terms(relative_tolerance),
+            listed: false,
+            affine: false,
+            powers: false,
+            derived: false,
+        }
     }
 }
 
@@ -133,7 +160,17 @@ impl Driver<'_> {
         q.copy_from_slice(&phase.now.displacement);
         p.copy_from_slice(&phase.now.velocity);
         while let Some(segment) = self.system.segment(sample, duration) {
-            if let Some(tau) = self.begin_episode_in_segment(open, &segment, observers)? {
+            let left = match self.by_parts(open, &segment, duration, observers)? {
+                Sample::ByParts => None,
+                Sample::Whole { shown: false } => {
+                    self.begin_episode_in_segment(open, &segment, observers)?
+                }
+                Sample::Whole { shown: true } => {
+                    let mut nobody = Observers::new(self.system, &mut [], duration);
+                    self.begin_episode_in_segment(open, &segment, &mut nobody)?
+                }
+            };
+            if let Some(tau) = left {
                 if sample > first || tau > 0.0 {
                     open.put_back();
                 }
@@ -141,8 +178,7 @@ impl Driver<'_> {
                 return Ok(Left::Within(sample, tau));
             }
             sample += 1;
-            let quiet = self.mute.iter().all(|m| *m == Mute::No);
-            if self.contacts.closed().is_empty() && quiet {
+            if self.is_contact_free() {
                 break;
             }
         }
@@ -150,17 +186,24 @@ impl Driver<'_> {
         Ok(Left::At(sample))
     }
 
+    /// Whether all gaps are open, and all events count.
+    fn is_contact_free(&self) -> bool {
+        let quiet = self.mute.iter().all(|m| *m == Mute::No);
+        self.contacts.closed().is_empty() && quiet
+    }
+
     /// Evaluations, or terms of series, in the coordinates of the modes.
     pub(super) fn evaluations_in_modes(&self) -> u64 {
         let open = self.open.as_ref();
-        self.series_terms + open.map_or(0, |o| o.contact_episode.pair.evaluations)
+        let parts = self.parts.as_ref().map_or(0, |parts| parts.evaluations);
+        self.series_terms + parts + open.map_or(0, |o| o.contact_episode.pair.evaluations)
     }
 
     /// Leaves the coordinates of the modes.
     fn leave(&mut self, open: &mut Open<'_>, time: f64) -> Result<(), TimeHistoryError> {
         let peaks = &mut self.peaks;
         open.phase
-            .return_state(open.constants, self.system, peaks, &mut self.state);
+            .return_state(&open.constants, self.system, peaks, &mut self.state);
         self.method.restart(true);
         self.balance(time)
     }
@@ -170,7 +213,7 @@ impl Driver<'_> {
         if let Some(mut open) = self.open.take() {
             self.leave(&mut open, time)?;
             let peaks = &mut self.peaks;
-            open.phase.finish(open.constants, self.system, peaks);
+            open.phase.finish(&open.constants, self.system, peaks);
             self.open = Some(open);
         }
         Ok(())
@@ -178,7 +221,7 @@ impl Driver<'_> {
 
     /// Integrates over one interval between samples. Returns a time within it (s) if it
     /// cannot go on from there.
-    fn begin_episode_in_segment(
+    pub(super) fn begin_episode_in_segment(
         &mut self,
         open: &mut Open<'_>,
         segment: &Segment,
@@ -189,7 +232,7 @@ impl Driver<'_> {
         while tau < segment.length {
             let e = &mut open.contact_episode;
             if !e.listed {
-                if !list(&self.contacts, &mut e.touches) {
+                if !list(&self.contacts, &e.levels, &mut e.touches) {
                     return Ok(Some(tau));
                 }
                 e.affine = are_affine(&e.touches, self.system);
@@ -200,9 +243,11 @@ impl Driver<'_> {
                 e.listed = true;
             }
             let mut quiet = f64::INFINITY;
-            for (mute, step) in self.mute.iter().zip(&self.quiet) {
-                if *mute != Mute::No {
-                    quiet = quiet.min(*step);
+            if self.eventful {
+                for l in &e.levels {
+                    if self.mute[*l] != Mute::No {
+                        quiet = quiet.min(self.quiet[*l]);
+                    }
                 }
             }
             let rest = segment.length - tau;
@@ -261,9 +306,10 @@ impl Driver<'_> {
             phase,
             contact_episode,
         } = &mut *open;
-        let n = self.dynamics.layout.dofs;
+        let (n, dofs) = (self.dynamics.layout.dofs, contact_episode.dofs.clone());
         let [q, p, ..] = &contact_episode.pair.start.motion;
-        phase.state_of(constants, (q, p), &mut self.state[..2 * n]);
+        let (u, v) = self.state[..2 * n].split_at_mut(n);
+        phase.state_of(constants, (q, p), [&mut u[dofs.clone()], &mut v[dofs]]);
         let smooth = self.process(segment, tau, event, whole)?;
         let contact_episode = &mut open.contact_episode;
         contact_episode.lengths.restart(smooth);
@@ -285,17 +331,32 @@ impl Driver<'_> {
             phase,
             contact_episode,
         } = open;
+        let constants: &ContactFree = constants;
         let layout = self.dynamics.layout;
         let [q, p, ..] = &contact_episode.pair.start.motion;
         self.statistics.steps += 1;
+        let (rows, levels) = (&contact_episode.rows.levels, &contact_episode.levels);
         if step > SIMULTANEOUS {
-            self.at_once.fill(0);
-            self.mute.fill(Mute::No);
+            if self.eventful {
+                for l in levels {
+                    self.at_once[*l] = 0;
+                    self.mute[*l] = Mute::No;
+                }
+                // Levels of other parts may have had events.
+                self.eventful = contact_episode.counted_from.is_some();
+            }
             self.stalled = 0;
         }
-        let rows = &contact_episode.rows.levels;
-        for (l, penetration) in phase.penetration.iter_mut().enumerate() {
-            *penetration = contact_episode.closings[l] - self.contacts.width(l);
+        if contact_episode.counted_from.is_none() {
+            let closings = &contact_episode.closings;
+            let penetrations = phase.penetration.iter_mut().zip(closings);
+            for ((penetration, closing), width) in penetrations.zip(self.contacts.widths()) {
+                *penetration = closing - width;
+            }
+        } else {
+            for l in levels {
+                phase.penetration[*l] = contact_episode.closings[*l] - self.contacts.width(*l);
+            }
         }
         for touch in &contact_episode.touches {
             let l = touch.level;
@@ -305,13 +366,18 @@ impl Driver<'_> {
         if !contact_episode.affine {
             refresh(&self.contacts, &mut contact_episode.touches);
         }
-        let worked: f64 = (0..layout.levels).map(|l| self.state[layout.work(l)]).sum();
+        let worked: f64 = levels.iter().map(|l| self.state[layout.work(*l)]).sum();
         let input = self.state[layout.input()];
-        let residual = stored(constants, q, p) + self.state[layout.viscous()] + worked - input;
+        let mut residual = stored(constants, q, p) + self.state[layout.viscous()] + worked - input;
+        if let Some(start) = contact_episode.counted_from {
+            // The other buildings are not yet, or no longer, at this time.
+            residual -= start;
+        } else {
+            self.ledger.largest_input = self.ledger.largest_input.max(input.abs());
+        }
         if !residual.is_finite() {
             return Err(self.not_finite(time));
         }
-        self.ledger.largest_input = self.ledger.largest_input.max(input.abs());
         self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
         Ok(())

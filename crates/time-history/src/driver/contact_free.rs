@@ -2,6 +2,7 @@
 
 use super::contact_episode::Open;
 use super::exact_steps::ExactSteps;
+use super::parts::Parts;
 use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
 use crate::dense_output::Observers;
@@ -22,7 +23,10 @@ fn is_cheaper_by_series(system: &System) -> bool {
 impl Driver<'_> {
     pub(super) fn ready_for_contact_free(mut self) -> Self {
         if self.method.flies() && !is_cheaper_by_series(self.system) {
-            self.open = Open::new(self.system, &self.options.method);
+            self.open = Open::new(self.system, &self.options.method).map(Box::new);
+            let open = self.open.as_ref();
+            let parts = open.and_then(|open| Parts::new(self.system, &open.constants));
+            self.parts = parts.map(Box::new);
         }
         if self.method.flies() && self.system.contact_free().is_none() {
             self.exact = ExactSteps::new(self.system);
@@ -42,7 +46,7 @@ impl Driver<'_> {
             constants,
             phase,
             contact_episode,
-        }) = &mut self.open
+        }) = self.open.as_deref_mut()
         else {
             return Ok(0);
         };

@@ -7,7 +7,7 @@ use crate::contact_episode::{
     closings, in_series, in_span, note_floors_of_series, note_floors_of_span,
     note_sections_of_series, note_sections_of_span, soon_after,
 };
-use crate::contact_free::{ContactFreePhase, Lane, add, scale};
+use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
 use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
@@ -48,6 +48,7 @@ impl Driver<'_> {
             phase,
             contact_episode: e,
         } = open;
+        let constants: &ContactFree = constants;
         let rate = e.series.rate();
         let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
         let parts = (longest / Series::longest(rate)).ceil().max(1.0);
@@ -82,11 +83,12 @@ impl Driver<'_> {
         let modes = &constants.modes;
         let [q, p, ..] = &mut e.pair.end.motion;
         e.series.end(modes, q, p, &mut e.absolute);
-        closings(&e.rows, q, &mut e.closings);
+        closings(&e.rows, &e.levels, q, &mut e.closings);
         let over = 0.125 * constants.rows.bound(&e.series.bend);
         let (mute, at_once) = (&self.mute, &self.at_once);
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
+            &e.levels,
             (&e.series, &e.touches),
             (&e.closings, over, &phase.penetration),
             &mut self.finder.candidates,
@@ -101,7 +103,7 @@ impl Driver<'_> {
                 step = event.theta * whole;
                 e.series.shorten(event.theta);
                 e.series.end(modes, q, p, &mut e.absolute);
-                closings(&e.rows, q, &mut e.closings);
+                closings(&e.rows, &e.levels, q, &mut e.closings);
             }
         }
         if !observers.is_empty() {
@@ -133,6 +135,7 @@ impl Driver<'_> {
             phase,
             contact_episode: e,
         } = open;
+        let constants: &ContactFree = constants;
         let works = e.series.works(&constants.modes);
         let layout = self.dynamics.layout;
         self.state[layout.input()] += works.input;
@@ -178,6 +181,7 @@ impl Driver<'_> {
             phase,
             contact_episode: e,
         } = open;
+        let constants: &ContactFree = constants;
         let start = segment.start + tau;
         let scene = Scene {
             constants,
@@ -196,7 +200,7 @@ impl Driver<'_> {
         let whole = trial.tried.length;
         e.pair.derive_end(&scene, whole);
         let mut step = whole;
-        let event = self.event_of(&scene, &e.pair, phase, &trial.clock, longest);
+        let event = self.event_of((&scene, &e.levels), &e.pair, phase, &trial.clock, longest);
         if let Some((found, time)) = &event {
             if *time <= EVENT_TOLERANCE {
                 return Ok((0.0, Some((*found, whole))));
@@ -240,7 +244,7 @@ impl Driver<'_> {
         note_floors_of_span(&scene, &span, &mut e.rates, &mut phase.tracks(), start);
         note_sections_of_span(&constants.rows.sections, &span, phase.sections(), start);
         self.note_contacts(&scene, &span, &e.pair, start);
-        closings(&e.rows, &e.pair.end.motion[0], &mut e.closings);
+        closings(&e.rows, &e.levels, &e.pair.end.motion[0], &mut e.closings);
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         Ok((step, event))
     }
@@ -281,7 +285,7 @@ impl Driver<'_> {
     /// The first event of the step that was tried, with its time (s) after the start.
     fn event_of(
         &mut self,
-        scene: &Scene<'_>,
+        (scene, levels): (&Scene<'_>, &[usize]),
         pair: &Pair,
         phase: &ContactFreePhase,
         clock: &Clock,
@@ -296,6 +300,7 @@ impl Driver<'_> {
         };
         let found = in_span(
             scene,
+            levels,
             &self.contacts,
             &span,
             &phase.penetration,

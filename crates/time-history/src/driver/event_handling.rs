@@ -137,6 +137,7 @@ impl Driver<'_> {
         step: f64,
     ) -> Result<bool, TimeHistoryError> {
         let mut smooth = true;
+        self.eventful = true;
         let candidates = std::mem::take(&mut self.finder.candidates);
         self.rigid.closing.clear();
         for other in &candidates {
@@ -151,6 +152,7 @@ impl Driver<'_> {
                 self.stalled += 1;
                 continue;
             }
+            self.mark_level(other.level);
             let rigid = self.is_rigid(other.level);
             if rigid && other.kind == EventKind::Close {
                 if self.only_touches(segment, tau, other.level) {

@@ -6,6 +6,7 @@ mod episode_steps;
 mod event_handling;
 mod exact_steps;
 mod functions;
+mod parts;
 mod result;
 mod rigid_impacts;
 mod series_events;
@@ -32,6 +33,7 @@ use crate::relative_displacement::RelativeDisplacement;
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use exact_steps::{Advance, ExactSteps};
+use parts::{Marks, Parts};
 use rigid_impacts::RigidImpacts;
 
 /// Events closer together than this (s) are one event.
@@ -185,13 +187,18 @@ struct Driver<'a> {
     mute: Vec<Mute>,
     /// Closures of each level since it last did more than touch.
     touches: Vec<usize>,
+    /// Whether a level may have had an event at the present instant, or be muted.
+    eventful: bool,
     /// Step (s) that a muted level makes.
     quiet: Vec<f64>,
     stalled: usize,
     last_ground: Option<Grounds>,
     rigid: RigidImpacts,
     /// Exact contact-free motion, where the method and the buildings allow it.
-    open: Option<Open<'a>>,
+    open: Option<Box<Open<'a>>>,
+    /// Where some buildings of a row touch and others do not: those that do.
+    parts: Option<Box<Parts>>,
+    marks: Marks,
     /// Terms of Taylor series in the coordinates of the modes.
     series_terms: u64,
     /// Space for the history of an element on trial.
@@ -233,11 +240,14 @@ impl<'a> Driver<'a> {
             at_once: vec![0; layout.levels],
             mute: vec![Mute::No; layout.levels],
             touches: vec![0; layout.levels],
+            eventful: true,
             quiet: vec![PROGRESS_STEP; layout.levels],
             stalled: 0,
             last_ground: None,
             rigid: RigidImpacts::default(),
             open: None,
+            parts: None,
+            marks: Marks::default(),
             series_terms: 0,
             spare: None,
             exact: None,

@@ -83,6 +83,7 @@ impl Driver<'_> {
     /// Lets a level be for a while, ever longer if it does not come to rest.
     pub(super) fn keep_quiet(&mut self, l: usize) {
         if self.mute[l] != Mute::Step {
+            self.eventful = true;
             self.mute[l] = Mute::Step;
             self.quiet[l] = (2.0 * self.quiet[l]).min(LONGEST_QUIET);
         }

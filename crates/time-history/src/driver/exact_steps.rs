@@ -148,7 +148,7 @@ impl Driver<'_> {
         let (mut tried, mut by_series) = (false, false);
         for halvings in 0..=HALVINGS {
             let length = segment.length / f64::from(1_u32 << halvings);
-            let begins = !aligned || place as u32 % (1 << (HALVINGS - halvings)) == 0;
+            let begins = !aligned || (place as u32).is_multiple_of(1 << (HALVINGS - halvings));
             if length > rest + ROUND_OFF * unit || !begins {
                 continue;
             }
@@ -301,7 +301,8 @@ impl Driver<'_> {
             return true;
         }
         *stale = true;
-        propagation.deepen(series);
+        let doubted = |building: usize| doubtful.iter().any(|k| functions[*k].is_of(building));
+        propagation.deepen(series, doubted);
         let ends = &propagation.ends;
         let now = Place {
             segment,

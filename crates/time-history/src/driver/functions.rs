@@ -451,6 +451,11 @@ impl Function {
         (all, groups)
     }
 
+    /// Whether it depends on the motion of this building.
+    pub(super) fn is_of(&self, building: usize) -> bool {
+        self.row.mobility.iter().any(|(b, _)| *b == building)
+    }
+
     fn order(&self) -> usize {
         match self.what {
             What::Acceleration(_) | What::Accelerations(_) => 2,

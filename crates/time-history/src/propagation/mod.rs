@@ -146,13 +146,14 @@ impl Propagation {
     }
 
     /// Works out what the last step left: derivatives of order 4 and 5 at both ends, and the
-    /// other bounds.
-    pub(crate) fn deepen(&mut self, series: &mut ContactSeries) {
+    /// other bounds; without contact those of the buildings that are asked for alone.
+    pub(crate) fn deepen(&mut self, series: &mut ContactSeries, of: impl Fn(usize) -> bool) {
         if self.by_series {
             series.deepen(&self.buildings, &mut self.ends);
             return;
         }
-        for (index, building) in self.buildings.iter_mut().enumerate() {
+        let buildings = self.buildings.iter_mut().enumerate();
+        for (index, building) in buildings.filter(|(index, _)| of(*index)) {
             building.deepen(index, &mut self.ends);
         }
     }

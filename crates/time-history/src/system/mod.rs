@@ -671,9 +671,17 @@ impl System {
             let mut below = 0.0;
             let [range, further] = self.parts(index);
             if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
-                let all = || u[range.clone()].iter().chain(&u[further.clone()]);
-                for (column, x) in k.column_iter().zip(all()) {
-                    let force: f64 = column.iter().zip(all()).map(|(k, u)| k * u).sum();
+                let parts = [&u[range.clone()], &u[further]];
+                let columns = k.as_slice().chunks_exact(k.nrows());
+                for (column, x) in columns.zip(parts.into_iter().flatten()) {
+                    let (of_floors, of_others) = column.split_at(range.len());
+                    let mut force = 0.0;
+                    for (k, u) in of_floors.iter().zip(parts[0]) {
+                        force += k * u;
+                    }
+                    for (k, u) in of_others.iter().zip(parts[1]) {
+                        force += k * u;
+                    }
                     sum += 0.5 * force * x;
                 }
                 continue;

@@ -8,15 +8,44 @@ use pounding_catalogue::wording::counted;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
-    let mut points: Vec<String> = result.gaps.iter().filter_map(hit).collect();
+    let (gaps, more) = hardest(result);
+    let mut points: Vec<String> = gaps.iter().filter_map(|gap| hit(gap)).collect();
+    if !more.is_empty() {
+        let impacts: usize = more.iter().map(|gap| gap.impacts.len()).sum();
+        points.push(format!(
+            "{} more below, with {}.",
+            counted(more.len(), "gap"),
+            counted(impacts, "impact"),
+        ));
+    }
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
     }
     if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
-        points.extend(result.buildings.iter().filter_map(changed));
+        let buildings = result.buildings.iter().take(MOST);
+        points.extend(buildings.filter_map(changed));
+        if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
+            points.push(format!("{} more below.", counted(more, "building")));
+        }
     }
     points.push(ledger(result));
     sentences(&points) + &warnings(&result.warnings)
+}
+
+/// Gaps and buildings that have a sentence of their own in the summary.
+const MOST: usize = 6;
+
+/// The gaps that are hit hardest, in the order of the case, and all others.
+fn hardest(result: &RunResult) -> (Vec<&GapResult>, Vec<&GapResult>) {
+    let size = |gap: &GapResult| {
+        let hardest = gap.hardest_first();
+        hardest.first().map_or(0.0, |i| i.impulse)
+    };
+    let mut sizes: Vec<f64> = result.gaps.iter().map(size).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let least = sizes.get(MOST.min(sizes.len()).saturating_sub(1)).copied();
+    let least = least.unwrap_or(0.0);
+    result.gaps.iter().partition(|gap| !(size(gap) < least))
 }
 
 /// How hard the floors on both sides of a gap hit.

@@ -32,6 +32,10 @@ def bare(text):
 
 def looks(page):
     """Nothing sticks out on a screen, wide or narrow, in light and dark."""
+    # Sections out of sight are not laid out otherwise.
+    page.value(
+        "document.querySelectorAll('main > section').forEach(s => { s.style.contentVisibility = 'visible' })"
+    )
     for width in (1280, 400):
         for dark in (False, True):
             page.wide(width, dark=dark, touch=width < 500)

@@ -81,6 +81,9 @@ class Result:
         if path.startswith("/"):
             return self.pointer(path, row)
         path = path.replace("*", row)
+        if "@" in path:
+            group, _, attribute = path.rpartition("@")
+            return [float(self.file[group].attrs[attribute])]
         data, _, rest = path.partition("[")
         if data not in self.known:
             self.known[data] = self.file[data][()]

@@ -1,11 +1,12 @@
-//! Pages of what commands answer: `--report`.
+//! Pages of results and of what commands answer: `report` and `--report`.
 
 use std::path::Path;
 
 use pounding_case::Case;
-use pounding_files::checksum::hexadecimal;
-use pounding_report::ReportError;
-use pounding_report::page::{Inputs, Picture};
+use pounding_files::checksum::{WithoutChecksum, hexadecimal};
+use pounding_report::page::{self as pages, Inputs, Picture};
+use pounding_report::{ReportError, RunResult};
+use pounding_study::ResultReader;
 use pounding_study::gap_check::CaseUnderRecord;
 use serde::Serialize;
 use serde_json::Value;
@@ -63,4 +64,37 @@ pub fn of_case(command: &str, case: &Case, file: &Path, records: &[CaseUnderReco
     let listing = ("The case file".to_owned(), case.source.clone());
     inputs.listings.push(listing);
     inputs
+}
+
+/// The page of a run that has just been written.
+pub fn of_run(path: &Path, output: &Path) -> Result<(), Failure> {
+    let result = RunResult::read(path, WithoutChecksum::Refuse).map_err(failed)?;
+    write_run(&result, path, output)
+}
+
+/// The page of a sweep that has just been written.
+pub fn of_sweep(path: &Path, output: &Path) -> Result<(), Failure> {
+    let result = ResultReader::open(path, WithoutChecksum::Refuse);
+    let result = result.map_err(|e| failed(ReportError::Study(e)))?;
+    write_sweep(&result, path, output)
+}
+
+/// The page of a sweep that was read.
+pub fn write_sweep(result: &ResultReader, path: &Path, output: &Path) -> Result<(), Failure> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    plot::write(output, &pages::sweep(result, &name).map_err(failed)?)
+}
+
+/// The page of a run that was read.
+pub fn write_run(result: &RunResult, path: &Path, output: &Path) -> Result<(), Failure> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    plot::write(output, &pages::run(result, &name).map_err(failed)?)
+}
+
+/// A result that cannot be read or drawn.
+pub fn failed(e: ReportError) -> Failure {
+    match e {
+        ReportError::Figure { .. } => plot::not_drawn(&e),
+        _ => Failure::input(e.to_string(), e.help()),
+    }
 }

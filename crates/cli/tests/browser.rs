@@ -3,7 +3,7 @@
 //! `scripts/test` names interpreter and browser in `POUNDING_PYTHON` and `POUNDING_CHROMIUM`.
 //! Where they are not named nothing can be opened: the pages are made all the same, and the
 //! test says that they were not looked at.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -96,7 +96,22 @@ fn names_stay_text() {
         .replace("\"light\"", "\"<b onclick='x'>\\u2028 & | wall\"");
     let path = folder.path().join("case.toml");
     std::fs::write(&path, case).unwrap();
-    open(&[result_and_page(&path, folder.path(), "names")]);
+    let mut pages = vec![result_and_page(&path, folder.path(), "names")];
+    for (command, options) in [
+        ("gap", "--points 3"),
+        ("compare", "--models linear_elastic,stereomechanical"),
+    ] {
+        let page = folder.path().join(format!("{command}.html"));
+        let arguments = format!(
+            "{} {options} --json --report {}",
+            path.display(),
+            page.display()
+        );
+        let answer = folder.path().join(format!("{command}.json"));
+        std::fs::write(&answer, run(command, &arguments).stdout).unwrap();
+        pages.push((page, answer));
+    }
+    open(&pages);
 }
 
 /// Twenty buildings of fifty storeys, and 1,500 impacts.

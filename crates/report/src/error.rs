@@ -18,8 +18,8 @@ pub enum ReportError {
         /// What the operating system, the checksum or HDF5 says.
         source: OpenError,
     },
-    /// The file is HDF5, but not the result of a run.
-    #[error("{} is not the result of a run: {found}", path.display())]
+    /// The file is HDF5, but neither the result of a run nor of a study.
+    #[error("{} is not a result: {found}", path.display())]
     NotAResult {
         /// File.
         path: PathBuf,
@@ -58,12 +58,12 @@ impl ReportError {
             Self::Unreadable { source, .. } => {
                 let help = source.help();
                 Some(
-                    help.unwrap_or("give the .h5 file that `pounding run` has written")
+                    help.unwrap_or("give the .h5 file that `pounding run` or a study has written; pages of other commands come from their option --report")
                         .to_owned(),
                 )
             }
             Self::NotAResult { .. } => {
-                Some("give the result of `pounding run` or `sweep`".to_owned())
+                Some("give the result of `pounding run`, `sweep`, `merge` or `ida`; pages of other commands come from their option --report".to_owned())
             }
             Self::Damaged { .. } => Some(
                 "run the case again: its text stands in the file as the attribute `case`"

@@ -139,7 +139,17 @@ fn is_whole(html: &str) -> String {
     for foreign in ["<script", "src=", "href=", "@import", "url("] {
         assert!(!html.contains(foreign), "{foreign}");
     }
-    html.clone()
+    without_data(html)
+}
+
+/// The page with numbers in sentences as plain text.
+fn without_data(html: &str) -> String {
+    let parts = html.split("<data ").enumerate();
+    let plain = parts.map(|(i, part)| match i {
+        0 => part,
+        _ => part.split_once('>').unwrap().1,
+    });
+    plain.collect::<String>().replace("</data>", "")
 }
 
 #[test]

@@ -60,7 +60,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
                 output: output.as_deref(),
                 study: study.as_deref(),
             };
-            report::report(&asked, accept_without_checksum, files)
+            report::report(&asked, ida::page_of_result, accept_without_checksum, files)
         }
         Command::Schema { file } => print(&pretty(&match file {
             SchemaOf::Case => pounding_case::schema(),

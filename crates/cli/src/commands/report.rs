@@ -4,18 +4,15 @@ use std::path::Path;
 
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
-use pounding_files::checksum::{Checksum, WithoutChecksum};
-use pounding_report::{ReportError, RunResult, page};
+use pounding_files::checksum::Checksum;
+use pounding_report::{ReportError, RunResult};
 use pounding_study::ResultReader;
 
 use crate::failure::Failure;
 use crate::files::name_left_over;
-use crate::output::print;
-use crate::output::warn;
-use crate::plot;
+use crate::output::{print, warn};
+use crate::page;
 use crate::separate::{Reading, reading, warnings};
-
-use super::ida::page_of_result;
 
 /// What is to have a page.
 pub struct Asked<'a> {
@@ -27,8 +24,16 @@ pub struct Asked<'a> {
     pub study: Option<&'a Path>,
 }
 
+/// Writes the page of a result of a study, whose file comes first.
+pub type PageOfStudy = fn(&Path, &ResultReader, &Path, &mut FileUse) -> Result<(), Failure>;
+
 /// Reads a result, writes its page, says where.
-pub fn report(asked: &Asked<'_>, child: bool, mut files: FileUse) -> Result<(), Failure> {
+pub fn report(
+    asked: &Asked<'_>,
+    page_of_study: PageOfStudy,
+    child: bool,
+    mut files: FileUse,
+) -> Result<(), Failure> {
     let path = asked.result;
     let output = match asked.output {
         Some(output) => output.to_owned(),
@@ -50,22 +55,22 @@ pub fn report(asked: &Asked<'_>, child: bool, mut files: FileUse) -> Result<(), 
     let (held, checksum) = match RunResult::read(path, without) {
         // HDF5, but no run: it may be a study.
         Err(no_run @ ReportError::NotAResult { .. }) => {
-            let result = ResultReader::open(path, without).map_err(|_| failed(no_run))?;
+            let result = ResultReader::open(path, without).map_err(|_| page::failed(no_run))?;
             match asked.study {
-                Some(study) => page_of_result(study, &result, &output, &mut files)?,
-                None => write_sweep(&result, path, &output)?,
+                Some(study) => page_of_study(study, &result, &output, &mut files)?,
+                None => page::write_sweep(&result, path, &output)?,
             }
             (counted(result.rows, "run"), result.checksum)
         }
         result => {
-            let result = result.map_err(failed)?;
+            let result = result.map_err(page::failed)?;
             if asked.study.is_some() {
                 return Err(Failure::input(
                     format!("{} is the result of a run, not of a study", path.display()),
                     Some("leave --study away".to_owned()),
                 ));
             }
-            write_run(&result, path, &output)?;
+            page::write_run(&result, path, &output)?;
             let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
             let held = [
                 counted(result.buildings.len(), "building"),
@@ -79,34 +84,4 @@ pub fn report(asked: &Asked<'_>, child: bool, mut files: FileUse) -> Result<(), 
         warnings(&read).iter().for_each(|text| warn(text));
     }
     print(&format!("{held}: page written to {}", output.display()))
-}
-
-/// The page of a run that has just been written.
-pub fn run(path: &Path, output: &Path) -> Result<(), Failure> {
-    let result = RunResult::read(path, WithoutChecksum::Refuse).map_err(failed)?;
-    write_run(&result, path, output)
-}
-
-/// The page of a sweep that has just been written.
-pub fn sweep(path: &Path, output: &Path) -> Result<(), Failure> {
-    let result = ResultReader::open(path, WithoutChecksum::Refuse);
-    let result = result.map_err(|e| failed(ReportError::Study(e)))?;
-    write_sweep(&result, path, output)
-}
-
-fn write_sweep(result: &ResultReader, path: &Path, output: &Path) -> Result<(), Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    plot::write(output, &page::sweep(result, &name).map_err(failed)?)
-}
-
-fn write_run(result: &RunResult, path: &Path, output: &Path) -> Result<(), Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    plot::write(output, &page::run(result, &name).map_err(failed)?)
-}
-
-fn failed(e: ReportError) -> Failure {
-    match e {
-        ReportError::Figure { .. } => plot::not_drawn(&e),
-        _ => Failure::input(e.to_string(), e.help()),
-    }
 }

@@ -18,9 +18,7 @@ use crate::faults::{assembled, read_case, responses_fit};
 use crate::files::{have_a_place, name_left_over, reads_too};
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit};
-use crate::{plot, tables};
-
-use super::report;
+use crate::{page, plot, tables};
 
 /// Runs a case with and without its gaps, writes the result, prints the answer.
 pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -83,8 +81,8 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             wall_time,
         })?;
     }
-    if let (Some(result), Some(page)) = (&output, &arguments.report) {
-        report::run(result, page)?;
+    if let (Some(result), Some(output)) = (&output, &arguments.report) {
+        page::of_run(result, output)?;
     }
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
         plot::write_drawn(path, picture.responses.picture())?;

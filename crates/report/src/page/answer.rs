@@ -8,7 +8,7 @@
 use pounding_catalogue::{STANDARD_GRAVITY, numbers};
 use serde_json::Value;
 
-use super::html::escaped;
+use super::html::{self, escaped};
 use super::numbers::figures;
 use super::table::{Column, Row, table};
 
@@ -76,23 +76,14 @@ impl<'a> Answer<'a> {
 
     /// A number in a sentence, as HTML that says where it comes from.
     pub(super) fn say(self, source: &str, factor: f64) -> String {
-        let factor_text = match factor {
-            1.0 => String::new(),
-            factor => format!(" data-factor=\"{factor:e}\""),
-        };
-        let value = factor * self.number(source, "");
-        let text = figures(value);
-        format!(
-            "<data data-from=\"{}\"{factor_text} value=\"{text}\">{text}</data>",
-            escaped(source)
-        )
+        let text = figures(factor * self.number(source, ""));
+        html::number(source, factor, &text)
     }
 
     /// A part of a whole in percent, in a sentence: as many digits as it has.
     pub(super) fn say_percent(self, source: &str) -> String {
         let text = numbers::significant(1.0e2 * self.number(source, ""));
-        let from = escaped(source);
-        format!("<data data-from=\"{from}\" data-factor=\"1e2\" value=\"{text}\">{text}</data> %")
+        html::number(source, 1.0e2, &text) + " %"
     }
 
     /// A text of the answer in a sentence, as HTML.

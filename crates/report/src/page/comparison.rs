@@ -88,11 +88,14 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         points.push(sentence + " (standard deviation over mean).");
     }
     points.push(format!(
-        "{} ran under {}, calibrated to the same {} and the restitution {}.",
+        "{} ran under {}, with stiffnesses that give the same {} in the reference collision, {}.",
         counted(models.len() - failed.len(), "model"),
         counted(answer.list("/records").len(), "record"),
         answer.quote("/stiffness_rule"),
-        answer.quote("/restitution_rule"),
+        match answer.text("/restitution_rule") {
+            "exact" => "and returning the restitution exactly",
+            _ => "and asked for the restitution by their own relations",
+        },
     ));
     if !failed.is_empty() {
         points.push(format!(

@@ -7,6 +7,9 @@ const STYLE: &str = include_str!("page.css");
 /// Policy of the browser: nothing is fetched, whatever stands in the page.
 const POLICY: &str = "default-src &#39;none&#39;; style-src &#39;unsafe-inline&#39;; script-src &#39;unsafe-inline&#39;";
 
+/// Pages with more than this take a while to lay out (bytes).
+const LONG: usize = 1_500_000;
+
 /// What runs in a page, with the data that it shows.
 pub(super) struct Script<'a> {
     /// JavaScript, ours.
@@ -35,6 +38,11 @@ impl Document<'_> {
             false => self.title,
         };
         let title = escaped(title);
+        // Sections of these are laid out as they come into sight.
+        let long = match self.body.len() > LONG {
+            true => " class=\"long\"",
+            false => "",
+        };
         let origin: Vec<String> = self.origin.iter().map(|part| escaped(part)).collect();
         let script = self.script.as_ref().map(|script| {
             format!(
@@ -50,7 +58,7 @@ impl Document<'_> {
              <meta name=\"color-scheme\" content=\"light dark\">\n\
              <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
              <header>\n<h1>{title}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
-             <main>\n{}</main>\n{}</body>\n</html>\n",
+             <main{long}>\n{}</main>\n{}</body>\n</html>\n",
             origin.join(" &middot; "),
             self.body,
             script.unwrap_or_default(),

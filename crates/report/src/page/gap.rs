@@ -152,6 +152,16 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
             1.0,
         ),
     ];
+    let statistics = format!("/gaps/{g}/suite");
+    let mut suite = String::new();
+    if let Some(known) = answer.at(&statistics).as_object() {
+        let columns = [
+            Column::new("over the records"),
+            Column::of("demand (mm)", format!("{statistics}/*"), 1.0e3),
+        ];
+        let rows = known.keys().map(|key| (key.clone(), key.replace('_', " ")));
+        suite = answer.table("Demand over the records", &columns, rows);
+    }
     let heads = levels
         .iter()
         .map(|l| l["level"].as_str().unwrap_or_default());
@@ -161,6 +171,7 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
         "Demand: the greatest approach of the isolated buildings, found inside the steps; the width that a \
          record would just not close.",
     ) + &answer.table("Demand by level", &columns, by_level)
+        + &suite
 }
 
 /// Widths by rule, those that the provided gap does not reach first.

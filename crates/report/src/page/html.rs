@@ -58,6 +58,16 @@ pub(super) fn beside(figures: &[String]) -> String {
     format!("<div class=\"figures\">\n{}</div>\n", figures.concat())
 }
 
+/// A number in a sentence that says where it comes from, as columns of tables do.
+pub(super) fn number(from: &str, factor: f64, text: &str) -> String {
+    let factor = match factor {
+        1.0 => String::new(),
+        factor => format!(" data-factor=\"{factor:e}\""),
+    };
+    let (from, text) = (escaped(from), escaped(text));
+    format!("<data data-from=\"{from}\"{factor} value=\"{text}\">{text}</data>")
+}
+
 /// A list of sentences, which are HTML.
 pub(super) fn sentences(points: &[String]) -> String {
     let items: String = points.iter().map(|p| format!("<li>{p}</li>\n")).collect();

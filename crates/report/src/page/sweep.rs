@@ -6,7 +6,7 @@ use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError};
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
-use super::html::{escaped, figure, note, section, sentences, warnings};
+use super::html::{escaped, figure, note, number, section, sentences, warnings};
 use super::numbers::figures;
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
@@ -125,12 +125,6 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
     Ok(runs)
 }
 
-/// A number of things with the place that it comes from.
-fn count(from: &str, number: f64) -> String {
-    let from = escaped(from);
-    format!("<data data-from=\"{from}\" value=\"{number}\">{number}</data>")
-}
-
 fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
     let layout = &result.description.layout;
     let mut points = vec![format!(
@@ -146,7 +140,11 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         points.push(format!(
             "In {} a gap closes, with up to {} impacts at a level.",
             counted(closed, "run"),
-            count("maximum impacts", greatest(runs, &impacts)),
+            number(
+                "maximum impacts",
+                1.0,
+                &greatest(runs, &impacts).to_string()
+            ),
         ));
     }
     for name in &DRAWN[1..] {
@@ -162,13 +160,23 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let at = place.map(|c| of_column(layout, quantity, c - found[0]));
         let row = place.and_then(|c| runs.values[*c].iter().position(|x| *x == most));
         let (factor, unit) = unit_of(quantity.unit);
-        let text = figures(factor * most);
+        let from = format!("maximum {name}");
+        let most_shown = number(&from, factor, &figures(factor * most));
         points.push(format!(
-            "The {} is at most <data data-from=\"maximum {name}\" data-factor=\"{factor:e}\" value=\"{text}\">{text}</data> {}{}{}.",
-            quantity.long_name.replace("maximum ", "peak ").split(',').next().unwrap_or_default(),
+            "The {} is at most {} {}{}{}.",
+            quantity
+                .long_name
+                .replace("maximum ", "peak ")
+                .split(',')
+                .next()
+                .unwrap_or_default(),
+            most_shown,
             unit,
             at.map_or(String::new(), |at| format!(", at {}", escaped(&at))),
-            row.map_or(String::new(), |row| format!(" in row {} of the result", row + 1)),
+            row.map_or(String::new(), |row| format!(
+                " in row {} of the result",
+                row + 1
+            )),
         ));
     }
     points

@@ -11,6 +11,7 @@ use crate::arguments::{MergeArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::files::have_a_place;
 use crate::output::{pretty, print, print_as_it_is, warn};
+use crate::page;
 use crate::separate::{Reading, reading, warnings};
 use crate::study::{Finished, all_failed, options, run, summary};
 
@@ -31,7 +32,7 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
     have_a_place([arguments.running.report.as_deref()])?;
     let report = run(&study, &options)?;
     if let Some(path) = &arguments.running.report {
-        super::report::sweep(&options.output, path)?;
+        page::of_sweep(&options.output, path)?;
     }
     if arguments.json {
         print(&pretty(&Finished::of(&report, &options))?)?;

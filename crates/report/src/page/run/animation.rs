@@ -313,7 +313,7 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
             "force": column(ImpactResult::force, Kind::Float32),
             "impulse": column(|i| i.impulse, Kind::Float32),
         },
-        "series": series::all(result, |place| place_of(place)),
+        "series": series::all(result, place_of),
     })
 }
 

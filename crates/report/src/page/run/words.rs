@@ -1,28 +1,58 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
-use crate::page::html::{escaped, sentences, warnings};
+use crate::page::html::{escaped, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
-    let mut points: Vec<String> = result.gaps.iter().filter_map(hit).collect();
+    let (gaps, more) = hardest(result);
+    let mut points: Vec<String> = gaps.iter().filter_map(|gap| hit(gap)).collect();
+    if !more.is_empty() {
+        let impacts: usize = more.iter().map(|gap| gap.impacts.len()).sum();
+        points.push(format!(
+            "{} more below, with {}.",
+            counted(more.len(), "gap"),
+            counted(impacts, "impact"),
+        ));
+    }
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
     }
     if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
-        points.extend(result.buildings.iter().filter_map(changed));
+        let buildings = result.buildings.iter().take(MOST);
+        points.extend(buildings.filter_map(changed));
+        if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
+            points.push(format!("{} more below.", counted(more, "building")));
+        }
     }
     points.push(ledger(result));
     sentences(&points) + &warnings(&result.warnings)
+}
+
+/// Gaps and buildings that have a sentence of their own in the summary.
+const MOST: usize = 6;
+
+/// The gaps that are hit hardest, in the order of the case, and all others.
+fn hardest(result: &RunResult) -> (Vec<&GapResult>, Vec<&GapResult>) {
+    let size = |gap: &GapResult| {
+        let hardest = gap.hardest_first();
+        hardest.first().map_or(0.0, |i| i.impulse)
+    };
+    let mut sizes: Vec<f64> = result.gaps.iter().map(size).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let least = sizes.get(MOST.min(sizes.len()).saturating_sub(1)).copied();
+    let least = least.unwrap_or(0.0);
+    result.gaps.iter().partition(|gap| !(size(gap) < least))
 }
 
 /// How hard the floors on both sides of a gap hit.
 fn hit(gap: &GapResult) -> Option<String> {
     let level = governing_level(gap)?;
     let name = escaped(&gap.name);
+    let path = format!("gap/{}", gap.name);
     let at = |l: usize| escaped(&self::level(&gap.levels[l]));
     if gap.impacts.is_empty() {
         let nearest = gap
@@ -33,21 +63,38 @@ fn hit(gap: &GapResult) -> Option<String> {
             "<strong>Gap {name} stays open.</strong> On the output grid it is narrowest at {}: \
              {} mm of {} mm are left.",
             at(level),
-            figures(-1.0e3 * nearest),
-            figures(1.0e3 * gap.width[level]),
+            number(
+                &format!("maximum {path}/penetration[:,{level}]"),
+                -1.0e3,
+                &figures(-1.0e3 * nearest),
+            ),
+            number(
+                &format!("{path}/width[{level}]"),
+                1.0e3,
+                &figures(1.0e3 * gap.width[level]),
+            ),
         ));
     }
     let hardest = *gap.hardest_first().first()?;
+    let place = gap.impacts.iter().position(|i| std::ptr::eq(i, hardest));
+    let row = place.unwrap_or_default();
+    let of = |column: &str, factor: f64, value: f64| {
+        let from = format!("{path}/impacts[{row}].{column}");
+        number(&from, factor, &figures(factor * value))
+    };
     let force = match gap.jumps() {
         true => format!(
             "with an impulse of {} kN s",
-            figures(1.0e-3 * hardest.impulse)
+            of("impulse", 1.0e-3, hardest.impulse)
         ),
-        false => format!("with {} kN", figures(1.0e-3 * hardest.force())),
+        false => format!("with {} kN", of("peak_force", 1.0e-3, hardest.force())),
     };
     let times = match gap.impacts.len() {
         1 => "once".to_owned(),
-        count => counted(count, "time"),
+        count => {
+            let from = format!("count {path}/impacts[:].level");
+            format!("{} times", number(&from, 1.0, &count.to_string()))
+        }
     };
     let levels = (0..gap.levels.len())
         .filter(|l| gap.impacts.iter().any(|i| i.level == *l as u64 + 1))
@@ -57,8 +104,8 @@ fn hit(gap: &GapResult) -> Option<String> {
          hits {force} at {}, {} s into the motion, approaching with {} m/s ({}).",
         counted(gap.levels.len(), "level"),
         at(level),
-        figures(hardest.t_close),
-        figures(hardest.approach_velocity),
+        of("t_close", 1.0, hardest.t_close),
+        of("approach_velocity", 1.0, hardest.approach_velocity),
         escaped(&gap.model),
     ))
 }
@@ -74,35 +121,55 @@ pub(super) fn level(level: &LevelResult) -> String {
 
 /// What pounding changed in a building: the largest rise of each quantity.
 fn changed(building: &BuildingResult) -> Option<String> {
-    let rise = |what: &str, peaks: &StoreyPeaks, (factor, unit): (f64, &str)| {
+    let path = format!("building/{}/peak", building.name);
+    // Ratio, value and value of the isolated building.
+    let three = |name: &str, row: &str, factor: f64, (with, without): (f64, f64)| {
+        let [here, isolated] = ["", "isolated_"].map(|of| format!("{path}/{of}{name}{row}"));
+        let ratio = format!("{here} / {isolated}");
+        [
+            number(&ratio, 1.0, &times(with, without)),
+            number(&here, factor, &figures(factor * with)),
+            number(&isolated, factor, &figures(factor * without)),
+        ]
+    };
+    let rise = |what: &str, name: &str, peaks: &StoreyPeaks, (factor, unit): (f64, &str)| {
         let ratios = peaks.value.iter().zip(&peaks.isolated).map(|(a, b)| a / b);
         let most = ratios
             .enumerate()
             .filter(|(_, r)| r.is_finite())
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let (storey, _) = most?;
+        let both = (peaks.value[storey], peaks.isolated[storey]);
+        let [ratio, with, without] = three(name, &format!("[{storey}]"), factor, both);
         Some(format!(
-            "{what} at most {} times (storey {}: {} {unit}, isolated {} {unit})",
-            times(peaks.value[storey], peaks.isolated[storey]),
+            "{what} at most {ratio} times (storey {}: {with} {unit}, isolated {without} {unit})",
             storey + 1,
-            figures(factor * peaks.value[storey]),
-            figures(factor * peaks.isolated[storey]),
         ))
     };
     let base = building.base_moment.filter(|m| m.isolated > 0.0);
     let base = base.map(|moment| {
+        let both = (moment.value, moment.isolated);
+        let [ratio, with, without] = three("base_moment", "", 1.0e-3, both);
         format!(
-            "overturning moment at the base {} times ({} kN m, isolated {} kN m)",
-            times(moment.value, moment.isolated),
-            figures(1.0e-3 * moment.value),
-            figures(1.0e-3 * moment.isolated),
+            "overturning moment at the base {ratio} times ({with} kN m, isolated {without} kN m)"
         )
     });
     let parts = [
-        rise("displacement", &building.displacement_peaks, (1.0e3, "mm")),
-        rise("storey shear", &building.shear_peaks, (1.0e-3, "kN")),
+        rise(
+            "displacement",
+            "displacement",
+            &building.displacement_peaks,
+            (1.0e3, "mm"),
+        ),
+        rise(
+            "storey shear",
+            "storey_shear",
+            &building.shear_peaks,
+            (1.0e-3, "kN"),
+        ),
         rise(
             "acceleration",
+            "acceleration_absolute",
             &building.acceleration_peaks,
             (1.0, "m/s\u{b2}"),
         ),
@@ -120,8 +187,12 @@ fn changed(building: &BuildingResult) -> Option<String> {
 
 fn ledger(result: &RunResult) -> String {
     format!(
-        "The energy ledger closes to {:.1e} of the largest input energy.",
-        result.residual_ratio
+        "The energy ledger closes to {} of the largest input energy.",
+        number(
+            "energy@residual_ratio",
+            1.0,
+            &format!("{:.1e}", result.residual_ratio)
+        )
     )
 }
 
@@ -155,18 +226,20 @@ pub(super) fn energy(result: &RunResult) -> String {
     let last = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
     let whole = last(&e.input);
     let parts = [
-        ("viscous damping", last(&e.viscous)),
-        ("yielding and links", last(&e.hysteretic)),
-        ("impacts", last(&e.impact)),
-        (
-            "motion and deformation that are left",
-            last(&e.kinetic) + last(&e.strain),
-        ),
+        ("viscous damping", "viscous", last(&e.viscous)),
+        ("yielding and links", "hysteretic", last(&e.hysteretic)),
+        ("impacts", "impact", last(&e.impact)),
+        ("motion that is left", "kinetic", last(&e.kinetic)),
+        ("deformation that is left", "strain", last(&e.strain)),
     ];
-    let parts = parts
-        .into_iter()
-        .filter(|(_, value)| *value != 0.0)
-        .map(|(name, value)| format!("{name} {}", percent(value, whole)));
+    let parts =
+        parts
+            .into_iter()
+            .filter(|(.., value)| *value != 0.0)
+            .map(|(name, history, value)| {
+                let from = format!("energy/{history}[-1] / energy/input[-1]");
+                format!("{name} {}", number(&from, 1.0e2, &percent(value, whole)))
+            });
     let parts: Vec<String> = parts.collect();
     let still = result.ground_acceleration.iter().all(|a| *a == 0.0);
     let source = match still {
@@ -178,8 +251,8 @@ pub(super) fn energy(result: &RunResult) -> String {
     };
     format!(
         "<p>{source} {} kJ relative to the ground by {} s, the last output time. Then it is in: {}.</p>\n",
-        figures(1.0e-3 * whole),
-        figures(*time),
+        number("energy/input[-1]", 1.0e-3, &figures(1.0e-3 * whole)),
+        number("time[-1]", 1.0, &figures(*time)),
         parts.join(", ")
     )
 }

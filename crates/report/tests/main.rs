@@ -1,0 +1,4 @@
+//! Pages, in one program.
+
+mod page;
+mod studies;

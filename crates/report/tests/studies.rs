@@ -1,0 +1,128 @@
+//! Pages of commands with many runs, from answers that are made by hand.
+#![allow(clippy::unwrap_used)]
+
+use pounding_report::page::{Inputs, comparison, gap, ida, motion};
+use serde_json::{Value, json};
+
+const HOSTILE: &str = "<img src=x onerror=alert(1)></td>\u{2028}&";
+
+fn inputs() -> Inputs {
+    Inputs {
+        title: HOSTILE.to_owned(),
+        origin: vec!["gap".to_owned(), HOSTILE.to_owned()],
+        warnings: vec![HOSTILE.to_owned()],
+        facts: vec![("SHA-256".to_owned(), "ab".repeat(32))],
+        listings: vec![("The case file".to_owned(), HOSTILE.to_owned())],
+    }
+}
+
+/// Every element that is opened is closed, in order, and nothing is fetched or run.
+fn is_whole(html: &str) {
+    let mut open = Vec::new();
+    for tag in html.split('<').skip(1) {
+        let (tag, _) = tag.split_once('>').unwrap();
+        let name = tag.trim_start_matches('/').split([' ', '\n', '/']).next();
+        let name = name.unwrap();
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(closed.trim()), "{tag}");
+        } else if !["!DOCTYPE", "meta", "br"].contains(&name) && !tag.ends_with('/') {
+            open.push(name.to_owned());
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+    for foreign in [
+        "<script", "<img", "href=", "@import", "url(", "NaN", ">inf", ">null",
+    ] {
+        assert!(!html.contains(foreign), "{foreign}");
+    }
+}
+
+fn check() -> Value {
+    let storeys =
+        json!([{ "displacement": 1.25, "storey_shear": null, "acceleration_absolute": 2.5 }]);
+    json!({
+        "adequate": false,
+        "confidence": 0.9,
+        "target_probability": 0.0,
+        "warnings": [HOSTILE],
+        "records": [
+            { "name": HOSTILE, "peak_ground_acceleration": 3.0, "failure": null,
+              "amplification": [storeys], "impacts": [[3]],
+              "isolated": [{ "name": HOSTILE }] },
+            { "name": "second", "peak_ground_acceleration": 4.0, "failure": HOSTILE,
+              "amplification": null, "impacts": null, "isolated": [{ "name": HOSTILE }] },
+        ],
+        "gaps": [{
+            "name": HOSTILE,
+            "adequate": false,
+            "records_in_contact": 1,
+            "demand": [0.0301, 0.0102],
+            "suite": { "mean": 0.02015, "maximum": 0.0301 },
+            "required": { "by_count": 0.0301, "allowed_contacts": 0, "lognormal": null },
+            "code": {
+                "edition": "EN 1998-1:2004", "statistic": "maximum", "demand": 0.0301,
+                "cases": [
+                    { "ownership": "one owner", "refusal": null, "required": 0.0211, "provided": 0.02, "governing_level": 1 },
+                    { "ownership": "two owners", "refusal": HOSTILE, "required": null },
+                ],
+            },
+            "levels": [{ "level": "1-1", "left_elevation": 3.0, "right_elevation": null, "width": 0.02,
+                         "demand": [{ "peak": 0.0301 }, { "peak": 0.0102 }] }],
+            "combinations": [{ "rule": "absolute_sum", "status": "verified", "satisfied": false,
+                               "correlation": null, "width": [[0.035]] }],
+            "provisions": [
+                { "name": "first", "edition": HOSTILE, "place": "between", "status": "verified",
+                  "refusal": null, "satisfied": true,
+                  "records": [{ "width": 0.0181, "ratio_to_demand": 0.601 }] },
+                { "name": "second", "edition": "", "place": "between", "status": "unverified",
+                  "refusal": null, "satisfied": false,
+                  "records": [{ "width": 0.0431, "ratio_to_demand": 1.432 }] },
+                { "name": "third", "refusal": HOSTILE, "records": [] },
+            ],
+        }],
+        "sweep": { "gap": null, "widths": [0.01, 0.02],
+                   "runs": [[{ "amplification": [storeys], "impacts": 7, "peak_force": 1.5e6 }],
+                            [{ "failure": HOSTILE }]] },
+    })
+}
+
+#[test]
+fn the_answer_of_a_gap_check_comes_first() {
+    let html = gap(&check(), &[], &inputs());
+    is_whole(&html);
+    for text in [
+        "By EN 1998-1:2004 gap &lt;img",
+        "data-factor=\"1e3\" value=\"21.10\">21.10</data> mm are required",
+        "1 of 2 records bring its buildings into contact; none may.",
+        "is needed so that no record closes it",
+        "<tr data-row=\"mean\"><th scope=\"row\">mean</th><td>20.15</td></tr>",
+        // The elevation of a wall is not known.
+        "<th scope=\"row\">1-1</th><td>3.000</td><td>\u{2013}</td><td>20.00</td><td>30.10</td><td>0.6645</td>",
+        "<th scope=\"row\">1</th><td>10.00</td><td>1.250</td><td>\u{2013}</td><td>2.500</td><td>7</td><td>1500</td>",
+        "<td>3.000</td><td>30.10</td><td>3</td>",
+    ] {
+        assert!(html.contains(text), "{text}\n{html}");
+    }
+    // Rules that the gap does not reach stand before those that it does.
+    let place = |name: &str| {
+        html.find(&format!("<th scope=\"row\">{name}</th>"))
+            .unwrap()
+    };
+    assert!(place("second") < place("first") && place("first") < place("third"));
+    let answer = html.find("Is the gap wide enough?").unwrap();
+    assert!(answer < place("second"));
+}
+
+/// Answers with nothing in them have a page without numbers, not a failure.
+#[test]
+fn empty_answers() {
+    let nothing = json!({});
+    for html in [
+        gap(&nothing, &[], &inputs()),
+        comparison(&nothing, &[], &inputs()),
+        ida(&nothing, Some(1.0e-3), &[], &inputs()),
+        motion(&nothing, &[], &inputs()),
+    ] {
+        is_whole(&html);
+    }
+}

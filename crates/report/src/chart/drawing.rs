@@ -20,7 +20,7 @@ const SPACE: f64 = 6.0;
 /// Length of a tick (pt).
 const TICK: f64 = 3.0;
 /// Margins of the ranges of horizontal and vertical axes.
-const MARGINS: (f64, f64) = (0.015, 0.05);
+const MARGINS: (f64, f64) = (0.025, 0.05);
 /// Markers along a line that is told apart by them.
 const MARKERS: usize = 9;
 

@@ -265,10 +265,7 @@ mod tests {
             ]
         );
         for wrong in labels(&linear, &[-1e-17, 1.0]) {
-            assert!(
-                !wrong.contains("\u{2212}0") && !wrong.ends_with(".0"),
-                "{wrong}"
-            );
+            assert!(!wrong.starts_with("\u{2212}"), "{wrong}");
         }
     }
 

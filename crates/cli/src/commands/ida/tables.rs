@@ -101,11 +101,11 @@ fn states<'s>(
     let mut table = new_table(header);
     for (name, state) in states {
         let mut cells = vec![name, counts(state)];
-        let scale = report.shown_intensity().0;
+        let (scale, unit) = report.shown_intensity();
         cells.extend(fitted(state, settings.confidence, scale));
         cells.push(quality(state));
         if settings.hazard.is_some() {
-            cells.push(frequency(state, scale));
+            cells.push(frequency(state, (scale, unit)));
         }
         table.add_row(cells);
     }
@@ -235,7 +235,7 @@ fn counts(limit: &LimitResult) -> String {
 }
 
 /// The mean annual frequency, or why there is none.
-fn frequency(limit: &LimitResult, scale: f64) -> String {
+fn frequency(limit: &LimitResult, (scale, unit): (f64, &str)) -> String {
     match (limit.frequency, limit.fit) {
         (Some(frequency), _) => match limit.frequency_bounds {
             Some(bounds) => format!(
@@ -247,7 +247,10 @@ fn frequency(limit: &LimitResult, scale: f64) -> String {
             None => digits(frequency),
         },
         (None, FragilityFit::Always { from }) => {
-            format!("- (all reach it already at {})", digits(from / scale))
+            format!(
+                "- (all reach it already at {} {unit})",
+                digits(from / scale)
+            )
         }
         (None, _) => "- (no fragility)".to_owned(),
     }

@@ -29,4 +29,4 @@ mod excitation;
 pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
-pub use excitation::{read_record, read_target, scale_record, scale_target};
+pub use excitation::{ScaleTarget, read_record, read_target, scale_record, scale_target};

@@ -150,9 +150,13 @@ fn poor_fits<'s>(
 ) -> String {
     let mut text = String::new();
     let (scale, unit) = report.shown_intensity();
+    let mut untested = Vec::new();
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
-            text.push_str(&format!("  {name}: {remark}\n"));
+            match remark {
+                FitRemark::NotTested => untested.push(name.clone()),
+                remark => text.push_str(&format!("  {name}: {remark}\n")),
+            }
         }
         let shows = |r: &FitRemark| !matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
         let FragilityFit::Lognormal(fit) = state.fit else {
@@ -177,6 +181,10 @@ fn poor_fits<'s>(
         });
         let pairs: Vec<String> = pairs.collect();
         text.push_str(&format!("    counted/fitted: {}\n", pairs.join(", ")));
+    }
+    if !untested.is_empty() {
+        let names = untested.join(", ");
+        text.push_str(&format!("  {names}: {}\n", FitRemark::NotTested));
     }
     text
 }

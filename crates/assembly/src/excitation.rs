@@ -100,19 +100,33 @@ fn scaled(
     Ok(record.scaled_by(factor)?)
 }
 
-/// The spectrum to which a case scales its record, with the first and the last period (s) of
-/// the band; `None` if it does not scale to one.
+/// A spectrum to which a record is scaled over a band of periods.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScaleTarget {
+    /// The spectrum.
+    pub spectrum: TargetSpectrum,
+    /// First period of the band (s).
+    pub from: f64,
+    /// Last period of the band (s).
+    pub to: f64,
+}
+
+/// The spectrum to which a case scales its record; `None` if it does not scale to one.
 ///
 /// # Errors
 /// A file that cannot be read or is no spectrum, or parameters out of range: with the place in
 /// the case.
-pub fn scale_target(case: &Case) -> Result<Option<(TargetSpectrum, (f64, f64))>, CaseError> {
+pub fn scale_target(case: &Case) -> Result<Option<ScaleTarget>, CaseError> {
     match case.ground_motion.scale.as_ref().map(|s| &s.value) {
         Some(Scale::Band {
             target: spectrum,
             from,
             to,
-        }) => Ok(Some((target(case, spectrum)?, (*from, *to)))),
+        }) => Ok(Some(ScaleTarget {
+            spectrum: target(case, spectrum)?,
+            from: *from,
+            to: *to,
+        })),
         _ => Ok(None),
     }
 }

@@ -30,4 +30,6 @@ mod number_file;
 pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
-pub use excitation::{further_record, read_record, read_target, scale_record, scale_target};
+pub use excitation::{
+    ScaleTarget, further_record, read_record, read_target, scale_record, scale_target,
+};

@@ -102,7 +102,7 @@ fn clearance_is_width_less_demand() {
 
 #[test]
 fn the_gap_check_says_demand_clearance_and_force() {
-    let output = pounding(&["gap", "--points", "0"], &example());
+    let output = pounding(&["gap", "--points", "0", "--all"], &example());
     assert_eq!(output.status.code(), Some(1));
     let shown = words(&output.stdout);
     for part in [

@@ -334,13 +334,14 @@ fn info_goes_on_after_a_bad_file() {
     assert!(output.stdout.is_empty());
 }
 
-/// Every option that draws writes SVG, and refuses another name before any work.
+/// Every option that draws writes SVG, PNG or PDF, and refuses another name before any work.
 #[test]
-fn figures_are_svg() {
+fn figures_have_one_of_three_forms() {
     let folder = bench();
     for arguments in [
         "run case.toml --plot",
         "gap case.toml --plot",
+        "gap case.toml --spectra",
         "compare case.toml --plot",
         "ida study.toml --plot",
         "impact hertz_1882 --example --svg",
@@ -351,12 +352,12 @@ fn figures_are_svg() {
         "motion match record.csv -o new.csv --svg",
         "motion synth ricker_1953 -o new.csv --svg",
     ] {
-        for name in ["x.png", "x", "x.svg.pdf"] {
+        for name in ["x.jpg", "x", "x.svg.eps"] {
             let output = run(folder.path(), &format!("{arguments} {name}"));
             let said = message(&output);
             assert_eq!(output.status.code(), Some(2), "{arguments}: {said}");
             assert!(
-                said.contains("figures are written as SVG"),
+                said.contains("figures are written as SVG, PNG or PDF"),
                 "{arguments}: {said}"
             );
             assert!(output.stdout.is_empty());
@@ -401,9 +402,11 @@ fn figures_are_svg() {
         "motion convert",
     ] {
         let help = run(folder.path(), &format!("{command} --help")).stdout;
-        drawing += usize::from(String::from_utf8_lossy(&help).contains("SVG"));
+        let help = String::from_utf8_lossy(&help).into_owned();
+        let words: Vec<&str> = help.split_whitespace().collect();
+        drawing += words.join(" ").matches("(.svg, .png, .pdf)").count();
     }
-    assert_eq!(drawing, 11);
+    assert_eq!(drawing, 12);
 }
 
 #[test]

@@ -147,3 +147,21 @@ fn codes_that_are_none() {
         assert!(said.contains(says), "{arguments:?}: {said}");
     }
 }
+
+/// The same picture in three forms: each has its signature, and the words of the picture stand
+/// in the two that keep text.
+#[test]
+fn pictures_have_three_forms() {
+    let folder = Folder::new();
+    for (name, start) in [
+        ("c.svg", b"<svg".as_slice()),
+        ("c.png", b"\x89PNG"),
+        ("c.PDF", b"%PDF"),
+    ] {
+        let path = folder.name(name);
+        text(&["spectrum", "--code", EUROCODE, "--svg", &path]);
+        let bytes = std::fs::read(folder.path(name)).unwrap();
+        assert!(bytes.starts_with(start), "{name}");
+    }
+    assert!(folder.content("c.svg").contains("period (s)"));
+}

@@ -51,7 +51,7 @@ fn commands_of_the_page_run_as_printed() {
     let record = "ground_motions/el_centro_1940_ns.csv";
     std::fs::copy(root().join(record), folder.path(record)).unwrap();
     let sessions = sessions(&page);
-    assert_eq!(sessions.len(), 6);
+    assert_eq!(sessions.len(), 7);
     for (command, shown) in sessions {
         let words = words(&command);
         assert_eq!(words[..2], ["pounding", "motion"], "{command}");

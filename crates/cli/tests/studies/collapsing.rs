@@ -192,7 +192,10 @@ fn a_missing_frequency_has_a_reason() {
     let bench = bench();
     bench.study(&STUDY.replace("\"0.02 g\", \"0.2 g\", ", ""));
     let told = bench.text("ida study.toml -o out.h5");
-    assert!(told.contains("- (all reach it already at 19.61)"), "{told}");
+    assert!(
+        told.contains("- (all reach it already at 2.000 g)"),
+        "{told}"
+    );
 }
 
 /// A hazard file in g is the hazard in SI; one that says no unit is refused with its line.

@@ -138,9 +138,16 @@ fn fragility_of_the_three_storey_pair() {
             * (0.5 * 2.2_f64.powi(2) * dispersion.powi(2)).exp();
         let found = number(&width["mean_annual_frequency"]);
         assert!((found / closed - 1.0).abs() < 1e-5, "{found} {closed}");
+        let bounds = &width["mean_annual_frequency_bounds"];
+        assert!(number(&bounds[0]) < found && found < number(&bounds[1]));
+        // Two parameters through two or three fractions: nothing is left to test.
+        assert!(width["goodness_of_fit"].is_null());
+        let remarks = width["remarks"].to_string();
+        assert!(remarks.contains("the fit cannot be tested"), "{remarks}");
     }
     let curves = std::fs::read_to_string(folder.path().join("curves.svg")).unwrap();
     assert!(curves.starts_with("<svg") && curves.contains("Mean annual frequency"));
+    assert!(curves.contains("40 records, with pounding") && curves.contains("intensity (g)"));
     let table = std::fs::read_to_string(folder.path().join("counts.csv")).unwrap();
     assert_eq!(table.lines().count(), 1 + 12 * 7);
     // Other widths need no run anew. Right below the least gap the target is missed.

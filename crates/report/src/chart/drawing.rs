@@ -20,7 +20,7 @@ const SPACE: f64 = 6.0;
 /// Length of a tick (pt).
 const TICK: f64 = 3.0;
 /// Margins of the ranges of horizontal and vertical axes.
-const MARGINS: (f64, f64) = (0.015, 0.05);
+const MARGINS: (f64, f64) = (0.025, 0.05);
 /// Markers along a line that is told apart by them.
 const MARKERS: usize = 9;
 
@@ -226,13 +226,11 @@ impl<'c> Picture<'c> {
         for y in vertical.minor_ticks().into_iter().filter_map(y_at) {
             line(body, (left - 0.5 * TICK, y), (left, y), AXIS);
         }
-        // Named by its place: figures of one page may share a name, but not with another place.
-        let clip = format!("clip-{left:.2}-{upper:.2}-{right:.2}-{lower:.2}");
+        // An inner picture of the same coordinates cuts off what passes its edge.
+        let (wide, high) = (right - left, lower - upper);
         let _ = writeln!(
             body,
-            "<clipPath id=\"{clip}\"><rect x=\"{left:.2}\" y=\"{upper:.2}\" width=\"{:.2}\" height=\"{:.2}\"/></clipPath>\n<g clip-path=\"url(#{clip})\">",
-            right - left,
-            lower - upper
+            "<svg x=\"{left:.2}\" y=\"{upper:.2}\" width=\"{wide:.2}\" height=\"{high:.2}\" viewBox=\"{left:.2} {upper:.2} {wide:.2} {high:.2}\">"
         );
         for limit in &plot.limits {
             let ends = match limit.at {
@@ -249,7 +247,7 @@ impl<'c> Picture<'c> {
             let places: Vec<Option<(f64, f64)>> = places.collect();
             curve(body, &series.look, &places, turn);
         }
-        body.push_str("</g>\n");
+        body.push_str("</svg>\n");
         line(body, (left, upper), (left, lower), AXIS);
         line(body, (left, lower), (right, lower), AXIS);
         let mut below = lower + TICK + LINE;

@@ -110,12 +110,12 @@ impl Look {
         }
     }
 
-    /// A limit across the panel.
+    /// A limit across the panel: dotted and thin, else thicker than any line.
     pub fn limit(dash: &'static str) -> Self {
         Self {
-            colour: "#333333",
+            colour: "#000000",
             dash: Some(dash),
-            width: 0.9,
+            width: if dash.starts_with('1') { 0.9 } else { 2.0 },
             marker: Marker::Nothing,
             few_markers: true,
         }

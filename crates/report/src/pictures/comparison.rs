@@ -46,7 +46,9 @@ pub fn peak_ratios(c: &Comparison) -> Result<String, ReportError> {
                         },
                     });
                 }
-                dots.push((ratios[ratios.len() / 2], row));
+                let half = ratios.len() / 2;
+                let median = 0.5 * (ratios[half] + ratios[(ratios.len() - 1) / 2]);
+                dots.push((median, row));
             }
             let of_records = if c.records.len() > 1 {
                 format!(", median and range of {} records", c.records.len())

@@ -1,6 +1,6 @@
 //! Response spectra of a suite of records, and the target to which it is scaled.
 
-use pounding_assembly::scale_target;
+use pounding_assembly::{ScaleTarget, scale_target};
 use pounding_case::Case;
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 
@@ -52,7 +52,7 @@ pub(super) fn spectra(
     threads: usize,
 ) -> Result<SuiteSpectra, CheckError> {
     let target = scale_target(case)?;
-    let damping = target.as_ref().map_or(DAMPING, |(t, _)| t.damping());
+    let damping = target.as_ref().map_or(DAMPING, |t| t.spectrum.damping());
     let wrong = |record: &CaseUnderRecord| {
         let record = record.name.clone();
         move |source: pounding_ground_motion::GroundMotionError| CheckError::Record {
@@ -73,22 +73,29 @@ pub(super) fn spectra(
     let spectra: Vec<Vec<f64>> = spectra.into_iter().collect::<Result<_, _>>()?;
     let mean_at = |i: usize| spectra.iter().map(|s| s[i]).sum::<f64>() / spectra.len() as f64;
     let mean: Vec<f64> = (0..periods.len()).map(mean_at).collect();
-    let target = target.map(|(target, band)| {
-        let values: Vec<Option<f64>> = periods.iter().map(|t| target.at(*t).ok()).collect();
-        let within = periods.iter().zip(&values).zip(&mean);
-        let within = within.filter(|((t, _), _)| (band.0..=band.1).contains(*t));
-        let ratios = within.filter_map(|((t, value), mean)| Some((mean / (*value)?, *t)));
-        let ratios: Vec<(f64, f64)> = ratios.collect();
-        let by_ratio = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
-        let none = (f64::NAN, f64::NAN);
-        SuiteTarget {
-            name: target.name().to_owned(),
-            band,
-            least: ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
-            greatest: ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
-            values,
-        }
-    });
+    let target = target.map(
+        |ScaleTarget {
+             spectrum: target,
+             from,
+             to,
+         }| {
+            let band = (from, to);
+            let values: Vec<Option<f64>> = periods.iter().map(|t| target.at(*t).ok()).collect();
+            let within = periods.iter().zip(&values).zip(&mean);
+            let within = within.filter(|((t, _), _)| (band.0..=band.1).contains(*t));
+            let ratios = within.filter_map(|((t, value), mean)| Some((mean / (*value)?, *t)));
+            let ratios: Vec<(f64, f64)> = ratios.collect();
+            let by_ratio = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+            let none = (f64::NAN, f64::NAN);
+            SuiteTarget {
+                name: target.name().to_owned(),
+                band,
+                least: ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
+                greatest: ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
+                values,
+            }
+        },
+    );
     Ok(SuiteSpectra {
         damping,
         periods,

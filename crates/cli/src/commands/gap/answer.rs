@@ -117,10 +117,11 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
     for case in &answer.cases {
         text.push_str(&explained(case));
     }
-    if answer.cases.len() > 1 && answer.ownership.is_none() {
-        text.push_str(
-            "  nothing says who owns the ground: both must be wide enough; --set same_owner=true or =false decides\n",
-        );
+    if answer.cases.len() > 1 {
+        text.push_str(&match answer.ownership {
+            Some(stated) => format!("  the case states who owns the ground: {} decides\n", stated.name()),
+            None => "  nothing says who owns the ground: both must be wide enough; --set same_owner=true or =false decides\n".to_owned(),
+        });
     }
     text.push_str(&format!(
         "  the records themselves: {} demand {:.1} mm, {} the provided width\n{}",

@@ -322,7 +322,7 @@ struct CodeCase<'c> {
 #[serde(untagged)]
 enum CodeLevel<'c> {
     Required {
-        provision: Descriptor,
+        provision: Box<Descriptor>,
         displacement: [Option<f64>; 2],
         required: f64,
         provided: f64,
@@ -359,7 +359,7 @@ impl<'c> CodeCase<'c> {
         let governing = case.governing();
         let level = |level: &'c Result<gap_check::LevelAnswer, _>| match level {
             Ok(answer) => CodeLevel::Required {
-                provision: Descriptor::of(answer.width.provision),
+                provision: Box::new(Descriptor::of(answer.width.provision)),
                 displacement: answer.displacement,
                 required: answer.width.requirement.width,
                 provided: answer.provided,

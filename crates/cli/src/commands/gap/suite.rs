@@ -60,10 +60,8 @@ pub fn suite(check: &GapCheck, index: usize, all: bool) -> String {
         let Some((level, peak)) = levels.max_by(|a, b| a.1.value.total_cmp(&b.1.value)) else {
             continue;
         };
-        let closes = gap.levels.iter().enumerate();
-        let closes = closes
-            .map(|(l, level)| record.demand_exceeds(index, l, level.width))
-            .any(|closes| closes);
+        let mut levels = gap.levels.iter().enumerate();
+        let closes = levels.any(|(l, level)| record.demand_exceeds(index, l, level.width));
         table.add_row([
             record.name.clone(),
             decimal(record.factor, 4),

@@ -101,11 +101,11 @@ fn states<'s>(
     let mut table = new_table(header);
     for (name, state) in states {
         let mut cells = vec![name, counts(state)];
-        let scale = report.shown_intensity().0;
+        let (scale, unit) = report.shown_intensity();
         cells.extend(fitted(state, settings.confidence, scale));
         cells.push(quality(state));
         if settings.hazard.is_some() {
-            cells.push(frequency(state, scale));
+            cells.push(frequency(state, (scale, unit)));
         }
         table.add_row(cells);
     }
@@ -150,9 +150,13 @@ fn poor_fits<'s>(
 ) -> String {
     let mut text = String::new();
     let (scale, unit) = report.shown_intensity();
+    let mut untested = Vec::new();
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
-            text.push_str(&format!("  {name}: {remark}\n"));
+            match remark {
+                FitRemark::NotTested => untested.push(name.clone()),
+                remark => text.push_str(&format!("  {name}: {remark}\n")),
+            }
         }
         let shows = |r: &FitRemark| !matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
         let FragilityFit::Lognormal(fit) = state.fit else {
@@ -177,6 +181,10 @@ fn poor_fits<'s>(
         });
         let pairs: Vec<String> = pairs.collect();
         text.push_str(&format!("    counted/fitted: {}\n", pairs.join(", ")));
+    }
+    if !untested.is_empty() {
+        let names = untested.join(", ");
+        text.push_str(&format!("  {names}: {}\n", FitRemark::NotTested));
     }
     text
 }
@@ -235,7 +243,7 @@ fn counts(limit: &LimitResult) -> String {
 }
 
 /// The mean annual frequency, or why there is none.
-fn frequency(limit: &LimitResult, scale: f64) -> String {
+fn frequency(limit: &LimitResult, (scale, unit): (f64, &str)) -> String {
     match (limit.frequency, limit.fit) {
         (Some(frequency), _) => match limit.frequency_bounds {
             Some(bounds) => format!(
@@ -247,7 +255,10 @@ fn frequency(limit: &LimitResult, scale: f64) -> String {
             None => digits(frequency),
         },
         (None, FragilityFit::Always { from }) => {
-            format!("- (all reach it already at {})", digits(from / scale))
+            format!(
+                "- (all reach it already at {} {unit})",
+                digits(from / scale)
+            )
         }
         (None, _) => "- (no fragility)".to_owned(),
     }

@@ -113,11 +113,19 @@ pub fn percent(damping: f64) -> String {
 }
 
 /// Pseudo-acceleration, pseudo-velocity and displacement over the period, a curve for each
-/// damping ratio; spectra of a code beside the pseudo-acceleration.
+/// damping ratio.
 ///
 /// # Errors
 /// [`ReportError::Figure`].
-pub fn responses(
+pub fn responses(spectra: &[ResponseSpectrum]) -> Result<String, ReportError> {
+    responses_and_codes(spectra, &[])
+}
+
+/// The same with spectra of a code beside the pseudo-acceleration.
+///
+/// # Errors
+/// [`ReportError::Figure`].
+pub fn responses_and_codes(
     spectra: &[ResponseSpectrum],
     codes: &[CodeSpectrum],
 ) -> Result<String, ReportError> {

@@ -147,7 +147,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> 
         } else {
             spectra.clone()
         };
-        plot::write_drawn(path, motion::responses(&drawn, &codes))?;
+        plot::write_drawn(path, motion::responses_and_codes(&drawn, &codes))?;
     }
     print(&if arguments.json {
         pretty(&OfRecord {

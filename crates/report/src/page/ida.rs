@@ -77,7 +77,18 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                 answer.say(&at("mean_annual_frequency"), 1.0)
             ));
         }
+        if !answer.at(&at("mean_annual_frequency_bounds")).is_null() {
+            sentence.push_str(&format!(
+                " ({} to {}, by a bootstrap over the records)",
+                answer.say(&at("mean_annual_frequency_bounds/0"), 1.0),
+                answer.say(&at("mean_annual_frequency_bounds/1"), 1.0)
+            ));
+        }
         points.push(sentence + ".");
+        let remarks = 0..answer.list(&at("remarks")).len();
+        points.extend(
+            remarks.map(|r| format!("{name}: {}.", answer.quote(&at(&format!("remarks/{r}"))))),
+        );
     }
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let at = |path: &str| format!("/gaps/{g}/{path}");
@@ -132,18 +143,39 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
         Column::of("from", of("fit/dispersion_bounds/0"), 1.0).below("dispersion"),
         Column::of("to", of("fit/dispersion_bounds/1"), 1.0).below("dispersion"),
     ]);
+    if states.iter().any(|s| !s["goodness_of_fit"].is_null()) {
+        let test = "Pearson's test of the fit";
+        columns.extend([
+            Column::of("p-value", of("goodness_of_fit/p_value"), 1.0).below(test),
+            Column::of(
+                "largest distance",
+                of("goodness_of_fit/largest_distance"),
+                1.0,
+            )
+            .below(test),
+        ]);
+    }
     if states.iter().any(|s| !s["mean_annual_frequency"].is_null()) {
-        columns.push(Column::of(
-            "mean annual frequency (1/year)",
-            of("mean_annual_frequency"),
-            1.0,
-        ));
+        let frequency = "mean annual frequency (1/year)";
+        columns.push(Column::of("value", of("mean_annual_frequency"), 1.0).below(frequency));
+        if states
+            .iter()
+            .any(|s| !s["mean_annual_frequency_bounds"].is_null())
+        {
+            columns.extend([
+                Column::of("from", of("mean_annual_frequency_bounds/0"), 1.0).below(frequency),
+                Column::of("to", of("mean_annual_frequency_bounds/1"), 1.0).below(frequency),
+            ]);
+        }
     }
     let heads = states
         .iter()
         .map(|s| s["name"].as_str().unwrap_or_default());
     answer.table("Fragility", &columns, rows(heads))
-        + &note("From and to: bounds at the confidence of the study.")
+        + &note(
+            "From and to: bounds at the confidence of the study. The distance is that between the curve and the \
+             share of runs that reach the state.",
+        )
 }
 
 /// How often states were reached, by intensity.

@@ -50,7 +50,9 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         let words = "Amplification of peaks by pounding over the width of the gap";
         let drawn = amplifications(&check).map(|drawn| page::picture(drawn, words));
         let inputs = page::of_case("gap", &case, path, &records);
-        let drawn: Vec<_> = drawn.transpose()?.into_iter().collect();
+        let mut drawn: Vec<_> = drawn.transpose()?.into_iter().collect();
+        let words = "Spectra of the records, their mean and the target";
+        drawn.push(page::picture(spectra(&check), words)?);
         plot::write(
             output,
             &pounding_report::page::gap(&answer, &drawn, &inputs),

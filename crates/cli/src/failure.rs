@@ -196,6 +196,8 @@ impl From<TimeHistoryError> for Failure {
             | TimeHistoryError::LinkDefinition { .. }
             | TimeHistoryError::NotLinear { .. }
             | TimeHistoryError::InitialState { .. }
+            | TimeHistoryError::Force { .. }
+            | TimeHistoryError::JumpsAtPoints { .. }
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::NoClearance { .. }
             | TimeHistoryError::ContactTooShort { .. }

@@ -3,8 +3,6 @@
 //! Exit codes: 0 done, 1 the answer is "no", 2 bad input, 3 the computation
 //! failed, 4 output could not be written, 5 interrupted by a signal.
 
-pub mod answers;
-
 mod arguments;
 mod columns;
 mod commands;
@@ -27,6 +25,18 @@ use clap::{CommandFactory, FromArgMatches};
 
 pub use arguments::PathKind;
 pub use failure::Failure;
+
+/// What commands read and answer, without printing: for the Python package, whose objects say
+/// the same.
+pub mod answers {
+    pub use crate::commands::check::Understood;
+    pub use crate::commands::compare::numbers::Compared;
+    pub use crate::commands::gap::numbers::Check;
+    pub use crate::commands::ida::numbers::Analysis;
+    pub use crate::commands::models::descriptor::Described as DescribedModel;
+    pub use crate::faults::of_check;
+    pub use crate::study::Finished;
+}
 
 /// All commands with their arguments, as the program knows them.
 #[must_use]

@@ -356,7 +356,7 @@ fn a_level_is_known_by_its_storeys_and_elevations() {
     bench.text("report run.h5 -o run.html");
     let page = std::fs::read_to_string(bench.path("run.html")).unwrap();
     assert!(
-        page.contains("<td>5-2</td><td>15.30</td><td>6.000</td>"),
+        page.contains("<th scope=\"row\">5-2</th><td>15.30</td><td>6.000</td>"),
         "table"
     );
     assert!(
@@ -477,5 +477,5 @@ fn a_result_of_an_older_version_has_a_page() {
     });
     bench.text("report run.h5 -o run.html");
     let page = std::fs::read_to_string(bench.path("run.html")).unwrap();
-    assert!(page.contains("<td>2</td><td>15.30</td><td>\u{2013}</td>"));
+    assert!(page.contains("<th scope=\"row\">2</th><td>15.30</td><td>\u{2013}</td>"));
 }

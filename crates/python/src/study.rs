@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use pounding_assembly::{assemble_with_record, scale_record};
+use pounding_case::Separation;
 use pounding_cli::Failure;
 use pounding_cli::answers::{Analysis, Check, Compared, Finished, of_check};
 use pounding_files::FileUse;
@@ -153,12 +154,13 @@ fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Reco
 
 /// Checks the gaps of a case: what `pounding gap --json` prints.
 #[pyfunction]
-#[pyo3(signature = (case, motions, probability, confidence, points, threads, progress=None))]
+#[pyo3(signature = (case, motions, code, probability, confidence, points, threads, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn gap_check_json(
     py: Python<'_>,
     case: &Bound<'_, PyCase>,
     motions: Vec<(String, Bound<'_, PyAny>)>,
+    code: Option<&str>,
     probability: f64,
     confidence: f64,
     points: usize,
@@ -166,6 +168,13 @@ fn gap_check_json(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let (case, motions) = (case.get(), records(motions)?);
+    let mut separation = case.case.separation.clone();
+    if let Some(code) = code {
+        let text = format!("code = {code:?}");
+        let one = Separation::parse(&text, case.case.buildings.len());
+        let one = one.map_err(|e| Problem::from(Failure::case(e, &text)))?;
+        separation = separation.overridden_by(one);
+    }
     let options = GapCheckOptions {
         target_probability: probability,
         confidence,
@@ -180,7 +189,7 @@ fn gap_check_json(
     let made = watched(py, progress, |watch| {
         let records = under(case, &motions)?;
         let tell = |done, total| watch.tell(done, total);
-        let check = gap_check(&case.case, &case.case.separation, &records, &options, &tell);
+        let check = gap_check(&case.case, &separation, &records, &options, &tell);
         let check = check.map_err(|e| case.problem(of_check(e, &case.case)))?;
         json(&Check::of(&check))
     })?;

@@ -80,3 +80,14 @@ def test_a_gap_check_takes_motions_of_memory() -> None:
     assert list(of_memory.demand.index) == ["el_centro", "half"]
     # Isolated buildings are linear.
     assert np.isclose(of_memory.demand.iloc[1, 0], 0.5 * of_memory.demand.iloc[0, 0], rtol=1e-9)
+
+
+def test_a_gap_check_by_one_code_is_that_of_the_command() -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    said = json.loads(
+        command("gap", case, "--code", "eurocode_8_2004", "--points", 0, "--json", expect=1)
+    )
+    check = pounding.gap_check(case, code="eurocode_8_2004")
+    assert check.answer == said
+    with pytest.raises(pounding.CaseError, match="eurocode_8_2004"):
+        pounding.gap_check(case, code="eurocode_8_204")

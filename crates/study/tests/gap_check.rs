@@ -275,7 +275,10 @@ fn ground_that_moves_differently_widens_what_rules_ask_for() {
     assert!(same_widths.len() > 10, "{same_widths:?}");
     // The right building does 0.6 s later what it does without delay.
     for ((name, with), (_, without)) in delayed_widths.iter().zip(&same_widths) {
-        assert!((with - without - 0.282).abs() < 1.0e-9, "{name}: {with} {without}");
+        assert!(
+            (with - without - 0.282).abs() < 1.0e-9,
+            "{name}: {with} {without}"
+        );
     }
     // The demand has it by itself, and the sum of absolute values is never below that.
     let (demand, least) = (delayed.gaps[0].demand[0], same.gaps[0].demand[0]);

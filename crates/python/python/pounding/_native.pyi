@@ -113,6 +113,7 @@ def run_study(
 def gap_check_json(
     case: Case,
     motions: list[tuple[str, Any]],
+    code: str | None,
     probability: float,
     confidence: float,
     points: int,

@@ -237,6 +237,7 @@ def gap_check(
     case: Case | Path,
     records: Records = None,
     *,
+    code: str | None = None,
     probability: float = 0.0,
     confidence: float = 0.9,
     points: int = 0,
@@ -250,6 +251,9 @@ def gap_check(
     case : Case or path
     records : motions, files or folders of records, optional
         A list, or a dict by name; the motion of the case by default.
+    code : str, optional
+        One code, such as ``"eurocode_8_2004"``, whose answer decides: with its statistic of the
+        suite, for both cases of ownership; it stands in ``answer["gaps"][i]["code"]``.
     probability : float
         Part of the records that may bring the buildings into contact (-).
     confidence : float
@@ -265,6 +269,7 @@ def gap_check(
         answer = _native.gap_check_json(
             given._native,
             _records(records),
+            code,
             probability,
             confidence,
             points,

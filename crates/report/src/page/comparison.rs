@@ -147,9 +147,9 @@ fn spread(answer: Answer<'_>) -> String {
         Column::words_of("of storeys or levels", of("statistic")),
         Column::of("models (%)", of("spread/between_models"), 1.0e2).below("spread between"),
         Column::of("records (%)", of("spread/between_records"), 1.0e2).below("spread between"),
-        Column::of("greatest / least model", of("spread/greatest_ratio"), 1.0),
+        Column::of("maximum / minimum model", of("spread/greatest_ratio"), 1.0),
         Column::of("agreement of records", of("ranking/concordance"), 1.0),
-        Column::words_of("greatest by", of("ranking/models/0")),
+        Column::words_of("maximum by", of("ranking/models/0")),
     ];
     answer.table("Spread", &columns, quantities(answer))
         + &note(

@@ -70,20 +70,42 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 points.push(format!("{ownership}{refusal}."));
                 continue;
             }
+            let governing = answer.at(&format!("{case}/governing_level")).as_u64();
+            let level = governing.map_or(0, |level| level.saturating_sub(1));
+            let rule = format!("{case}/levels/{level}/provision");
             points.push(format!(
-                "{ownership}{} mm are required and {} mm are provided, at level {}.",
+                "{ownership}{} mm are required and {} mm are provided, at level {} ({}, clause {}, {}).",
                 answer.say(&format!("{case}/required"), 1.0e3),
                 answer.say(&format!("{case}/provided"), 1.0e3),
-                answer.say(&format!("{case}/governing_level"), 1.0),
+                answer.quote(&at(&format!("levels/{level}/level"))),
+                answer.quote(&format!("{rule}/name")),
+                answer.quote(&format!("{rule}/clause")),
+                answer.quote(&format!("{rule}/status")),
             ));
         }
+        let stated = answer.quote(&at("code/ownership"));
+        if !stated.is_empty() {
+            points.push(format!(
+                "The case states who owns the ground: {stated} decides."
+            ));
+        }
+        points.push(format!(
+            "The code takes {} ({}, {}).{}",
+            answer.quote(&at("code/statistic_rule")),
+            answer.quote(&at("code/statistic_clause")),
+            answer.quote(&at("code/statistic_status")),
+            match answer.at(&at("code/enough_records")).as_bool() {
+                Some(false) => " <strong>There are fewer records than it asks for: this is no answer by the code.</strong>",
+                _ => "",
+            },
+        ));
     } else {
         points.push(format!("<strong>Gap {name} is {word}.</strong>"));
     }
     let records = answer.list("/records").len();
     let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
     points.push(format!(
-        "{} of {} {} its buildings into contact; {} may. The greatest demand is {} mm, the least width \
+        "{} of {} {} its buildings into contact; {} may. The maximum demand is {} mm, the minimum width \
          of its levels {} mm.",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
@@ -142,7 +164,7 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
         Column::of("right", format!("{of}/*/right_elevation"), 1.0).below("elevation (m)"),
         Column::of("provided (mm)", format!("{of}/*/width"), 1.0e3),
         Column::of(
-            "greatest demand (mm)",
+            "maximum demand (mm)",
             format!("maximum {of}/*/demand/+/peak"),
             1.0e3,
         ),
@@ -159,7 +181,11 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
             Column::new("over the records"),
             Column::of("demand (mm)", format!("{statistics}/*"), 1.0e3),
         ];
-        let rows = known.keys().map(|key| (key.clone(), key.replace('_', " ")));
+        let word = |key: &str| match key.strip_prefix('p') {
+            Some(percent) if percent.parse::<u8>().is_ok() => format!("{percent} % fractile"),
+            _ => key.replace('_', " "),
+        };
+        let rows = known.keys().map(|key| (key.clone(), word(key)));
         suite = answer.table("Demand over the records", &columns, rows);
     }
     let heads = levels
@@ -168,7 +194,7 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
     let mut by_level = rows(heads);
     by_level.reverse();
     note(
-        "Demand: the greatest approach of the isolated buildings, found inside the steps; the width that a \
+        "Demand: the maximum approach of the isolated buildings, found inside the steps; the width that a \
          record would just not close.",
     ) + &answer.table("Demand by level", &columns, by_level)
         + &suite
@@ -191,7 +217,7 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
     columns.extend(widths(&format!("{of}/*/records/+/width")));
     columns.extend([
         Column::of(
-            "least width / demand",
+            "minimum of width / demand",
             format!("minimum {of}/*/records/+/ratio_to_demand"),
             1.0,
         ),
@@ -223,7 +249,9 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
             Column::words_of("provided reaches it", format!("{combined}/*/satisfied")),
             Column::words_of("status", format!("{combined}/*/status")),
         ]);
-        let heads = rules.iter().map(|r| r["rule"].as_str().unwrap_or_default());
+        let heads = rules
+            .iter()
+            .map(|r| r["title"].as_str().unwrap_or_default());
         out.push_str("<h3>Combinations of the isolated peaks</h3>\n");
         out.push_str(&note("Over all records and levels."));
         out.push_str(&answer.table("Combinations", &columns, rows(heads)));
@@ -250,7 +278,7 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
     out
 }
 
-/// Greatest amplifications at the provided gap, by building.
+/// Maximum amplifications at the provided gap, by building.
 fn provided(answer: Answer<'_>) -> String {
     let buildings = answer.list("/records/0/isolated");
     let of = |quantity: &str| format!("maximum /records/+/amplification/*/+/{quantity}");

@@ -106,7 +106,7 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                 answer.say(&at("minimum/width"), 1.0e3)
             ),
             true => format!(
-                "The intensities do not reach far enough to find the gap {name} for {asked} 1/year: the least \
+                "The intensities do not reach far enough to find the gap {name} for {asked} 1/year: the minimum \
                  frequency that they can show is {frequency} 1/year."
             ),
         });

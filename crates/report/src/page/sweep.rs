@@ -358,7 +358,7 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             };
             panels.push(Panel {
                 caption: format!(
-                    "{}, greatest of a run{}",
+                    "{}, maximum of a run{}",
                     quantity.long_name.split(',').next().unwrap_or_default(),
                     in_parentheses(quantity.unit)
                 ),

@@ -463,6 +463,8 @@ impl<'c> Gap<'c> {
 #[derive(Serialize)]
 struct Combination {
     rule: &'static str,
+    /// Name with its abbreviation.
+    title: String,
     effective_properties: Option<&'static str>,
     status: &'static str,
     correlation: Option<f64>,
@@ -476,6 +478,7 @@ impl Combination {
         let widths = widths.map(|levels| levels.iter().map(|l| l.width).collect());
         Self {
             rule: c.rule.name(),
+            title: c.rule.title(c.effective.map(|e| e.name())),
             effective_properties: c.effective.map(|e| e.name()),
             status: c.status.name(),
             correlation: c.correlation,

@@ -126,6 +126,25 @@ fn forces_that_cannot_be_have_their_line() {
         &case.replacen("unit = \"kN\"", "unit = \"kN/m\"", 1),
     );
     bench.refused("check case.toml", &["case.toml:15:", "must be a force"]);
+    let constant = "constant = \"-150 kN\"";
+    for (kind, says) in [
+        (
+            "harmonic = { amplitude = 1e5, frequency = 2, duration = 3, step = 0.5 }",
+            "do not draw a wave of 2 Hz",
+        ),
+        ("points = [[1, 1e5]]", "a force that lasts no time"),
+        (
+            "points = [[1, 1e5], [1, 2e5]]",
+            "a force that lasts no time",
+        ),
+        (
+            "file = \"blast.csv\"\ncolumn = 1",
+            "column 1 holds the times",
+        ),
+    ] {
+        bench.write("case.toml", &case.replacen(constant, kind, 1));
+        bench.refused("check case.toml", &["case.toml:4", says]);
+    }
 }
 
 #[test]
@@ -276,6 +295,38 @@ fn studies_take_floors_that_turn() {
         "ida ida.toml -o ida.h5",
         &["known of buildings with a plan only"],
     );
+}
+
+/// Velocities that jump have impulses and no force: of none is it said that it stays below a
+/// limit.
+#[test]
+fn rigid_impacts_have_no_force_in_an_incremental_analysis() {
+    let bench = example("rigid_impacts", "\"31 s\"", "\"10 s\"");
+    let study = |demand: &str| {
+        format!(
+            "case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.3 m/s^2\", \"3 m/s^2\"]\n[ida]\n[[ida.limit]]\nname = \"state\"\n{demand}\n"
+        )
+    };
+    bench.write(
+        "ida.toml",
+        &study("demand = \"contact_force\"\nexceeds = \"1 kN\""),
+    );
+    let output = bench.output("ida ida.toml -o ida.h5");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("demand = \"impulse\""), "{said}");
+    bench.write(
+        "ida.toml",
+        &study("demand = \"impulse\"\nexceeds = \"1 kN s\""),
+    );
+    let told = bench.json("ida ida.toml -o impulse.h5");
+    let demands = told["levels"][0]["demands"].as_array().unwrap();
+    let named = |name: &str| {
+        demands
+            .iter()
+            .any(|d| d["name"].as_str().unwrap().starts_with(name))
+    };
+    assert!(named("impulse_max") && !named("peak_force"), "{demands:?}");
 }
 
 /// Columns without mass take elastic laws: models with damping are compared without it, which is

@@ -695,16 +695,26 @@ fn ownership_and_missing_inputs_decide() {
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
     let folder = folder.path().to_str().unwrap();
     let files = motions(7);
-    for (owner, exit) in [("true", 0), ("false", 1)] {
+    let page = Path::new(folder).join("page.html");
+    let page = page.to_str().unwrap();
+    for (owner, exit, verdict) in [("true", 0, "is wide enough"), ("false", 1, "is too small")] {
         let set = format!("same_owner={owner}");
-        let output = gap(folder, &seven(&files, &["--set", &set]));
+        let output = gap(folder, &seven(&files, &["--set", &set, "--report", page]));
         assert_eq!(output.status.code(), Some(exit), "{}", text(&output.stdout));
+        // The page gives the verdict of the code, not that of the records: all of them close it.
+        let said = std::fs::read_to_string(page).unwrap();
+        let headline = format!("By EN 1998-1:2004 gap light-heavy {verdict}.");
+        assert!(said.contains(&headline), "{headline}");
     }
-    let few = text(&gap(folder, &seven(&files[..2], &[])).stdout);
+    let few = gap(folder, &seven(&files[..2], &["--report", page]));
+    assert_eq!(few.status.code(), Some(1));
+    let told = text(&few.stdout);
     assert!(
-        few.contains("the code asks for 3 records at least"),
-        "{few}"
+        told.contains("NO ANSWER") && told.contains("the code asks for 3 records at least"),
+        "{told}"
     );
+    let said = std::fs::read_to_string(page).unwrap();
+    assert!(said.contains("gap light-heavy has no answer."));
     let undecided = gap(
         "three_storey_pair",
         &["--points", "0", "--code", "asce_7_2016"],

@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyFrozenSet, PyInt, PySet, PyString};
 use toml::{Table, Value};
 
 /// Tables in one another at most: more than any case has, and less than a dict that holds
@@ -72,7 +72,9 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
         // Arrays and numbers of NumPy.
         return of(&value.call_method0("tolist")?, path, depth + 1);
     }
-    if let Ok(entries) = value.try_iter() {
+    // The order of a set is none.
+    let ordered = !value.is_instance_of::<PySet>() && !value.is_instance_of::<PyFrozenSet>();
+    if let Some(entries) = value.try_iter().ok().filter(|_| ordered) {
         let entries = entries.enumerate().map(|(i, entry)| {
             let path = format!("{path}[{i}]");
             of(&entry?, &path, depth + 1)

@@ -126,6 +126,9 @@ def test_values_that_no_case_has(pair_dict: dict) -> None:
     pair_dict["building"][0]["mass"] = object()
     with pytest.raises(TypeError, match=r"building\[0\].mass: a object cannot stand in a case"):
         pounding.Case.from_dict(pair_dict)
+    pair_dict["building"][0]["mass"] = {1.0, 2.0, 3.0}
+    with pytest.raises(TypeError, match=r"building\[0\].mass: a set"):
+        pounding.Case.from_dict(pair_dict)
     endless: dict = {}
     endless["building"] = endless
     with pytest.raises((ValueError, RecursionError)):

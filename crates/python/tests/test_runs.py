@@ -73,9 +73,10 @@ def test_a_run_that_fails_stands_in_its_place(pair_dict: dict) -> None:
     with pytest.raises(pounding.PoundingError) as caught:
         pounding.run_many([PAIR, bad])
     assert "help:" in str(caught.value)
-    made = pounding.run_many([PAIR, bad], errors="return")
-    assert isinstance(made[0], pounding.Result)
-    assert isinstance(made[1], pounding.PoundingError)
+    made = pounding.run_many(["/nowhere.toml", PAIR, bad], errors="return")
+    assert isinstance(made[0], pounding.CaseError)
+    assert isinstance(made[1], pounding.Result)
+    assert isinstance(made[2], pounding.PoundingError)
 
 
 def test_arrays_outlive_their_run_and_cannot_be_changed() -> None:

@@ -91,3 +91,5 @@ def test_a_gap_check_by_one_code_is_that_of_the_command() -> None:
     assert check.answer == said
     with pytest.raises(pounding.CaseError, match="eurocode_8_2004"):
         pounding.gap_check(case, code="eurocode_8_204")
+    with pytest.raises(ValueError, match="no records"):
+        pounding.gap_check(case, [])

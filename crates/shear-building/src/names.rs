@@ -8,5 +8,10 @@ pub const NAMES: &str = "a name is not empty, not \".\" or \"..\", and has no sl
 pub fn is_name(text: &str) -> bool {
     text.trim() == text
         && !matches!(text, "" | "." | "..")
-        && !text.contains(|c: char| c == '/' || c.is_control())
+        && !text.contains(|c: char| c == '/' || c.is_control() || turns_text(c))
+}
+
+/// Whether a character turns the direction of the text around it, numbers included.
+fn turns_text(c: char) -> bool {
+    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

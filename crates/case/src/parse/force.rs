@@ -78,6 +78,8 @@ struct HarmonicTable {
 /// Straight lines to a cycle: the force is met within `(pi / 400)^2 / 2`, 3.1e-5 of the
 /// amplitude.
 const LINES: f64 = 400.0;
+/// The fewest lines to a cycle: the force is met within 5 % of the amplitude.
+const FEWEST_LINES: f64 = 10.0;
 /// The most straight lines of a harmonic force.
 const MOST_LINES: f64 = 2.0e6;
 
@@ -172,10 +174,20 @@ impl ForceTable {
         if let Some(constant) = self.constant.stated()? {
             return Some(ForceSource::Constant(constant.value.into()));
         }
+        let stays = self.stays.clone().value_or(false)?;
         if let Some(points) = self.points.stated()? {
             let numbers = points.value.into_iter();
+            let value: Vec<(f64, f64)> = numbers.map(|p| (p.0.into(), p.1.into())).collect();
+            let (first, last) = (value.first(), value.last());
+            if !stays && first.map(|p| p.0) == last.map(|p| p.0) {
+                return reader.refuse(
+                    points.span,
+                    "points at a single time are a force that lasts no time",
+                    "give the time at which the force ends too, or `stays = true`",
+                );
+            }
             return Some(ForceSource::Points(Located {
-                value: numbers.map(|p| (p.0.into(), p.1.into())).collect(),
+                value,
                 span: points.span,
             }));
         }
@@ -184,7 +196,17 @@ impl ForceTable {
         }
         let time_step = self.time_step.stated()?.map(|step| step.value.into());
         let first = if time_step.is_some() { 1 } else { 2 };
-        let column = self.column.stated()?.map_or(first, |c| c.value.0);
+        let column = match self.column.stated()? {
+            None => first,
+            Some(column) if column.value.0 < first => {
+                return reader.refuse(
+                    column.span,
+                    "column 1 holds the times",
+                    "give the column of the force, or `time_step` for a file without times",
+                );
+            }
+            Some(column) => column.value.0,
+        };
         let unit = match self.unit.stated()? {
             None => 1.0,
             Some(unit) => unit_of::<Force>(reader, unit)?,
@@ -208,6 +230,16 @@ impl HarmonicTable {
         };
         let (amplitude, frequency, duration) = (amplitude?, frequency?, duration?);
         let step = self.step.number_or(1.0 / (LINES * frequency))?;
+        if step * frequency * FEWEST_LINES > 1.0 {
+            return reader.refuse(
+                place,
+                format!("straight lines of {step} s do not draw a wave of {frequency} Hz"),
+                format!(
+                    "give a `step` of at most {} s, or leave it away",
+                    1.0 / (FEWEST_LINES * frequency)
+                ),
+            );
+        }
         if duration / step > MOST_LINES {
             return reader.refuse(
                 place,

@@ -41,6 +41,8 @@ class Motion:
         unit: str = "m/s2",
         name: str = "motion",
     ) -> None:
+        if np.ma.is_masked(acceleration) or np.iscomplexobj(acceleration):
+            raise ValueError("acceleration has masked or complex values; give real numbers, all of them")
         samples = np.ascontiguousarray(acceleration, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"acceleration has {samples.ndim} dimensions; give one of samples")

@@ -331,22 +331,35 @@ def run_many(
     """
     if errors not in ("raise", "return"):
         raise ValueError(f'errors is "raise" or "return", not {errors!r}')
-    given = [case if isinstance(case, Case) else Case.from_file(case) for case in cases]
+    given: list[Case | PoundingError] = []
+    for case in cases:
+        try:
+            given.append(case if isinstance(case, Case) else Case.from_file(case))
+        except PoundingError as error:
+            if errors == "raise":
+                raise
+            given.append(error)
+    sound = [case for case in given if isinstance(case, Case)]
     count = (os.cpu_count() or 1) if threads is None else int(threads)
     if count < 1:
         raise ValueError(f"threads is {count}; give at least one")
     told, bar = _progress(progress, "runs")
     try:
-        made = _native.run_many([c._native for c in given], count, histories, isolated, told)
+        made = _native.run_many([c._native for c in sound], count, histories, isolated, told)
     finally:
         if bar is not None:
             bar.close()
     results: list[Result | PoundingError] = []
-    for native, case in zip(made, given, strict=True):
+    natives = iter(made)
+    for entry in given:
+        if not isinstance(entry, Case):
+            results.append(entry)
+            continue
+        native = next(natives)
         if isinstance(native, BaseException):
             if errors == "raise" or not isinstance(native, PoundingError):
                 raise native
             results.append(native)
         else:
-            results.append(Result(native, case))
+            results.append(Result(native, entry))
     return results

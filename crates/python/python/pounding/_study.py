@@ -42,6 +42,8 @@ def _records(records: Records) -> list[tuple[str, Any]]:
         else:
             each = records
         named = [(r.name if isinstance(r, Motion) else "", r) for r in each]
+    if not named:
+        raise ValueError("no records are given; leave `records` away for that of the case")
     return [(n, r._native if isinstance(r, Motion) else os.fspath(r)) for n, r in named]
 
 

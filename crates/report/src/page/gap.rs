@@ -4,7 +4,7 @@ use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
 use super::answer::Answer;
-use super::html::{escaped, note, section, sentences, warnings};
+use super::html::{JUMPS, escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
 
@@ -49,13 +49,22 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     let at = |path: &str| format!("/gaps/{g}/{path}");
     let name = answer.quote(&at("name"));
     let adequate = answer.at(&at("adequate")).as_bool() == Some(true);
-    let word = if adequate { "wide enough" } else { "too small" };
+    let word = |adequate| {
+        if adequate {
+            "is wide enough"
+        } else {
+            "is too small"
+        }
+    };
     let mut points = Vec::new();
     let code = at("code");
     if answer.at(&code).is_object() {
+        // Its own answer: what the records say without it stands below.
+        let satisfied = answer.at(&at("code/satisfied")).as_bool();
         points.push(format!(
-            "<strong>By {} gap {name} is {word}.</strong> Demand of the suite by its rule ({}): {} mm.",
+            "<strong>By {} gap {name} {}.</strong> Demand of the suite by its rule ({}): {} mm.",
             answer.quote(&at("code/edition")),
+            satisfied.map_or("has no answer", word),
             answer.quote(&at("code/statistic")),
             answer.say(&at("code/demand"), 1.0e3),
         ));
@@ -95,12 +104,21 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             answer.quote(&at("code/statistic_clause")),
             answer.quote(&at("code/statistic_status")),
             match answer.at(&at("code/enough_records")).as_bool() {
-                Some(false) => " <strong>There are fewer records than it asks for: this is no answer by the code.</strong>",
+                Some(false) => " There are fewer records than it asks for: the widths are no answer by the code.",
                 _ => "",
             },
         ));
+        let satisfied = answer.at(&at("code/satisfied")).as_bool();
+        let contacts = answer.at(&at("records_in_contact")).as_u64();
+        if satisfied == Some(true) && contacts.is_some_and(|count| count > 0) {
+            points.push(
+                "<strong>The code accepts a width that records close.</strong> What pounding does there is said \
+                 below."
+                    .to_owned(),
+            );
+        }
     } else {
-        points.push(format!("<strong>Gap {name} is {word}.</strong>"));
+        points.push(format!("<strong>Gap {name} {}.</strong>", word(adequate)));
     }
     let records = answer.list("/records").len();
     let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
@@ -291,10 +309,16 @@ fn provided(answer: Answer<'_>) -> String {
     let heads = buildings
         .iter()
         .map(|b| b["name"].as_str().unwrap_or_default());
-    note(
-        "Peak of a storey with pounding over its peak in the isolated building, the maximum over storeys and \
+    let jumps = match answer.at("/rigid_impacts").as_bool() {
+        Some(true) => note(JUMPS),
+        _ => String::new(),
+    };
+    jumps
+        + &note(
+            "Peak of a storey with pounding over its peak in the isolated building, the maximum over storeys and \
          records.",
-    ) + &answer.table("Amplification at the provided gap", &columns, rows(heads))
+        )
+        + &answer.table("Amplification at the provided gap", &columns, rows(heads))
 }
 
 /// Rows of the sweep in the table.

@@ -1,5 +1,6 @@
 //! The page of an incremental dynamic analysis.
 
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::wording::counted;
 use serde_json::Value;
 
@@ -45,29 +46,29 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
     for l in 0..answer.list("/limits").len() {
         let at = |path: &str| format!("/limits/{l}/{path}");
         let name = answer.quote(&at("name"));
-        let (_, unit) = unit_of(answer.text("/unit"));
+        let (scale, unit) = intensity_of(answer);
         let unit = escaped(unit);
         let mut sentence = format!("<strong>{name}:</strong> ");
         sentence.push_str(&match answer.text(&at("fit/kind")) {
             "lognormal" => format!(
                 "median intensity {} {unit} ({} to {} at {} confidence), dispersion {}",
-                answer.say(&at("fit/median"), 1.0),
-                answer.say(&at("fit/median_bounds/0"), 1.0),
-                answer.say(&at("fit/median_bounds/1"), 1.0),
+                answer.say(&at("fit/median"), scale),
+                answer.say(&at("fit/median_bounds/0"), scale),
+                answer.say(&at("fit/median_bounds/1"), scale),
                 answer.say_percent(&at("fit/confidence")),
                 answer.say(&at("fit/dispersion"), 1.0),
             ),
             "step" => format!(
                 "first reached above {} {unit}",
-                answer.say(&at("fit/lower"), 1.0)
+                answer.say(&at("fit/lower"), scale)
             ),
             "never" => format!(
                 "not reached up to {} {unit}",
-                answer.say(&at("fit/up_to"), 1.0)
+                answer.say(&at("fit/up_to"), scale)
             ),
             "always" => format!(
                 "reached by all from {} {unit} on",
-                answer.say(&at("fit/from"), 1.0)
+                answer.say(&at("fit/from"), scale)
             ),
             _ => "the counts give no fragility".to_owned(),
         });
@@ -127,8 +128,8 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
 /// Fitted fragilities of the states of a list.
 fn fits(answer: Answer<'_>, list: &str) -> String {
     let of = |path: &str| format!("{list}/*/{path}");
-    let unit = in_parentheses(answer.text("/unit"));
-    let median = format!("median{unit}");
+    let (scale, unit) = intensity_of(answer);
+    let median = format!("median{}", bracketed(unit));
     let states = answer.list(list);
     let mut columns = vec![Column::new("state")];
     if states.iter().any(|s| !s["width"].is_null()) {
@@ -136,9 +137,9 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
     }
     columns.extend([
         Column::words_of("fragility", of("fit/kind")),
-        Column::of("fitted", of("fit/median"), 1.0).below(&median),
-        Column::of("from", of("fit/median_bounds/0"), 1.0).below(&median),
-        Column::of("to", of("fit/median_bounds/1"), 1.0).below(&median),
+        Column::of("fitted", of("fit/median"), scale).below(&median),
+        Column::of("from", of("fit/median_bounds/0"), scale).below(&median),
+        Column::of("to", of("fit/median_bounds/1"), scale).below(&median),
         Column::of("fitted", of("fit/dispersion"), 1.0).below("dispersion"),
         Column::of("from", of("fit/dispersion_bounds/0"), 1.0).below("dispersion"),
         Column::of("to", of("fit/dispersion_bounds/1"), 1.0).below("dispersion"),
@@ -180,10 +181,11 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
 
 /// How often states were reached, by intensity.
 fn counts(answer: Answer<'_>) -> String {
-    let unit = in_parentheses(answer.text("/unit"));
+    let (scale, unit) = intensity_of(answer);
+    let unit = bracketed(unit);
     let mut columns = vec![
         Column::new("number"),
-        Column::of(format!("intensity{unit}"), "/levels/*/intensity", 1.0),
+        Column::of(format!("intensity{unit}"), "/levels/*/intensity", scale),
         Column::of("runs", "/levels/*/runs", 1.0),
         Column::of("failed", "/levels/*/failed", 1.0),
         Column::of("collapsed", "/levels/*/collapsed", 1.0),
@@ -196,6 +198,22 @@ fn counts(answer: Answer<'_>) -> String {
     answer.table("Runs by intensity", &columns, numbered(answer))
 }
 
+/// The factor from SI to the unit in which people say intensities, and that unit: g for
+/// accelerations.
+fn intensity_of(answer: Answer<'_>) -> (f64, &str) {
+    match answer.text("/unit") {
+        "m s-2" => (1.0 / STANDARD_GRAVITY, "g"),
+        other => unit_of(other),
+    }
+}
+
+fn bracketed(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit => format!(" ({unit})"),
+    }
+}
+
 fn numbered(answer: Answer<'_>) -> Vec<(String, String)> {
     let levels = 0..answer.list("/levels").len();
     levels
@@ -205,13 +223,14 @@ fn numbered(answer: Answer<'_>) -> Vec<(String, String)> {
 
 /// Fractiles of demands, by intensity.
 fn demands(answer: Answer<'_>) -> String {
-    let unit = in_parentheses(answer.text("/unit"));
+    let (scale, unit) = intensity_of(answer);
+    let unit = bracketed(unit);
     let demands = answer.list("/levels/0/demands");
     let mut out = String::new();
     for (first, chunk) in demands.chunks(BESIDE).enumerate() {
         let mut columns = vec![
             Column::new("number"),
-            Column::of(format!("intensity{unit}"), "/levels/*/intensity", 1.0),
+            Column::of(format!("intensity{unit}"), "/levels/*/intensity", scale),
         ];
         for (d, demand) in chunk.iter().enumerate() {
             let text = |key: &str| demand[key].as_str().unwrap_or_default();

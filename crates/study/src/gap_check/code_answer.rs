@@ -107,10 +107,14 @@ impl CodeAnswer {
             .filter(move |c| stated.is_none() || c.ownership.is_none() || c.ownership == stated)
     }
 
-    /// Whether the gap is wide enough by the code; `None` if it gives no answer. Where the case
-    /// does not say who owns the ground, it must be for both.
+    /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where there
+    /// are fewer records than it asks for. Where the case does not say who owns the ground, it
+    /// must be for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
+        if !self.enough_records {
+            return None;
+        }
         let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
         answers.map(|all| all.into_iter().all(|reached| reached))
     }

@@ -19,13 +19,23 @@ pub(super) struct Demand {
     /// Whether it is one of the buildings without gaps, which a collapse in contact leaves
     /// as it is.
     isolated: bool,
+    /// Whether a missing value is one that is not defined: the force of velocity jumps.
+    has_to_be_there: bool,
 }
+
+/// The quantity that rigid impacts do not have.
+const FORCE: &str = "peak_force";
 
 impl Demand {
     /// Maximum value in a row; missing values, such as the time of a contact that did not
     /// happen, count as none.
     fn of(&self, values: &[f64]) -> f64 {
         self.columns.iter().map(|c| values[*c]).fold(0.0, f64::max)
+    }
+
+    /// Whether the demand of a run is not defined.
+    pub(super) fn is_undefined(&self, values: &[f64]) -> bool {
+        self.has_to_be_there && self.columns.iter().any(|c| values[*c].is_nan())
     }
 
     /// The same for a run that may have collapsed: then it is above everything.
@@ -60,6 +70,7 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: false,
+                has_to_be_there: false,
             });
         }
     }
@@ -67,7 +78,7 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
         let mine = |column: usize| layout.levels[column].of == gap;
         for (name, unit) in [
             ("isolated_demand", "m"),
-            ("peak_force", "N"),
+            (FORCE, "N"),
             ("peak_column_shear", "N"),
             ("impulse_max", "N s"),
             ("impacts", "1"),
@@ -81,6 +92,7 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: name == ISOLATED,
+                has_to_be_there: name == FORCE,
             });
         }
     }
@@ -109,7 +121,7 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         DemandKind::EdgeDisplacement => ("peak_edge_displacement", "m", Axis::Storey),
         DemandKind::DisplacementAcross => ("peak_displacement_across", "m", Axis::Storey),
         DemandKind::AccelerationAcross => ("peak_acceleration_across", "m s-2", Axis::Storey),
-        DemandKind::ContactForce => ("peak_force", "N", Axis::Level),
+        DemandKind::ContactForce => (FORCE, "N", Axis::Level),
         DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
         DemandKind::Impacts => ("impacts", "1", Axis::Level),
@@ -129,6 +141,7 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         unit,
         columns: chosen(layout.range(name), mine),
         isolated: name == ISOLATED,
+        has_to_be_there: name == FORCE,
     }
 }
 
@@ -139,5 +152,6 @@ pub(super) fn of_gap(layout: &Layout, name: &'static str, gap: &str) -> Demand {
         unit: "m",
         columns: chosen(layout.range(name), |column| layout.levels[column].of == gap),
         isolated: name == ISOLATED,
+        has_to_be_there: false,
     }
 }

@@ -144,7 +144,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         return Err(wrong("the result is not that of the whole study"));
     }
     let layout = &result.description.layout;
-    let shown = usual(layout);
+    let mut shown = usual(layout);
     let limits: Vec<(Demand, f64)> = settings
         .limits
         .iter()
@@ -165,7 +165,24 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         .collect();
     let mut intensities = intensities(study, settings);
     intensities.sort_by(f64::total_cmp);
-    let runs = runs(result, settings, &needs, &intensities)?;
+    let (mut runs, undefined) = runs(result, settings, &needs, &intensities)?;
+    if let Some((limit, _)) = limits
+        .iter()
+        .zip(&undefined[shown.len()..])
+        .find(|(_, u)| **u)
+    {
+        return Err(wrong(&format!(
+            "{}: rigid impacts have no contact force; ask for the impulse instead: demand = \"impulse\"",
+            limit.0.name
+        )));
+    }
+    // What some run does not have is shown of none.
+    for place in (0..shown.len()).rev().filter(|place| undefined[*place]) {
+        shown.remove(place);
+        for run in &mut runs {
+            run.demands.remove(place);
+        }
+    }
     let evaluation = Evaluation {
         settings,
         intensities: &intensities,
@@ -213,13 +230,15 @@ fn intensities(study: &Study, settings: &IdaSettings) -> Vec<f64> {
 /// Rows of the result that are held at once.
 const BLOCK: usize = 1024;
 
+/// Runs with their demands, and of every demand whether some run does not have it.
 fn runs(
     result: &ResultReader,
     settings: &IdaSettings,
     needs: &[Demand],
     intensities: &[f64],
-) -> Result<Vec<Run>, StudyError> {
+) -> Result<(Vec<Run>, Vec<bool>), StudyError> {
     let mut runs = Vec::new();
+    let mut undefined = vec![false; needs.len()];
     let mut samples: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     for start in (0..result.rows).step_by(BLOCK) {
         for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
@@ -230,6 +249,11 @@ fn runs(
             let others = others.filter(|(i, _)| *i != settings.intensity);
             let key: Vec<u64> = others.map(|(_, value)| bits(value)).collect();
             let next = samples.len();
+            if !row.ending.failed() && !row.ending.collapsed() {
+                for (undefined, demand) in undefined.iter_mut().zip(needs) {
+                    *undefined |= demand.is_undefined(&row.values);
+                }
+            }
             runs.push(Run {
                 record: match point[settings.record] {
                     Value::Choice(record) => record,
@@ -246,7 +270,7 @@ fn runs(
             });
         }
     }
-    Ok(runs)
+    Ok((runs, undefined))
 }
 
 /// What tells values apart.

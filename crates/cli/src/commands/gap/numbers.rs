@@ -7,6 +7,7 @@ use pounding_time_history::{BuildingOutcome, LevelPlace, NamedPeak};
 use serde::Serialize;
 
 use super::provisions::Descriptor;
+use super::text::rigid;
 
 /// The object that `gap --json` prints.
 #[derive(Serialize)]
@@ -16,6 +17,8 @@ pub struct Check<'c> {
     decided_by_code: Option<&'static str>,
     target_probability: f64,
     confidence: f64,
+    /// Whether velocities jump at impacts: accelerations leave that out.
+    rigid_impacts: bool,
     warnings: &'c [String],
     records: Vec<Record<'c>>,
     spectra: Spectra<'c>,
@@ -34,6 +37,7 @@ impl<'c> Check<'c> {
                 .find_map(|g| g.code.as_ref().map(|c| c.code.name)),
             target_probability: check.options.target_probability,
             confidence: check.options.confidence,
+            rigid_impacts: rigid(check),
             warnings: &check.warnings,
             records: check.records.iter().map(Record::of).collect(),
             spectra: Spectra::of(&check.spectra),

@@ -167,7 +167,7 @@ fn maximum(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> St
 const JUMPS: &str = "Rigid impacts are jumps of the velocity: accelerations leave them out, here and in the sweep.\n";
 
 /// Whether some impact was a jump, which has no force.
-fn rigid(check: &GapCheck) -> bool {
+pub fn rigid(check: &GapCheck) -> bool {
     let runs = check
         .records
         .iter()

@@ -1,7 +1,7 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
-use crate::page::html::{escaped, number, sentences, warnings};
+use crate::page::html::{JUMPS, escaped, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
@@ -27,6 +27,9 @@ pub(super) fn summary(result: &RunResult) -> String {
         if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
             points.push(format!("{} more below.", counted(more, "building")));
         }
+    }
+    if result.gaps.iter().any(GapResult::jumps) {
+        points.push(JUMPS.to_owned());
     }
     points.push(ledger(result));
     sentences(&points) + &warnings(&result.warnings)

@@ -403,3 +403,22 @@ proptest! {
         prop_assert!(affine > 25, "{affine}");
     }
 }
+
+/// At a restitution of one the two lines of the bilinear law are one: a spring, which stores
+/// half its force times its length.
+#[test]
+fn the_bilinear_law_without_loss_is_a_spring() {
+    let descriptor = registry::find("muthukumar_2003").unwrap();
+    let model = registry::build(descriptor.name, &descriptor.example_parameters(1.0)).unwrap();
+    let (collision, memory) = (model.begin(0.5, 2.0e4), Memory::default());
+    for delta in [1.0e-6, 1.0e-4, 2.0e-3] {
+        let force = model
+            .force(&collision, &memory, Phase::Approach, delta, 0.0)
+            .value;
+        let stored = model.stored_energy(&collision, &memory, Phase::Approach, delta);
+        assert!(
+            (stored / (0.5 * force * delta) - 1.0).abs() < 1.0e-12,
+            "{stored}"
+        );
+    }
+}

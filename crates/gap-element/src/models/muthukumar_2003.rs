@@ -242,7 +242,12 @@ impl ImpactModel for BilinearImpact {
         // Unloading: along K1 down to the lower line, then along K2 to zero.
         let [k1, k2, ..] = collision.constants;
         let force = self.force(collision, memory, phase, delta, 0.0).value;
-        let drop = (force - k2 * delta) / (k1 - k2);
+        // Without loss both are one line.
+        let drop = if k1 > k2 {
+            (force - k2 * delta) / (k1 - k2)
+        } else {
+            0.0
+        };
         let corner = delta - drop;
         0.5 * (force + k2 * corner) * drop + 0.5 * k2 * corner * corner
     }

@@ -3,7 +3,7 @@
 use super::figures::governing_level;
 use crate::page::html::{JUMPS, escaped, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
-use crate::result::{BuildingResult, GapResult, LevelResult, RunResult, StoreyPeaks};
+use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
@@ -13,7 +13,7 @@ pub(super) fn summary(result: &RunResult) -> String {
     if !more.is_empty() {
         let impacts: usize = more.iter().map(|gap| gap.impacts.len()).sum();
         points.push(format!(
-            "{} more below, with {}.",
+            "{} more below, hit less hard, with {}.",
             counted(more.len(), "gap"),
             counted(impacts, "impact"),
         ));
@@ -22,10 +22,12 @@ pub(super) fn summary(result: &RunResult) -> String {
         points.push("There is no gap with a contact level.".to_owned());
     }
     if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
-        let buildings = result.buildings.iter().take(MOST);
-        points.extend(buildings.filter_map(changed));
+        points.extend(most_changed(result).into_iter().filter_map(changed));
         if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
-            points.push(format!("{} more below.", counted(more, "building")));
+            points.push(format!(
+                "{} more below, whose accelerations rise less.",
+                counted(more, "building")
+            ));
         }
     }
     if result.gaps.iter().any(GapResult::jumps) {
@@ -38,11 +40,32 @@ pub(super) fn summary(result: &RunResult) -> String {
 /// Gaps and buildings that have a sentence of their own in the summary.
 const MOST: usize = 6;
 
+/// The buildings whose accelerations pounding raises most, in the order of the case.
+fn most_changed(result: &RunResult) -> Vec<&BuildingResult> {
+    let rise = |building: &BuildingResult| {
+        let peaks = &building.acceleration_peaks;
+        let ratios = peaks.value.iter().zip(&peaks.isolated).map(|(a, b)| a / b);
+        ratios.filter(|r| r.is_finite()).fold(0.0, f64::max)
+    };
+    let mut places: Vec<usize> = (0..result.buildings.len()).collect();
+    let of = |place: &usize| rise(&result.buildings[*place]);
+    places.sort_by(|a, b| of(b).total_cmp(&of(a)));
+    places.truncate(MOST);
+    places.sort_unstable();
+    places
+        .iter()
+        .map(|place| &result.buildings[*place])
+        .collect()
+}
+
 /// The gaps that are hit hardest, in the order of the case, and all others.
 fn hardest(result: &RunResult) -> (Vec<&GapResult>, Vec<&GapResult>) {
+    // Velocity jumps have no force to go by.
+    let jumps = result.gaps.iter().any(GapResult::jumps);
     let size = |gap: &GapResult| {
         let hardest = gap.hardest_first();
-        hardest.first().map_or(0.0, |i| i.impulse)
+        let size = |i: &&ImpactResult| if jumps { i.impulse } else { i.force() };
+        hardest.first().map_or(0.0, size)
     };
     let mut sizes: Vec<f64> = result.gaps.iter().map(size).collect();
     sizes.sort_by(|a, b| b.total_cmp(a));

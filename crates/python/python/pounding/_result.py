@@ -243,6 +243,13 @@ class Result:
         return f"<p><strong>{title}</strong></p><ul>{lines}</ul>{table}"
 
 
+def _threads(threads: int | None) -> int:
+    count = (os.cpu_count() or 1) if threads is None else int(threads)
+    if count < 1:
+        raise ValueError(f"threads is {count}; give at least one")
+    return count
+
+
 def _progress(progress: Progress | bool | None, what: str) -> tuple[Progress | None, Any]:
     """A callback, and what has to be closed at the end."""
     if progress is None or progress is False:
@@ -340,9 +347,7 @@ def run_many(
                 raise
             given.append(error)
     sound = [case for case in given if isinstance(case, Case)]
-    count = (os.cpu_count() or 1) if threads is None else int(threads)
-    if count < 1:
-        raise ValueError(f"threads is {count}; give at least one")
+    count = _threads(threads)
     told, bar = _progress(progress, "runs")
     try:
         made = _native.run_many([c._native for c in sound], count, histories, isolated, told)

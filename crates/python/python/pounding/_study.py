@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._case import Case
 from ._motion import Motion
-from ._result import Progress, _progress
+from ._result import Progress, _progress, _threads
 
 if TYPE_CHECKING:
     import pandas
@@ -21,13 +21,6 @@ __all__ = ["Comparison", "GapCheck", "Ida", "compare", "gap_check", "ida", "swee
 
 Path = str | os.PathLike[str]
 Records = Iterable[Motion | Path] | Mapping[str, Motion | Path] | Motion | Path | None
-
-
-def _threads(threads: int | None) -> int:
-    count = (os.cpu_count() or 1) if threads is None else int(threads)
-    if count < 1:
-        raise ValueError(f"threads is {count}; give at least one")
-    return count
 
 
 def _records(records: Records) -> list[tuple[str, Any]]:
@@ -148,11 +141,12 @@ class Ida:
         import pandas as pd
 
         rows = [
-            {"intensity": level["intensity"], "demand": demand.pop("name"), **demand}
-            for level in json.loads(json.dumps(self.answer["levels"]))
+            {"intensity": level["intensity"], **demand}
+            for level in self.answer["levels"]
             for demand in level["demands"]
         ]
-        return pd.DataFrame(rows).set_index(["demand", "intensity"])
+        frame = pd.DataFrame(rows).rename(columns={"name": "demand"})
+        return frame.set_index(["demand", "intensity"])
 
     @property
     def limits(self) -> pandas.DataFrame:

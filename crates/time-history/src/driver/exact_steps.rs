@@ -11,7 +11,7 @@ use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::methods::Context;
 use crate::propagation::{ContactSeries, HALVINGS, Propagation};
-use crate::recorder::{MethodStep, Recorder, StepView};
+use crate::recorder::Recorder;
 use crate::system::System;
 
 /// How often a series is halved before the step is left to the method.
@@ -351,22 +351,7 @@ impl Driver<'_> {
             let rest = to - tau;
             let step = self.trial(segment, tau, proposed.min(rest))?;
             let at_end = step >= rest * (1.0 - 1.0e-12);
-            let mut context = Context {
-                dynamics: &mut self.dynamics,
-                contacts: &self.contacts,
-                segment,
-            };
-            let until = segment.start + tau + step;
-            for recorder in recorders.iter_mut().filter(|r| r.next_time() <= until) {
-                let step = MethodStep {
-                    context: &mut context,
-                    method: self.method.as_ref(),
-                    state: &mut self.interpolated,
-                    tau,
-                    step,
-                };
-                recorder.step(&mut StepView::of_method(step, last && at_end))?;
-            }
+            self.show_step((segment, tau, step), last && at_end, recorders)?;
             self.method.accept(false);
             std::mem::swap(&mut self.state, &mut self.new_state);
             tau = if at_end { to } else { tau + step };

@@ -444,6 +444,32 @@ impl<'a> Driver<'a> {
         )
     }
 
+    /// Shows an accepted step of the method to the recorders that want something of it.
+    fn show_step(
+        &mut self,
+        (segment, tau, step): (&Segment, f64, f64),
+        last: bool,
+        recorders: &mut [&mut dyn Recorder],
+    ) -> Result<(), TimeHistoryError> {
+        let mut context = Context {
+            dynamics: &mut self.dynamics,
+            contacts: &self.contacts,
+            segment,
+        };
+        let end = segment.start + tau + step;
+        for recorder in recorders.iter_mut().filter(|r| r.next_time() <= end) {
+            let step = MethodStep {
+                context: &mut context,
+                method: self.method.as_ref(),
+                state: &mut self.interpolated,
+                tau,
+                step,
+            };
+            recorder.step(&mut StepView::of_method(step, last))?;
+        }
+        Ok(())
+    }
+
     fn accept(
         &mut self,
         segment: &Segment,
@@ -463,17 +489,7 @@ impl<'a> Driver<'a> {
             &mut self.finder,
             (tau, step),
         );
-        let end = segment.start + tau + step;
-        for recorder in recorders.iter_mut().filter(|r| r.next_time() <= end) {
-            let step = MethodStep {
-                context: &mut context,
-                method: self.method.as_ref(),
-                state: &mut self.interpolated,
-                tau,
-                step,
-            };
-            recorder.step(&mut StepView::of_method(step, last))?;
-        }
+        self.show_step((segment, tau, step), last, recorders)?;
         if let Some(exact) = &mut self.exact {
             exact.interrupt();
         }

@@ -8,6 +8,7 @@ mod memory;
 mod methods;
 mod peers;
 mod precision;
+mod python;
 mod recording;
 mod report;
 mod scaling;
@@ -20,8 +21,7 @@ use std::process::ExitCode;
 use pounding_time_history::GroundAcceleration;
 use verification::{Failure, ReferenceCases, reference_cases, synthetic_motion};
 
-const USAGE: &str =
-    "quick | full | prototype | scaling | recording | sweeps | sweep RUNS | cases FOLDER";
+const USAGE: &str = "quick | full | prototype | scaling | recording | python INTERPRETER | sweeps | sweep RUNS | cases FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -54,6 +54,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         ["prototype"] => report::prototype(&reference, &ground),
         ["scaling"] => report::only_scaling(reference, &ground),
         ["recording", only @ ..] => recording::ratios(&reference, &ground, only),
+        ["python", interpreter] => python::beside_the_library(interpreter),
         ["sweeps"] => report::only_sweeps(&reference, &ground),
         ["sweep", runs] => report::one_sweep(&reference, &ground, runs.parse()?),
         ["cases", folder] => write_cases(&reference, &ground, Path::new(folder)),

@@ -1,6 +1,7 @@
 //! The record of a case: read, processed and scaled as the case says.
 
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumSource};
 use pounding_ground_motion::processing::{ProcessingStep, Scale, process, rotate};
@@ -12,8 +13,11 @@ use pounding_ground_motion::{
 use crate::error::AssemblyError;
 
 /// The ground acceleration of a case.
-pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
-    scale_record(case, read_record(case)?)
+pub(crate) fn accelerogram(
+    case: &Case,
+    files: &RecordFiles,
+) -> Result<Accelerogram, AssemblyError> {
+    scale_record(case, read(case, &case.ground_motion, files)?)
 }
 
 /// A record beside that of the case, as one building has it for itself: read, processed and
@@ -23,7 +27,8 @@ pub(crate) fn accelerogram(case: &Case) -> Result<Accelerogram, AssemblyError> {
 /// An unknown unit or format, with its place in the case, or a record that cannot be read,
 /// processed or scaled.
 pub fn further_record(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
-    let made = read(case, motion).and_then(|record| scaled(case, motion, record));
+    let made =
+        read(case, motion, &RecordFiles::default()).and_then(|record| scaled(case, motion, record));
     made.map_err(|e| match e {
         // The case names several files: the place says which.
         AssemblyError::GroundMotion(e) => {
@@ -40,19 +45,43 @@ pub fn further_record(case: &Case, motion: &GroundMotion) -> Result<Accelerogram
 /// An unknown unit or format, with its place in the case, or a record that cannot be
 /// read or processed.
 pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
-    read(case, &case.ground_motion)
+    read(case, &case.ground_motion, &RecordFiles::default())
 }
 
-fn read(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
+/// Record files as they were read, for many cases that name the same: a file is read once
+/// with the same options, and processed and scaled for each case.
+#[derive(Debug, Default)]
+pub struct RecordFiles(Mutex<Vec<(PathBuf, ReadOptions, Accelerogram)>>);
+
+impl RecordFiles {
+    /// The record of a file, which is read if it was not yet.
+    fn read(&self, file: PathBuf, options: &ReadOptions) -> Result<Accelerogram, AssemblyError> {
+        // Who panicked while reading left what was read before.
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = known.iter().find(|(f, o, _)| *f == file && o == options);
+        if let Some((_, _, record)) = same {
+            return Ok(record.clone());
+        }
+        let record = pounding_ground_motion::read(&file, options)?;
+        known.push((file, options.clone(), record.clone()));
+        Ok(record)
+    }
+}
+
+fn read(
+    case: &Case,
+    motion: &GroundMotion,
+    files: &RecordFiles,
+) -> Result<Accelerogram, AssemblyError> {
     let options = read_options(case, motion)?;
     let file = case.resolve(&motion.file.value);
-    let mut record = pounding_ground_motion::read(&file, &options)?;
+    let mut record = files.read(file.clone(), &options)?;
     if let Some(rotation) = &motion.rotation {
         let second = ReadOptions {
             component: Some(rotation.second_component.value.clone()),
             ..options
         };
-        let other = pounding_ground_motion::read(&file, &second)?;
+        let other = files.read(file, &second)?;
         let span = rotation.second_component.span.clone();
         record = rotate(&record, &other, rotation.angle)
             .map_err(|e| case.error(span, e.to_string(), e.help()))?

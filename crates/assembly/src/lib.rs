@@ -27,9 +27,11 @@ mod error;
 mod excitation;
 mod number_file;
 
-pub use assemble::{Assembly, assemble, assemble_with_record, assemble_without_gaps, regap};
+pub use assemble::{
+    Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps, regap,
+};
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{
-    ScaleTarget, further_record, read_record, read_target, scale_record, scale_target,
+    RecordFiles, ScaleTarget, further_record, read_record, read_target, scale_record, scale_target,
 };

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use pounding_assembly::{Assembly, assemble, assemble_with_record, scale_record};
+use pounding_assembly::{
+    Assembly, RecordFiles, assemble_sharing, assemble_with_record, scale_record,
+};
 use pounding_case::{Case, read_text};
 use pounding_cli::Failure;
 use pounding_cli::answers::Understood;
@@ -55,10 +57,21 @@ impl PyCase {
     }
 
     /// The system of the case under its motion.
+    ///
+    /// # Errors
+    /// As of the case file, or of its record.
     pub fn assembly(&self) -> Result<Assembly, Problem> {
+        self.assembly_sharing(&RecordFiles::default())
+    }
+
+    /// The same for one of many cases, which read the files of records once.
+    ///
+    /// # Errors
+    /// As [`assembly`](Self::assembly).
+    pub fn assembly_sharing(&self, files: &RecordFiles) -> Result<Assembly, Problem> {
         let case = self.case.as_ref();
         let made = match &self.motion {
-            None => assemble(case),
+            None => assemble_sharing(case, files),
             Some(motion) => scale_record(case, Accelerogram::clone(motion))
                 .and_then(|motion| assemble_with_record(case, &motion)),
         };

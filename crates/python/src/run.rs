@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
-use pounding_assembly::Assembly;
+use pounding_assembly::{Assembly, RecordFiles};
 use pounding_cli::Failure;
 use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
@@ -70,11 +70,11 @@ impl SampleSink for Responses<'_> {
 
 impl Run {
     fn of(
-        case: &PyCase,
+        (case, files): (&PyCase, &RecordFiles),
         wanted: Wanted,
         (watch, told): (&Watch, &(dyn Fn(f64) + Sync)),
     ) -> Result<Self, Problem> {
-        let assembly = case.assembly()?;
+        let assembly = case.assembly_sharing(files)?;
         let failed = |e: TimeHistoryError| case.problem(Failure::of_case(e, &case.case));
         let (system, options) = (&assembly.system, &assembly.options);
         if wanted.histories {
@@ -379,7 +379,7 @@ fn run(
     };
     let made = watched(py, progress, |watch| {
         let told = |part: f64| watch.tell((part * WHOLE as f64) as usize, WHOLE);
-        Run::of(case, wanted, (watch, &told))
+        Run::of((case, &RecordFiles::default()), wanted, (watch, &told))
     })?;
     Ok(made?)
 }
@@ -402,11 +402,12 @@ fn run_many<'py>(
     let cases: Vec<PyCase> = cases.iter().map(|c| c.get().clone()).collect();
     let made = watched(py, progress, |watch| {
         let done = AtomicUsize::new(0);
+        let files = RecordFiles::default();
         in_parallel(cases.len(), threads.max(1), |number| {
             if watch.stopped() {
                 return None;
             }
-            let made = Run::of(&cases[number], wanted, (watch, &|_| {}));
+            let made = Run::of((&cases[number], &files), wanted, (watch, &|_| {}));
             watch.tell(done.fetch_add(1, Ordering::Relaxed) + 1, cases.len());
             Some(made)
         })

@@ -29,7 +29,7 @@ use pounding_time_history::{
 use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
-use crate::excitation::accelerogram;
+use crate::excitation::{RecordFiles, accelerogram};
 use motions::on_their_ground;
 
 /// All that a run needs, made from a case.
@@ -89,8 +89,17 @@ impl Assembly {
 /// What the case says of models, methods or the record cannot be: with its place
 /// in the case file, or in the record.
 pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
+    assemble_sharing(case, &RecordFiles::default())
+}
+
+/// As [`assemble`], for one of many cases: the file of the record is read only if no case before
+/// has read it.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, AssemblyError> {
     let parts = Parts::of(case)?;
-    let accelerogram = accelerogram(case)?;
+    let accelerogram = accelerogram(case, files)?;
     let Parts {
         buildings,
         models,

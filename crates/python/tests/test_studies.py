@@ -63,6 +63,43 @@ def test_a_study_that_is_wrong_is_told(folder: Path) -> None:
         pounding.ida(small_study(folder))
 
 
+def test_fractiles_of_an_analysis_are_those_of_its_runs(folder: Path) -> None:
+    name = "examples/fragility_three_storey_pair"
+    shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("*.h5"))
+    study = folder / name / "study.toml"
+    text = study.read_text()
+    for old, new in (
+        ("count = 40", "count = 6"),
+        ("count = 12", "count = 4"),
+        ("target_frequency", "# target_frequency"),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    study.write_text(text)
+    analysis = pounding.ida(study, threads=2)
+    runs = analysis.runs()
+    assert runs.sizes["run"] == 24
+    intensity = runs["intensity"].to_numpy()
+    light = runs["storey_building"].to_numpy() == "light"
+    demands = {
+        "peak_drift_ratio: light": runs["peak_drift_ratio"].to_numpy()[:, light].max(axis=1),
+        "peak_force: light-heavy": runs["peak_force"].to_numpy().max(axis=1),
+    }
+    levels = analysis.levels
+    assert sorted(set(intensity)) == sorted(set(levels.index.get_level_values("intensity")))
+    for demand, values in demands.items():
+        for level in sorted(set(intensity)):
+            ours = levels.loc[(demand, level), ["p16", "p50", "p84"]].to_numpy(dtype=float)
+            theirs = np.percentile(values[intensity == level], [16, 50, 84])
+            np.testing.assert_allclose(ours, theirs, rtol=1e-12)
+    assert list(analysis.limits["name"])[1] == "light roof above 2 g"
+    runs.close()
+    other = folder / "command.h5"
+    said = json.loads(command("ida", study, "-o", other, "--json"))
+    said.pop("sweep")
+    assert {k: v for k, v in analysis.answer.items() if k != "sweep"} == said
+
+
 def test_the_output_is_no_input(folder: Path) -> None:
     study = small_study(folder)
     before = study.read_bytes()

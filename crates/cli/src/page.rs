@@ -5,7 +5,7 @@ use std::path::Path;
 use pounding_case::Case;
 use pounding_files::checksum::{WithoutChecksum, hexadecimal};
 use pounding_report::page::{self as pages, Inputs, Picture};
-use pounding_report::{ReportError, RunResult};
+use pounding_report::{Chart, ReportError, RunResult};
 use pounding_study::ResultReader;
 use pounding_study::gap_check::CaseUnderRecord;
 use serde::Serialize;
@@ -22,12 +22,11 @@ pub fn answer(answer: &impl Serialize) -> Result<Value, Failure> {
 }
 
 /// A picture of the page.
-pub fn picture(drawn: Result<String, ReportError>, words: &str) -> Result<Picture, Failure> {
-    let svg = plot::drawn(drawn)?;
-    Ok(Picture {
-        svg,
+pub fn picture(drawn: &Chart, words: &str) -> Picture {
+    Picture {
+        svg: drawn.svg(),
         words: words.to_owned(),
-    })
+    }
 }
 
 /// Inputs of a command that takes a file.

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use pounding_report::documentation::DocumentationFile;
-use pounding_report::{PictureFormat, ReportError};
+use pounding_report::{Chart, PictureFormat, ReportError};
 
+use crate::arguments::FigureArguments;
 use crate::failure::Failure;
 
-/// A picture of a library, written as a file of the form that its ending says.
-pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<(), Failure> {
-    let picture = drawn(picture)?;
+/// A picture as wide as asked for, written as a file of the form that its ending says.
+pub fn write_drawn(path: &Path, picture: Chart, size: &FigureArguments) -> Result<(), Failure> {
+    let picture = picture.of_width(size.millimetres()).svg();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
     let bytes = format.of(&picture).map_err(|e| not_drawn(&e))?;
@@ -17,8 +18,8 @@ pub fn write_drawn(path: &Path, picture: Result<String, ReportError>) -> Result<
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
 }
 
-/// A picture of a library, or why there is none.
-pub fn drawn(picture: Result<String, ReportError>) -> Result<String, Failure> {
+/// A picture of a motion, or why there is none.
+pub fn of_motion(picture: Result<Chart, ReportError>) -> Result<Chart, Failure> {
     picture.map_err(|e| match e {
         ReportError::Motion(error) => error.into(),
         error => not_drawn(&error),

@@ -117,7 +117,7 @@ mod tests {
             horizontal: "time (s)".to_owned(),
             curves: vec![curve("one", 1.0), curve("two", 2.0)],
         };
-        figure(&[panel]).unwrap()
+        figure(&[panel]).svg()
     }
 
     /// 190 mm are 2244 pixels of 1/300 inch, and 538.6 pt.

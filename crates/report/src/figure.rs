@@ -1,7 +1,6 @@
 //! Pictures: panels of curves below one another, as SVG.
 
-use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series, drawn};
-use crate::error::ReportError;
+use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series};
 
 /// One curve: its name and its points.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,30 +34,20 @@ pub struct Reference {
 /// Points (1/72 inch) in a pixel (1/96 inch).
 const POINTS_PER_PIXEL: f64 = 0.75;
 
-/// Draws panels below one another as SVG.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn figure(panels: &[Panel]) -> Result<String, ReportError> {
+/// Panels below one another.
+#[must_use]
+pub fn figure(panels: &[Panel]) -> Chart {
     figure_with_references(panels, &[])
 }
 
-/// Draws panels below one another, and curves to compare with, as SVG.
-///
-/// # Errors
-/// As [`figure()`].
-pub fn figure_with_references(
-    panels: &[Panel],
-    references: &[Reference],
-) -> Result<String, ReportError> {
-    Ok(drawn(&Chart::of_page(plots(panels, references))))
+/// Panels below one another, and curves to compare with.
+#[must_use]
+pub fn figure_with_references(panels: &[Panel], references: &[Reference]) -> Chart {
+    Chart::of_page(plots(panels, references))
 }
 
 /// Draws panels of a width and a height (pixels) below one another as SVG.
-///
-/// # Errors
-/// As [`figure()`].
-pub fn figure_of_size(panels: &[Panel], size: (u32, u32)) -> Result<String, ReportError> {
+pub(crate) fn figure_of_size(panels: &[Panel], size: (u32, u32)) -> String {
     let [width, height] = [size.0, size.1].map(f64::from);
     let chart = Chart {
         plots: plots(panels, &[]),
@@ -66,7 +55,7 @@ pub fn figure_of_size(panels: &[Panel], size: (u32, u32)) -> Result<String, Repo
         stated_width: format!("{width}"),
         height: Some(POINTS_PER_PIXEL * height * panels.len() as f64),
     };
-    Ok(drawn(&chart))
+    chart.svg()
 }
 
 /// Panels as plots with linear axes, later references over the curves.
@@ -76,7 +65,8 @@ pub(crate) fn plots(panels: &[Panel], references: &[Reference]) -> Vec<Plot> {
         let curves = panel.curves.iter().enumerate();
         let curves = curves.map(|(i, curve)| series(curve, Look::line(i)));
         let references = references.iter().filter(|r| r.panel == number);
-        let references = references.map(|r| series(&r.curve, Look::reference()));
+        let references = references.enumerate();
+        let references = references.map(|(i, r)| series(&r.curve, Look::reference(i)));
         Plot {
             heading: panel.caption.clone(),
             horizontal: Axis::linear(&panel.horizontal),

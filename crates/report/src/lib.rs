@@ -2,7 +2,7 @@
 //!
 //! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`); [`page`] makes one
 //! HTML file of it, and of what studies answer, that needs nothing else: words, tables, figures. [`figure()`] draws
-//! panels of curves as SVG for the command line as well. Values are SI as in the result
+//! panels of curves for the command line as well. Values are SI as in the result
 //! file; the page shows them in the units that engineers write. [`documentation`] has the
 //! reference pages of impact models and laws, and [`pictures`] draws what runs, studies,
 //! laboratories and motions show.
@@ -20,9 +20,10 @@ mod loops;
 mod reading;
 mod result;
 
+pub use chart::{Chart, PAGE};
 pub use conversion::PictureFormat;
 pub use error::ReportError;
-pub use figure::{Curve, Panel, Reference, figure, figure_of_size, figure_with_references};
+pub use figure::{Curve, Panel, Reference, figure, figure_with_references};
 pub use loops::cycle_cells;
 pub use result::{
     BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,

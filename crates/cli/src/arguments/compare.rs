@@ -4,7 +4,8 @@ use super::{InputPath, OutputPath};
 
 use clap::ValueEnum;
 
-use super::quantities::{figure_file, number, velocity};
+use super::figure::{FigureArguments, figure_file};
+use super::quantities::{number, velocity};
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
@@ -35,6 +36,8 @@ pub struct CompareArguments {
     /// Draw peaks over the models into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Write a page of the answer into this HTML file
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,

@@ -2,7 +2,8 @@
 
 use super::{InputPath, OutputPath};
 
-use super::quantities::{figure_file, number};
+use super::figure::{FigureArguments, figure_file};
+use super::quantities::number;
 
 /// Arguments of `gap`.
 #[derive(Debug, clap::Args)]
@@ -55,6 +56,8 @@ pub struct GapArguments {
     /// Draw the spectra of the records, their mean and the target of the scale into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub spectra: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Write a page of the answer into this HTML file
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,

@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputFolder, OutputPath};
 
-use super::quantities::figure_file;
+use super::figure::{FigureArguments, figure_file};
 
 /// Arguments of `hysteresis`.
 #[derive(Debug, clap::Args)]
@@ -68,6 +68,8 @@ pub struct HysteresisArguments {
     /// Draw the loop and the dissipation curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), requires = "law")]
     pub svg: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

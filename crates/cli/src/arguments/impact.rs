@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputPath};
 
-use super::quantities::figure_file;
+use super::figure::{FigureArguments, figure_file};
 
 use super::ImpactCommand;
 
@@ -73,6 +73,8 @@ pub struct ImpactArguments {
     /// Draw the histories, or the table, into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Compare with a measured force history: columns time, force with units in the header
     #[arg(long, value_name = "FILE", conflicts_with = "table")]
     pub against: Option<InputPath>,

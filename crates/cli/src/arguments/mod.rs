@@ -1,6 +1,7 @@
 //! Arguments of all commands.
 
 mod compare;
+mod figure;
 mod gap;
 mod hysteresis;
 mod impact;
@@ -13,9 +14,10 @@ mod verification;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use quantities::figure_file;
+use figure::figure_file;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
+pub use figure::FigureArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
@@ -125,6 +127,8 @@ pub struct RunArguments {
     /// Draw roof displacements and contact forces into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub plot: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Write the page of the result into this HTML file
     #[arg(long, value_name = "FILE", conflicts_with = "no_output")]
     pub report: Option<OutputPath>,

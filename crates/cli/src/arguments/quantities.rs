@@ -1,10 +1,7 @@
-//! Values of arguments: texts with units, names of figures.
+//! Values of arguments: texts with units.
 
-use clap::builder::{OsStringValueParser, TypedValueParser};
 use pounding_case::{Dimension, parse_quantity};
-use pounding_report::PictureFormat;
 
-use super::OutputPath;
 use crate::failure::Failure;
 
 /// A number without dimension, such as `0.1` or `10 %`.
@@ -15,18 +12,6 @@ pub fn number(text: &str) -> Result<f64, String> {
 /// A velocity (m/s), such as `0.5 m/s` or `50 cm/s`.
 pub fn velocity(text: &str) -> Result<f64, String> {
     of_dimension(text, Dimension::VELOCITY)
-}
-
-/// A file for a figure, in the form that its ending says.
-pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
-    OsStringValueParser::new().try_map(|name| {
-        let path = OutputPath::from(name);
-        let ending = path.extension().unwrap_or_default().to_string_lossy();
-        match PictureFormat::of_ending(&ending) {
-            Some(_) => Ok(path),
-            None => Err("figures are written as SVG, PNG or PDF: give a name that ends in .svg, .png or .pdf"),
-        }
-    })
 }
 
 /// The value (SI) of an option that must have this dimension; a plain number is SI.
@@ -63,7 +48,8 @@ pub fn positive(text: &str, option: &str, wanted: Dimension) -> Result<f64, Fail
     ))
 }
 
-fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
+/// The value (SI) of a text with a unit of this dimension, or what is wrong with it.
+pub fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
     let quantity =
         parse_quantity(text).map_err(|e| format!("{e}; {}", e.help_for(Some(wanted))))?;
     match quantity.dimension {

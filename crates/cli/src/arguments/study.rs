@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputPath};
 
-use super::quantities::figure_file;
+use super::figure::{FigureArguments, figure_file};
 
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
@@ -93,6 +93,8 @@ pub struct IdaArguments {
     /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), value_name = "FILE")]
     pub plot: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

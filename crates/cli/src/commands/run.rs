@@ -85,7 +85,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         page::of_run(result, output)?;
     }
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
-        plot::write_drawn(path, picture.responses.picture())?;
+        plot::write_drawn(path, picture.responses.picture(), &arguments.figure)?;
     }
     if arguments.json {
         let summary = Summary::of(&assembly.system, (&outcome, &isolated), &warnings);

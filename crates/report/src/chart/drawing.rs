@@ -131,11 +131,16 @@ impl<'c> Picture<'c> {
         plots
             .map(|(number, plot)| {
                 let legend = self.own_legend(plot).len() as f64 * LINE;
-                let heading = if plot.heading.is_empty() { 0.0 } else { LINE };
+                let heading = self.heading(plot).len() as f64 * LINE;
                 heading + legend + plot.height + self.below(number)
             })
             .sum::<f64>()
             + SPACE
+    }
+
+    /// Lines of the heading, none wider than the picture unless a word is.
+    fn heading(&self, plot: &Plot) -> Vec<String> {
+        wrapped(&plot.heading, self.chart.width - 2.0 * SPACE)
     }
 
     fn own_legend(&self, plot: &'c Plot) -> Rows<'c> {
@@ -154,10 +159,25 @@ impl<'c> Picture<'c> {
         next.is_none_or(|next| next.horizontal != plots[number].horizontal)
     }
 
+    /// Lines of the label of the horizontal axis below this plot.
+    fn label(&self, number: usize) -> Vec<String> {
+        match self.labelled(number) {
+            true => wrapped(
+                &self.chart.plots[number].horizontal.label,
+                self.right() - self.left,
+            ),
+            false => Vec::new(),
+        }
+    }
+
+    /// Right end of the axes (pt).
+    fn right(&self) -> f64 {
+        self.chart.width - SPACE - 4.0
+    }
+
     /// Height below the axes (pt).
     fn below(&self, number: usize) -> f64 {
-        let label = if self.labelled(number) { LINE } else { 0.0 };
-        TICK + LINE + label + SPACE
+        TICK + LINE + self.label(number).len() as f64 * LINE + 1.5 * SPACE
     }
 
     fn plot(
@@ -168,18 +188,18 @@ impl<'c> Picture<'c> {
         (top, height): (f64, f64),
     ) -> f64 {
         let mut y = top;
-        if !plot.heading.is_empty() {
+        for words in self.heading(plot) {
             y += LINE;
             text(
                 body,
                 (SPACE, y - 3.0),
-                &plot.heading,
+                &words,
                 "start",
                 " font-weight=\"bold\"",
             );
         }
         y = legend(body, &self.own_legend(plot), y);
-        let (left, right) = (self.left, self.chart.width - SPACE - 4.0);
+        let (left, right) = (self.left, self.right());
         let (upper, lower) = (y + 2.0, y + height);
         let horizontal = horizontal_range(plot);
         let vertical = vertical_range(plot);
@@ -251,23 +271,17 @@ impl<'c> Picture<'c> {
         line(body, (left, upper), (left, lower), AXIS);
         line(body, (left, lower), (right, lower), AXIS);
         let mut below = lower + TICK + LINE;
-        if self.labelled(number) {
+        for words in self.label(number) {
             below += LINE;
             let middle = 0.5 * (left + right);
-            text(
-                body,
-                (middle, below - 2.0),
-                &plot.horizontal.label,
-                "middle",
-                "",
-            );
+            text(body, (middle, below - 2.0), &words, "middle", "");
         }
         if !plot.vertical.label.is_empty() {
             let (x, y) = (SPACE + TEXT, 0.5 * (upper + lower));
             let turned = format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"");
             text(body, (x, y), &plot.vertical.label, "middle", &turned);
         }
-        below + SPACE
+        below + 1.5 * SPACE
     }
 }
 
@@ -321,6 +335,21 @@ fn legend(body: &mut String, rows: &Rows<'_>, top: f64) -> f64 {
         }
     }
     if rows.is_empty() { y } else { y + 3.0 }
+}
+
+/// A text in lines no wider than this (pt), unless a word is.
+fn wrapped(content: &str, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in content.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width_of(line) + width_of(word) + width_of(" ") <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 fn line(body: &mut String, from: (f64, f64), to: (f64, f64), style: &str) {

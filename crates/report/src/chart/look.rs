@@ -77,13 +77,17 @@ impl Look {
         }
     }
 
-    /// What others are compared with: thick and dashed.
-    pub fn reference() -> Self {
+    /// Number so many of what others are compared with: thick and dashed, later ones with
+    /// markers.
+    pub fn reference(number: usize) -> Self {
         Self {
             colour: "#000000",
             dash: Some("6 2.4"),
             width: 1.6,
-            marker: Marker::Nothing,
+            marker: match number {
+                0 => Marker::Nothing,
+                number => Marker::Shape(number - 1),
+            },
             few_markers: true,
         }
     }
@@ -115,7 +119,7 @@ impl Look {
         Self {
             colour: "#000000",
             dash: Some(dash),
-            width: if dash.starts_with('1') { 0.9 } else { 2.0 },
+            width: if dash.starts_with('1') { 0.9 } else { 1.5 },
             marker: Marker::Nothing,
             few_markers: true,
         }

@@ -9,7 +9,6 @@ mod drawing;
 mod look;
 
 pub use axis::{Axis, Scale};
-pub use drawing::drawn;
 pub use look::Look;
 
 /// A series of points with its look.
@@ -75,18 +74,34 @@ pub struct Chart {
 
 /// Points of an inch in a millimetre.
 const POINTS_PER_MILLIMETRE: f64 = 72.0 / 25.4;
-/// Width of a page (mm).
-const PAGE: f64 = 190.0;
+/// Width of a page of a journal (mm).
+pub const PAGE: f64 = 190.0;
 
 impl Chart {
-    /// A picture as wide as a page of a journal, 190 mm.
-    pub fn of_page(plots: Vec<Plot>) -> Self {
+    /// A picture as wide as a page of a journal, [`PAGE`].
+    pub(crate) fn of_page(plots: Vec<Plot>) -> Self {
         Self {
             plots,
             width: PAGE * POINTS_PER_MILLIMETRE,
             stated_width: format!("{PAGE}mm"),
             height: None,
         }
+    }
+
+    /// The same at another width (mm), such as the 90 mm of a column: the size of the text stays.
+    #[must_use]
+    pub fn of_width(self, millimetres: f64) -> Self {
+        Self {
+            width: millimetres * POINTS_PER_MILLIMETRE,
+            stated_width: format!("{millimetres}mm"),
+            ..self
+        }
+    }
+
+    /// The picture as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        drawing::drawn(self)
     }
 }
 

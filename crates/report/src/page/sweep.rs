@@ -6,7 +6,7 @@ use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError};
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
-use super::html::{escaped, figure, note, number, section, sentences, warnings};
+use super::html::{JUMPS, escaped, figure, note, number, section, sentences, warnings};
 use super::numbers::figures;
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
@@ -41,7 +41,7 @@ struct Runs {
 /// The page of the result of a sweep; `name` is that of its file.
 ///
 /// # Errors
-/// A result that cannot be read; [`ReportError::Figure`].
+/// A result that cannot be read.
 pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     let runs = read(result).map_err(ReportError::Study)?;
     let d = &result.description;
@@ -50,7 +50,11 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
         &(sentences(&points(result, &runs)) + &warnings(&d.warnings)),
     );
     body.push_str(&section("What varied", &variables(result, &runs)));
-    body.push_str(&section("Peaks over the runs", &statistics(result, &runs)));
+    let mut peaks = statistics(result, &runs);
+    if has_rigid_impacts(result, &runs) {
+        peaks.insert_str(0, &note(&format!("{JUMPS} They have no contact force.")));
+    }
+    body.push_str(&section("Peaks over the runs", &peaks));
     let drawn = figures_of(result, &runs)?;
     if !drawn.is_empty() {
         body.push_str(&section("Over the variables", &drawn));
@@ -180,6 +184,17 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         ));
     }
     points
+}
+
+/// Whether floors met at a level without a contact force.
+fn has_rigid_impacts(result: &ResultReader, runs: &Runs) -> bool {
+    let layout = &result.description.layout;
+    let [impacts, forces] = ["impacts", "peak_force"].map(|name| columns(layout, name));
+    let mut levels = impacts.iter().zip(&forces);
+    levels.any(|(impacts, force)| {
+        let mut rows = runs.values[*impacts].iter().zip(&runs.values[*force]);
+        rows.any(|(impacts, force)| *impacts > 0.0 && force.is_nan())
+    })
 }
 
 /// Columns of a quantity among the values of a row.
@@ -377,7 +392,7 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             continue;
         }
         let words = format!("Peaks of the runs over {}", coordinate.long_name);
-        out.push_str(&figure(&figure_of_size(&panels, SIZE)?, &words));
+        out.push_str(&figure(&figure_of_size(&panels, SIZE), &words));
     }
     Ok(out)
 }

@@ -4,18 +4,12 @@ use pounding_gap_element::laboratory::MeasuredForce;
 use pounding_gap_element::{CollisionOutcome, CollisionSample, RestitutionTable};
 
 use super::panel;
-use crate::error::ReportError;
+use crate::chart::Chart;
 use crate::figure::{Curve, Reference, figure_with_references};
 
 /// Force over time, force over penetration and penetration over time of named models, which
 /// have a force history; a measured force, if there is one, beside the first.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn histories(
-    models: &[(&str, &CollisionOutcome)],
-    measured: Option<&MeasuredForce>,
-) -> Result<String, ReportError> {
+pub fn histories(models: &[(&str, &CollisionOutcome)], measured: Option<&MeasuredForce>) -> Chart {
     type Axis = fn(&CollisionSample) -> f64;
     let curves = |horizontal: Axis, vertical: Axis| -> Vec<Curve> {
         let curve = |(name, outcome): &(&str, &CollisionOutcome)| {
@@ -58,10 +52,7 @@ fn force_until(measured: &MeasuredForce, longest: f64) -> Curve {
 }
 
 /// Achieved over requested restitution of named models, and what was requested.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn restitutions(models: &[(&str, &RestitutionTable)]) -> Result<String, ReportError> {
+pub fn restitutions(models: &[(&str, &RestitutionTable)]) -> Chart {
     let curve = |(name, table): &(&str, &RestitutionTable)| {
         let rows = table.rows.iter();
         Curve {

@@ -2,8 +2,7 @@
 
 use pounding_study::comparison::{Comparison, QuantityKind};
 
-use crate::chart::{Axis, Chart, Limit, LimitPlace, Look, Plot, Scale, Series, drawn};
-use crate::error::ReportError;
+use crate::chart::{Axis, Chart, Limit, LimitPlace, Look, Plot, Scale, Series};
 
 /// Height of a row with the name of a model (pt).
 const ROW: f64 = 13.0;
@@ -13,10 +12,7 @@ const SPREAD: f64 = 0.5;
 /// Peaks with pounding over those of the isolated buildings, a row a model in the order of the
 /// tables: a dot for each building, with a bar from the least to the greatest record around their
 /// median. No line joins models.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn peak_ratios(c: &Comparison) -> Result<String, ReportError> {
+pub fn peak_ratios(c: &Comparison) -> Chart {
     let names = c.models.iter().map(|m| m.descriptor.name.to_owned());
     let names: Vec<String> = names.collect();
     let plot = |kind: QuantityKind, name: &str| {
@@ -78,9 +74,9 @@ pub fn peak_ratios(c: &Comparison) -> Result<String, ReportError> {
             height: 8.0 + ROW * names.len() as f64,
         }
     };
-    Ok(drawn(&Chart::of_page(vec![
+    Chart::of_page(vec![
         plot(QuantityKind::Displacement, "displacement"),
         plot(QuantityKind::StoreyShear, "storey shear"),
         plot(QuantityKind::AccelerationAbsolute, "absolute acceleration"),
-    ])))
+    ])
 }

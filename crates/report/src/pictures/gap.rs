@@ -3,15 +3,14 @@
 use pounding_catalogue::STANDARD_GRAVITY as G;
 use pounding_study::gap_check::{Amplification, GapCheck};
 
-use crate::chart::{Axis, Chart, HEIGHT, Limit, LimitPlace, Look, Plot, Series, drawn};
-use crate::error::ReportError;
+use crate::chart::{Axis, Chart, HEIGHT, Limit, LimitPlace, Look, Plot, Series};
 
 /// Maximum amplification over storeys and records, over the width of a gap, a panel for each
 /// quantity with a curve for each building; values that are not finite are left out. The
 /// provided and the required widths and the amplification 1.0 are marked. `None` for a check
 /// that tried no widths.
 #[must_use]
-pub fn amplifications(check: &GapCheck) -> Option<Result<String, ReportError>> {
+pub fn amplifications(check: &GapCheck) -> Option<Chart> {
     let (sweep, first) = (check.sweep.as_ref()?, check.records.first()?);
     let limits = limits(check, sweep.gap.as_deref());
     let plots = Amplification::QUANTITIES.map(|(quantity, of)| {
@@ -35,7 +34,7 @@ pub fn amplifications(check: &GapCheck) -> Option<Result<String, ReportError>> {
             height: HEIGHT,
         }
     });
-    Some(Ok(drawn(&Chart::of_page(plots.into()))))
+    Some(Chart::of_page(plots.into()))
 }
 
 /// The isolated buildings, and the widths that are provided and required of the gaps that vary.
@@ -86,10 +85,7 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
 
 /// Pseudo-accelerations of the records of a check as they are used, their mean, and the target
 /// to which the case scales them, over 200 periods.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn spectra(check: &GapCheck) -> Result<String, ReportError> {
+pub fn spectra(check: &GapCheck) -> Chart {
     let spectra = &check.spectra;
     let over = |values: &[f64]| -> Vec<(f64, f64)> {
         let pairs = spectra.periods.iter().zip(values);
@@ -125,7 +121,7 @@ pub fn spectra(check: &GapCheck) -> Result<String, ReportError> {
         series.push(Series {
             name: format!("target: {}", target.name),
             points: known.filter_map(|(t, a)| Some((*t, (*a)? / G))).collect(),
-            look: Look::reference(),
+            look: Look::reference(0),
         });
         for (name, period) in [("band of the scale", target.band.0), ("", target.band.1)] {
             limits.push(Limit {
@@ -144,5 +140,5 @@ pub fn spectra(check: &GapCheck) -> Result<String, ReportError> {
         limits,
         height: 1.5 * HEIGHT,
     };
-    Ok(drawn(&Chart::of_page(vec![plot])))
+    Chart::of_page(vec![plot])
 }

@@ -4,7 +4,7 @@ use pounding_hysteresis::iwan::DissipationFit;
 use pounding_hysteresis::laboratory::Loop;
 
 use super::panel;
-use crate::error::ReportError;
+use crate::chart::Chart;
 use crate::figure::{Curve, Reference, figure_with_references};
 use crate::loops::deformation_panel;
 
@@ -26,10 +26,7 @@ pub struct LawPicture<'a> {
 
 impl LawPicture<'_> {
     /// The loop, and below it the dissipation curve, or that of the fit; a measured curve dashed.
-    ///
-    /// # Errors
-    /// [`ReportError::Figure`].
-    pub fn draw(&self) -> Result<String, ReportError> {
+    pub fn draw(&self) -> Chart {
         let law = self.law;
         let mut panels = Vec::new();
         let mut references = Vec::new();

@@ -2,8 +2,7 @@
 
 use pounding_study::{Counts, FragilityFit, GapResult, IdaReport, LimitResult};
 
-use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series, drawn};
-use crate::error::ReportError;
+use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series};
 
 /// Points of a drawn curve.
 const POINTS: usize = 200;
@@ -15,10 +14,7 @@ const DEMANDS: usize = 4;
 /// Curves of the analysis, one line a record with its fractiles; fragility curves with the
 /// fractions they were fitted to, of the limits and of pounding by width of each gap; and the
 /// mean annual frequency of pounding over the width with its bounds.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn fragility(report: &IdaReport) -> Result<String, ReportError> {
+pub fn fragility(report: &IdaReport) -> Chart {
     let highest = last_that_differs(report);
     let mut plots = curves(report);
     let states: Vec<(String, &LimitResult)> = report
@@ -44,7 +40,7 @@ pub fn fragility(report: &IdaReport) -> Result<String, ReportError> {
         }
         plots.extend(frequencies(&gap.gap, &gap.widths));
     }
-    Ok(drawn(&Chart::of_page(plots)))
+    Chart::of_page(plots)
 }
 
 /// Intensity over drift ratios of the buildings, a line a record.
@@ -157,7 +153,7 @@ fn fragilities(
     Plot {
         heading: format!("{heading}: counted fractions as markers, fitted curves"),
         horizontal: Axis::linear(&format!("{} ({unit})", report.measure)),
-        vertical: Axis::linear("probability (-)").over(0.0, 1.03),
+        vertical: Axis::linear("probability (-)").over(-0.03, 1.03),
         series,
         limits: Vec::new(),
         height: HEIGHT,

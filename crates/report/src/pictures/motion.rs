@@ -10,7 +10,7 @@ use pounding_ground_motion::spectra::{
 };
 
 use super::{over, panel};
-use crate::chart::{Axis, Chart, Plot, drawn};
+use crate::chart::{Axis, Chart, Plot};
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, Reference, figure, plots};
 
@@ -45,9 +45,9 @@ impl<'a> Named<'a> {
 /// Acceleration, velocity, displacement and Husid curve of motions over time.
 ///
 /// # Errors
-/// A record of zeros, which has no Husid curve; [`ReportError::Figure`].
-pub fn histories(motions: &[Named<'_>]) -> Result<String, ReportError> {
-    figure(&history_panels(motions)?)
+/// A record of zeros, which has no Husid curve.
+pub fn histories(motions: &[Named<'_>]) -> Result<Chart, ReportError> {
+    Ok(figure(&history_panels(motions)?))
 }
 
 fn history_panels(motions: &[Named<'_>]) -> Result<[Panel; 4], ReportError> {
@@ -114,21 +114,12 @@ pub fn percent(damping: f64) -> String {
 
 /// Pseudo-acceleration, pseudo-velocity and displacement over the period, a curve for each
 /// damping ratio.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn responses(spectra: &[ResponseSpectrum]) -> Result<String, ReportError> {
+pub fn responses(spectra: &[ResponseSpectrum]) -> Chart {
     responses_and_codes(spectra, &[])
 }
 
 /// The same with spectra of a code beside the pseudo-acceleration.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn responses_and_codes(
-    spectra: &[ResponseSpectrum],
-    codes: &[CodeSpectrum],
-) -> Result<String, ReportError> {
+pub fn responses_and_codes(spectra: &[ResponseSpectrum], codes: &[CodeSpectrum]) -> Chart {
     type Values = for<'s> fn(&'s ResponseSpectrum) -> &'s [f64];
     let panel_of = |caption: &str, values: Values, factor: f64| {
         let curves = spectra.iter();
@@ -161,12 +152,12 @@ pub fn responses_and_codes(
             panels[0].curves[0].name = format!("record, {}", percent(first.damping));
         }
     }
-    Ok(over_periods(&panels, &references, false))
+    over_periods(&panels, &references, false)
 }
 
 /// Panels over periods or frequencies, whose axis is logarithmic; with `both` the vertical one
 /// too.
-fn over_periods(panels: &[Panel], references: &[Reference], both: bool) -> String {
+fn over_periods(panels: &[Panel], references: &[Reference], both: bool) -> Chart {
     let mut plots: Vec<Plot> = plots(panels, references);
     for plot in &mut plots {
         plot.horizontal = Axis::logarithmic(&plot.horizontal.label);
@@ -174,28 +165,22 @@ fn over_periods(panels: &[Panel], references: &[Reference], both: bool) -> Strin
             plot.vertical = Axis::logarithmic("");
         }
     }
-    drawn(&Chart::of_page(plots))
+    Chart::of_page(plots)
 }
 
 /// Spectra of a code at these periods (s), one for each damping ratio.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn codes(spectra: &[CodeSpectrum], periods: &[f64]) -> Result<String, ReportError> {
+pub fn codes(spectra: &[CodeSpectrum], periods: &[f64]) -> Chart {
     let curves = spectra.iter().map(|spectrum| {
         let values: Vec<f64> = periods.iter().map(|t| spectrum.acceleration(*t)).collect();
         over(&spectrum.title(), periods, &values, 1.0 / G)
     });
     let caption = "Pseudo-acceleration PSA (g)";
     let panel = panel(caption, "period (s)", curves.collect());
-    Ok(over_periods(&[panel], &[], false))
+    over_periods(&[panel], &[], false)
 }
 
 /// Median and maximum over all directions, for each damping ratio.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn rotated(spectra: &[RotatedSpectrum]) -> Result<String, ReportError> {
+pub fn rotated(spectra: &[RotatedSpectrum]) -> Chart {
     let mut curves = Vec::new();
     for s in spectra {
         for (name, values) in [("RotD50", &s.median), ("RotD100", &s.maximum)] {
@@ -204,35 +189,28 @@ pub fn rotated(spectra: &[RotatedSpectrum]) -> Result<String, ReportError> {
         }
     }
     let caption = "Pseudo-acceleration over all directions (g)";
-    Ok(over_periods(
-        &[panel(caption, "period (s)", curves)],
-        &[],
-        false,
-    ))
+    over_periods(&[panel(caption, "period (s)", curves)], &[], false)
 }
 
 /// Fourier amplitudes (m/s) over the frequency (Hz); `name` says how they are smoothed.
-///
-/// # Errors
-/// [`ReportError::Figure`].
-pub fn fourier(name: &str, frequencies: &[f64], amplitudes: &[f64]) -> Result<String, ReportError> {
+pub fn fourier(name: &str, frequencies: &[f64], amplitudes: &[f64]) -> Chart {
     let caption = "Fourier amplitude of acceleration (m/s)";
     let curve = over(name, frequencies, amplitudes, 1.0);
     let panel = panel(caption, "frequency (Hz)", vec![curve]);
-    Ok(over_periods(&[panel], &[], true))
+    over_periods(&[panel], &[], true)
 }
 
 /// Spectra from one period (s) to another before and after a motion was brought to a target,
 /// with the target, and the motions below.
 ///
 /// # Errors
-/// Periods that the target or the records do not cover; [`ReportError::Figure`].
+/// Periods that the target or the records do not cover.
 pub fn matched(
     before: &Accelerogram,
     after: &Accelerogram,
     target: &TargetSpectrum,
     (from, to): (f64, f64),
-) -> Result<String, ReportError> {
+) -> Result<Chart, ReportError> {
     let periods = logarithmic_periods(from, to, PERIODS)?;
     let mut spectra = panel("Pseudo-acceleration PSA (g)", "period (s)", Vec::new());
     for (name, record) in [("as read", before), ("matched", after)] {
@@ -261,5 +239,5 @@ pub fn matched(
         Named::at_rest("matched", after),
     ];
     all.extend(plots(&history_panels(&named)?, &[]));
-    Ok(drawn(&Chart::of_page(all)))
+    Ok(Chart::of_page(all))
 }

@@ -3,11 +3,13 @@
 use pounding_time_history::{Sample, SampleSink, System, TimeHistoryError};
 
 use super::panel;
-use crate::error::ReportError;
-use crate::figure::{Curve, figure};
+use crate::chart::Chart;
+use crate::figure::{Curve, Panel, figure};
 
 /// Points of a curve at most: more than a picture can show.
 const MOST_POINTS: usize = 1 << 16;
+/// Curves of a panel at most: more cannot be told apart.
+const MOST_CURVES: usize = 7;
 
 /// Roof displacements and contact forces of a run on the output grid, as its picture shows
 /// them.
@@ -98,26 +100,43 @@ impl<'s> Responses<'s> {
         }
     }
 
-    /// Roof displacements above, contact forces of the highest levels below.
-    ///
-    /// # Errors
-    /// [`ReportError::Figure`].
-    pub fn picture(self) -> Result<String, ReportError> {
+    /// Roof displacements above, contact forces of the highest levels below; of long rows the
+    /// greatest.
+    #[must_use]
+    pub fn picture(self) -> Chart {
         let system = self.system;
         let roofs = self.roofs.into_iter().zip(system.buildings());
         let roofs = roofs.map(|(c, b)| c.curve(b.name().to_owned()));
         let forces = self.forces.into_iter().zip(drawn(system));
         let forces = forces.map(|(c, level)| c.curve(system.name_of_level(level)));
         let forces_at = "Contact force at the highest level (kN), sampled on the output grid";
+        let of = "Roof displacement with pounding (mm)";
         figure(&[
-            panel(
-                "Roof displacement with pounding (mm)",
-                "time (s)",
-                roofs.collect(),
-            ),
-            panel(forces_at, "time (s)", forces.collect()),
+            greatest(of, "buildings", roofs.collect()),
+            greatest(forces_at, "gaps", forces.collect()),
         ])
     }
+}
+
+/// A panel with the curves that reach furthest, in their order, and a heading that says how many
+/// of how many they are.
+fn greatest(caption: &str, things: &str, curves: Vec<Curve>) -> Panel {
+    let all = curves.len();
+    if all <= MOST_CURVES {
+        return panel(caption, "time (s)", curves);
+    }
+    let reach = |curve: &Curve| curve.points.iter().fold(0.0_f64, |m, p| m.max(p.1.abs()));
+    let mut ranked: Vec<(f64, usize, Curve)> = curves
+        .into_iter()
+        .enumerate()
+        .map(|(place, curve)| (reach(&curve), place, curve))
+        .collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    ranked.truncate(MOST_CURVES);
+    ranked.sort_by_key(|(_, place, _)| *place);
+    let shown = ranked.into_iter().map(|(_, _, curve)| curve).collect();
+    let caption = format!("{caption}; the greatest {MOST_CURVES} of {all} {things}");
+    panel(&caption, "time (s)", shown)
 }
 
 /// The highest level of every gap that has one.
@@ -142,6 +161,26 @@ impl SampleSink for Responses<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Of a long row the curves that reach furthest, in the order of the row.
+    #[test]
+    fn long_rows_show_the_greatest() {
+        let curve = |i: usize| Curve {
+            name: format!("b{i}"),
+            points: vec![
+                (0.0, 0.0),
+                (1.0, if i % 4 == 1 { -9.0 - i as f64 } else { 1.0 }),
+            ],
+        };
+        let panel = greatest("Roof (mm)", "buildings", (0..30).map(curve).collect());
+        let names: Vec<&str> = panel.curves.iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["b5", "b9", "b13", "b17", "b21", "b25", "b29"]);
+        assert_eq!(panel.caption, "Roof (mm); the greatest 7 of 30 buildings");
+        assert_eq!(
+            greatest("Roof (mm)", "buildings", vec![curve(1)]).caption,
+            "Roof (mm)"
+        );
+    }
 
     /// However many samples there are, the picture keeps their extremes and their ends.
     #[test]

@@ -10,7 +10,7 @@ use clap::{Subcommand, ValueEnum};
 pub use generators::*;
 pub use steps::StepArguments;
 
-use super::quantities::figure_file;
+use super::figure::{FigureArguments, figure_file};
 
 /// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
@@ -103,6 +103,8 @@ pub struct InfoArguments {
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Write a page of the series into this HTML file
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,
@@ -170,6 +172,8 @@ pub struct SpectrumArguments {
     /// Draw the spectra into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -229,6 +233,8 @@ pub struct OutputArguments {
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file())]
     pub svg: Option<OutputPath>,
+    #[command(flatten)]
+    pub figure: FigureArguments,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -49,12 +49,12 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         plot::write(path, &files::table(&comparison)?)?;
     }
     if let Some(path) = &arguments.plot {
-        plot::write_drawn(path, peak_ratios(&comparison))?;
+        plot::write_drawn(path, peak_ratios(&comparison), &arguments.figure)?;
     }
     if let Some(output) = &arguments.report {
         let answer = page::answer(&numbers::Compared::of(&comparison))?;
         let words = "Peaks over those without pounding, by impact model";
-        let drawn = [page::picture(peak_ratios(&comparison), words)?];
+        let drawn = [page::picture(&peak_ratios(&comparison), words)];
         let inputs = page::of_case("compare", &case, &arguments.case, &records);
         let html = pounding_report::page::comparison(&answer, &drawn, &inputs);
         plot::write(output, &html)?;

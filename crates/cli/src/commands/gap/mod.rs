@@ -48,11 +48,11 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     if let Some(output) = &arguments.report {
         let answer = page::answer(&numbers::Check::of(&check))?;
         let words = "Amplification of peaks by pounding over the width of the gap";
-        let drawn = amplifications(&check).map(|drawn| page::picture(drawn, words));
+        let drawn = amplifications(&check).map(|drawn| page::picture(&drawn, words));
         let inputs = page::of_case("gap", &case, path, &records);
-        let mut drawn: Vec<_> = drawn.transpose()?.into_iter().collect();
+        let mut drawn: Vec<_> = drawn.into_iter().collect();
         let words = "Spectra of the records, their mean and the target";
-        drawn.push(page::picture(spectra(&check), words)?);
+        drawn.push(page::picture(&spectra(&check), words));
         plot::write(
             output,
             &pounding_report::page::gap(&answer, &drawn, &inputs),
@@ -124,11 +124,12 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
     }
     write(&arguments.csv, &|| files::sweep(check))?;
     if let Some(path) = arguments.spectra.as_deref() {
-        plot::write_drawn(path, spectra(check))?;
+        plot::write_drawn(path, spectra(check), &arguments.figure)?;
     }
     let Some(path) = arguments.plot.as_deref() else {
         return Ok(());
     };
-    let picture = amplifications(check);
-    picture.map_or(Ok(()), |picture| plot::write_drawn(path, picture))
+    amplifications(check).map_or(Ok(()), |picture| {
+        plot::write_drawn(path, picture, &arguments.figure)
+    })
 }

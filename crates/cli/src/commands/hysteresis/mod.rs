@@ -101,7 +101,7 @@ fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> R
         output::write_csv(path, &results)?;
     }
     if let Some(path) = &arguments.svg {
-        output::write_svg(path, &results)?;
+        output::write_svg(path, &results, &arguments.figure)?;
     }
     if arguments.json {
         return print(&pretty(&results.shown())?);

@@ -5,6 +5,7 @@ use std::path::Path;
 use pounding_report::pictures::hysteresis::LawPicture;
 
 use super::{Results, chosen};
+use crate::arguments::FigureArguments;
 use crate::failure::Failure;
 use crate::output::comma_separated;
 use crate::plot;
@@ -42,12 +43,12 @@ pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
 }
 
 /// Draws the loop and the dissipation curve below it.
-pub fn write_svg(path: &Path, results: &Results) -> Result<(), Failure> {
+pub fn write_svg(path: &Path, results: &Results, size: &FigureArguments) -> Result<(), Failure> {
     let picture = LawPicture {
         law: results.specimen.descriptor.name,
         driven: results.driven.as_ref().map(|(driven, _)| driven),
         dissipation: results.curve.as_ref().map(|c| c.pairs.as_slice()),
         fitted: results.fitted.as_ref().map(|f| (&f.fit, &f.measured[..])),
     };
-    plot::write_drawn(path, picture.draw())
+    plot::write_drawn(path, picture.draw(), size)
 }

@@ -36,7 +36,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let result = result.map_err(StudyError::from)?;
     let report = evaluate(&study, &result)?;
     if let Some(path) = &arguments.plot {
-        plot::write_drawn(path, fragility(&report))?;
+        plot::write_drawn(path, fragility(&report), &arguments.figure)?;
     }
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;
@@ -113,7 +113,7 @@ fn write_page(
     };
     let d = &result.description;
     let words = "Fragilities with the counts that they were fitted to";
-    let drawn = [page::picture(fragility(report), words)?];
+    let drawn = [page::picture(&fragility(report), words)];
     let inputs = Inputs {
         title: d.title.clone(),
         origin: vec![

@@ -9,6 +9,7 @@ use pounding_report::pictures::collision::histories;
 use super::chosen;
 use super::collisions::Collided;
 use super::setting::Setting;
+use crate::arguments::FigureArguments;
 use crate::failure::Failure;
 use crate::output::comma_separated;
 use crate::plot;
@@ -37,7 +38,7 @@ pub fn write_csv(path: &Path, collided: &[Collided<'_>], setting: &Setting) -> R
 /// Draws the histories of all models that have one; a measured force history, if there is
 /// one, beside them.
 pub fn write_svg(
-    path: &Path,
+    (path, size): (&Path, &FigureArguments),
     collided: &[Collided<'_>],
     measured: Option<&MeasuredForce>,
 ) -> Result<(), Failure> {
@@ -46,7 +47,7 @@ pub fn write_svg(
         .iter()
         .map(|one| (one.chosen.descriptor.name, &one.outcome))
         .collect();
-    plot::write_drawn(path, histories(&models, measured))
+    plot::write_drawn(path, histories(&models, measured), size)
 }
 
 fn with_history<'a, 'b>(collided: &'a [Collided<'b>]) -> Result<Vec<&'a Collided<'b>>, Failure> {

@@ -54,7 +54,7 @@ fn collisions(
         curves::write_csv(path, &collided, setting)?;
     }
     if let Some(path) = &arguments.svg {
-        curves::write_svg(path, &collided, history.as_ref())?;
+        curves::write_svg((path, &arguments.figure), &collided, history.as_ref())?;
     }
     if arguments.json {
         let models = collided.iter().enumerate().map(|(i, one)| {

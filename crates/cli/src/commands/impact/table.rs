@@ -12,7 +12,7 @@ use super::chosen;
 use super::collisions::right_aligned;
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
-use crate::arguments::ImpactArguments;
+use crate::arguments::{FigureArguments, ImpactArguments};
 use crate::failure::Failure;
 use crate::output::{comma_separated, pretty, print, written};
 use crate::plot;
@@ -54,7 +54,7 @@ pub fn table(
         write_csv(path, &tables, setting)?;
     }
     if let Some(path) = &arguments.svg {
-        write_svg(path, &tables)?;
+        write_svg(path, &tables, &arguments.figure)?;
     }
     if arguments.json {
         let left_out = left_out.iter();
@@ -198,10 +198,10 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
     plot::write(path, &format!("{head}{}", comma_separated(&columns, rows)?))
 }
 
-fn write_svg(path: &Path, tables: &[Tabulated<'_>]) -> Result<(), Failure> {
+fn write_svg(path: &Path, tables: &[Tabulated<'_>], size: &FigureArguments) -> Result<(), Failure> {
     let models = tables.iter();
     let models: Vec<_> = models
         .map(|one| (one.chosen.descriptor.name, &one.table))
         .collect();
-    plot::write_drawn(path, restitutions(&models))
+    plot::write_drawn(path, restitutions(&models), size)
 }

@@ -9,7 +9,7 @@ use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
 use pounding_report::pictures::motion::{Named, histories};
-use pounding_report::{Curve, Panel, ReportError, figure};
+use pounding_report::{Chart, Curve, Panel, figure};
 
 use super::info_output::{Files, as_text, comma_separated};
 use super::reading;
@@ -89,7 +89,7 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
                 Some("give a file with an acceleration that is not zero".to_owned()),
             ));
         }
-        plot::write_drawn(path, histories(&named))?;
+        plot::write_drawn(path, plot::of_motion(histories(&named))?, &arguments.figure)?;
     }
     if let Some(path) = &arguments.report {
         report(path, &files)?;
@@ -198,8 +198,8 @@ fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
     let mut drawn = Vec::new();
     if !named.is_empty() {
         let words = "Acceleration, velocity, displacement and Husid curve over time";
-        drawn.push(page::picture(histories(&named), words)?);
-        drawn.push(page::picture(spectra(&named)?, "Response spectra")?);
+        drawn.push(page::picture(&plot::of_motion(histories(&named))?, words));
+        drawn.push(page::picture(&spectra(&named)?, "Response spectra"));
     }
     let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
     let title = match files.len() {
@@ -215,7 +215,7 @@ fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
 }
 
 /// Pseudo-acceleration of motions over the period.
-fn spectra(named: &[Named<'_>]) -> Result<Result<String, ReportError>, Failure> {
+fn spectra(named: &[Named<'_>]) -> Result<Chart, Failure> {
     let periods = logarithmic_periods(PERIODS.0, PERIODS.1, PERIODS.2)?;
     let mut curves = Vec::new();
     for motion in named {

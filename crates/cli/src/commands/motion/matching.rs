@@ -33,7 +33,8 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
     let motion = &matched.accelerogram;
     if let Some(path) = &arguments.output.svg {
         let band = (options.from, options.to);
-        plot::write_drawn(path, picture(&record, motion, &target, band))?;
+        let drawn = plot::of_motion(picture(&record, motion, &target, band))?;
+        plot::write_drawn(path, drawn, &arguments.output.figure)?;
     }
     let title = format!("{}, matched to a spectrum", arguments.file.display());
     let without_picture = OutputArguments {

@@ -147,7 +147,8 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> 
         } else {
             spectra.clone()
         };
-        plot::write_drawn(path, motion::responses_and_codes(&drawn, &codes))?;
+        let drawn = motion::responses_and_codes(&drawn, &codes);
+        plot::write_drawn(path, drawn, &arguments.figure)?;
     }
     print(&if arguments.json {
         pretty(&OfRecord {
@@ -192,7 +193,7 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
         plot::write(path, &tables::rotated_csv(&spectra))?;
     }
     if let Some(path) = &arguments.svg {
-        plot::write_drawn(path, motion::rotated(&spectra))?;
+        plot::write_drawn(path, motion::rotated(&spectra), &arguments.figure)?;
     }
     print(&if arguments.json {
         pretty(&OfTwo {
@@ -234,7 +235,7 @@ fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
     }
     if let Some(path) = &arguments.svg {
         let picture = motion::fourier(&how, &frequencies, &amplitudes);
-        plot::write_drawn(path, picture)?;
+        plot::write_drawn(path, picture, &arguments.figure)?;
     }
     print(&if arguments.json {
         pretty(&OfRecord {

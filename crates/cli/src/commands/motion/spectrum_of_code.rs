@@ -79,7 +79,7 @@ pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
         plot::write(path, &csv(&spectra, &written)?)?;
     }
     if let Some(path) = &arguments.svg {
-        plot::write_drawn(path, motion::codes(&spectra, &written))?;
+        plot::write_drawn(path, motion::codes(&spectra, &written), &arguments.figure)?;
     }
     print(&if arguments.json {
         let codes = spectra.iter().map(|s| OfCode::of(s, &written)).collect();

@@ -61,7 +61,8 @@ pub fn finish(
 ) -> Result<(), Failure> {
     write(&output.output, motion, title)?;
     if let Some(path) = &output.svg {
-        plot::write_drawn(path, histories(&[Named::at_rest(title, motion)]))?;
+        let drawn = plot::of_motion(histories(&[Named::at_rest(title, motion)]))?;
+        plot::write_drawn(path, drawn, &output.figure)?;
     }
     if output.json {
         return print(&pretty(&Made {

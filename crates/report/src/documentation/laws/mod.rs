@@ -38,7 +38,7 @@ pub fn files() -> Result<Vec<DocumentationFile>, DocumentationError> {
     for &law in descriptors() {
         let example = compute(law)?;
         let panel = deformation_panel(law.name, vec![("loop".to_owned(), &example.driven)]);
-        files.push(ORIGIN.figure(law.name, &figure(&[panel])?));
+        files.push(ORIGIN.figure(law.name, &figure(&[panel]).svg()));
         files.push(ORIGIN.page(law.name, &page::page(&example)));
     }
     files.push(ORIGIN.page("README", &index::index(descriptors())));

@@ -27,7 +27,7 @@ pub fn files() -> Result<Vec<DocumentationFile>, DocumentationError> {
     for &descriptor in registry::descriptors() {
         let (name, example) = (descriptor.name, example::compute(descriptor)?);
         if let Some(panel) = example.panel() {
-            files.push(ORIGIN.figure(name, &figure(&[panel])?));
+            files.push(ORIGIN.figure(name, &figure(&[panel]).svg()));
         }
         files.push(ORIGIN.page(name, &page::page(&example)));
         examples.push(example);

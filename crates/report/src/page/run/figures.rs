@@ -43,7 +43,7 @@ fn over_time(caption: &str, curves: Vec<Curve>) -> Panel {
 }
 
 fn wide(panels: &[Panel], words: &str) -> Outcome {
-    Ok(figure(&figure_of_size(panels, HISTORY)?, words))
+    Ok(figure(&figure_of_size(panels, HISTORY), words))
 }
 
 /// Ground acceleration.
@@ -99,7 +99,7 @@ pub(super) fn profiles(result: &RunResult, building: &BuildingResult) -> Outcome
             ],
         };
         let words = format!("Elevation over {caption} of {}", building.name);
-        Ok::<_, ReportError>(figure(&figure_of_size(&[panel], PROFILE)?, &words))
+        Ok::<_, ReportError>(figure(&figure_of_size(&[panel], PROFILE), &words))
     };
     Ok(beside(&[
         profile(

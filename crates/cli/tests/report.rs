@@ -94,6 +94,64 @@ fn every_kind_of_result() {
     assert!(seen >= 8, "{seen}");
 }
 
+/// The page of a sweep says what rigid impacts do not have, and only theirs.
+#[test]
+fn sweeps_of_rigid_impacts() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, rigid) in [("rigid_impacts", true), ("three_storey_pair", false)] {
+        let study = folder.path().join("study.toml");
+        let variable = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"300 mm\"]\n";
+        let of_case = format!("case = {:?}\n\n{variable}", example(name));
+        std::fs::write(&study, of_case).unwrap();
+        let page = folder.path().join(format!("{name}.html"));
+        let result = folder.path().join(format!("{name}.h5"));
+        let [study, result, output] =
+            [study, result, page.clone()].map(|p| p.display().to_string());
+        text("sweep", &format!("{study} -o {result} --report {output}"));
+        let html = std::fs::read_to_string(page).unwrap();
+        assert_eq!(
+            html.contains("They have no contact force."),
+            rigid,
+            "{name}"
+        );
+    }
+}
+
+/// A figure is as wide as asked for, its text as large as at any width.
+#[test]
+fn figures_have_the_width_of_a_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let case = example("three_storey_pair");
+    for (name, option, width, points) in [
+        ("page.svg", "", "190mm", 538.58),
+        ("column.svg", "--figure-width 90mm", "90mm", 255.12),
+    ] {
+        text(
+            "run",
+            &format!("{case} --no-output --plot {} {option}", at(name)),
+        );
+        let svg = std::fs::read_to_string(at(name)).unwrap();
+        let head = format!("width=\"{width}\" viewBox=\"0 0 {points:.2} ");
+        assert!(
+            svg.contains(&head) && svg.contains("font-size=\"8.5\""),
+            "{name}"
+        );
+        // Nothing starts or ends outside.
+        let places = svg
+            .split("x=\"")
+            .skip(1)
+            .filter_map(|t| t.split('"').next());
+        for x in places.filter_map(|x| x.parse::<f64>().ok()) {
+            assert!((0.0..=points).contains(&x), "{name}: {x}");
+        }
+    }
+    for wrong in ["9m", "90kN", "0", "wide"] {
+        let output = run("run", &format!("{case} --no-output --figure-width={wrong}"));
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+    }
+}
+
 #[test]
 fn refusals() {
     let folder = tempfile::tempdir().unwrap();

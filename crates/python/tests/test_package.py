@@ -101,3 +101,14 @@ def test_pictures_are_drawn() -> None:
     assert plot.spectra([motion, motion.scaled_by(0.5)]).get_legend() is not None
     with pytest.raises(ValueError, match="no gap"):
         plot.opening(result, "nowhere")
+
+
+def test_the_page_of_the_reference_is_that_of_the_docstrings() -> None:
+    sys.path.insert(0, str(ROOT / "crates" / "python"))
+    try:
+        import documentation
+    finally:
+        sys.path.pop(0)
+    assert documentation.PAGE.read_text(encoding="utf-8") == documentation.page()
+    for name in ("collide", "run_many", "Result.to_xarray", "CaseError"):
+        assert f" {name}\n" in documentation.page(), name

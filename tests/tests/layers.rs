@@ -241,6 +241,7 @@ fn libraries_can_be_packaged() {
         let name = package["name"].as_str().unwrap();
         let published = package["publish"].is_null();
         let of_the_repository = [
+            "pounding-book",
             "pounding-cli",
             "pounding-python",
             "verification",

@@ -25,11 +25,11 @@ pub(super) struct ExactSteps {
     pub propagation: Propagation,
     pub series: ContactSeries,
     /// All that has peaks, and those of buildings together.
-    functions: Vec<Function>,
-    groups: Vec<Group>,
+    pub functions: Vec<Function>,
+    pub groups: Vec<Group>,
     /// Whether the groups have other peaks than the run, and where the next step begins.
-    stale: bool,
-    begin: Begin,
+    pub stale: bool,
+    pub begin: Begin,
     /// Numbers of the functions that may have a peak in the present step.
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
@@ -325,7 +325,7 @@ impl Driver<'_> {
     }
 
     /// Serves recorders from steps of the method, of which nothing else remains.
-    fn show(
+    pub(super) fn show(
         &mut self,
         exact: &mut ExactSteps,
         segment: &Segment,
@@ -364,7 +364,7 @@ impl Driver<'_> {
     }
 
     /// Takes the end of the step.
-    fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
+    pub(super) fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
         let ends = &exact.propagation.ends;
         let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
         self.state[..n].copy_from_slice(&ends.end[0]);

@@ -9,7 +9,7 @@ use crate::dynamics::Segment;
 use crate::outcome::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
-use crate::propagation::{AffineContact, Ends, multiply, pad, padded};
+use crate::propagation::{AffineContact, EndMotion, Ends, multiply, pad, padded};
 use crate::system::{ContactLevel, SectionPlace, System};
 
 /// Part of a value that the polynomial of degree 7 may err by where a peak is read off it.
@@ -99,6 +99,14 @@ impl Row {
     /// The derivative of this order at both ends.
     fn both(&self, ends: &Ends, order: usize) -> (f64, f64) {
         (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
+    }
+
+    /// The same of the displacement over a whole interval, from the state at its start to the
+    /// end.
+    pub(super) fn range_over(&self, (u, v): (&[f64], &[f64]), ends: &Ends) -> (f64, f64) {
+        let [x0, v0] = [self.sum(u), self.sum(v)];
+        let [x1, v1] = [self.sum(&ends.end[0]), self.sum(&ends.end[1])];
+        hermite_range([x0, v0, x1, v1], self.bound(ends, 4), ends.length)
     }
 
     /// Bounds from below and above of the derivative of this order.
@@ -311,6 +319,40 @@ impl Group {
         }
     }
 
+    /// Takes the motion at the start of whole intervals.
+    pub(super) fn begin_at(&mut self, motion: &EndMotion<'_>) {
+        let motion = motion_of(self.of_acceleration, motion);
+        for (values, motion) in self.values[2..].iter_mut().zip(motion) {
+            multiply(&self.weights, values.len(), motion, values);
+        }
+    }
+
+    /// Whether all functions are sure to stay below their peaks over a whole interval, from
+    /// where the last one ended, or from [`Group::begin_at`], to this motion.
+    pub(super) fn stay_below(&mut self, motion: &EndMotion<'_>, ends: &Ends) -> bool {
+        self.values.swap(0, 2);
+        self.values.swap(1, 3);
+        self.begin_at(motion);
+        let order = if self.of_acceleration { 6 } else { 4 };
+        let values = self.values.each_ref().map(Vec::as_slice);
+        let bound = ends.bounds[self.building][order];
+        let beyond = &mut self.beyond;
+        reaches(values, (&self.mobility, bound), ends.length, beyond);
+        // What is not a number is no proof.
+        let compared = self.beyond.iter().zip(&self.peaks);
+        compared.fold(true, |all, (beyond, peak)| all & (beyond <= peak))
+    }
+
+    /// Number after its last function.
+    pub(super) fn functions_end(&self) -> usize {
+        self.functions.end
+    }
+
+    /// Number of its building.
+    pub(super) fn building(&self) -> usize {
+        self.building
+    }
+
     /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
     /// last function of the group.
     pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
@@ -357,6 +399,15 @@ impl Group {
         let above = compared.filter(|((beyond, peak), _)| !(*beyond <= *peak));
         doubtful.extend(above.map(|(_, number)| number));
         self.functions.end
+    }
+}
+
+/// What the functions of a group are sums of, and its rate.
+fn motion_of<'a>(of_acceleration: bool, motion: &EndMotion<'a>) -> [&'a [f64]; 2] {
+    if of_acceleration {
+        [motion.acceleration, motion.acceleration_rate]
+    } else {
+        [motion.displacement, motion.velocity]
     }
 }
 
@@ -503,6 +554,19 @@ impl Function {
             fourth += factor.abs() * force.bounds[0];
         }
         let (least, most) = hermite_range([x.0, v.0, x.1, v.1], fourth, h);
+        let (peak, one_sided) = self.peak(peaks);
+        let beyond = if one_sided { most } else { most.max(-least) };
+        beyond <= peak
+    }
+
+    /// The same of a response of a level over a whole interval without contact.
+    pub(super) fn stays_below_over(
+        &self,
+        start: (&[f64], &[f64]),
+        ends: &Ends,
+        peaks: &Peaks,
+    ) -> bool {
+        let (least, most) = self.row.range_over(start, ends);
         let (peak, one_sided) = self.peak(peaks);
         let beyond = if one_sided { most } else { most.max(-least) };
         beyond <= peak

@@ -36,6 +36,11 @@ pub(super) struct Building {
     /// derivatives of order two to six; the third and fifth times the root of the stiffness;
     /// the derivatives of order seven and more.
     derive: Vec<f64>,
+    /// The same of what is squared in the bounds of orders 4 and 6: the derivative of that order
+    /// times the roots of the masses, and the one before times the root of the stiffness.
+    bounded: Vec<f64>,
+    /// Whether forces push it, so that its loads are not its ground accelerations.
+    pushed: bool,
     /// By length, then by the number of halvings.
     steps: Vec<Vec<Step>>,
     /// Displacements, velocities and loads at both ends of the step; what comes of them.
@@ -43,7 +48,17 @@ pub(super) struct Building {
     end: Vec<f64>,
     led: Vec<f64>,
     derived: Vec<f64>,
+    squared: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// The motion of a building at the end of a step: displacements, velocities, absolute
+/// accelerations and their rates.
+pub(crate) struct EndMotion<'a> {
+    pub displacement: &'a [f64],
+    pub velocity: &'a [f64],
+    pub acceleration: &'a [f64],
+    pub acceleration_rate: &'a [f64],
 }
 
 /// Matrices for one length, column after column.
@@ -96,6 +111,16 @@ impl Building {
         let (soft, damped) = (over_mass(&stiffness), over_mass(&damping));
         let root = stiffness.clone().cholesky()?.l().transpose();
         let derive = derivatives((&soft, &damped, &root), &load_of, columns);
+        let bounded = DMatrix::from_fn(4 * n, columns, |row, column| {
+            let (block, i) = (row / n, row % n);
+            let (place, root) = match block {
+                0 => (2, mass[i].sqrt()),
+                1 => (FIRST, 1.0),
+                2 => (4, mass[i].sqrt()),
+                _ => (FIRST + 1, 1.0),
+            };
+            root * derive[(place * n + i, column)]
+        });
         let mut this = Self {
             dofs,
             restoring: [(-&soft).as_slice().to_vec(), (-&damped).as_slice().to_vec()],
@@ -104,11 +129,14 @@ impl Building {
             loads,
             load_of,
             derive: pad(ALL * n, derive.iter().copied()),
+            bounded: pad(4 * n, bounded.iter().copied()),
+            pushed: !system.forces().is_empty(),
             steps: Vec::new(),
             start: vec![0.0; columns],
             end: vec![0.0; columns],
             led: vec![0.0; padded(3 * n + columns)],
             derived: vec![0.0; padded(ALL * n)],
+            squared: vec![0.0; padded(4 * n)],
             force: vec![0.0; n],
             mass,
         };
@@ -193,37 +221,16 @@ impl Building {
     pub(super) fn advance(
         &mut self,
         (system, segment): (&System, &Segment),
-        (tau, h, which, halvings): (f64, f64, usize, usize),
-        (state, dofs): (&[f64], usize),
+        place: (f64, f64, usize, usize),
+        state: (&[f64], usize),
         (index, ends): (usize, &mut Ends),
     ) {
-        let (n, columns) = (self.dofs.len(), self.start.len());
-        let step = &self.steps[which][halvings];
-        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        let n = self.dofs.len();
+        let instants = self.lead((system, segment), place, state, ends);
         for (k, i) in self.dofs.iter().enumerate() {
-            self.start[k] = state[*i];
-            self.start[n + k] = state[dofs + *i];
-        }
-        for (k, i) in self.loads.iter().enumerate() {
-            let place = 2 * n + 2 * k;
-            let slope = system.load_slope_on(*i, segment);
-            self.start[place] = system.load_on(*i, instants[0]);
-            self.end[place] = system.load_on(*i, instants[1]);
-            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
-        }
-        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
-        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
-        let weighed = self.led[3 * n..][..columns].iter().zip(&self.start);
-        ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
-        let (start, end) = (&self.start, &self.end);
-        for (k, i) in self.dofs.iter().enumerate() {
-            let load = 2 * n + 2 * self.load_of[k];
-            let moved =
-                end[k] * end[load] - start[k] * start[load] - start[load + 1] * self.led[2 * n + k];
-            ends.input -= self.mass[k] * moved;
             for order in 0..2 {
-                ends.start[order][*i] = start[order * n + k];
-                ends.end[order][*i] = end[order * n + k];
+                ends.start[order][*i] = self.start[order * n + k];
+                ends.end[order][*i] = self.end[order * n + k];
             }
         }
         let rows = self.derived.len();
@@ -245,6 +252,118 @@ impl Building {
         }
     }
 
+    /// Leads the building over a whole interval, with bounds of orders 4 and 6 and no more of
+    /// the motion than [`Building::end_motion`] needs.
+    pub(super) fn advance_whole(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        which: usize,
+        state: (&[f64], usize),
+        (index, ends): (usize, &mut Ends),
+    ) {
+        let n = self.dofs.len();
+        let place = (0.0, segment.length, which, 0);
+        self.lead((system, segment), place, state, ends);
+        for (k, i) in self.dofs.iter().enumerate() {
+            for order in 0..2 {
+                ends.end[order][*i] = self.end[order * n + k];
+            }
+        }
+        let rows = self.squared.len();
+        multiply(&self.bounded, rows, &self.start, &mut self.squared);
+        let sizes = self.squared.chunks_exact(2 * n);
+        for (order, size) in [4, 6].into_iter().zip(sizes) {
+            let mut sum = 0.0;
+            for x in size {
+                sum += x * x;
+            }
+            ends.bounds[index][order] = sum.sqrt();
+        }
+        self.derive_end();
+    }
+
+    /// Takes a state as the end of a step, for [`Building::end_motion`].
+    pub(super) fn end_at(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        tau: f64,
+        (state, dofs): (&[f64], usize),
+    ) {
+        let (n, instant) = (self.dofs.len(), segment.ground(tau));
+        for (k, i) in self.dofs.iter().enumerate() {
+            self.end[k] = state[*i];
+            self.end[n + k] = state[dofs + *i];
+        }
+        for (k, i) in self.loads.iter().enumerate() {
+            self.end[2 * n + 2 * k] = system.load_on(*i, instant);
+            self.end[2 * n + 2 * k + 1] = system.load_slope_on(*i, segment);
+        }
+        self.derive_end();
+    }
+
+    /// Absolute accelerations and their rates at the end, where no forces push the building.
+    fn derive_end(&mut self) {
+        let (n, rows) = (self.dofs.len(), self.derived.len());
+        let second = &mut self.derived[..padded(2 * n)];
+        multiply(&self.derive, rows, &self.end, second);
+        for (k, load) in self.load_of.iter().enumerate() {
+            self.derived[k] += self.end[2 * n + 2 * load];
+            self.derived[n + k] += self.end[2 * n + 2 * load + 1];
+        }
+    }
+
+    pub(super) fn end_motion(&self) -> EndMotion<'_> {
+        let n = self.dofs.len();
+        EndMotion {
+            displacement: &self.end[..n],
+            velocity: &self.end[n..2 * n],
+            acceleration: &self.derived[..n],
+            acceleration_rate: &self.derived[n..2 * n],
+        }
+    }
+
+    /// Whether forces push the building.
+    pub(super) fn is_pushed(&self) -> bool {
+        self.pushed
+    }
+
+    /// Leads displacements and velocities over a step, and adds the works. Returns the ground
+    /// at both ends.
+    fn lead(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        (tau, h, which, halvings): (f64, f64, usize, usize),
+        (state, dofs): (&[f64], usize),
+        ends: &mut Ends,
+    ) -> [Grounds; 2] {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let step = &self.steps[which][halvings];
+        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        for (k, i) in self.dofs.iter().enumerate() {
+            self.start[k] = state[*i];
+            self.start[n + k] = state[dofs + *i];
+        }
+        for (k, i) in self.loads.iter().enumerate() {
+            let place = 2 * n + 2 * k;
+            let slope = system.load_slope_on(*i, segment);
+            self.start[place] = system.load_on(*i, instants[0]);
+            self.end[place] = system.load_on(*i, instants[1]);
+            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
+        }
+        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
+        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
+        let weighed = self.led[3 * n..][..columns].iter().zip(&self.start);
+        ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
+        let (start, end) = (&self.start, &self.end);
+        for k in 0..n {
+            let load = 2 * n + 2 * self.load_of[k];
+            let moved =
+                end[k] * end[load] - start[k] * start[load] - start[load + 1] * self.led[2 * n + k];
+            ends.input -= self.mass[k] * moved;
+        }
+        instants
+    }
+
     /// The derivative of this order at the start.
     fn derivative(&self, order: usize) -> &[f64] {
         let n = self.dofs.len();
@@ -260,6 +379,20 @@ impl Building {
         out: &mut [Vec<f64>; 2],
     ) {
         let n = self.dofs.len();
+        if !self.pushed {
+            // Loads are the ground's accelerations.
+            for load in 0..self.loads.len() {
+                let dof = self.loads[load];
+                let now = system.load_on(dof, ground);
+                let slope = system.load_slope_on(dof, segment);
+                let own = self.dofs.iter().zip(&self.load_of).enumerate();
+                for (k, (i, _)) in own.filter(|(_, (_, of))| **of == load) {
+                    out[0][*i] = self.derived[k] + now;
+                    out[1][*i] = self.derived[n + k] + slope;
+                }
+            }
+            return;
+        }
         for (k, i) in self.dofs.iter().enumerate() {
             out[0][*i] = self.derived[k] + system.ground_on(*i, ground);
             out[1][*i] = self.derived[n + k] + system.ground_slope_on(*i, segment);

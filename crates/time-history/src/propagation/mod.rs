@@ -22,6 +22,7 @@ use multiversion::multiversion;
 use crate::dynamics::Segment;
 use crate::system::System;
 use building::Building;
+pub(crate) use building::EndMotion;
 pub(crate) use contact_series::{AffineContact, ContactSeries};
 
 /// Lengths of intervals for which matrices are kept.
@@ -143,6 +144,44 @@ impl Propagation {
             building.advance((system, segment), place, (state, n), (index, ends));
         }
         ground((system, segment), (tau, h), state, ends);
+    }
+
+    /// Leads the state over a whole interval, with nothing but its end in [`Ends::end`] up to
+    /// the velocities, works, and bounds of orders 4 and 6.
+    pub(crate) fn advance_whole(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        which: usize,
+        state: &[f64],
+    ) {
+        let n = system.degrees_of_freedom();
+        self.by_series = false;
+        let ends = &mut self.ends;
+        ends.length = segment.length;
+        (ends.input, ends.viscous) = (0.0, 0.0);
+        for (index, building) in self.buildings.iter_mut().enumerate() {
+            building.advance_whole((system, segment), which, (state, n), (index, ends));
+        }
+        ground((system, segment), (0.0, segment.length), state, ends);
+    }
+
+    /// Takes a state at the start of an interval for [`Propagation::end_motion`].
+    pub(crate) fn end_at(&mut self, (system, segment): (&System, &Segment), state: &[f64]) {
+        let n = system.degrees_of_freedom();
+        for building in &mut self.buildings {
+            building.end_at((system, segment), 0.0, (state, n));
+        }
+    }
+
+    /// The motion of a building at the end of the last whole interval, or where
+    /// [`Propagation::end_at`] was.
+    pub(crate) fn end_motion(&self, building: usize) -> EndMotion<'_> {
+        self.buildings[building].end_motion()
+    }
+
+    /// Whether forces push a building: its loads are then not its ground's accelerations.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.buildings.iter().any(Building::is_pushed)
     }
 
     /// Works out what the last step left: derivatives of order 4 and 5 at both ends, and the

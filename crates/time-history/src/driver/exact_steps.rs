@@ -4,6 +4,7 @@
 use pounding_gap_element::{Direction, Guard};
 
 use super::functions::{Begin, Function, Group, Place, Row};
+use super::peaks_put_off::PeaksPutOff;
 use super::series_events::Scan;
 use super::{Driver, Mute};
 use crate::dynamics::{Layout, Segment};
@@ -38,6 +39,7 @@ pub(super) struct ExactSteps {
     method_until: f64,
     /// Space for the state while recorders are served.
     saved: Vec<f64>,
+    pub put_off: PeaksPutOff,
     /// Work counts of the method for steps that serve recorders alone.
     pub recording: u64,
 }
@@ -59,6 +61,7 @@ impl ExactSteps {
         Some(Self {
             series: propagation.contact_series(system),
             doubtful: Vec::with_capacity(functions.len()),
+            put_off: PeaksPutOff::new(system, functions.len()),
             functions,
             groups,
             stale: true,
@@ -291,6 +294,7 @@ impl Driver<'_> {
             tau,
             contacts: &series.contacts,
             levels,
+            finest: false,
         };
         for (number, function) in functions.iter().enumerate().skip(grouped) {
             if !function.stays_below(&now, ends, &self.peaks) {
@@ -309,6 +313,7 @@ impl Driver<'_> {
             tau,
             contacts: &series.contacts,
             levels,
+            finest: false,
         };
         for number in doubtful {
             if !functions[*number].takes_peak(&now, ends, &mut self.peaks) {

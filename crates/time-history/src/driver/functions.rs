@@ -30,6 +30,8 @@ pub(super) struct Place<'a> {
     /// Closed levels with their laws, and the rows of all levels.
     pub contacts: &'a [AffineContact],
     pub levels: &'a [Row],
+    /// Whether there is no shorter step, so that polynomials count whatever their bounds say.
+    pub finest: bool,
 }
 
 /// A function of the motion with a peak.
@@ -101,12 +103,14 @@ impl Row {
         (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
     }
 
-    /// The same of the displacement over a whole interval, from the state at its start to the
-    /// end.
-    pub(super) fn range_over(&self, (u, v): (&[f64], &[f64]), ends: &Ends) -> (f64, f64) {
-        let [x0, v0] = [self.sum(u), self.sum(v)];
-        let [x1, v1] = [self.sum(&ends.end[0]), self.sum(&ends.end[1])];
-        hermite_range([x0, v0, x1, v1], self.bound(ends, 4), ends.length)
+    /// Its course over a whole interval from the state at its start to the end.
+    pub(super) fn over(&self, (u, v): (&[f64], &[f64]), ends: &Ends) -> Course {
+        Course {
+            start: [self.sum(u), self.sum(v)],
+            end: [self.sum(&ends.end[0]), self.sum(&ends.end[1])],
+            fourth: self.bound(ends, 4),
+            length: ends.length,
+        }
     }
 
     /// Bounds from below and above of the derivative of this order.
@@ -188,6 +192,39 @@ impl Row {
     }
 }
 
+/// A function over an interval, by values and slopes at both ends and a bound of its fourth
+/// derivative.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    start: [f64; 2],
+    pub end: [f64; 2],
+    fourth: f64,
+    length: f64,
+}
+
+/// The slope of a function lies near that of its cubic by less than `sqrt(3)/216 h^3` times a
+/// bound of its fourth derivative (Birkhoff and Priver, Hermite interpolation errors for
+/// derivatives, Journal of Mathematics and Physics 46 (1967) 440).
+const SLOPE_REMAINDER: f64 = 8.02e-3;
+
+impl Course {
+    /// Bounds from below and above.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let ([x0, v0], [x1, v1]) = (self.start, self.end);
+        hermite_range([x0, v0, x1, v1], self.fourth, self.length)
+    }
+
+    /// Whether it may have a maximum or minimum inside: whether the control points of its slope
+    /// are not all clear of zero on one side.
+    pub(super) fn may_turn(&self) -> bool {
+        let ([x0, v0], [x1, v1], h) = (self.start, self.end, self.length);
+        let middle = 3.0 * (x1 - x0) / h - v0 - v1;
+        let error = SLOPE_REMAINDER * h * h * h * self.fourth;
+        let (least, most) = (v0.min(middle).min(v1), v0.max(middle).max(v1));
+        !(least - error >= 0.0 || most + error <= 0.0)
+    }
+}
+
 impl AffineContact {
     /// Whether its force is what the law would have without a limit, told by three motions.
     pub(super) fn is_raw_force_of(
@@ -236,7 +273,7 @@ impl Values {
         }
         let error = h.powi(8) / (40_320.0 * 256.0) * self.bounds[2];
         let large = peak.max(self.start[0].abs()).max(self.end[0].abs());
-        if !(error <= ALLOWED * large) {
+        if !(place.finest || error <= ALLOWED * large) {
             return false;
         }
         let polynomial = self.polynomial(h);
@@ -341,6 +378,35 @@ impl Group {
         // What is not a number is no proof.
         let compared = self.beyond.iter().zip(&self.peaks);
         compared.fold(true, |all, (beyond, peak)| all & (beyond <= peak))
+    }
+
+    /// The bound of the function at a place in the group where it may not stay below.
+    pub(super) fn above(&self, place: usize) -> Option<f64> {
+        let beyond = self.beyond[place];
+        // What is not a number is no proof.
+        (!(beyond <= self.peaks[place])).then_some(beyond)
+    }
+
+    /// Number of its functions.
+    pub(super) fn len(&self) -> usize {
+        self.functions.len()
+    }
+
+    /// Number and course of the function at a place in the group.
+    pub(super) fn course(&self, place: usize, ends: &Ends) -> (usize, Course) {
+        let order = if self.of_acceleration { 6 } else { 4 };
+        let course = Course {
+            start: [self.values[0][place], self.values[1][place]],
+            end: [self.values[2][place], self.values[3][place]],
+            fourth: self.mobility[place] * ends.bounds[self.building][order],
+            length: ends.length,
+        };
+        (self.functions.start + place, course)
+    }
+
+    /// Sets the peak of the function at a place in the group.
+    pub(super) fn set_peak(&mut self, place: usize, peak: f64) {
+        self.peaks[place] = peak;
     }
 
     /// Number after its last function.
@@ -515,7 +581,7 @@ impl Function {
     }
 
     /// The present peak, and whether the sign counts.
-    fn peak(&self, peaks: &Peaks) -> (f64, bool) {
+    pub(super) fn peak(&self, peaks: &Peaks) -> (f64, bool) {
         match self.what {
             What::Displacement(i) => (peaks.storeys[i].displacement.value, false),
             What::Drift(i, height, stiffness) => {
@@ -529,6 +595,33 @@ impl Function {
                 (peaks.of_section(place).value, false)
             }
             What::OfLevel(number, one_sided, _) => (peaks.of_levels[number].value, one_sided),
+        }
+    }
+
+    /// Bound of what counts in the peak from bounds from below and above.
+    pub(super) fn size_of(&self, (least, most): (f64, f64)) -> f64 {
+        match self.what {
+            What::OfLevel(_, true, _) => most,
+            _ => most.max(-least),
+        }
+    }
+
+    /// Raises the peak to a higher value.
+    pub(super) fn raise(&self, peaks: &mut Peaks, top: f64, time: f64) {
+        match self.what {
+            What::Displacement(i) => peaks.storeys[i].displacement.raise(top, time),
+            What::Drift(i, height, stiffness) => {
+                let storey = &mut peaks.storeys[i];
+                storey.drift_ratio.raise(top / height, time);
+                if let Some(stiffness) = stiffness {
+                    storey.storey_shear.raise(stiffness * top, time);
+                }
+            }
+            What::Acceleration(i) => peaks.storeys[i].acceleration_absolute.raise(top, time),
+            What::Section(section) | What::Accelerations(section) => {
+                peaks.raise_section(section, top, time);
+            }
+            What::OfLevel(number, ..) => peaks.of_levels[number].raise(top, time),
         }
     }
 
@@ -559,17 +652,9 @@ impl Function {
         beyond <= peak
     }
 
-    /// The same of a response of a level over a whole interval without contact.
-    pub(super) fn stays_below_over(
-        &self,
-        start: (&[f64], &[f64]),
-        ends: &Ends,
-        peaks: &Peaks,
-    ) -> bool {
-        let (least, most) = self.row.range_over(start, ends);
-        let (peak, one_sided) = self.peak(peaks);
-        let beyond = if one_sided { most } else { most.max(-least) };
-        beyond <= peak
+    /// A response of a level over a whole interval without contact, from this state on.
+    pub(super) fn over(&self, start: (&[f64], &[f64]), ends: &Ends) -> Course {
+        self.row.over(start, ends)
     }
 
     /// Takes its peak; false if it is not sure where there is one.
@@ -592,21 +677,7 @@ impl Function {
             }
         }
         let present = self.peak(peaks);
-        let raise = |top: f64, time: f64| match self.what {
-            What::Displacement(i) => peaks.storeys[i].displacement.raise(top, time),
-            What::Drift(i, height, stiffness) => {
-                let storey = &mut peaks.storeys[i];
-                storey.drift_ratio.raise(top / height, time);
-                if let Some(stiffness) = stiffness {
-                    storey.storey_shear.raise(stiffness * top, time);
-                }
-            }
-            What::Acceleration(i) => peaks.storeys[i].acceleration_absolute.raise(top, time),
-            What::Section(section) | What::Accelerations(section) => {
-                peaks.raise_section(section, top, time);
-            }
-            What::OfLevel(number, ..) => peaks.of_levels[number].raise(top, time),
-        };
+        let raise = |top: f64, time: f64| self.raise(peaks, top, time);
         values.take(place, h, present, raise)
     }
 }

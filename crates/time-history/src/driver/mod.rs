@@ -7,6 +7,7 @@ mod event_handling;
 mod exact_steps;
 mod functions;
 mod parts;
+mod peaks_put_off;
 mod result;
 mod rigid_impacts;
 mod series_events;

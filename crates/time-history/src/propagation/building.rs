@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::{BOUNDED, Ends, HALVINGS, multiply, pad, padded};
+use super::{BOUNDED, Ends, HALVINGS, WIDE, multiply, pad, padded};
 use crate::dynamics::Segment;
 use crate::polynomial::GAUSS;
 use crate::system::{Grounds, System};
@@ -36,9 +36,10 @@ pub(super) struct Building {
     /// derivatives of order two to six; the third and fifth times the root of the stiffness;
     /// the derivatives of order seven and more.
     derive: Vec<f64>,
-    /// The same of what is squared in the bounds of orders 4 and 6: the derivative of that order
-    /// times the roots of the masses, and the one before times the root of the stiffness.
-    bounded: Vec<f64>,
+    /// For whole intervals, by length: the rows of the step; what is squared in the bounds of
+    /// orders 4 and 6, the derivative of that order times the roots of the masses, and the one
+    /// before times the root of the stiffness; absolute accelerations at the end, and their rates.
+    whole: Vec<Vec<f64>>,
     /// Whether forces push it, so that its loads are not its ground accelerations.
     pushed: bool,
     /// By length, then by the number of halvings.
@@ -48,7 +49,9 @@ pub(super) struct Building {
     end: Vec<f64>,
     led: Vec<f64>,
     derived: Vec<f64>,
-    squared: Vec<f64>,
+    /// What comes of a whole interval, and absolute accelerations with their rates at its end.
+    led_whole: Vec<f64>,
+    absolute: Vec<f64>,
     force: Vec<f64>,
 }
 
@@ -111,16 +114,6 @@ impl Building {
         let (soft, damped) = (over_mass(&stiffness), over_mass(&damping));
         let root = stiffness.clone().cholesky()?.l().transpose();
         let derive = derivatives((&soft, &damped, &root), &load_of, columns);
-        let bounded = DMatrix::from_fn(4 * n, columns, |row, column| {
-            let (block, i) = (row / n, row % n);
-            let (place, root) = match block {
-                0 => (2, mass[i].sqrt()),
-                1 => (FIRST, 1.0),
-                2 => (4, mass[i].sqrt()),
-                _ => (FIRST + 1, 1.0),
-            };
-            root * derive[(place * n + i, column)]
-        });
         let mut this = Self {
             dofs,
             restoring: [(-&soft).as_slice().to_vec(), (-&damped).as_slice().to_vec()],
@@ -129,14 +122,15 @@ impl Building {
             loads,
             load_of,
             derive: pad(ALL * n, derive.iter().copied()),
-            bounded: pad(4 * n, bounded.iter().copied()),
+            whole: Vec::new(),
             pushed: !system.forces().is_empty(),
             steps: Vec::new(),
             start: vec![0.0; columns],
             end: vec![0.0; columns],
             led: vec![0.0; padded(3 * n + columns)],
             derived: vec![0.0; padded(ALL * n)],
-            squared: vec![0.0; padded(4 * n)],
+            led_whole: vec![0.0; (9 * n + columns).next_multiple_of(WIDE)],
+            absolute: vec![0.0; 2 * n],
             force: vec![0.0; n],
             mass,
         };
@@ -146,6 +140,8 @@ impl Building {
             if !steps.iter().all(finite) {
                 return None;
             }
+            let whole = this.whole(&steps[0], *length, &derive);
+            this.whole.push(whole);
             this.steps.push(steps);
         }
         Some(this)
@@ -252,6 +248,41 @@ impl Building {
         }
     }
 
+    /// Rows for whole intervals of this length (s).
+    fn whole(&self, step: &Step, length: f64, derive: &DMatrix<f64>) -> Vec<f64> {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let (led, rows) = (3 * n + columns, self.led_whole.len());
+        let stride = self.led.len();
+        let moved = DMatrix::from_fn(columns, columns, |i, j| {
+            if i < 2 * n {
+                return step.rows[j * stride + i];
+            }
+            let slope = (i - 2 * n).is_multiple_of(2) && j == i + 1;
+            f64::from(u8::from(i == j)) + if slope { length } else { 0.0 }
+        });
+        // The ground's acceleration is a part of the absolute one.
+        let mut absolute = derive.rows(0, 2 * n).into_owned();
+        for (k, load) in self.load_of.iter().enumerate() {
+            absolute[(k, 2 * n + 2 * load)] += 1.0;
+            absolute[(n + k, 2 * n + 2 * load + 1)] += 1.0;
+        }
+        let absolute = absolute * moved;
+        let squared = [(2, true), (FIRST, false), (4, true), (FIRST + 1, false)];
+        let all = DMatrix::from_fn(rows, columns, |row, column| {
+            if row < led {
+                return step.rows[column * stride + row];
+            }
+            let (block, i) = ((row - led) / n, (row - led) % n);
+            match squared.get(block) {
+                Some((place, true)) => self.mass[i].sqrt() * derive[(place * n + i, column)],
+                Some((place, false)) => derive[(place * n + i, column)],
+                None if block < 6 => absolute[(row - led - 4 * n, column)],
+                None => 0.0,
+            }
+        });
+        all.as_slice().to_vec()
+    }
+
     /// Leads the building over a whole interval, with bounds of orders 4 and 6 and no more of
     /// the motion than [`Building::end_motion`] needs.
     pub(super) fn advance_whole(
@@ -261,25 +292,27 @@ impl Building {
         state: (&[f64], usize),
         (index, ends): (usize, &mut Ends),
     ) {
-        let n = self.dofs.len();
-        let place = (0.0, segment.length, which, 0);
-        self.lead((system, segment), place, state, ends);
-        for (k, i) in self.dofs.iter().enumerate() {
-            for order in 0..2 {
-                ends.end[order][*i] = self.end[order * n + k];
-            }
-        }
-        let rows = self.squared.len();
-        multiply(&self.bounded, rows, &self.start, &mut self.squared);
-        let sizes = self.squared.chunks_exact(2 * n);
-        for (order, size) in [4, 6].into_iter().zip(sizes) {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let instants = [segment.ground(0.0), segment.ground(segment.length)];
+        self.begin_at((system, segment), instants, state);
+        let rows = self.led_whole.len();
+        multiply(&self.whole[which], rows, &self.start, &mut self.led_whole);
+        let (led, rest) = self.led_whole.split_at(3 * n + columns);
+        self.end[..2 * n].copy_from_slice(&led[..2 * n]);
+        let (squared, absolute) = rest.split_at(4 * n);
+        for (order, size) in [4, 6].into_iter().zip(squared.chunks_exact(2 * n)) {
             let mut sum = 0.0;
             for x in size {
                 sum += x * x;
             }
             ends.bounds[index][order] = sum.sqrt();
         }
-        self.derive_end();
+        self.absolute.copy_from_slice(&absolute[..2 * n]);
+        self.add_works(led, ends);
+        for (k, i) in self.dofs.iter().enumerate() {
+            ends.end[0][*i] = self.end[k];
+            ends.end[1][*i] = self.end[n + k];
+        }
     }
 
     /// Takes a state as the end of a step, for [`Building::end_motion`].
@@ -298,17 +331,12 @@ impl Building {
             self.end[2 * n + 2 * k] = system.load_on(*i, instant);
             self.end[2 * n + 2 * k + 1] = system.load_slope_on(*i, segment);
         }
-        self.derive_end();
-    }
-
-    /// Absolute accelerations and their rates at the end, where no forces push the building.
-    fn derive_end(&mut self) {
-        let (n, rows) = (self.dofs.len(), self.derived.len());
+        let rows = self.derived.len();
         let second = &mut self.derived[..padded(2 * n)];
         multiply(&self.derive, rows, &self.end, second);
         for (k, load) in self.load_of.iter().enumerate() {
-            self.derived[k] += self.end[2 * n + 2 * load];
-            self.derived[n + k] += self.end[2 * n + 2 * load + 1];
+            self.absolute[k] = self.derived[k] + self.end[2 * n + 2 * load];
+            self.absolute[n + k] = self.derived[n + k] + self.end[2 * n + 2 * load + 1];
         }
     }
 
@@ -317,8 +345,8 @@ impl Building {
         EndMotion {
             displacement: &self.end[..n],
             velocity: &self.end[n..2 * n],
-            acceleration: &self.derived[..n],
-            acceleration_rate: &self.derived[n..2 * n],
+            acceleration: &self.absolute[..n],
+            acceleration_rate: &self.absolute[n..],
         }
     }
 
@@ -333,15 +361,30 @@ impl Building {
         &mut self,
         (system, segment): (&System, &Segment),
         (tau, h, which, halvings): (f64, f64, usize, usize),
-        (state, dofs): (&[f64], usize),
+        state: (&[f64], usize),
         ends: &mut Ends,
     ) -> [Grounds; 2] {
-        let (n, columns) = (self.dofs.len(), self.start.len());
-        let step = &self.steps[which][halvings];
+        let n = self.dofs.len();
         let instants = [segment.ground(tau), segment.ground(tau + h)];
-        for (k, i) in self.dofs.iter().enumerate() {
-            self.start[k] = state[*i];
-            self.start[n + k] = state[dofs + *i];
+        self.begin_at((system, segment), instants, state);
+        let step = &self.steps[which][halvings];
+        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
+        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
+        self.add_works(&self.led, ends);
+        instants
+    }
+
+    /// Takes the state at the start of a step, and the loads at both ends.
+    fn begin_at(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        instants: [Grounds; 2],
+        (state, dofs): (&[f64], usize),
+    ) {
+        let n = self.dofs.len();
+        let (u, v) = self.start.split_at_mut(n);
+        for ((u, v), i) in u.iter_mut().zip(v).zip(&self.dofs) {
+            (*u, *v) = (state[*i], state[dofs + *i]);
         }
         for (k, i) in self.loads.iter().enumerate() {
             let place = 2 * n + 2 * k;
@@ -350,18 +393,20 @@ impl Building {
             self.end[place] = system.load_on(*i, instants[1]);
             (self.start[place + 1], self.end[place + 1]) = (slope, slope);
         }
-        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
-        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
-        let weighed = self.led[3 * n..][..columns].iter().zip(&self.start);
+    }
+
+    /// Adds the works of a step that led to this.
+    fn add_works(&self, led: &[f64], ends: &mut Ends) {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let weighed = led[3 * n..][..columns].iter().zip(&self.start);
         ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
         let (start, end) = (&self.start, &self.end);
         for k in 0..n {
             let load = 2 * n + 2 * self.load_of[k];
             let moved =
-                end[k] * end[load] - start[k] * start[load] - start[load + 1] * self.led[2 * n + k];
+                end[k] * end[load] - start[k] * start[load] - start[load + 1] * led[2 * n + k];
             ends.input -= self.mass[k] * moved;
         }
-        instants
     }
 
     /// The derivative of this order at the start.

@@ -273,6 +273,7 @@ fn lengths(system: &System) -> Vec<f64> {
 }
 
 /// Rows that are summed side by side; outputs of a multiple of the least one need no others.
+const WIDEST: usize = 32;
 const WIDE: usize = 16;
 const MIDDLE: usize = 8;
 const NARROW: usize = 4;
@@ -310,7 +311,11 @@ pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) 
 ))]
 fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
     let mut first = 0;
-    while first + WIDE <= out.len() {
+    while first + WIDEST <= out.len() {
+        block::<WIDEST>(matrix, (rows, first), x, out);
+        first += WIDEST;
+    }
+    if first + WIDE <= out.len() {
         block::<WIDE>(matrix, (rows, first), x, out);
         first += WIDE;
     }

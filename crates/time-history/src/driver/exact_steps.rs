@@ -280,6 +280,7 @@ impl Driver<'_> {
             ..
         } = exact;
         doubtful.clear();
+        let by_series = propagation.is_by_series();
         let mut grouped = 0;
         for group in groups {
             if *stale {
@@ -290,10 +291,12 @@ impl Driver<'_> {
         (*stale, *begin) = (false, Begin::AtStart);
         let (levels, ends) = (levels.as_slice(), &propagation.ends);
         let now = Place {
+            system: self.system,
             segment,
             tau,
             contacts: &series.contacts,
             levels,
+            series: by_series.then_some(&*series),
             finest: false,
         };
         for (number, function) in functions.iter().enumerate().skip(grouped) {
@@ -309,10 +312,12 @@ impl Driver<'_> {
         propagation.deepen(series, doubted);
         let ends = &propagation.ends;
         let now = Place {
+            system: self.system,
             segment,
             tau,
             contacts: &series.contacts,
             levels,
+            series: by_series.then_some(&*series),
             finest: false,
         };
         for number in doubtful {

@@ -9,11 +9,18 @@ use crate::dynamics::Segment;
 use crate::outcome::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
-use crate::propagation::{AffineContact, EndMotion, Ends, multiply, pad, padded};
+use crate::propagation::{
+    AffineContact, ContactSeries, EndMotion, Ends, SeriesTerms, multiply, pad, padded,
+};
 use crate::system::{ContactLevel, SectionPlace, System};
 
-/// Part of a value that the polynomial of degree 7 may err by where a peak is read off it.
+/// Part of a value that the polynomial of degree 7 may err by where a peak is read off it, and
+/// where it only tells the place of a peak that is read off a series.
 const ALLOWED: f64 = 1.0e-10;
+const ALLOWED_BESIDE_SERIES: f64 = 1.0e-8;
+/// Corrections of the place of such a peak at most, and what is left of it.
+const CORRECTIONS: usize = 4;
+const PLACED: f64 = 1.0e-9;
 
 /// A row over the degrees of freedom.
 #[derive(Debug)]
@@ -25,13 +32,26 @@ pub(super) struct Row {
 
 /// Where a step is.
 pub(super) struct Place<'a> {
+    pub system: &'a System,
     pub segment: &'a Segment,
     pub tau: f64,
     /// Closed levels with their laws, and the rows of all levels.
     pub contacts: &'a [AffineContact],
     pub levels: &'a [Row],
+    /// The series that leads over the step, if one does.
+    pub series: Option<&'a ContactSeries>,
     /// Whether there is no shorter step, so that polynomials count whatever their bounds say.
     pub finest: bool,
+}
+
+impl Place<'_> {
+    /// Acceleration of the ground under a degree of freedom at the start of the step (m/s2), and
+    /// its slope (m/s3).
+    fn ground_on(&self, dof: usize) -> [f64; 2] {
+        let at = self.segment.ground(self.tau);
+        let value = self.system.ground_on(dof, at);
+        [value, self.system.ground_slope_on(dof, self.segment)]
+    }
 }
 
 /// A function of the motion with a peak.
@@ -172,7 +192,12 @@ impl Row {
         values.start[0] -= width;
         values.end[0] -= width;
         let present = (peak.value, true);
-        values.take(place, ends.length, present, |top, time| {
+        let terms = |series: &ContactSeries| {
+            let mut terms = series.terms_of(self.terms.iter().copied(), false);
+            terms[0] -= width;
+            terms
+        };
+        values.take(place, ends.length, present, terms, |top, time| {
             peak.raise(top, time)
         })
     }
@@ -186,7 +211,8 @@ impl Row {
     ) -> bool {
         let values = self.force(law, ends);
         let present = (peak.value, true);
-        values.take(place, ends.length, present, |top, time| {
+        let terms = |series: &ContactSeries| series.force_of(law);
+        values.take(place, ends.length, present, terms, |top, time| {
             peak.raise(top, time)
         })
     }
@@ -255,6 +281,7 @@ impl Values {
         place: &Place<'_>,
         h: f64,
         (peak, one_sided): (f64, bool),
+        terms: impl Fn(&ContactSeries) -> SeriesTerms,
         mut raise: impl FnMut(f64, f64),
     ) -> bool {
         let (least, most) = self.range(h);
@@ -273,7 +300,11 @@ impl Values {
         }
         let error = h.powi(8) / (40_320.0 * 256.0) * self.bounds[2];
         let large = peak.max(self.start[0].abs()).max(self.end[0].abs());
-        if !(place.finest || error <= ALLOWED * large) {
+        let allowed = match place.series {
+            Some(_) => ALLOWED_BESIDE_SERIES,
+            None => ALLOWED,
+        };
+        if !(place.finest || error <= allowed * large) {
             return false;
         }
         let polynomial = self.polynomial(h);
@@ -282,6 +313,13 @@ impl Values {
             false => absolute_maximum(&polynomial, peak),
         };
         if let Some((theta, top)) = found {
+            let (theta, top) = match place.series {
+                Some(series) => {
+                    let (theta, top) = read_off(&terms(series), theta);
+                    (theta, size(top))
+                }
+                None => (theta, top),
+            };
             raise(top, start + theta * h);
         }
         true
@@ -291,6 +329,41 @@ impl Values {
         let scaled = |x: [f64; 4]| [x[0], h * x[1], h * h * x[2], h * h * h * x[3]];
         septic(scaled(self.start), scaled(self.end))
     }
+}
+
+/// A turning point of a series near a place in the step, and the value there.
+fn read_off(terms: &SeriesTerms, theta: f64) -> (f64, f64) {
+    let at = |theta: f64| {
+        let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
+        for term in terms.iter().rev() {
+            bend = bend * theta + 2.0 * slope;
+            slope = slope * theta + value;
+            value = value * theta + term;
+        }
+        [value, slope, bend]
+    };
+    let mut best = (theta, at(theta)[0]);
+    if theta <= 0.0 || theta >= 1.0 {
+        return best;
+    }
+    let mut now = theta;
+    for _ in 0..CORRECTIONS {
+        let [_, slope, bend] = at(now);
+        let next = (now - slope / bend).clamp(0.0, 1.0);
+        let moved = (next - now).abs();
+        if !next.is_finite() {
+            break;
+        }
+        let value = at(next)[0];
+        if value.abs() > best.1.abs() {
+            best = (next, value);
+        }
+        now = next;
+        if moved <= PLACED {
+            break;
+        }
+    }
+    best
 }
 
 /// Where a step begins, as to the last one that was looked at.
@@ -627,12 +700,17 @@ impl Function {
 
     /// What the force of a closed level adds.
     fn force(&self, place: &Place<'_>, ends: &Ends) -> Option<(f64, Values)> {
+        let (factor, law) = self.law(place)?;
+        Some((factor, place.levels[law.level].force(law, ends)))
+    }
+
+    /// The law of the closed level whose force counts, with its factor.
+    fn law<'a>(&self, place: &Place<'a>) -> Option<(f64, &'a AffineContact)> {
         let What::OfLevel(_, _, (level, factor)) = self.what else {
             return None;
         };
         let law = place.contacts.iter().find(|c| c.level == level);
-        let law = law.filter(|_| factor != 0.0)?;
-        Some((factor, place.levels[level].force(law, ends)))
+        law.filter(|_| factor != 0.0).map(|law| (factor, law))
     }
 
     /// Whether a response of a level is sure to stay below its peak, by values and slopes at the
@@ -678,6 +756,22 @@ impl Function {
         }
         let present = self.peak(peaks);
         let raise = |top: f64, time: f64| self.raise(peaks, top, time);
-        values.take(place, h, present, raise)
+        let terms = |series: &ContactSeries| {
+            let mut terms = series.terms_of(self.row.terms.iter().copied(), order == 2);
+            if order == 2 {
+                for (i, weight) in &self.row.terms {
+                    let ground = place.ground_on(*i);
+                    terms[0] += weight * ground[0];
+                    terms[1] += weight * ground[1] * h;
+                }
+            }
+            if let Some((factor, law)) = self.law(place) {
+                for (term, force) in terms.iter_mut().zip(series.force_of(law)) {
+                    *term += factor * force;
+                }
+            }
+            terms
+        };
+        values.take(place, h, present, terms, raise)
     }
 }

@@ -171,10 +171,12 @@ impl Driver<'_> {
                 propagation.deepen(series, doubted);
                 let ends = &propagation.ends;
                 let now = Place {
+                    system: self.system,
                     segment,
                     tau,
                     contacts: &[],
                     levels,
+                    series: None,
                     finest: halvings == HALVINGS,
                 };
                 for function in open.iter() {

@@ -23,9 +23,10 @@ pub(super) struct Building {
     /// Degrees of freedom.
     pub dofs: Vec<usize>,
     pub mass: Vec<f64>,
-    /// Stiffness and damping over the masses, with their signs changed: column after column.
+    /// Stiffness and damping over the masses, with their signs changed: column after column,
+    /// filled up with zeros.
     pub restoring: [Vec<f64>; 2],
-    /// Stiffness and damping.
+    /// Stiffness and damping, columns filled up with zeros.
     pub stiffness: Vec<f64>,
     pub damping: Vec<f64>,
     /// Degrees of freedom whose ground accelerations, less those of forces, are the loads, one for each that differs.
@@ -116,9 +117,9 @@ impl Building {
         let derive = derivatives((&soft, &damped, &root), &load_of, columns);
         let mut this = Self {
             dofs,
-            restoring: [(-&soft).as_slice().to_vec(), (-&damped).as_slice().to_vec()],
-            stiffness: stiffness.as_slice().to_vec(),
-            damping: damping.as_slice().to_vec(),
+            restoring: [-&soft, -&damped].map(|m| pad(n, m.iter().copied())),
+            stiffness: pad(n, stiffness.iter().copied()),
+            damping: pad(n, damping.iter().copied()),
             loads,
             load_of,
             derive: pad(ALL * n, derive.iter().copied()),
@@ -131,7 +132,7 @@ impl Building {
             derived: vec![0.0; padded(ALL * n)],
             led_whole: vec![0.0; (9 * n + columns).next_multiple_of(WIDE)],
             absolute: vec![0.0; 2 * n],
-            force: vec![0.0; n],
+            force: vec![0.0; padded(n)],
             mass,
         };
         for length in lengths {
@@ -456,7 +457,7 @@ impl Building {
         for order in BOUNDED {
             let mut force = std::mem::take(&mut self.force);
             let (y, x) = (self.derivative(order - 1), self.derivative(order));
-            multiply(&self.stiffness, n, y, &mut force);
+            multiply(&self.stiffness, force.len(), y, &mut force);
             let mut sum = 0.0;
             for i in 0..n {
                 sum += self.mass[i] * x[i] * x[i] + y[i] * force[i];

@@ -23,7 +23,7 @@ use crate::dynamics::Segment;
 use crate::system::System;
 use building::Building;
 pub(crate) use building::EndMotion;
-pub(crate) use contact_series::{AffineContact, ContactSeries};
+pub(crate) use contact_series::{AffineContact, ContactSeries, SeriesTerms};
 
 /// Lengths of intervals for which matrices are kept.
 const LENGTHS: usize = 4;
@@ -179,6 +179,11 @@ impl Propagation {
         self.buildings[building].end_motion()
     }
 
+    /// Whether the last step was one by a series.
+    pub(crate) fn is_by_series(&self) -> bool {
+        self.by_series
+    }
+
     /// Whether forces push a building: its loads are then not its ground's accelerations.
     pub(crate) fn is_pushed(&self) -> bool {
         self.buildings.iter().any(Building::is_pushed)
@@ -310,6 +315,12 @@ pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) 
     "aarch64+neon"
 ))]
 fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    add_product(matrix, rows, x, out);
+}
+
+/// The same for callers that are compiled for several instruction sets themselves.
+#[inline(always)]
+fn add_product(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
     let mut first = 0;
     while first + WIDEST <= out.len() {
         block::<WIDEST>(matrix, (rows, first), x, out);

@@ -6,7 +6,7 @@ use pounding_gap_element::{Direction, Guard};
 use super::functions::{Begin, Function, Group, Place, Row};
 use super::peaks_put_off::PeaksPutOff;
 use super::series_events::Scan;
-use super::{Driver, Mute};
+use super::{Driver, EVENTS_AT_ONCE, Mute};
 use crate::dynamics::{Layout, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -96,7 +96,13 @@ impl Driver<'_> {
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<Advance, TimeHistoryError> {
         let left = Ok(Advance::LeftToMethod(segment.length));
-        if self.mute.iter().any(|mute| *mute != Mute::No) {
+        // A level that had an event here leaves its root, or the series tells that it does not.
+        let mut levels = self.mute.iter().enumerate();
+        if levels.any(|(l, mute)| match mute {
+            Mute::No => false,
+            Mute::Start => self.at_once[l] > EVENTS_AT_ONCE || self.is_rigid(l),
+            Mute::Step => true,
+        }) {
             return left;
         }
         let Some(mut exact) = self.exact.take() else {
@@ -390,6 +396,7 @@ impl Driver<'_> {
         self.method.restart(true);
         self.statistics.steps += 1;
         self.at_once.fill(0);
+        self.mute.fill(Mute::No);
         self.stalled = 0;
         self.last_ground = Some(segment.ground(next));
     }

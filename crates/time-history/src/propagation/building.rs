@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::{BOUNDED, Ends, HALVINGS, WIDE, multiply, pad, padded};
+use super::{BOUNDED, Ends, HALVINGS, NARROW, WIDE, multiply, pad, padded};
 use crate::dynamics::Segment;
 use crate::polynomial::GAUSS;
 use crate::system::{Grounds, System};
@@ -302,17 +302,15 @@ impl Building {
         self.end[..2 * n].copy_from_slice(&led[..2 * n]);
         let (squared, absolute) = rest.split_at(4 * n);
         for (order, size) in [4, 6].into_iter().zip(squared.chunks_exact(2 * n)) {
-            let mut sum = 0.0;
-            for x in size {
-                sum += x * x;
-            }
-            ends.bounds[index][order] = sum.sqrt();
+            ends.bounds[index][order] = norm(size);
         }
         self.absolute.copy_from_slice(&absolute[..2 * n]);
         self.add_works(led, ends);
-        for (k, i) in self.dofs.iter().enumerate() {
-            ends.end[0][*i] = self.end[k];
-            ends.end[1][*i] = self.end[n + k];
+        let [u, v, ..] = &mut ends.end;
+        let (displacement, velocity) = self.end[..2 * n].split_at(n);
+        let motion = displacement.iter().zip(velocity);
+        for ((displacement, velocity), i) in motion.zip(&self.dofs) {
+            (u[*i], v[*i]) = (*displacement, *velocity);
         }
     }
 
@@ -402,12 +400,14 @@ impl Building {
         let weighed = led[3 * n..][..columns].iter().zip(&self.start);
         ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
         let (start, end) = (&self.start, &self.end);
-        for k in 0..n {
-            let load = 2 * n + 2 * self.load_of[k];
-            let moved =
-                end[k] * end[load] - start[k] * start[load] - start[load + 1] * led[2 * n + k];
-            ends.input -= self.mass[k] * moved;
+        let motion = start[..n].iter().zip(&end[..n]).zip(&led[2 * n..3 * n]);
+        let mut input = 0.0;
+        for ((((u, after), integral), mass), load) in motion.zip(&self.mass).zip(&self.load_of) {
+            let load = 2 * n + 2 * load;
+            let moved = after * end[load] - u * start[load] - start[load + 1] * integral;
+            input += mass * moved;
         }
+        ends.input -= input;
     }
 
     /// The derivative of this order at the start.
@@ -476,6 +476,19 @@ impl Building {
             }
         }
     }
+}
+
+/// Root of a sum of squares, in chains that do not wait for each other.
+fn norm(x: &[f64]) -> f64 {
+    let mut sums = [0.0; NARROW];
+    let blocks = x.chunks_exact(NARROW);
+    let rest: f64 = blocks.remainder().iter().map(|x| x * x).sum();
+    for block in blocks {
+        for (sum, x) in sums.iter_mut().zip(block) {
+            *sum += x * x;
+        }
+    }
+    (sums[0] + sums[1] + (sums[2] + sums[3]) + rest).sqrt()
 }
 
 /// Rows of the derivatives of order two and more.

@@ -69,6 +69,8 @@ pub(crate) struct ContactSeries {
     fastest: f64,
     length: f64,
     last: usize,
+    /// Whether both ends have been worked out since the motion was expanded.
+    led: bool,
     /// Terms of displacements and velocities in the time over the length.
     displacement: Vec<f64>,
     velocity: Vec<f64>,
@@ -120,6 +122,7 @@ impl ContactSeries {
             fastest: crate::rates::fastest_rate(system.buildings()),
             length: 0.0,
             last: 0,
+            led: false,
             displacement: vec![0.0; (MOST + 1) * n],
             velocity: vec![0.0; (MOST + 1) * n],
             factors: vec![0.0; MOST + 1],
@@ -188,6 +191,7 @@ impl ContactSeries {
     ) -> bool {
         let (n, all) = (self.places, self.dofs.len());
         self.length = length;
+        self.led = false;
         for (k, i) in &self.dofs {
             self.displacement[*k] = state[*i];
             self.velocity[*k] = state[all + *i];
@@ -298,6 +302,38 @@ impl ContactSeries {
     ) {
         let (n, h) = (self.places, self.length);
         ends.length = h;
+        // A step that is cut begins as it did, and what bounds it there still does.
+        let cut = std::mem::replace(&mut self.led, true);
+        let with_start = !cut || self.is_grounded();
+        if with_start {
+            self.derive_start();
+        }
+        self.hand_out(0..4, with_start, ends);
+        let ends_of_step = [
+            (tau, &ends.start, &mut ends.absolute_start),
+            (tau + h, &ends.end, &mut ends.absolute_end),
+        ];
+        let wanted = if with_start { 0 } else { 1 };
+        for (at, relative, absolute) in ends_of_step.into_iter().skip(wanted) {
+            let ground = segment.ground(at);
+            for (_, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
+                absolute[0][*i] = relative[2][*i] + system.ground_on(*i, ground);
+                absolute[1][*i] = relative[3][*i] + system.ground_slope_on(*i, segment);
+            }
+        }
+        if with_start {
+            self.bound(buildings, BOUNDED.start..7, ends);
+        }
+    }
+
+    /// Whether ground that moves by itself pushes a contact.
+    fn is_grounded(&self) -> bool {
+        self.contacts.iter().any(|c| self.moves_ground[c.level])
+    }
+
+    /// Derivatives at the start.
+    fn derive_start(&mut self) {
+        let (n, h) = (self.places, self.length);
         let mut factor = 1.0;
         self.derived[..n].copy_from_slice(&self.displacement[..n]);
         for order in 1..BOUNDED.end {
@@ -306,28 +342,17 @@ impl ContactSeries {
             }
             factor *= order as f64 / h;
         }
-        self.hand_out(0..4, ends);
-        for (at, relative, absolute) in [
-            (tau, &ends.start, &mut ends.absolute_start),
-            (tau + h, &ends.end, &mut ends.absolute_end),
-        ] {
-            let ground = segment.ground(at);
-            for (_, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
-                absolute[0][*i] = relative[2][*i] + system.ground_on(*i, ground);
-                absolute[1][*i] = relative[3][*i] + system.ground_slope_on(*i, segment);
-            }
-        }
-        self.bound(buildings, BOUNDED.start..7, ends);
     }
 
     /// Works out the other derivatives and bounds.
     pub(super) fn deepen(&mut self, buildings: &[Building], ends: &mut Ends) {
-        self.hand_out(4..ORDERS, ends);
+        self.hand_out(4..ORDERS, true, ends);
         self.bound(buildings, 7..BOUNDED.end, ends);
     }
 
-    /// Gives the derivatives of these orders to the degrees of freedom.
-    fn hand_out(&mut self, orders: std::ops::Range<usize>, ends: &mut Ends) {
+    /// Gives the derivatives of these orders to the degrees of freedom, at the end and, if
+    /// asked for, at the start.
+    fn hand_out(&mut self, orders: std::ops::Range<usize>, with_start: bool, ends: &mut Ends) {
         let (n, h) = (self.places, self.length);
         for order in orders {
             let (terms, lower) = match order {
@@ -340,17 +365,21 @@ impl ContactSeries {
                 *factor = scale * falling.product::<f64>();
             }
             multiply(terms, n, &self.factors[..=self.last], &mut self.sum);
-            let start = &self.derived[order * n..][..n];
             for (k, i) in &self.dofs {
-                ends.start[order][*i] = start[*k];
                 ends.end[order][*i] = self.sum[*k];
+            }
+            if with_start {
+                let start = &self.derived[order * n..][..n];
+                for (k, i) in &self.dofs {
+                    ends.start[order][*i] = start[*k];
+                }
             }
         }
     }
 
     /// Bounds of the derivatives of these orders.
     fn bound(&mut self, buildings: &[Building], orders: std::ops::Range<usize>, ends: &mut Ends) {
-        let grounded = self.contacts.iter().any(|c| self.moves_ground[c.level]);
+        let grounded = self.is_grounded();
         for order in orders.rev() {
             let (kinetic, strain) = self.energies(buildings, order);
             let bound = if grounded && order == BOUNDED.start {

@@ -300,7 +300,7 @@ impl ContactSeries {
         (segment, tau): (&Segment, f64),
         ends: &mut Ends,
     ) {
-        let (n, h) = (self.places, self.length);
+        let h = self.length;
         ends.length = h;
         // A step that is cut begins as it did, and what bounds it there still does.
         let cut = std::mem::replace(&mut self.led, true);

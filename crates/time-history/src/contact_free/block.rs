@@ -187,10 +187,11 @@ pub(super) fn propagate(
     block: &mut Block,
 ) -> bool {
     let count = constants.modes.len();
-    if block.watched.is_some() {
-        advance_all::<true>(constants, now, samples, block);
-    } else {
-        advance_all::<false>(constants, now, samples, block);
+    match (block.watched.is_some(), constants.swings) {
+        (true, true) => advance_all::<true, true>(constants, now, samples, block),
+        (true, false) => advance_all::<true, false>(constants, now, samples, block),
+        (false, true) => advance_all::<false, true>(constants, now, samples, block),
+        (false, false) => advance_all::<false, false>(constants, now, samples, block),
     }
     let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let slope = samples
@@ -199,7 +200,7 @@ pub(super) fn propagate(
     block.largest = (largest, slope / constants.step);
     let large = count > LARGE;
     bound_overshoots(constants, block, [0, 1], large);
-    let low = is_low(constants, &block.over[0], peak);
+    let low = is_low(constants, (&block.over[0], largest), peak);
     if !low {
         bound_overshoots(constants, block, [2], large);
     }
@@ -309,7 +310,7 @@ pub(super) fn advance(constants: &ContactFree, samples: &[f64], now: &mut Modal)
                 end: pair[1],
                 slope: (pair[1] - pair[0]) / constants.step,
             };
-            (state, _) = step_modes(m, state, ground);
+            (state, _) = step_modes::<false>(m, state, ground);
         }
         [
             now.displacement[c],
@@ -337,7 +338,7 @@ pub(crate) fn step_over(
     let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
         let state = [displacement[c], velocity[c], input, viscous];
-        let ([q, p, pushed, damped], _) = step_modes(m, state, ground);
+        let ([q, p, pushed, damped], _) = step_modes::<false>(m, state, ground);
         (displacement[c], velocity[c]) = (q, p);
         (input, viscous) = (pushed, damped);
     }
@@ -346,7 +347,7 @@ pub(crate) fn step_over(
 
 /// All modes over the block; if they are watched, the whole motion at every sample is kept.
 #[inline(always)]
-fn advance_all<const WATCHED: bool>(
+fn advance_all<const WATCHED: bool, const SWINGS: bool>(
     constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
@@ -362,7 +363,7 @@ fn advance_all<const WATCHED: bool>(
             now.viscous[c],
         ];
         let watched = &mut block.watched;
-        let (end, size) = modes(m, state, samples, constants.step, |s, motion, a| {
+        let store = |s: usize, motion: [Lane; 4], a: Lane| {
             let [q, p, input, viscous] = motion;
             displacements[s * count + c] = q;
             accelerations[s * count + c] = a;
@@ -371,7 +372,8 @@ fn advance_all<const WATCHED: bool>(
                 inputs[s * count + c] = input;
                 dampings[s * count + c] = viscous;
             }
-        });
+        };
+        let (end, size) = modes::<SWINGS>(m, state, samples, constants.step, store);
         block.size[c] = size;
         let [q, p, input, viscous] = end;
         (block.end.displacement[c], block.end.velocity[c]) = (q, p);
@@ -382,7 +384,7 @@ fn advance_all<const WATCHED: bool>(
 /// Eight modes over the block. Returns state and works at the end, and the maximum
 /// size at the starts of the steps.
 #[inline(always)]
-fn modes(
+fn modes<const SWINGS: bool>(
     m: &ModeLanes,
     start: [Lane; 4],
     samples: &[f64; BLOCK + 1],
@@ -398,7 +400,7 @@ fn modes(
             end,
             slope: (end - start) / step,
         };
-        let (next, size) = step_modes(m, state, ground);
+        let (next, size) = step_modes::<SWINGS>(m, state, ground);
         state = next;
         let [q, p, ..] = state;
         let mut absolute = Lane::ZERO;

@@ -61,7 +61,11 @@ fn look(
     let now = &phase.now;
     for (c, m) in constants.modes.iter().enumerate() {
         let state = [now.displacement[c], now.velocity[c], Lane::ZERO, Lane::ZERO];
-        let ([q, p, input, viscous], size) = step_modes(m, state, ground);
+        let ([q, p, input, viscous], size) = if constants.swings {
+            step_modes::<true>(m, state, ground)
+        } else {
+            step_modes::<false>(m, state, ground)
+        };
         (free.end.displacement[c], free.end.velocity[c]) = (q, p);
         (free.end.input[c], free.end.viscous[c]) = (input, viscous);
         free.size[c] = size;
@@ -79,7 +83,8 @@ fn look(
         &free.end.displacement,
         &mut displacement.next,
     );
-    free.low = is_low(constants, &displacement.overshoot, &phase.acceleration.peak);
+    let reach = (displacement.overshoot.as_slice(), free.largest.0);
+    free.low = is_low(constants, reach, &phase.acceleration.peak);
 }
 
 /// Drifts of all floors, and their accelerations unless these are low.

@@ -114,6 +114,9 @@ pub(crate) struct ModeLanes {
     /// acceleration, and of its maximum slope.
     pub acceleration_bound: [Lane; 2],
     pub snap_bound: [Lane; 3],
+    /// `gamma / omega^2` and `2 zeta gamma / omega^3`: what a steady ground acceleration, and its
+    /// slope, displace the mode by.
+    pub steady: [Lane; 2],
 }
 
 /// Modal state of a system, and what it has worked since take-off.
@@ -261,24 +264,31 @@ pub(crate) fn modal_acceleration_overshoots(
     }
 }
 
-/// Whether the bound of floor acceleration, told by the overshoot of displacement, is
-/// below all peaks of absolute acceleration.
+/// Whether the bound of floor acceleration, told by the overshoot of displacement and this
+/// maximum ground acceleration, is below all peaks of absolute acceleration.
 #[inline(always)]
-pub(crate) fn is_low(constants: &ContactFree, displacement: &[Lane], peak: &[Lane]) -> bool {
+pub(crate) fn is_low(
+    constants: &ContactFree,
+    (displacement, largest): (&[Lane], f64),
+    peak: &[Lane],
+) -> bool {
     let eighth = constants.eighth();
+    // Free vibration is what the floors do beside the ground's own acceleration.
+    let ground = if constants.swings { largest } else { 0.0 };
     let mut low = true;
     for (over, peak) in displacement.iter().zip(peak) {
         for l in 0..WIDTH {
-            low &= over[l] <= eighth * peak[l];
+            low &= over[l] <= eighth * (peak[l] - ground);
         }
     }
     low
 }
 
 /// Displacement, velocity, input and viscous work of eight modes after a step, and their
-/// `|q'| + omega |q|` before it.
+/// `|q'| + omega |q|` before it; of `SWINGS` that of their free vibration, without the motion
+/// that is linear in time as the ground's acceleration is.
 #[inline(always)]
-pub(super) fn step_modes(
+pub(super) fn step_modes<const SWINGS: bool>(
     m: &ModeLanes,
     [x, v, mut input, mut viscous]: [Lane; 4],
     ground: Ground,
@@ -304,7 +314,14 @@ pub(super) fn step_modes(
         viscous[l] += x[l] * (k[0][l] * x[l] + k[1][l] * v[l] + (k[2][l] * a + k[3][l] * b))
             + v[l] * (k[4][l] * v[l] + (k[5][l] * a + k[6][l] * b))
             + (a * (k[7][l] * a + k[8][l] * b) + k[9][l] * (b * b));
-        size[l] = v[l].abs() + m.circular_frequency[l] * x[l].abs();
+        size[l] = if SWINGS {
+            let [by_value, by_slope] = m.steady;
+            let speed = v[l] + by_value[l] * slope;
+            let place = x[l] + (by_value[l] * a - by_slope[l] * slope);
+            speed.abs() + m.circular_frequency[l] * place.abs()
+        } else {
+            v[l].abs() + m.circular_frequency[l] * x[l].abs()
+        };
     }
     ([end, speed, input, viscous], size)
 }

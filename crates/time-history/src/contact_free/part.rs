@@ -43,6 +43,7 @@ impl ContactFree {
         Self {
             step: self.step,
             fastest: self.fastest,
+            swings: self.swings,
             modes: modes(&self.modes, first, count),
             rows: FloorRows {
                 floors: rows(&self.rows.floors),
@@ -88,6 +89,7 @@ fn modes(all: &[ModeLanes], first: usize, count: usize) -> Vec<ModeLanes> {
             (&from.viscous[..], &mut to.viscous[..]),
             (&from.acceleration_bound[..], &mut to.acceleration_bound[..]),
             (&from.snap_bound[..], &mut to.snap_bound[..]),
+            (&from.steady[..], &mut to.steady[..]),
         ];
         for (from, to) in pairs {
             for (from, to) in from.iter().zip(to) {

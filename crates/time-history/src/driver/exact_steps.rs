@@ -4,8 +4,9 @@
 use pounding_gap_element::{Direction, Guard};
 
 use super::functions::{Begin, Function, Group, Place, Row};
+use super::peaks_put_off::PeaksPutOff;
 use super::series_events::Scan;
-use super::{Driver, Mute};
+use super::{Driver, EVENTS_AT_ONCE, Mute};
 use crate::dynamics::{Layout, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -25,11 +26,11 @@ pub(super) struct ExactSteps {
     pub propagation: Propagation,
     pub series: ContactSeries,
     /// All that has peaks, and those of buildings together.
-    functions: Vec<Function>,
-    groups: Vec<Group>,
+    pub functions: Vec<Function>,
+    pub groups: Vec<Group>,
     /// Whether the groups have other peaks than the run, and where the next step begins.
-    stale: bool,
-    begin: Begin,
+    pub stale: bool,
+    pub begin: Begin,
     /// Numbers of the functions that may have a peak in the present step.
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
@@ -38,6 +39,7 @@ pub(super) struct ExactSteps {
     method_until: f64,
     /// Space for the state while recorders are served.
     saved: Vec<f64>,
+    pub put_off: PeaksPutOff,
     /// Work counts of the method for steps that serve recorders alone.
     pub recording: u64,
 }
@@ -59,6 +61,7 @@ impl ExactSteps {
         Some(Self {
             series: propagation.contact_series(system),
             doubtful: Vec::with_capacity(functions.len()),
+            put_off: PeaksPutOff::new(system, functions.len()),
             functions,
             groups,
             stale: true,
@@ -93,7 +96,13 @@ impl Driver<'_> {
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<Advance, TimeHistoryError> {
         let left = Ok(Advance::LeftToMethod(segment.length));
-        if self.mute.iter().any(|mute| *mute != Mute::No) {
+        // A level that had an event here leaves its root, or the series tells that it does not.
+        let mut levels = self.mute.iter().enumerate();
+        if levels.any(|(l, mute)| match mute {
+            Mute::No => false,
+            Mute::Start => self.at_once[l] > EVENTS_AT_ONCE || self.is_rigid(l),
+            Mute::Step => true,
+        }) {
             return left;
         }
         let Some(mut exact) = self.exact.take() else {
@@ -277,6 +286,7 @@ impl Driver<'_> {
             ..
         } = exact;
         doubtful.clear();
+        let by_series = propagation.is_by_series();
         let mut grouped = 0;
         for group in groups {
             if *stale {
@@ -287,10 +297,13 @@ impl Driver<'_> {
         (*stale, *begin) = (false, Begin::AtStart);
         let (levels, ends) = (levels.as_slice(), &propagation.ends);
         let now = Place {
+            system: self.system,
             segment,
             tau,
             contacts: &series.contacts,
             levels,
+            series: by_series.then_some(&*series),
+            finest: false,
         };
         for (number, function) in functions.iter().enumerate().skip(grouped) {
             if !function.stays_below(&now, ends, &self.peaks) {
@@ -305,10 +318,13 @@ impl Driver<'_> {
         propagation.deepen(series, doubted);
         let ends = &propagation.ends;
         let now = Place {
+            system: self.system,
             segment,
             tau,
             contacts: &series.contacts,
             levels,
+            series: by_series.then_some(&*series),
+            finest: false,
         };
         for number in doubtful {
             if !functions[*number].takes_peak(&now, ends, &mut self.peaks) {
@@ -325,7 +341,7 @@ impl Driver<'_> {
     }
 
     /// Serves recorders from steps of the method, of which nothing else remains.
-    fn show(
+    pub(super) fn show(
         &mut self,
         exact: &mut ExactSteps,
         segment: &Segment,
@@ -364,7 +380,7 @@ impl Driver<'_> {
     }
 
     /// Takes the end of the step.
-    fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
+    pub(super) fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
         let ends = &exact.propagation.ends;
         let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
         self.state[..n].copy_from_slice(&ends.end[0]);
@@ -380,6 +396,7 @@ impl Driver<'_> {
         self.method.restart(true);
         self.statistics.steps += 1;
         self.at_once.fill(0);
+        self.mute.fill(Mute::No);
         self.stalled = 0;
         self.last_ground = Some(segment.ground(next));
     }

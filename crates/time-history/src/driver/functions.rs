@@ -9,11 +9,18 @@ use crate::dynamics::Segment;
 use crate::outcome::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
-use crate::propagation::{AffineContact, Ends, multiply, pad, padded};
+use crate::propagation::{
+    AffineContact, ContactSeries, EndMotion, Ends, SeriesTerms, multiply, pad, padded,
+};
 use crate::system::{ContactLevel, SectionPlace, System};
 
-/// Part of a value that the polynomial of degree 7 may err by where a peak is read off it.
+/// Part of a value that the polynomial of degree 7 may err by where a peak is read off it, and
+/// where it only tells the place of a peak that is read off a series.
 const ALLOWED: f64 = 1.0e-10;
+const ALLOWED_BESIDE_SERIES: f64 = 1.0e-8;
+/// Corrections of the place of such a peak at most, and what is left of it.
+const CORRECTIONS: usize = 4;
+const PLACED: f64 = 1.0e-9;
 
 /// A row over the degrees of freedom.
 #[derive(Debug)]
@@ -25,11 +32,26 @@ pub(super) struct Row {
 
 /// Where a step is.
 pub(super) struct Place<'a> {
+    pub system: &'a System,
     pub segment: &'a Segment,
     pub tau: f64,
     /// Closed levels with their laws, and the rows of all levels.
     pub contacts: &'a [AffineContact],
     pub levels: &'a [Row],
+    /// The series that leads over the step, if one does.
+    pub series: Option<&'a ContactSeries>,
+    /// Whether there is no shorter step, so that polynomials count whatever their bounds say.
+    pub finest: bool,
+}
+
+impl Place<'_> {
+    /// Acceleration of the ground under a degree of freedom at the start of the step (m/s2), and
+    /// its slope (m/s3).
+    fn ground_on(&self, dof: usize) -> [f64; 2] {
+        let at = self.segment.ground(self.tau);
+        let value = self.system.ground_on(dof, at);
+        [value, self.system.ground_slope_on(dof, self.segment)]
+    }
 }
 
 /// A function of the motion with a peak.
@@ -101,6 +123,16 @@ impl Row {
         (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
     }
 
+    /// Its course over a whole interval from the state at its start to the end.
+    pub(super) fn over(&self, (u, v): (&[f64], &[f64]), ends: &Ends) -> Course {
+        Course {
+            start: [self.sum(u), self.sum(v)],
+            end: [self.sum(&ends.end[0]), self.sum(&ends.end[1])],
+            fourth: self.bound(ends, 4),
+            length: ends.length,
+        }
+    }
+
     /// Bounds from below and above of the derivative of this order.
     pub(super) fn range(&self, ends: &Ends, order: usize) -> (f64, f64) {
         let ((x0, x1), (v0, v1)) = (self.both(ends, order), self.both(ends, order + 1));
@@ -160,7 +192,12 @@ impl Row {
         values.start[0] -= width;
         values.end[0] -= width;
         let present = (peak.value, true);
-        values.take(place, ends.length, present, |top, time| {
+        let terms = |series: &ContactSeries| {
+            let mut terms = series.terms_of(self.terms.iter().copied(), false);
+            terms[0] -= width;
+            terms
+        };
+        values.take(place, ends.length, present, terms, |top, time| {
             peak.raise(top, time)
         })
     }
@@ -174,9 +211,43 @@ impl Row {
     ) -> bool {
         let values = self.force(law, ends);
         let present = (peak.value, true);
-        values.take(place, ends.length, present, |top, time| {
+        let terms = |series: &ContactSeries| series.force_of(law);
+        values.take(place, ends.length, present, terms, |top, time| {
             peak.raise(top, time)
         })
+    }
+}
+
+/// A function over an interval, by values and slopes at both ends and a bound of its fourth
+/// derivative.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    start: [f64; 2],
+    pub end: [f64; 2],
+    fourth: f64,
+    length: f64,
+}
+
+/// The slope of a function lies near that of its cubic by less than `sqrt(3)/216 h^3` times a
+/// bound of its fourth derivative (Birkhoff and Priver, Hermite interpolation errors for
+/// derivatives, Journal of Mathematics and Physics 46 (1967) 440).
+const SLOPE_REMAINDER: f64 = 8.02e-3;
+
+impl Course {
+    /// Bounds from below and above.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let ([x0, v0], [x1, v1]) = (self.start, self.end);
+        hermite_range([x0, v0, x1, v1], self.fourth, self.length)
+    }
+
+    /// Whether it may have a maximum or minimum inside: whether the control points of its slope
+    /// are not all clear of zero on one side.
+    pub(super) fn may_turn(&self) -> bool {
+        let ([x0, v0], [x1, v1], h) = (self.start, self.end, self.length);
+        let middle = 3.0 * (x1 - x0) / h - v0 - v1;
+        let error = SLOPE_REMAINDER * h * h * h * self.fourth;
+        let (least, most) = (v0.min(middle).min(v1), v0.max(middle).max(v1));
+        !(least - error >= 0.0 || most + error <= 0.0)
     }
 }
 
@@ -210,6 +281,7 @@ impl Values {
         place: &Place<'_>,
         h: f64,
         (peak, one_sided): (f64, bool),
+        terms: impl Fn(&ContactSeries) -> SeriesTerms,
         mut raise: impl FnMut(f64, f64),
     ) -> bool {
         let (least, most) = self.range(h);
@@ -228,7 +300,11 @@ impl Values {
         }
         let error = h.powi(8) / (40_320.0 * 256.0) * self.bounds[2];
         let large = peak.max(self.start[0].abs()).max(self.end[0].abs());
-        if !(error <= ALLOWED * large) {
+        let allowed = match place.series {
+            Some(_) => ALLOWED_BESIDE_SERIES,
+            None => ALLOWED,
+        };
+        if !(place.finest || error <= allowed * large) {
             return false;
         }
         let polynomial = self.polynomial(h);
@@ -237,6 +313,13 @@ impl Values {
             false => absolute_maximum(&polynomial, peak),
         };
         if let Some((theta, top)) = found {
+            let (theta, top) = match place.series {
+                Some(series) => {
+                    let (theta, top) = read_off(&terms(series), theta);
+                    (theta, size(top))
+                }
+                None => (theta, top),
+            };
             raise(top, start + theta * h);
         }
         true
@@ -246,6 +329,41 @@ impl Values {
         let scaled = |x: [f64; 4]| [x[0], h * x[1], h * h * x[2], h * h * h * x[3]];
         septic(scaled(self.start), scaled(self.end))
     }
+}
+
+/// A turning point of a series near a place in the step, and the value there.
+fn read_off(terms: &SeriesTerms, theta: f64) -> (f64, f64) {
+    let at = |theta: f64| {
+        let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
+        for term in terms.iter().rev() {
+            bend = bend * theta + 2.0 * slope;
+            slope = slope * theta + value;
+            value = value * theta + term;
+        }
+        [value, slope, bend]
+    };
+    let mut best = (theta, at(theta)[0]);
+    if theta <= 0.0 || theta >= 1.0 {
+        return best;
+    }
+    let mut now = theta;
+    for _ in 0..CORRECTIONS {
+        let [_, slope, bend] = at(now);
+        let next = (now - slope / bend).clamp(0.0, 1.0);
+        let moved = (next - now).abs();
+        if !next.is_finite() {
+            break;
+        }
+        let value = at(next)[0];
+        if value.abs() > best.1.abs() {
+            best = (next, value);
+        }
+        now = next;
+        if moved <= PLACED {
+            break;
+        }
+    }
+    best
 }
 
 /// Where a step begins, as to the last one that was looked at.
@@ -311,6 +429,69 @@ impl Group {
         }
     }
 
+    /// Takes the motion at the start of whole intervals.
+    pub(super) fn begin_at(&mut self, motion: &EndMotion<'_>) {
+        let motion = motion_of(self.of_acceleration, motion);
+        for (values, motion) in self.values[2..].iter_mut().zip(motion) {
+            multiply(&self.weights, values.len(), motion, values);
+        }
+    }
+
+    /// Whether all functions are sure to stay below their peaks over a whole interval, from
+    /// where the last one ended, or from [`Group::begin_at`], to this motion.
+    pub(super) fn stay_below(&mut self, motion: &EndMotion<'_>, ends: &Ends) -> bool {
+        self.values.swap(0, 2);
+        self.values.swap(1, 3);
+        self.begin_at(motion);
+        let order = if self.of_acceleration { 6 } else { 4 };
+        let values = self.values.each_ref().map(Vec::as_slice);
+        let bound = ends.bounds[self.building][order];
+        let beyond = &mut self.beyond;
+        reaches(values, (&self.mobility, bound), ends.length, beyond);
+        // What is not a number is no proof.
+        let compared = self.beyond.iter().zip(&self.peaks);
+        compared.fold(true, |all, (beyond, peak)| all & (beyond <= peak))
+    }
+
+    /// The bound of the function at a place in the group where it may not stay below.
+    pub(super) fn above(&self, place: usize) -> Option<f64> {
+        let beyond = self.beyond[place];
+        // What is not a number is no proof.
+        (!(beyond <= self.peaks[place])).then_some(beyond)
+    }
+
+    /// Number of its functions.
+    pub(super) fn len(&self) -> usize {
+        self.functions.len()
+    }
+
+    /// Number and course of the function at a place in the group.
+    pub(super) fn course(&self, place: usize, ends: &Ends) -> (usize, Course) {
+        let order = if self.of_acceleration { 6 } else { 4 };
+        let course = Course {
+            start: [self.values[0][place], self.values[1][place]],
+            end: [self.values[2][place], self.values[3][place]],
+            fourth: self.mobility[place] * ends.bounds[self.building][order],
+            length: ends.length,
+        };
+        (self.functions.start + place, course)
+    }
+
+    /// Sets the peak of the function at a place in the group.
+    pub(super) fn set_peak(&mut self, place: usize, peak: f64) {
+        self.peaks[place] = peak;
+    }
+
+    /// Number after its last function.
+    pub(super) fn functions_end(&self) -> usize {
+        self.functions.end
+    }
+
+    /// Number of its building.
+    pub(super) fn building(&self) -> usize {
+        self.building
+    }
+
     /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
     /// last function of the group.
     pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
@@ -357,6 +538,15 @@ impl Group {
         let above = compared.filter(|((beyond, peak), _)| !(*beyond <= *peak));
         doubtful.extend(above.map(|(_, number)| number));
         self.functions.end
+    }
+}
+
+/// What the functions of a group are sums of, and its rate.
+fn motion_of<'a>(of_acceleration: bool, motion: &EndMotion<'a>) -> [&'a [f64]; 2] {
+    if of_acceleration {
+        [motion.acceleration, motion.acceleration_rate]
+    } else {
+        [motion.displacement, motion.velocity]
     }
 }
 
@@ -464,7 +654,7 @@ impl Function {
     }
 
     /// The present peak, and whether the sign counts.
-    fn peak(&self, peaks: &Peaks) -> (f64, bool) {
+    pub(super) fn peak(&self, peaks: &Peaks) -> (f64, bool) {
         match self.what {
             What::Displacement(i) => (peaks.storeys[i].displacement.value, false),
             What::Drift(i, height, stiffness) => {
@@ -481,14 +671,46 @@ impl Function {
         }
     }
 
+    /// Bound of what counts in the peak from bounds from below and above.
+    pub(super) fn size_of(&self, (least, most): (f64, f64)) -> f64 {
+        match self.what {
+            What::OfLevel(_, true, _) => most,
+            _ => most.max(-least),
+        }
+    }
+
+    /// Raises the peak to a higher value.
+    pub(super) fn raise(&self, peaks: &mut Peaks, top: f64, time: f64) {
+        match self.what {
+            What::Displacement(i) => peaks.storeys[i].displacement.raise(top, time),
+            What::Drift(i, height, stiffness) => {
+                let storey = &mut peaks.storeys[i];
+                storey.drift_ratio.raise(top / height, time);
+                if let Some(stiffness) = stiffness {
+                    storey.storey_shear.raise(stiffness * top, time);
+                }
+            }
+            What::Acceleration(i) => peaks.storeys[i].acceleration_absolute.raise(top, time),
+            What::Section(section) | What::Accelerations(section) => {
+                peaks.raise_section(section, top, time);
+            }
+            What::OfLevel(number, ..) => peaks.of_levels[number].raise(top, time),
+        }
+    }
+
     /// What the force of a closed level adds.
     fn force(&self, place: &Place<'_>, ends: &Ends) -> Option<(f64, Values)> {
+        let (factor, law) = self.law(place)?;
+        Some((factor, place.levels[law.level].force(law, ends)))
+    }
+
+    /// The law of the closed level whose force counts, with its factor.
+    fn law<'a>(&self, place: &Place<'a>) -> Option<(f64, &'a AffineContact)> {
         let What::OfLevel(_, _, (level, factor)) = self.what else {
             return None;
         };
         let law = place.contacts.iter().find(|c| c.level == level);
-        let law = law.filter(|_| factor != 0.0)?;
-        Some((factor, place.levels[level].force(law, ends)))
+        law.filter(|_| factor != 0.0).map(|law| (factor, law))
     }
 
     /// Whether a response of a level is sure to stay below its peak, by values and slopes at the
@@ -506,6 +728,11 @@ impl Function {
         let (peak, one_sided) = self.peak(peaks);
         let beyond = if one_sided { most } else { most.max(-least) };
         beyond <= peak
+    }
+
+    /// A response of a level over a whole interval without contact, from this state on.
+    pub(super) fn over(&self, start: (&[f64], &[f64]), ends: &Ends) -> Course {
+        self.row.over(start, ends)
     }
 
     /// Takes its peak; false if it is not sure where there is one.
@@ -528,21 +755,23 @@ impl Function {
             }
         }
         let present = self.peak(peaks);
-        let raise = |top: f64, time: f64| match self.what {
-            What::Displacement(i) => peaks.storeys[i].displacement.raise(top, time),
-            What::Drift(i, height, stiffness) => {
-                let storey = &mut peaks.storeys[i];
-                storey.drift_ratio.raise(top / height, time);
-                if let Some(stiffness) = stiffness {
-                    storey.storey_shear.raise(stiffness * top, time);
+        let raise = |top: f64, time: f64| self.raise(peaks, top, time);
+        let terms = |series: &ContactSeries| {
+            let mut terms = series.terms_of(self.row.terms.iter().copied(), order == 2);
+            if order == 2 {
+                for (i, weight) in &self.row.terms {
+                    let ground = place.ground_on(*i);
+                    terms[0] += weight * ground[0];
+                    terms[1] += weight * ground[1] * h;
                 }
             }
-            What::Acceleration(i) => peaks.storeys[i].acceleration_absolute.raise(top, time),
-            What::Section(section) | What::Accelerations(section) => {
-                peaks.raise_section(section, top, time);
+            if let Some((factor, law)) = self.law(place) {
+                for (term, force) in terms.iter_mut().zip(series.force_of(law)) {
+                    *term += factor * force;
+                }
             }
-            What::OfLevel(number, ..) => peaks.of_levels[number].raise(top, time),
+            terms
         };
-        values.take(place, h, present, raise)
+        values.take(place, h, present, terms, raise)
     }
 }

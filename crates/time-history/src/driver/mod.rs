@@ -7,11 +7,13 @@ mod event_handling;
 mod exact_steps;
 mod functions;
 mod parts;
+mod peaks_put_off;
 mod result;
 mod rigid_impacts;
 mod series_events;
 mod stepped_impacts;
 mod watch;
+mod whole_intervals;
 
 use pounding_hysteresis::History;
 use pounding_shear_building::ShearBuilding;
@@ -110,6 +112,7 @@ fn integrate(
     let mut reported = 0.0;
     let mut sample = 0;
     while system.segment(sample, duration).is_some() {
+        sample += driver.whole_intervals(sample, duration, observers.recorders)?;
         let mut from = 0.0;
         if driver.open.is_some() {
             sample += driver.propagate(sample, duration, &mut observers)?;

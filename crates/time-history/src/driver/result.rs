@@ -36,6 +36,7 @@ impl Driver<'_> {
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<Outcome, TimeHistoryError> {
         self.leave_for_good(duration)?;
+        self.settle_put_off(duration);
         let layout = self.dynamics.layout;
         let n = layout.dofs;
         for l in 0..layout.levels {

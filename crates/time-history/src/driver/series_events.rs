@@ -11,6 +11,10 @@ use crate::events::{Candidate, EventKind};
 /// term, may lie on its root.
 const CLEAR_OF_ZERO: f64 = 1.0e-11;
 const CLEAR_PART: f64 = 1.0e-10;
+/// A function that leaves its root at the start changes over the step by more than this, and by
+/// so many times what it has there.
+const CLEAR_CHANGE: f64 = 1.0e-8;
+const CLEAR_TIMES: f64 = 1.0e4;
 /// Corrections of a root at most.
 const CORRECTIONS: usize = 60;
 
@@ -99,9 +103,18 @@ fn rise(terms: &[f64], sign: f64) -> Option<Option<f64>> {
         *s = sign * t;
     }
     let largest = signed.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    if !(signed[0] < -CLEAR_OF_ZERO.max(CLEAR_PART * largest)) {
-        return None;
-    }
+    let clear = CLEAR_OF_ZERO.max(CLEAR_PART * largest);
+    let signed = if signed[0] < -clear {
+        signed
+    } else {
+        // From its root, as after an event of the same level, it falls at once: what it has
+        // there is round-off, and the rest is divided by the time.
+        let falls = -CLEAR_CHANGE.max(CLEAR_TIMES * signed[0].abs());
+        if !(signed[0].abs() <= clear && signed.len() > 2 && signed[1] < falls) {
+            return None;
+        }
+        &mut signed[1..]
+    };
     match isolated_rise_of_series(signed) {
         Rise::Never => Some(None),
         Rise::Within(left, right) => Some(Some(polish(signed, (left, right)))),
@@ -152,5 +165,29 @@ mod tests {
         assert!((found - 0.2).abs() < 1e-14, "{found:e}");
         // It starts negative, so that its other sign is on the wrong side.
         assert_eq!(rise(&terms, -1.0), None);
+    }
+
+    #[test]
+    fn a_sine_that_leaves_its_root_rises_half_a_period_later() {
+        // -sin(4 theta), with round-off at the root.
+        let mut terms = [0.0; 40];
+        let mut factor = -1.0;
+        for (k, term) in terms.iter_mut().enumerate().skip(1) {
+            factor *= 4.0 / k as f64;
+            *term = match k % 4 {
+                1 => factor,
+                3 => -factor,
+                _ => 0.0,
+            };
+        }
+        terms[0] = 1.0e-16;
+        let found = rise(&terms, 1.0).flatten().expect("a rise");
+        let half = 0.25 * std::f64::consts::PI;
+        assert!((found - half).abs() < 1e-14, "{found:e}");
+        // The other way it rises at once.
+        assert_eq!(rise(&terms, -1.0), None);
+        // A function that stays on its root for a while tells nothing.
+        terms[1] = 1.0e-12;
+        assert_eq!(rise(&terms, 1.0), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::{BOUNDED, Ends, HALVINGS, multiply, pad, padded};
+use super::{BOUNDED, Ends, HALVINGS, NARROW, WIDE, multiply, pad, padded};
 use crate::dynamics::Segment;
 use crate::polynomial::GAUSS;
 use crate::system::{Grounds, System};
@@ -23,9 +23,10 @@ pub(super) struct Building {
     /// Degrees of freedom.
     pub dofs: Vec<usize>,
     pub mass: Vec<f64>,
-    /// Stiffness and damping over the masses, with their signs changed: column after column.
+    /// Stiffness and damping over the masses, with their signs changed: column after column,
+    /// filled up with zeros.
     pub restoring: [Vec<f64>; 2],
-    /// Stiffness and damping.
+    /// Stiffness and damping, columns filled up with zeros.
     pub stiffness: Vec<f64>,
     pub damping: Vec<f64>,
     /// Degrees of freedom whose ground accelerations, less those of forces, are the loads, one for each that differs.
@@ -36,6 +37,12 @@ pub(super) struct Building {
     /// derivatives of order two to six; the third and fifth times the root of the stiffness;
     /// the derivatives of order seven and more.
     derive: Vec<f64>,
+    /// For whole intervals, by length: the rows of the step; what is squared in the bounds of
+    /// orders 4 and 6, the derivative of that order times the roots of the masses, and the one
+    /// before times the root of the stiffness; absolute accelerations at the end, and their rates.
+    whole: Vec<Vec<f64>>,
+    /// Whether forces push it, so that its loads are not its ground accelerations.
+    pushed: bool,
     /// By length, then by the number of halvings.
     steps: Vec<Vec<Step>>,
     /// Displacements, velocities and loads at both ends of the step; what comes of them.
@@ -43,7 +50,19 @@ pub(super) struct Building {
     end: Vec<f64>,
     led: Vec<f64>,
     derived: Vec<f64>,
+    /// What comes of a whole interval, and absolute accelerations with their rates at its end.
+    led_whole: Vec<f64>,
+    absolute: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// The motion of a building at the end of a step: displacements, velocities, absolute
+/// accelerations and their rates.
+pub(crate) struct EndMotion<'a> {
+    pub displacement: &'a [f64],
+    pub velocity: &'a [f64],
+    pub acceleration: &'a [f64],
+    pub acceleration_rate: &'a [f64],
 }
 
 /// Matrices for one length, column after column.
@@ -98,18 +117,22 @@ impl Building {
         let derive = derivatives((&soft, &damped, &root), &load_of, columns);
         let mut this = Self {
             dofs,
-            restoring: [(-&soft).as_slice().to_vec(), (-&damped).as_slice().to_vec()],
-            stiffness: stiffness.as_slice().to_vec(),
-            damping: damping.as_slice().to_vec(),
+            restoring: [-&soft, -&damped].map(|m| pad(n, m.iter().copied())),
+            stiffness: pad(n, stiffness.iter().copied()),
+            damping: pad(n, damping.iter().copied()),
             loads,
             load_of,
             derive: pad(ALL * n, derive.iter().copied()),
+            whole: Vec::new(),
+            pushed: !system.forces().is_empty(),
             steps: Vec::new(),
             start: vec![0.0; columns],
             end: vec![0.0; columns],
             led: vec![0.0; padded(3 * n + columns)],
             derived: vec![0.0; padded(ALL * n)],
-            force: vec![0.0; n],
+            led_whole: vec![0.0; (9 * n + columns).next_multiple_of(WIDE)],
+            absolute: vec![0.0; 2 * n],
+            force: vec![0.0; padded(n)],
             mass,
         };
         for length in lengths {
@@ -118,6 +141,8 @@ impl Building {
             if !steps.iter().all(finite) {
                 return None;
             }
+            let whole = this.whole(&steps[0], *length, &derive);
+            this.whole.push(whole);
             this.steps.push(steps);
         }
         Some(this)
@@ -193,37 +218,16 @@ impl Building {
     pub(super) fn advance(
         &mut self,
         (system, segment): (&System, &Segment),
-        (tau, h, which, halvings): (f64, f64, usize, usize),
-        (state, dofs): (&[f64], usize),
+        place: (f64, f64, usize, usize),
+        state: (&[f64], usize),
         (index, ends): (usize, &mut Ends),
     ) {
-        let (n, columns) = (self.dofs.len(), self.start.len());
-        let step = &self.steps[which][halvings];
-        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        let n = self.dofs.len();
+        let instants = self.lead((system, segment), place, state, ends);
         for (k, i) in self.dofs.iter().enumerate() {
-            self.start[k] = state[*i];
-            self.start[n + k] = state[dofs + *i];
-        }
-        for (k, i) in self.loads.iter().enumerate() {
-            let place = 2 * n + 2 * k;
-            let slope = system.load_slope_on(*i, segment);
-            self.start[place] = system.load_on(*i, instants[0]);
-            self.end[place] = system.load_on(*i, instants[1]);
-            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
-        }
-        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
-        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
-        let weighed = self.led[3 * n..][..columns].iter().zip(&self.start);
-        ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
-        let (start, end) = (&self.start, &self.end);
-        for (k, i) in self.dofs.iter().enumerate() {
-            let load = 2 * n + 2 * self.load_of[k];
-            let moved =
-                end[k] * end[load] - start[k] * start[load] - start[load + 1] * self.led[2 * n + k];
-            ends.input -= self.mass[k] * moved;
             for order in 0..2 {
-                ends.start[order][*i] = start[order * n + k];
-                ends.end[order][*i] = end[order * n + k];
+                ends.start[order][*i] = self.start[order * n + k];
+                ends.end[order][*i] = self.end[order * n + k];
             }
         }
         let rows = self.derived.len();
@@ -245,6 +249,167 @@ impl Building {
         }
     }
 
+    /// Rows for whole intervals of this length (s).
+    fn whole(&self, step: &Step, length: f64, derive: &DMatrix<f64>) -> Vec<f64> {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let (led, rows) = (3 * n + columns, self.led_whole.len());
+        let stride = self.led.len();
+        let moved = DMatrix::from_fn(columns, columns, |i, j| {
+            if i < 2 * n {
+                return step.rows[j * stride + i];
+            }
+            let slope = (i - 2 * n).is_multiple_of(2) && j == i + 1;
+            f64::from(u8::from(i == j)) + if slope { length } else { 0.0 }
+        });
+        // The ground's acceleration is a part of the absolute one.
+        let mut absolute = derive.rows(0, 2 * n).into_owned();
+        for (k, load) in self.load_of.iter().enumerate() {
+            absolute[(k, 2 * n + 2 * load)] += 1.0;
+            absolute[(n + k, 2 * n + 2 * load + 1)] += 1.0;
+        }
+        let absolute = absolute * moved;
+        let squared = [(2, true), (FIRST, false), (4, true), (FIRST + 1, false)];
+        let all = DMatrix::from_fn(rows, columns, |row, column| {
+            if row < led {
+                return step.rows[column * stride + row];
+            }
+            let (block, i) = ((row - led) / n, (row - led) % n);
+            match squared.get(block) {
+                Some((place, true)) => self.mass[i].sqrt() * derive[(place * n + i, column)],
+                Some((place, false)) => derive[(place * n + i, column)],
+                None if block < 6 => absolute[(row - led - 4 * n, column)],
+                None => 0.0,
+            }
+        });
+        all.as_slice().to_vec()
+    }
+
+    /// Leads the building over a whole interval, with bounds of orders 4 and 6 and no more of
+    /// the motion than [`Building::end_motion`] needs.
+    pub(super) fn advance_whole(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        which: usize,
+        state: (&[f64], usize),
+        (index, ends): (usize, &mut Ends),
+    ) {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let instants = [segment.ground(0.0), segment.ground(segment.length)];
+        self.begin_at((system, segment), instants, state);
+        let rows = self.led_whole.len();
+        multiply(&self.whole[which], rows, &self.start, &mut self.led_whole);
+        let (led, rest) = self.led_whole.split_at(3 * n + columns);
+        self.end[..2 * n].copy_from_slice(&led[..2 * n]);
+        let (squared, absolute) = rest.split_at(4 * n);
+        for (order, size) in [4, 6].into_iter().zip(squared.chunks_exact(2 * n)) {
+            ends.bounds[index][order] = norm(size);
+        }
+        self.absolute.copy_from_slice(&absolute[..2 * n]);
+        self.add_works(led, ends);
+        let [u, v, ..] = &mut ends.end;
+        let (displacement, velocity) = self.end[..2 * n].split_at(n);
+        let motion = displacement.iter().zip(velocity);
+        for ((displacement, velocity), i) in motion.zip(&self.dofs) {
+            (u[*i], v[*i]) = (*displacement, *velocity);
+        }
+    }
+
+    /// Takes a state as the end of a step, for [`Building::end_motion`].
+    pub(super) fn end_at(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        tau: f64,
+        (state, dofs): (&[f64], usize),
+    ) {
+        let (n, instant) = (self.dofs.len(), segment.ground(tau));
+        for (k, i) in self.dofs.iter().enumerate() {
+            self.end[k] = state[*i];
+            self.end[n + k] = state[dofs + *i];
+        }
+        for (k, i) in self.loads.iter().enumerate() {
+            self.end[2 * n + 2 * k] = system.load_on(*i, instant);
+            self.end[2 * n + 2 * k + 1] = system.load_slope_on(*i, segment);
+        }
+        let rows = self.derived.len();
+        let second = &mut self.derived[..padded(2 * n)];
+        multiply(&self.derive, rows, &self.end, second);
+        for (k, load) in self.load_of.iter().enumerate() {
+            self.absolute[k] = self.derived[k] + self.end[2 * n + 2 * load];
+            self.absolute[n + k] = self.derived[n + k] + self.end[2 * n + 2 * load + 1];
+        }
+    }
+
+    pub(super) fn end_motion(&self) -> EndMotion<'_> {
+        let n = self.dofs.len();
+        EndMotion {
+            displacement: &self.end[..n],
+            velocity: &self.end[n..2 * n],
+            acceleration: &self.absolute[..n],
+            acceleration_rate: &self.absolute[n..],
+        }
+    }
+
+    /// Whether forces push the building.
+    pub(super) fn is_pushed(&self) -> bool {
+        self.pushed
+    }
+
+    /// Leads displacements and velocities over a step, and adds the works. Returns the ground
+    /// at both ends.
+    fn lead(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        (tau, h, which, halvings): (f64, f64, usize, usize),
+        state: (&[f64], usize),
+        ends: &mut Ends,
+    ) -> [Grounds; 2] {
+        let n = self.dofs.len();
+        let instants = [segment.ground(tau), segment.ground(tau + h)];
+        self.begin_at((system, segment), instants, state);
+        let step = &self.steps[which][halvings];
+        multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
+        self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
+        self.add_works(&self.led, ends);
+        instants
+    }
+
+    /// Takes the state at the start of a step, and the loads at both ends.
+    fn begin_at(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        instants: [Grounds; 2],
+        (state, dofs): (&[f64], usize),
+    ) {
+        let n = self.dofs.len();
+        let (u, v) = self.start.split_at_mut(n);
+        for ((u, v), i) in u.iter_mut().zip(v).zip(&self.dofs) {
+            (*u, *v) = (state[*i], state[dofs + *i]);
+        }
+        for (k, i) in self.loads.iter().enumerate() {
+            let place = 2 * n + 2 * k;
+            let slope = system.load_slope_on(*i, segment);
+            self.start[place] = system.load_on(*i, instants[0]);
+            self.end[place] = system.load_on(*i, instants[1]);
+            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
+        }
+    }
+
+    /// Adds the works of a step that led to this.
+    fn add_works(&self, led: &[f64], ends: &mut Ends) {
+        let (n, columns) = (self.dofs.len(), self.start.len());
+        let weighed = led[3 * n..][..columns].iter().zip(&self.start);
+        ends.viscous += weighed.map(|(w, x)| w * x).sum::<f64>();
+        let (start, end) = (&self.start, &self.end);
+        let motion = start[..n].iter().zip(&end[..n]).zip(&led[2 * n..3 * n]);
+        let mut input = 0.0;
+        for ((((u, after), integral), mass), load) in motion.zip(&self.mass).zip(&self.load_of) {
+            let load = 2 * n + 2 * load;
+            let moved = after * end[load] - u * start[load] - start[load + 1] * integral;
+            input += mass * moved;
+        }
+        ends.input -= input;
+    }
+
     /// The derivative of this order at the start.
     fn derivative(&self, order: usize) -> &[f64] {
         let n = self.dofs.len();
@@ -260,6 +425,20 @@ impl Building {
         out: &mut [Vec<f64>; 2],
     ) {
         let n = self.dofs.len();
+        if !self.pushed {
+            // Loads are the ground's accelerations.
+            for load in 0..self.loads.len() {
+                let dof = self.loads[load];
+                let now = system.load_on(dof, ground);
+                let slope = system.load_slope_on(dof, segment);
+                let own = self.dofs.iter().zip(&self.load_of).enumerate();
+                for (k, (i, _)) in own.filter(|(_, (_, of))| **of == load) {
+                    out[0][*i] = self.derived[k] + now;
+                    out[1][*i] = self.derived[n + k] + slope;
+                }
+            }
+            return;
+        }
         for (k, i) in self.dofs.iter().enumerate() {
             out[0][*i] = self.derived[k] + system.ground_on(*i, ground);
             out[1][*i] = self.derived[n + k] + system.ground_slope_on(*i, segment);
@@ -278,7 +457,7 @@ impl Building {
         for order in BOUNDED {
             let mut force = std::mem::take(&mut self.force);
             let (y, x) = (self.derivative(order - 1), self.derivative(order));
-            multiply(&self.stiffness, n, y, &mut force);
+            multiply(&self.stiffness, force.len(), y, &mut force);
             let mut sum = 0.0;
             for i in 0..n {
                 sum += self.mass[i] * x[i] * x[i] + y[i] * force[i];
@@ -297,6 +476,19 @@ impl Building {
             }
         }
     }
+}
+
+/// Root of a sum of squares, in chains that do not wait for each other.
+fn norm(x: &[f64]) -> f64 {
+    let mut sums = [0.0; NARROW];
+    let blocks = x.chunks_exact(NARROW);
+    let rest: f64 = blocks.remainder().iter().map(|x| x * x).sum();
+    for block in blocks {
+        for (sum, x) in sums.iter_mut().zip(block) {
+            *sum += x * x;
+        }
+    }
+    (sums[0] + sums[1] + (sums[2] + sums[3]) + rest).sqrt()
 }
 
 /// Rows of the derivatives of order two and more.

@@ -1,8 +1,10 @@
 //! Taylor series of all buildings together with closed contacts whose laws are affine, over
 //! steps of several radians of the fastest mode.
 
+use multiversion::multiversion;
+
 use super::building::Building;
-use super::{BOUNDED, Ends, ORDERS, accumulate, multiply};
+use super::{BOUNDED, Ends, NARROW, ORDERS, add_product, multiply, padded};
 use crate::contact::Contacts;
 use crate::dynamics::Segment;
 use crate::system::System;
@@ -40,17 +42,25 @@ pub(crate) struct AffineContact {
 /// A coordinate that a level weighs.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
+    dof: usize,
     place: usize,
     weight: f64,
     /// Acceleration (1/kg) by a unit force; zero for displacements of the ground.
     push: f64,
 }
 
+/// Values of the terms of one function.
+pub(crate) type SeriesTerms = [f64; MOST + 1];
+
 /// The series with its work space. Coordinates stand building after building, then
-/// displacements of the ground.
+/// displacements of the ground, each filled up with zeros to whole blocks of rows.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactSeries {
-    dofs: Vec<usize>,
+    /// Places with their degrees of freedom, and the number of all places.
+    dofs: Vec<(usize, usize)>,
+    places: usize,
+    /// Place of every degree of freedom.
+    place_of: Vec<usize>,
     /// Entries of all levels, and of the ground alone.
     rows: Vec<Vec<Entry>>,
     moves_ground: Vec<bool>,
@@ -59,6 +69,8 @@ pub(crate) struct ContactSeries {
     fastest: f64,
     length: f64,
     last: usize,
+    /// Whether both ends have been worked out since the motion was expanded.
+    led: bool,
     /// Terms of displacements and velocities in the time over the length.
     displacement: Vec<f64>,
     velocity: Vec<f64>,
@@ -74,12 +86,21 @@ pub(crate) struct ContactSeries {
 
 impl ContactSeries {
     pub(super) fn new(system: &System, buildings: &[Building]) -> Self {
-        let mut dofs: Vec<usize> = buildings.iter().flat_map(|b| b.dofs.clone()).collect();
-        dofs.extend(system.with_mass()..system.degrees_of_freedom());
-        let n = dofs.len();
+        let (mut dofs, mut first) = (Vec::new(), 0);
+        let moving: Vec<usize> = (system.with_mass()..system.degrees_of_freedom()).collect();
+        for own in buildings.iter().map(|b| &b.dofs).chain([&moving]) {
+            dofs.extend(own.iter().enumerate().map(|(k, i)| (first + k, *i)));
+            first += padded(own.len());
+        }
+        let n = first;
+        let mut place_of = vec![0; dofs.len()];
+        for (place, dof) in &dofs {
+            place_of[*dof] = *place;
+        }
         let mass = system.mass();
         let entry = |dof: usize, weight: f64, moves: bool| Entry {
-            place: dofs.iter().position(|d| *d == dof).unwrap_or(0),
+            dof,
+            place: place_of[dof],
             weight,
             push: if moves { weight / mass[dof] } else { 0.0 },
         };
@@ -101,6 +122,7 @@ impl ContactSeries {
             fastest: crate::rates::fastest_rate(system.buildings()),
             length: 0.0,
             last: 0,
+            led: false,
             displacement: vec![0.0; (MOST + 1) * n],
             velocity: vec![0.0; (MOST + 1) * n],
             factors: vec![0.0; MOST + 1],
@@ -110,6 +132,8 @@ impl ContactSeries {
             derived: vec![0.0; BOUNDED.end * n],
             force: vec![0.0; n],
             dofs,
+            places: n,
+            place_of,
         }
     }
 
@@ -165,33 +189,30 @@ impl ContactSeries {
         state: &[f64],
         length: f64,
     ) -> bool {
-        let n = self.dofs.len();
+        let (n, all) = (self.places, self.dofs.len());
         self.length = length;
-        for (k, i) in self.dofs.iter().enumerate() {
-            self.displacement[k] = state[*i];
-            self.velocity[k] = state[n + *i];
+        self.led = false;
+        for (k, i) in &self.dofs {
+            self.displacement[*k] = state[*i];
+            self.velocity[*k] = state[all + *i];
         }
         let at = segment.ground(tau);
         for k in 1..=MOST {
-            self.accelerate(buildings, k);
+            let (u, u_next) = self.displacement[(k - 1) * n..(k + 1) * n].split_at_mut(n);
+            let (v, v_next) = self.velocity[(k - 1) * n..(k + 1) * n].split_at_mut(n);
+            let contacts = (self.contacts.as_slice(), self.rows.as_slice());
+            accelerate(buildings, contacts, k, (u, v), &mut self.acceleration);
             if k <= 2 {
-                for (a, i) in self.acceleration.iter_mut().zip(&self.dofs) {
-                    *a -= match k {
+                for (place, i) in &self.dofs {
+                    self.acceleration[*place] -= match k {
                         1 => system.load_on(*i, at),
                         _ => length * system.load_slope_on(*i, segment),
                     };
                 }
             }
-            let (scale, now) = (length / k as f64, k * n);
-            let (mut farthest, mut fastest) = (0.0_f64, 0.0_f64);
-            for i in 0..n {
-                let (u, v) = (
-                    scale * self.velocity[now - n + i],
-                    scale * self.acceleration[i],
-                );
-                (self.displacement[now + i], self.velocity[now + i]) = (u, v);
-                (farthest, fastest) = (farthest.max(u.abs()), fastest.max(v.abs()));
-            }
+            let scale = length / k as f64;
+            let terms = (u_next, v_next);
+            let (farthest, fastest) = next_terms(scale, v, &self.acceleration, terms);
             if k >= FEWEST && farthest < NEGLIGIBLE.0 && fastest < NEGLIGIBLE.1 {
                 self.last = k;
                 return true;
@@ -200,40 +221,47 @@ impl ContactSeries {
         false
     }
 
-    /// Accelerations by term `k - 1` of the motion, without those of the ground.
-    fn accelerate(&mut self, buildings: &[Building], k: usize) {
-        let n = self.dofs.len();
-        let range = (k - 1) * n..k * n;
-        let (u, v) = (&self.displacement[range.clone()], &self.velocity[range]);
-        self.acceleration.fill(0.0);
-        let mut first = 0;
-        for building in buildings {
-            let count = building.dofs.len();
-            let own = first..first + count;
-            let out = &mut self.acceleration[own.clone()];
-            let [by_displacement, by_velocity] = &building.restoring;
-            accumulate(by_displacement, count, &u[own.clone()], out);
-            accumulate(by_velocity, count, &v[own], out);
-            first += count;
-        }
-        for contact in &self.contacts {
-            let row = &self.rows[contact.level];
-            let (mut delta, mut rate) = (0.0, 0.0);
-            for entry in row {
-                delta += entry.weight * u[entry.place];
-                rate += entry.weight * v[entry.place];
-            }
-            let constant = if k == 1 { contact.at_rest } else { 0.0 };
-            let force = constant + contact.stiffness * delta + contact.dashpot * rate;
-            for entry in row {
-                self.acceleration[entry.place] -= entry.push * force;
+    /// Terms of a sum over degrees of freedom, or of its second derivative.
+    pub(crate) fn terms_of(
+        &self,
+        terms: impl Iterator<Item = (usize, f64)>,
+        accelerations: bool,
+    ) -> SeriesTerms {
+        let (n, mut out) = (self.places, [0.0; MOST + 1]);
+        for (dof, weight) in terms {
+            let place = self.place_of[dof];
+            let last = self.last;
+            if accelerations {
+                for (k, out) in out[..last].iter_mut().enumerate() {
+                    *out += weight * self.velocity[(k + 1) * n + place];
+                }
+            } else {
+                for (k, out) in out[..=last].iter_mut().enumerate() {
+                    *out += weight * self.displacement[k * n + place];
+                }
             }
         }
+        if accelerations {
+            for (k, out) in out[..self.last].iter_mut().enumerate() {
+                *out *= (k + 1) as f64 / self.length;
+            }
+        }
+        out
+    }
+
+    /// Terms of the force of a closed contact (N).
+    pub(crate) fn force_of(&self, law: &AffineContact) -> SeriesTerms {
+        let (mut force, rate) = self.closing(law.level, 0.0);
+        for (force, rate) in force.iter_mut().zip(rate) {
+            *force = law.stiffness * *force + law.dashpot * rate;
+        }
+        force[0] += law.at_rest;
+        force
     }
 
     /// Terms of the closing (m) of a level over its width, and of its rate (m/s).
-    pub(crate) fn closing(&self, level: usize, width: f64) -> ([f64; MOST + 1], [f64; MOST + 1]) {
-        let n = self.dofs.len();
+    pub(crate) fn closing(&self, level: usize, width: f64) -> (SeriesTerms, SeriesTerms) {
+        let n = self.places;
         let (mut delta, mut rate) = ([0.0; MOST + 1], [0.0; MOST + 1]);
         for k in 0..=self.last {
             for entry in &self.rows[level] {
@@ -252,7 +280,7 @@ impl ContactSeries {
 
     /// Cuts the step at this part of it.
     pub(crate) fn cut(&mut self, theta: f64) {
-        let n = self.dofs.len();
+        let n = self.places;
         let mut factor = 1.0;
         for k in 1..=self.last {
             factor *= theta;
@@ -272,8 +300,40 @@ impl ContactSeries {
         (segment, tau): (&Segment, f64),
         ends: &mut Ends,
     ) {
-        let (n, h) = (self.dofs.len(), self.length);
+        let h = self.length;
         ends.length = h;
+        // A step that is cut begins as it did, and what bounds it there still does.
+        let cut = std::mem::replace(&mut self.led, true);
+        let with_start = !cut || self.is_grounded();
+        if with_start {
+            self.derive_start();
+        }
+        self.hand_out(0..4, with_start, ends);
+        let ends_of_step = [
+            (tau, &ends.start, &mut ends.absolute_start),
+            (tau + h, &ends.end, &mut ends.absolute_end),
+        ];
+        let wanted = if with_start { 0 } else { 1 };
+        for (at, relative, absolute) in ends_of_step.into_iter().skip(wanted) {
+            let ground = segment.ground(at);
+            for (_, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
+                absolute[0][*i] = relative[2][*i] + system.ground_on(*i, ground);
+                absolute[1][*i] = relative[3][*i] + system.ground_slope_on(*i, segment);
+            }
+        }
+        if with_start {
+            self.bound(buildings, BOUNDED.start..7, ends);
+        }
+    }
+
+    /// Whether ground that moves by itself pushes a contact.
+    fn is_grounded(&self) -> bool {
+        self.contacts.iter().any(|c| self.moves_ground[c.level])
+    }
+
+    /// Derivatives at the start.
+    fn derive_start(&mut self) {
+        let (n, h) = (self.places, self.length);
         let mut factor = 1.0;
         self.derived[..n].copy_from_slice(&self.displacement[..n]);
         for order in 1..BOUNDED.end {
@@ -282,29 +342,18 @@ impl ContactSeries {
             }
             factor *= order as f64 / h;
         }
-        self.hand_out(0..4, ends);
-        for (at, relative, absolute) in [
-            (tau, &ends.start, &mut ends.absolute_start),
-            (tau + h, &ends.end, &mut ends.absolute_end),
-        ] {
-            let ground = segment.ground(at);
-            for i in self.dofs.iter().filter(|i| **i < system.with_mass()) {
-                absolute[0][*i] = relative[2][*i] + system.ground_on(*i, ground);
-                absolute[1][*i] = relative[3][*i] + system.ground_slope_on(*i, segment);
-            }
-        }
-        self.bound(buildings, BOUNDED.start..7, ends);
     }
 
     /// Works out the other derivatives and bounds.
     pub(super) fn deepen(&mut self, buildings: &[Building], ends: &mut Ends) {
-        self.hand_out(4..ORDERS, ends);
+        self.hand_out(4..ORDERS, true, ends);
         self.bound(buildings, 7..BOUNDED.end, ends);
     }
 
-    /// Gives the derivatives of these orders to the degrees of freedom.
-    fn hand_out(&mut self, orders: std::ops::Range<usize>, ends: &mut Ends) {
-        let (n, h) = (self.dofs.len(), self.length);
+    /// Gives the derivatives of these orders to the degrees of freedom, at the end and, if
+    /// asked for, at the start.
+    fn hand_out(&mut self, orders: std::ops::Range<usize>, with_start: bool, ends: &mut Ends) {
+        let (n, h) = (self.places, self.length);
         for order in orders {
             let (terms, lower) = match order {
                 0 => (&self.displacement, 0),
@@ -316,17 +365,21 @@ impl ContactSeries {
                 *factor = scale * falling.product::<f64>();
             }
             multiply(terms, n, &self.factors[..=self.last], &mut self.sum);
-            let start = &self.derived[order * n..][..n];
-            for (k, i) in self.dofs.iter().enumerate() {
-                ends.start[order][*i] = start[k];
-                ends.end[order][*i] = self.sum[k];
+            for (k, i) in &self.dofs {
+                ends.end[order][*i] = self.sum[*k];
+            }
+            if with_start {
+                let start = &self.derived[order * n..][..n];
+                for (k, i) in &self.dofs {
+                    ends.start[order][*i] = start[*k];
+                }
             }
         }
     }
 
     /// Bounds of the derivatives of these orders.
     fn bound(&mut self, buildings: &[Building], orders: std::ops::Range<usize>, ends: &mut Ends) {
-        let grounded = self.contacts.iter().any(|c| self.moves_ground[c.level]);
+        let grounded = self.is_grounded();
         for order in orders.rev() {
             let (kinetic, strain) = self.energies(buildings, order);
             let bound = if grounded && order == BOUNDED.start {
@@ -343,20 +396,21 @@ impl ContactSeries {
 
     /// `x' M x` of the derivative of this order and `y' K y` of the one before, at the start.
     fn energies(&mut self, buildings: &[Building], order: usize) -> (f64, f64) {
-        let n = self.dofs.len();
+        let n = self.places;
         let y = &self.derived[(order - 1) * n..order * n];
         let x = &self.derived[order * n..(order + 1) * n];
         let (mut kinetic, mut strain) = (0.0, 0.0);
         let mut first = 0;
         for building in buildings {
             let count = building.dofs.len();
-            let force = &mut self.force[..count];
-            multiply(&building.stiffness, count, &y[first..first + count], force);
+            let rows = padded(count);
+            let force = &mut self.force[..rows];
+            multiply(&building.stiffness, rows, &y[first..first + count], force);
             for i in 0..count {
                 kinetic += building.mass[i] * x[first + i] * x[first + i];
                 strain += y[first + i] * force[i];
             }
-            first += count;
+            first += rows;
         }
         for contact in &self.contacts {
             let row = self.rows[contact.level].iter();
@@ -373,7 +427,7 @@ impl ContactSeries {
         (segment, tau): (&Segment, f64),
         ends: &mut Ends,
     ) {
-        let (n, h) = (self.dofs.len(), self.length);
+        let (n, h) = (self.places, self.length);
         (ends.input, ends.viscous) = (0.0, 0.0);
         for (k, factor) in self.factors[..=self.last].iter_mut().enumerate() {
             *factor = h / (k as f64 + 1.0);
@@ -381,20 +435,19 @@ impl ContactSeries {
         let integral = &mut self.sum;
         multiply(&self.displacement, n, &self.factors[..=self.last], integral);
         let instants = [segment.ground(tau), segment.ground(tau + h)];
-        for (k, i) in self.dofs.iter().enumerate() {
+        for (k, i) in &self.dofs {
             if *i >= system.with_mass() {
                 continue;
             }
             let [a, b] = instants.map(|at| system.load_on(*i, at));
             let slope = system.load_slope_on(*i, segment);
-            let moved = ends.end[0][*i] * b - ends.start[0][*i] * a - slope * integral[k];
+            let moved = ends.end[0][*i] * b - ends.start[0][*i] * a - slope * integral[*k];
             ends.input -= system.mass()[*i] * moved;
         }
         let mut contacts = std::mem::take(&mut self.contacts);
         for contact in &mut contacts {
             let row = &self.rows[contact.level];
-            let sum =
-                |of: &[f64]| -> f64 { row.iter().map(|e| e.weight * of[self.dofs[e.place]]).sum() };
+            let sum = |of: &[f64]| -> f64 { row.iter().map(|e| e.weight * of[e.dof]).sum() };
             let [before, after] = [sum(&ends.start[0]), sum(&ends.end[0])];
             let held: f64 = row.iter().map(|e| e.weight * self.sum[e.place]).sum();
             let change = after - before;
@@ -419,13 +472,13 @@ impl ContactSeries {
                 let (u, v) = self.both.split_at(n);
                 let mut first = 0;
                 for building in buildings {
-                    let count = building.dofs.len();
-                    let v = &v[first..first + count];
-                    let force = &mut self.force[..count];
-                    multiply(&building.damping, count, v, force);
+                    let rows = padded(building.dofs.len());
+                    let v = &v[first..first + building.dofs.len()];
+                    let force = &mut self.force[..rows];
+                    multiply(&building.damping, rows, v, force);
                     let power: f64 = v.iter().zip(&*force).map(|(v, f)| v * f).sum();
                     ends.viscous += weight * power;
-                    first += count;
+                    first += rows;
                 }
                 for contact in &mut contacts {
                     let row = &self.rows[contact.level];
@@ -444,4 +497,74 @@ impl ContactSeries {
         }
         self.contacts = contacts;
     }
+}
+
+/// Accelerations by term `k - 1` of the motion, without those of the ground.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn accelerate(
+    buildings: &[Building],
+    (contacts, rows): (&[AffineContact], &[Vec<Entry>]),
+    k: usize,
+    (u, v): (&[f64], &[f64]),
+    acceleration: &mut [f64],
+) {
+    acceleration.fill(0.0);
+    let mut first = 0;
+    for building in buildings {
+        let (count, rows) = (building.dofs.len(), padded(building.dofs.len()));
+        let out = &mut acceleration[first..first + rows];
+        let own = first..first + count;
+        let [by_displacement, by_velocity] = &building.restoring;
+        add_product(by_displacement, rows, &u[own.clone()], out);
+        add_product(by_velocity, rows, &v[own], out);
+        first += rows;
+    }
+    for contact in contacts {
+        let row = &rows[contact.level];
+        let (mut delta, mut rate) = (0.0, 0.0);
+        for entry in row {
+            delta += entry.weight * u[entry.place];
+            rate += entry.weight * v[entry.place];
+        }
+        let constant = if k == 1 { contact.at_rest } else { 0.0 };
+        let force = constant + contact.stiffness * delta + contact.dashpot * rate;
+        for entry in row {
+            acceleration[entry.place] -= entry.push * force;
+        }
+    }
+}
+
+/// The next terms of displacements and velocities, and the largest of each.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn next_terms(
+    scale: f64,
+    velocity: &[f64],
+    acceleration: &[f64],
+    (u, v): (&mut [f64], &mut [f64]),
+) -> (f64, f64) {
+    let mut largest = [[0.0_f64; NARROW]; 2];
+    let before = velocity.chunks_exact(NARROW);
+    let before = before.zip(acceleration.chunks_exact(NARROW));
+    let next = u.chunks_exact_mut(NARROW).zip(v.chunks_exact_mut(NARROW));
+    for ((velocity, acceleration), (u, v)) in before.zip(next) {
+        for i in 0..NARROW {
+            (u[i], v[i]) = (scale * velocity[i], scale * acceleration[i]);
+            let sizes = [u[i].abs(), v[i].abs()];
+            for (largest, size) in largest.iter_mut().zip(sizes) {
+                largest[i] = if size > largest[i] { size } else { largest[i] };
+            }
+        }
+    }
+    let [u, v] = largest.map(|x| x[0].max(x[1]).max(x[2].max(x[3])));
+    (u, v)
 }

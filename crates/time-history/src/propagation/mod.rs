@@ -22,7 +22,8 @@ use multiversion::multiversion;
 use crate::dynamics::Segment;
 use crate::system::System;
 use building::Building;
-pub(crate) use contact_series::{AffineContact, ContactSeries};
+pub(crate) use building::EndMotion;
+pub(crate) use contact_series::{AffineContact, ContactSeries, SeriesTerms};
 
 /// Lengths of intervals for which matrices are kept.
 const LENGTHS: usize = 4;
@@ -145,6 +146,49 @@ impl Propagation {
         ground((system, segment), (tau, h), state, ends);
     }
 
+    /// Leads the state over a whole interval, with nothing but its end in [`Ends::end`] up to
+    /// the velocities, works, and bounds of orders 4 and 6.
+    pub(crate) fn advance_whole(
+        &mut self,
+        (system, segment): (&System, &Segment),
+        which: usize,
+        state: &[f64],
+    ) {
+        let n = system.degrees_of_freedom();
+        self.by_series = false;
+        let ends = &mut self.ends;
+        ends.length = segment.length;
+        (ends.input, ends.viscous) = (0.0, 0.0);
+        for (index, building) in self.buildings.iter_mut().enumerate() {
+            building.advance_whole((system, segment), which, (state, n), (index, ends));
+        }
+        ground((system, segment), (0.0, segment.length), state, ends);
+    }
+
+    /// Takes a state at the start of an interval for [`Propagation::end_motion`].
+    pub(crate) fn end_at(&mut self, (system, segment): (&System, &Segment), state: &[f64]) {
+        let n = system.degrees_of_freedom();
+        for building in &mut self.buildings {
+            building.end_at((system, segment), 0.0, (state, n));
+        }
+    }
+
+    /// The motion of a building at the end of the last whole interval, or where
+    /// [`Propagation::end_at`] was.
+    pub(crate) fn end_motion(&self, building: usize) -> EndMotion<'_> {
+        self.buildings[building].end_motion()
+    }
+
+    /// Whether the last step was one by a series.
+    pub(crate) fn is_by_series(&self) -> bool {
+        self.by_series
+    }
+
+    /// Whether forces push a building: its loads are then not its ground's accelerations.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.buildings.iter().any(Building::is_pushed)
+    }
+
     /// Works out what the last step left: derivatives of order 4 and 5 at both ends, and the
     /// other bounds; without contact those of the buildings that are asked for alone.
     pub(crate) fn deepen(&mut self, series: &mut ContactSeries, of: impl Fn(usize) -> bool) {
@@ -234,6 +278,7 @@ fn lengths(system: &System) -> Vec<f64> {
 }
 
 /// Rows that are summed side by side; outputs of a multiple of the least one need no others.
+const WIDEST: usize = 32;
 const WIDE: usize = 16;
 const MIDDLE: usize = 8;
 const NARROW: usize = 4;
@@ -270,8 +315,18 @@ pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) 
     "aarch64+neon"
 ))]
 fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    add_product(matrix, rows, x, out);
+}
+
+/// The same for callers that are compiled for several instruction sets themselves.
+#[inline(always)]
+fn add_product(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
     let mut first = 0;
-    while first + WIDE <= out.len() {
+    while first + WIDEST <= out.len() {
+        block::<WIDEST>(matrix, (rows, first), x, out);
+        first += WIDEST;
+    }
+    if first + WIDE <= out.len() {
         block::<WIDE>(matrix, (rows, first), x, out);
         first += WIDE;
     }

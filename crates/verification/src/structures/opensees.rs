@@ -170,7 +170,7 @@ pub(super) fn opensees() -> Result<Part, VerificationError> {
         comparisons: vec![of_peaks(peaks), of_steps(steps)],
         findings: [
             "Inputs are the case files in crates/verification/cases/opensees: 25 t (0.6 s) beside 60 t (0.35 s), 10 mm apart; three storeys of 25 t and 3.46 MN/m beside three of 1000 t and 2215 MN/m, 20 mm apart, elastic and with storeys that yield at 137 kN; 5 % damping in the first mode.",
-            "Hertzdamp and JankowskiImpact take the approach velocity at the end of the first step inside the gap, so one step late; ours is that of the located closure. The difference is of first order in the step and vanishes with it.",
+            "Hertzdamp takes the approach velocity at the end of the first step inside the gap, so one step late; ours is that of the located closure. The dashpots of JankowskiImpact and ViscoelasticGap act from the first such step on, not from the closure. Both are of first order in the step and vanish with it.",
             "ImpactMaterial adds increments to its last state: travel outside the gap in the step that closes it counts as penetration, up to its stiffness times the overshoot, by design. That too is of first order in the step. Forces here follow from the penetration alone.",
             "ViscoelasticGap has neither a tangent of its dashpot nor a located closure: with steps of 1 ms 7905 of 12 000 do not converge in the three-storey pair and its peaks mean nothing; with 0.1 ms all do.",
         ]

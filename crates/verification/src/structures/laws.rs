@@ -21,33 +21,53 @@ const YIELDING: [(&str, f64); 3] = [
     ("hardening_ratio", 0.05),
 ];
 
-/// Laws, what else they need, and the difference over the yield force that is allowed (-).
-const LAWS: [(&str, &[(&str, f64)], bool, f64); 5] = [
-    ("bilinear", &[], true, 1.0e-12),
-    (
-        "menegotto_pinto_1973",
-        &[
+/// A law beside its material.
+struct Compared {
+    law: &'static str,
+    /// Parameters beside [`YIELDING`].
+    more: &'static [(&'static str, f64)],
+    /// Whether it takes [`YIELDING`].
+    yields: bool,
+    /// Difference over the yield force that is allowed (-).
+    tolerance: f64,
+}
+
+const LAWS: [Compared; 5] = [
+    Compared {
+        law: "bilinear",
+        more: &[],
+        yields: true,
+        tolerance: 1.0e-12,
+    },
+    Compared {
+        law: "menegotto_pinto_1973",
+        more: &[
             ("curvature", 20.0),
             ("curvature_loss", 0.925),
             ("curvature_excursion", 0.15),
         ],
-        true,
-        1.0e-12,
-    ),
+        yields: true,
+        tolerance: 1.0e-12,
+    },
     // Theirs is an implicit rule of first order: its own error at steps of 2 um.
-    (
-        "bouc_wen",
-        &[("exponent", 1.0), ("beta", 0.5), ("gamma", 0.5)],
-        true,
-        1.0e-4,
-    ),
-    ("elastoplastic_gap", &[("gap", 0.012)], true, 1.0e-12),
-    (
-        "gap_hook",
-        &[("compression_stiffness", 2.0e7), ("compression_gap", 0.012)],
-        false,
-        1.0e-12,
-    ),
+    Compared {
+        law: "bouc_wen",
+        more: &[("exponent", 1.0), ("beta", 0.5), ("gamma", 0.5)],
+        yields: true,
+        tolerance: 1.0e-4,
+    },
+    Compared {
+        law: "elastoplastic_gap",
+        more: &[("gap", 0.012)],
+        yields: true,
+        tolerance: 1.0e-12,
+    },
+    Compared {
+        law: "gap_hook",
+        more: &[("compression_stiffness", 2.0e7), ("compression_gap", 0.012)],
+        yields: false,
+        tolerance: 1.0e-12,
+    },
 ];
 
 /// Laws of storeys and links beside materials of OpenSees.
@@ -68,7 +88,13 @@ pub(super) fn laws() -> Result<Part, VerificationError> {
 fn along_the_path() -> Result<Comparison, VerificationError> {
     let rows = rows::<4>(FILE, TABLE)?;
     let mut lines = Vec::new();
-    for (name, more, yields, tolerance) in LAWS {
+    for compared in LAWS {
+        let Compared {
+            law: name,
+            more,
+            yields,
+            tolerance,
+        } = compared;
         let of_law = rows.iter().filter(|row| row.cells[0] == name);
         let (mut path, mut theirs, mut material) = (Vec::new(), Vec::new(), String::new());
         let mut from = 0.0;

@@ -66,7 +66,7 @@ fn every_case_is_printed_and_comes_out_as_said() {
     // One of each: theirs and ours in full.
     let line = &parts[1]["comparisons"][0]["lines"][1];
     assert_eq!(line["theirs"], 9950.0);
-    assert!((line["ours"].as_f64().unwrap() - 9950.272_843).abs() < 1e-5);
+    assert!((line["ours"].as_f64().unwrap() - 9_950.272_843).abs() < 1e-5);
     assert_eq!(line["verdict"], "reproduced");
     let one = json("structures --source siconos");
     assert_eq!(one["parts"].as_array().unwrap().len(), 1);

@@ -154,3 +154,40 @@ fn every_model_closes_the_ledger_on_the_reference_buildings() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     assert!(runs > 160, "{runs}");
 }
+
+/// Friction of 1 and above in the contact: floors that are held together, and part where the rest of
+/// the building pulls harder. The event-driven method against the adaptive pair.
+#[test]
+fn plastic_friction_by_two_methods() {
+    let cases = reference_cases().unwrap();
+    for (friction, exponent, stiffness) in [
+        (1.0, 1.0, 9.35e7),
+        (1.0, 1.5, 2.75e9),
+        (1.5, 1.0, 9.35e7),
+        (3.0, 1.5, 2.75e9),
+    ] {
+        let pairs = [
+            ("stiffness", stiffness),
+            ("friction", friction),
+            ("exponent", exponent),
+        ];
+        let law = registry::build("borovin_2014", &ModelParameters::from_pairs(&pairs)).unwrap();
+        let law: Arc<dyn ImpactModel> = law.into();
+        let by = |method| {
+            let ground = synthetic_motion().unwrap();
+            let case = &cases.cases["C2"];
+            let system = reference_system_with(case, &|_| Ok(Arc::clone(&law)), ground, 1.0);
+            go(&system.unwrap(), method).unwrap()
+        };
+        let (ours, pair) = (by(RunOptions::default().method), by(ADAPTIVE));
+        let what = format!("D = {friction}, n = {exponent}");
+        assert!(ours.energy.residual_ratio < 1e-8, "{what}");
+        let levels = ours.gaps[0].levels.iter().zip(&pair.gaps[0].levels);
+        for (a, b) in levels {
+            assert_eq!((a.impacts, a.sticks), (b.impacts, b.sticks), "{what}");
+            let (a, b) = (a.peak_force.value, b.peak_force.value);
+            assert!((a - b).abs() <= 1e-6 * b, "{what}: {a} {b}");
+        }
+        assert!(ours.gaps[0].levels.iter().any(|l| l.sticks > 0), "{what}");
+    }
+}

@@ -233,6 +233,15 @@ impl From<VerificationError> for Failure {
             VerificationError::Stiffness(error) => error.into(),
             VerificationError::Calibration(error) => error.into(),
             VerificationError::Law(error) => error.into(),
+            VerificationError::Entered(error) => {
+                let help = error.help.clone();
+                Self::input(error.to_string(), Some(help))
+            }
+            VerificationError::Case { error, text } => match *error {
+                AssemblyError::System(error) => error.into(),
+                error => Self::assembly(error, &text),
+            },
+            VerificationError::GroundMotion(error) => error.into(),
             error => Self::input(error.to_string(), None),
         }
     }

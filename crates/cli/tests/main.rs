@@ -32,5 +32,6 @@ mod studies;
 mod support;
 mod tables;
 mod verify;
+mod verify_structures;
 mod widths;
 mod yielding_examples;

@@ -197,11 +197,8 @@ pub(crate) const DAMPING_FACTOR: ParameterDescriptor = ParameterDescriptor {
 };
 
 /// Friction factor of a model with dry friction.
-pub(crate) const FRICTION: ParameterDescriptor = ParameterDescriptor {
-    maximum: (1.0, false),
-    ..optional_non_negative(
-        "friction",
-        ParameterUnit::One,
-        "Friction factor D, instead of restitution",
-    )
-};
+pub(crate) const FRICTION: ParameterDescriptor = optional_non_negative(
+    "friction",
+    ParameterUnit::One,
+    "Friction factor D, instead of restitution; 1 and above is a plastic impact",
+);

@@ -6,8 +6,8 @@
 
 use pounding_gap_element::published::{borovin_2014, papi_toopchi_2022, restitution, zhou_2012};
 use pounding_gap_element::{
-    Bodies, CollisionOptions, REQUESTED, SeparationRule, mean_error_percent, registry,
-    restitution_table,
+    Bodies, CollisionOptions, ModelParameters, REQUESTED, SeparationRule, collide,
+    mean_error_percent, registry, restitution_table,
 };
 
 fn close(what: &str, value: f64, expected: f64, relative: f64) {
@@ -256,4 +256,92 @@ fn every_law_that_takes_a_restitution_returns_its_reference_row() {
         }
     }
     assert_eq!(REQUESTED.len(), 10);
+}
+
+/// Friction of 1 and above holds what the spring pushes: nothing comes back, all is lost, and the
+/// penetration is that of `(1 + D)` times the spring's work.
+#[test]
+fn friction_of_one_is_a_plastic_impact() {
+    for (name, more) in [("borovin_2014", None), ("lapshin_yurin_2016", Some(0.3))] {
+        for (friction, exponent) in [(1.0, 1.5), (1.5, 1.0), (4.0, 1.5_f64)] {
+            let mut pairs = vec![
+                ("stiffness", 2.0e6),
+                ("friction", friction),
+                ("exponent", exponent),
+            ];
+            pairs.extend(more.map(|rate| ("damping_rate", rate)));
+            let model = registry::build(name, &ModelParameters::from_pairs(&pairs)).unwrap();
+            let bodies = Bodies {
+                mass_left: 0.1,
+                mass_right: Some(0.3),
+                velocity_left: 2.0,
+                velocity_right: -1.0,
+            };
+            let out = collide(model.as_ref(), &bodies).unwrap();
+            assert_eq!(out.restitution, 0.0, "{name} {friction}");
+            assert!(out.stays_in_contact);
+            let energy: f64 = 0.5 * 0.075 * 9.0;
+            assert!((out.energy_dissipated / energy - 1.0).abs() < 1e-12);
+            let form = model.closed_form(3.0, 0.075).unwrap();
+            assert_eq!((form.restitution, form.duration), (0.0, None));
+            assert!((out.peak_penetration / form.peak_penetration.unwrap() - 1.0).abs() < 1e-9);
+            if more.is_none() {
+                let by_hand = ((exponent + 1.0) * energy / (2.0e6 * (1.0 + friction)))
+                    .powf(1.0 / (exponent + 1.0));
+                assert!((out.peak_penetration / by_hand - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+/// A spring as a table: energy to the turning point by hand, and tables that are none.
+#[test]
+fn dry_friction_about_a_table() {
+    // 10 N at 0.5 mm, 50 N at 1 mm: 2.5 mJ, then 15 mJ more. With (1 + D) = 1.3 and 10 mJ in all, the
+    // turning point lies on the second line of 80 N/mm.
+    let model = borovin_2014::about_table(&[(5.0e-4, 10.0), (1.0e-3, 50.0)], 0.3).unwrap();
+    let form = model.closed_form(1.0, 0.02).unwrap();
+    let rest: f64 = 0.01 / 1.3 - 2.5e-3;
+    let way = (-10.0 + (100.0 + 2.0 * 80.0e3 * rest).sqrt()) / 80.0e3;
+    assert!((form.peak_penetration.unwrap() - (5.0e-4 + way)).abs() < 1e-15);
+    let bodies = Bodies {
+        mass_left: 0.02,
+        mass_right: None,
+        velocity_left: 1.0,
+        velocity_right: 0.0,
+    };
+    let out = collide(model.as_ref(), &bodies).unwrap();
+    assert!((out.peak_penetration / (5.0e-4 + way) - 1.0).abs() < 1e-9);
+    assert!((out.restitution - (0.7_f64 / 1.3).sqrt()).abs() < 1e-9);
+    for table in [
+        &[][..],
+        &[(1e-3, 0.0)],
+        &[(1e-3, 5.0), (1e-3, 6.0)],
+        &[(1e-3, f64::NAN)],
+    ] {
+        assert!(borovin_2014::about_table(table, 0.3).is_err(), "{table:?}");
+    }
+    assert!(borovin_2014::about_table(&[(1e-3, 5.0)], -0.1).is_err());
+}
+
+/// Tests of the same groups return the same restitution; of other groups another.
+#[test]
+fn a_drop_test_is_known_by_its_groups() {
+    let groups = papi_toopchi_2022::DropTestGroups::of(&papi_toopchi_2022::DROP_TEST);
+    assert!((groups.weight - 9.8 / (0.13 * (2.32e7_f64 / 1.763).sqrt())).abs() < 1e-12);
+    assert!((groups.time.unwrap() - 1.0e-3 * (2.32e7_f64 / 1.763).sqrt()).abs() < 1e-12);
+    let row = |test| {
+        let law = &papi_toopchi_2022::TABLE_2[0];
+        papi_toopchi_2022::restitutions(law.model, law.separation, &test).unwrap()
+    };
+    let ours = row(papi_toopchi_2022::DROP_TEST);
+    let same = row(groups.test(70.0, 3.0, 1.6));
+    let faster = row(pounding_gap_element::calibration::DropTest {
+        approach_velocity: 0.26,
+        ..papi_toopchi_2022::DROP_TEST
+    });
+    for (i, e) in ours.iter().enumerate() {
+        assert!((e - same[i]).abs() < 1e-12);
+        assert!((e - faster[i]).abs() > 1e-3);
+    }
 }

@@ -1,4 +1,4 @@
-//! Parameters of an Iwan density from measured dissipation.
+//! Parameters of an Iwan density from measured dissipation, or from a measured backbone.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -30,16 +30,74 @@ impl Default for FitOptions {
     }
 }
 
+/// What was measured over the deformation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeasuredCurve {
+    /// Dissipation of a cycle (J) over its amplitude (m).
+    Dissipation,
+    /// Force (N) over the deformation (m) on first loading.
+    Backbone,
+}
+
+impl MeasuredCurve {
+    /// What a density gives at a deformation (m): J or N.
+    #[must_use]
+    pub fn value(self, density: &IwanDensity, deformation: f64) -> f64 {
+        match self {
+            Self::Dissipation => density.cycle_dissipation(deformation),
+            Self::Backbone => density.backbone(deformation).0,
+        }
+    }
+
+    /// Unit of what was measured.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Dissipation => "J",
+            Self::Backbone => "N",
+        }
+    }
+}
+
 /// A fitted density.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DissipationFit {
-    /// The density; its residual stiffness is that of the guess, because a spring
-    /// does not dissipate.
+pub struct DensityFit {
+    /// What it was fitted to.
+    pub curve: MeasuredCurve,
+    /// The density; fitted to dissipation, its residual stiffness is that of the guess,
+    /// because a spring does not dissipate.
     pub density: IwanDensity,
-    /// Root mean square of the relative errors of the dissipation.
+    /// Root mean square of the relative errors.
     pub relative_error: f64,
     /// Iterations used.
     pub iterations: usize,
+}
+
+/// The density of sliders (N/m2) at the deformations (m) of a measured backbone, deformations and
+/// forces (N) growing from above zero, by its curvature: `rho(phi) = -F''(phi)` (Iwan, Journal of Applied
+/// Mechanics 33 (1966) 893), here by second differences over three neighbours, the first of them
+/// zero. The last point has none. A backbone that is measured with noise has a density of noise:
+/// differences of nearby forces are divided by their distance squared.
+///
+/// # Errors
+/// [`HysteresisError::Fit`]: fewer than two points, or deformations that do not grow.
+pub fn density_of_backbone(measured: &[(f64, f64)]) -> Result<Vec<(f64, f64)>, HysteresisError> {
+    let points: Vec<(f64, f64)> = std::iter::once((0.0, 0.0))
+        .chain(measured.iter().copied())
+        .collect();
+    if points.len() < 3 || !points.windows(2).all(|w| w[1].0 > w[0].0) {
+        return Err(HysteresisError::Fit {
+            reason: "the deformations of a backbone grow from above zero, over two points or more"
+                .to_owned(),
+            remedy: "sort the first loading by deformation, and leave unloading out",
+        });
+    }
+    let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
+    let curvature = |w: &[(f64, f64)]| {
+        let change = slope(w[1], w[2]) - slope(w[0], w[1]);
+        (w[1].0, -2.0 * change / (w[2].0 - w[0].0))
+    };
+    Ok(points.windows(3).map(curvature).collect())
 }
 
 /// Fits a density to pairs of amplitude (m) and dissipation of a cycle (J), both
@@ -60,8 +118,31 @@ pub fn fit_dissipation(
     measured: &[(f64, f64)],
     guess: IwanDensity,
     options: FitOptions,
-) -> Result<DissipationFit, HysteresisError> {
-    let problem = Problem::new(measured, guess.checked()?)?;
+) -> Result<DensityFit, HysteresisError> {
+    fit(MeasuredCurve::Dissipation, measured, guess, options)
+}
+
+/// Fits a density to pairs of deformation (m) and force (N) on first loading, both positive, as
+/// [`fit_dissipation`] does to cycles. The residual stiffness is fitted too, unless the guess has
+/// none.
+///
+/// # Errors
+/// As [`fit_dissipation`].
+pub fn fit_backbone(
+    measured: &[(f64, f64)],
+    guess: IwanDensity,
+    options: FitOptions,
+) -> Result<DensityFit, HysteresisError> {
+    fit(MeasuredCurve::Backbone, measured, guess, options)
+}
+
+fn fit(
+    curve: MeasuredCurve,
+    measured: &[(f64, f64)],
+    guess: IwanDensity,
+    options: FitOptions,
+) -> Result<DensityFit, HysteresisError> {
+    let problem = Problem::new(curve, measured, guess.checked()?)?;
     let mut unknowns = problem.unknowns();
     let mut errors = problem.errors(&unknowns);
     let mut damping = 1e-3;
@@ -82,7 +163,8 @@ pub fn fit_dissipation(
         };
         damping = (damping / 9.0).max(1e-14);
         if step.amax() < options.tolerance || !accepted {
-            return Ok(DissipationFit {
+            return Ok(DensityFit {
+                curve,
                 density: problem.density(&unknowns),
                 relative_error: (errors.norm_squared() / measured.len() as f64).sqrt(),
                 iterations: iteration,
@@ -98,32 +180,34 @@ pub fn fit_dissipation(
 /// Number of unknowns of a fit that sets out from these parameters of `iwan_six_parameter`:
 /// density, exponent and `phi_2` always are, and the others unless they are given as nothing.
 #[must_use]
-pub fn unknowns_of_fit(start: &LawParameters) -> usize {
+pub fn unknowns_of_fit(curve: MeasuredCurve, start: &LawParameters) -> usize {
     let free = |name: &str| start.values.get(name).copied();
     let lump = usize::from(free("slider_stiffness") != Some(0.0));
-    3 + lump + usize::from(free("phi_1").is_some_and(|x| x > 0.0))
+    let is_backbone = curve == MeasuredCurve::Backbone;
+    let residual = usize::from(is_backbone && free("residual_stiffness") != Some(0.0));
+    3 + lump + residual + usize::from(free("phi_1").is_some_and(|x| x > 0.0))
 }
 
-/// The best of the fits ([`fit_dissipation`]) that set out from these parameters of
+/// The best of the fits ([`fit_dissipation`], [`fit_backbone`]) that set out from these parameters of
 /// `iwan_six_parameter`, and from several values of exponent and `phi_2` where they are not
-/// given. `phi_1 = 0` and `slider_stiffness = 0` are kept.
+/// given. `phi_1 = 0`, `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
 ///
 /// # Errors
 /// As [`fit_dissipation`], if no fit comes to a result.
 pub fn fit_from_many(
+    curve: MeasuredCurve,
     measured: &[(f64, f64)],
     start: &LawParameters,
     options: FitOptions,
-) -> Result<DissipationFit, HysteresisError> {
-    let fits = guesses(start, measured)
+) -> Result<DensityFit, HysteresisError> {
+    let fits = guesses(curve, start, measured)
         .into_iter()
-        .map(|guess| fit_dissipation(measured, guess, options));
-    let better =
-        |best: Result<DissipationFit, _>, fit: Result<DissipationFit, _>| match (&best, &fit) {
-            (Ok(b), Ok(f)) if f.relative_error < b.relative_error => fit,
-            (Ok(_), _) => best,
-            (Err(_), _) => fit,
-        };
+        .map(|guess| fit(curve, measured, guess, options));
+    let better = |best: Result<DensityFit, _>, fit: Result<DensityFit, _>| match (&best, &fit) {
+        (Ok(b), Ok(f)) if f.relative_error < b.relative_error => fit,
+        (Ok(_), _) => best,
+        (Err(_), _) => fit,
+    };
     let none = HysteresisError::Fit {
         reason: "no start".to_owned(),
         remedy: "give a start with --set",
@@ -132,7 +216,16 @@ pub fn fit_from_many(
 }
 
 /// Where the fit sets out: every combination of what is not given.
-fn guesses(start: &LawParameters, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
+fn guesses(
+    curve: MeasuredCurve,
+    start: &LawParameters,
+    measured: &[(f64, f64)],
+) -> Vec<IwanDensity> {
+    // A spring that does not dissipate is fitted to a backbone alone.
+    let residual = match curve {
+        MeasuredCurve::Dissipation => 0.0,
+        MeasuredCurve::Backbone => 1.0,
+    };
     let get = |name: &str| start.values.get(name).copied();
     let maximum = measured.iter().map(|(a, _)| *a).fold(0.0, f64::max);
     let exponents = get("exponent").map_or_else(|| EXPONENTS.to_vec(), |e| vec![e]);
@@ -146,7 +239,7 @@ fn guesses(start: &LawParameters, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
         phi_1: get("phi_1").unwrap_or(0.0),
         phi_2,
         slider_stiffness: get("slider_stiffness").unwrap_or(1.0),
-        residual_stiffness: get("residual_stiffness").unwrap_or(0.0),
+        residual_stiffness: get("residual_stiffness").unwrap_or(residual),
     };
     let all = exponents.iter();
     all.flat_map(|&exponent| ends.iter().map(move |&phi_2| (exponent, phi_2)))
@@ -180,29 +273,38 @@ fn damped_step(
 
 /// The data and how many unknowns are not solved for directly.
 struct Problem<'a> {
+    curve: MeasuredCurve,
     measured: &'a [(f64, f64)],
     guess: IwanDensity,
     unknowns: usize,
 }
 
 impl<'a> Problem<'a> {
-    fn new(measured: &'a [(f64, f64)], guess: IwanDensity) -> Result<Self, HysteresisError> {
+    fn new(
+        curve: MeasuredCurve,
+        measured: &'a [(f64, f64)],
+        guess: IwanDensity,
+    ) -> Result<Self, HysteresisError> {
         let lump = usize::from(guess.slider_stiffness > 0.0);
+        let is_backbone = curve == MeasuredCurve::Backbone;
+        let residual = usize::from(is_backbone && guess.residual_stiffness > 0.0);
         let unknowns = 2 + usize::from(guess.phi_1 > 0.0);
-        let all = unknowns + 1 + lump;
+        let all = unknowns + 1 + lump + residual;
         if measured.len() < all {
             return Err(HysteresisError::Fit {
                 reason: format!("{} pairs for {all} unknowns", measured.len()),
                 remedy: "measure more amplitudes, or guess phi_1 = 0 or no slider stiffness",
             });
         }
-        if let Some((amplitude, energy)) = measured.iter().find(|(a, d)| !(*a > 0.0 && *d > 0.0)) {
+        if let Some((reach, value)) = measured.iter().find(|(a, d)| !(*a > 0.0 && *d > 0.0)) {
+            let unit = curve.unit();
             return Err(HysteresisError::Fit {
-                reason: format!("the pair of {amplitude} m and {energy} J is not positive"),
-                remedy: "leave out cycles without dissipation",
+                reason: format!("the pair of {reach} m and {value} {unit} is not positive"),
+                remedy: "leave out what is zero: cycles without dissipation, the start of a backbone",
             });
         }
         Ok(Self {
+            curve,
             measured,
             guess,
             unknowns,
@@ -228,64 +330,89 @@ impl<'a> Problem<'a> {
         } else {
             0.0
         };
-        // One N/m in the power density, then one in the lump.
+        // One N/m in the power density, in the lump, in the residual spring.
+        let is_backbone = self.curve == MeasuredCurve::Backbone;
         let powers = IwanDensity {
             density: phi_2.powf(-1.0 - exponent),
             exponent,
             phi_1,
             phi_2,
             slider_stiffness: 0.0,
-            residual_stiffness: self.guess.residual_stiffness,
+            residual_stiffness: match is_backbone {
+                true => 0.0,
+                false => self.guess.residual_stiffness,
+            },
         };
         let lump = IwanDensity {
             density: 0.0,
             slider_stiffness: 1.0,
             ..powers
         };
-        let (power_share, lump_share) = self.shares(&powers, &lump);
+        let residual = IwanDensity {
+            density: 0.0,
+            residual_stiffness: 1.0,
+            ..powers
+        };
+        let is_free = [
+            true,
+            self.guess.slider_stiffness > 0.0,
+            is_backbone && self.guess.residual_stiffness > 0.0,
+        ];
+        let shares = self.shares(&[powers, lump, residual], is_free);
         IwanDensity {
-            density: power_share * powers.density,
-            slider_stiffness: lump_share,
+            density: shares[0] * powers.density,
+            slider_stiffness: shares[1],
+            residual_stiffness: powers.residual_stiffness + shares[2],
             ..powers
         }
     }
 
-    /// The least-squares multiples, not negative, of two densities.
-    fn shares(&self, powers: &IwanDensity, lump: &IwanDensity) -> (f64, f64) {
-        let (mut pp, mut pl, mut ll, mut p1, mut l1) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        for (amplitude, energy) in self.measured {
-            let p = powers.cycle_dissipation(*amplitude) / energy;
-            let l = lump.cycle_dissipation(*amplitude) / energy;
-            pp += p * p;
-            pl += p * l;
-            ll += l * l;
-            p1 += p;
-            l1 += l;
+    /// The least-squares multiples, not negative, of three densities, of which some are free: the
+    /// best of those with any of them left out.
+    fn shares(&self, densities: &[IwanDensity; 3], is_free: [bool; 3]) -> [f64; 3] {
+        let rows = self.measured.len();
+        let relative = |j: usize, i: usize| {
+            let (reach, value) = self.measured[i];
+            self.curve.value(&densities[j], reach) / value
+        };
+        let columns: [DVector<f64>; 3] =
+            std::array::from_fn(|j| DVector::from_fn(rows, |i, _| relative(j, i)));
+        // A step far out may overflow: it is not taken.
+        let free = columns.iter().zip(is_free).filter(|(_, free)| *free);
+        if free.flat_map(|(c, _)| c.iter()).any(|x| !x.is_finite()) {
+            return [f64::NAN; 3];
         }
-        let alone = |inner: f64, square: f64| if square > 0.0 { inner / square } else { 0.0 };
-        let determinant = pp * ll - pl * pl;
-        if self.guess.slider_stiffness > 0.0 && determinant > 1e-14 * pp * ll {
-            let shares = (
-                (p1 * ll - l1 * pl) / determinant,
-                (l1 * pp - p1 * pl) / determinant,
-            );
-            if shares.0 < 0.0 {
-                return (0.0, alone(l1, ll));
+        let ones = DVector::from_element(rows, 1.0);
+        let mut best = ([0.0; 3], f64::INFINITY);
+        for subset in 1..8_usize {
+            let chosen: Vec<usize> = (0..3).filter(|j| subset >> j & 1 == 1).collect();
+            if chosen.iter().any(|j| !is_free[*j]) {
+                continue;
             }
-            if shares.1 >= 0.0 {
-                return shares;
+            let chosen_columns: Vec<_> = chosen.iter().map(|j| columns[*j].clone()).collect();
+            let matrix = DMatrix::from_columns(&chosen_columns);
+            let Ok(found) = matrix.clone().svd(true, true).solve(&ones, 1e-12) else {
+                continue;
+            };
+            let miss = (&matrix * &found - &ones).norm_squared();
+            if found.iter().all(|share| *share >= 0.0) && miss < best.1 {
+                let mut shares = [0.0; 3];
+                for (j, share) in chosen.iter().zip(found.iter()) {
+                    shares[*j] = *share;
+                }
+                best = (shares, miss);
             }
         }
-        (alone(p1, pp), 0.0)
+        best.0
     }
 
-    /// Relative errors of the dissipation.
+    /// Relative errors.
     fn errors(&self, unknowns: &DVector<f64>) -> DVector<f64> {
         let density = self.density(unknowns);
         let relative = self
             .measured
             .iter()
-            .map(|(amplitude, energy)| density.cycle_dissipation(*amplitude) / energy - 1.0);
+            .map(|(reach, value)| self.curve.value(&density, *reach) / value - 1.0);
         DVector::from_iterator(self.measured.len(), relative)
     }
 

@@ -2,7 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_hysteresis::HysteresisError;
-use pounding_hysteresis::iwan::{FitOptions, IwanDensity, fit_dissipation};
+use pounding_hysteresis::LawParameters;
+use pounding_hysteresis::iwan::{
+    FitOptions, IwanDensity, MeasuredCurve, density_of_backbone, fit_backbone, fit_dissipation,
+    fit_from_many,
+};
 
 /// A density with all six parameters.
 fn document() -> IwanDensity {
@@ -89,5 +93,102 @@ fn data_that_cannot_be_fitted_are_refused_with_a_remedy() {
         let error = fit_dissipation(measured, document(), FitOptions::default()).unwrap_err();
         assert!(matches!(error, HysteresisError::Fit { .. }));
         assert!(error.help().is_some());
+    }
+}
+
+/// The curvature of a backbone is the density: `R phi^alpha` between both ends and nothing before, to
+/// the second order of the distance of the points.
+#[test]
+fn the_curvature_of_a_backbone_is_the_density() {
+    let truth = document();
+    let error = |points: u32| {
+        let reach = |i: u32| 1.2e-4 * f64::from(i) / f64::from(points);
+        let measured: Vec<_> = (1..=points)
+            .map(|i| (reach(i), truth.backbone(reach(i)).0))
+            .collect();
+        let found = density_of_backbone(&measured).unwrap();
+        assert_eq!(found.len(), measured.len() - 1);
+        // Nothing slips before phi_1.
+        for (phi, density) in found.iter().filter(|(phi, _)| *phi < 0.9e-5) {
+            assert!(density.abs() < 1e-6 * truth.density, "{phi}: {density}");
+        }
+        let inside = found.iter().filter(|(phi, _)| (2e-5..9e-5).contains(phi));
+        inside
+            .map(|(phi, density)| {
+                let expected = truth.density * phi.powf(truth.exponent);
+                (density / expected - 1.0).abs()
+            })
+            .fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(60), error(120));
+    assert!(coarse < 3e-3 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
+    assert!(density_of_backbone(&[(1e-5, 1.0)]).is_err());
+    assert!(density_of_backbone(&[(2e-5, 1.0), (1e-5, 2.0)]).is_err());
+}
+
+/// All six parameters from a backbone, the residual stiffness with them.
+#[test]
+fn a_backbone_gives_its_density_back() {
+    let truth = document();
+    let measured: Vec<(f64, f64)> = (0..60)
+        .map(|i| 4.0e-6 * 1.08_f64.powi(i))
+        .map(|a| (a, truth.backbone(a).0))
+        .collect();
+    let guess = IwanDensity {
+        density: 3e5,
+        exponent: -0.5,
+        phi_1: 0.6e-5,
+        phi_2: 2e-4,
+        slider_stiffness: 1e3,
+        residual_stiffness: 1.0,
+    };
+    let fit = fit_backbone(&measured, guess, FitOptions::default()).unwrap();
+    assert_eq!(fit.curve, MeasuredCurve::Backbone);
+    assert!(fit.relative_error < 1e-8, "{fit:?}");
+    let pairs = [
+        (fit.density.density, truth.density),
+        (fit.density.exponent, truth.exponent),
+        (fit.density.phi_1, truth.phi_1),
+        (fit.density.phi_2, truth.phi_2),
+        (fit.density.slider_stiffness, truth.slider_stiffness),
+        (fit.density.residual_stiffness, truth.residual_stiffness),
+    ];
+    for (found, expected) in pairs {
+        assert!((found / expected - 1.0).abs() < 1e-4, "{fit:?}");
+    }
+}
+
+/// From several starts: the density of Segalman 2005, whose residual stiffness is nothing, and a
+/// uniform one.
+#[test]
+fn backbones_of_special_cases_are_found() {
+    let segalman = IwanDensity::segalman(4000.0, 1.5e7, -0.5, 0.3).unwrap();
+    let uniform = IwanDensity {
+        density: 2.0e9,
+        exponent: 0.0,
+        phi_1: 0.0,
+        phi_2: 5.0e-4,
+        slider_stiffness: 0.0,
+        residual_stiffness: 2.0e5,
+    };
+    for (truth, set) in [
+        (segalman, [("residual_stiffness", 0.0)]),
+        (uniform, [("slider_stiffness", 0.0)]),
+    ] {
+        let measured: Vec<(f64, f64)> = (0..50)
+            .map(|i| 1.0e-5 * 1.1_f64.powi(i))
+            .map(|a| (a, truth.backbone(a).0))
+            .collect();
+        let start = LawParameters::from_pairs(&set);
+        let fit = fit_from_many(
+            MeasuredCurve::Backbone,
+            &measured,
+            &start,
+            FitOptions::default(),
+        );
+        let fit = fit.unwrap();
+        assert!(fit.relative_error < 1e-6, "{fit:?}");
+        assert!((fit.density.exponent - truth.exponent).abs() < 1e-4);
+        assert!((fit.density.phi_2 / truth.phi_2 - 1.0).abs() < 1e-4);
     }
 }

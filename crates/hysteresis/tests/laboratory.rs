@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use pounding_hysteresis::iwan::{FitOptions, IwanDensity, fit_from_many, unknowns_of_fit};
+use pounding_hysteresis::iwan::{
+    FitOptions, IwanDensity, MeasuredCurve, fit_from_many, unknowns_of_fit,
+};
 use pounding_hysteresis::laboratory::{
     Cycling, HistoryRow, LaboratoryError, LoadPath, Loop, Pace, Specimen,
     checked_dissipation_curve, local_slope, log_slope,
@@ -186,8 +188,14 @@ fn slopes_and_fits_give_back_what_was_put_in() {
         .map(|a| (a, density.cycle_dissipation(a)))
         .collect();
     let start = LawParameters::default();
-    assert_eq!(unknowns_of_fit(&start), 4);
-    let fit = fit_from_many(&measured, &start, FitOptions::default()).unwrap();
+    assert_eq!(unknowns_of_fit(MeasuredCurve::Dissipation, &start), 4);
+    let fit = fit_from_many(
+        MeasuredCurve::Dissipation,
+        &measured,
+        &start,
+        FitOptions::default(),
+    )
+    .unwrap();
     assert!(fit.relative_error < 1e-6, "{fit:?}");
     assert!(
         (fit.density.exponent - density.exponent).abs() < 1e-5,

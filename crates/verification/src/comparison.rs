@@ -7,8 +7,15 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 pub enum Verdict {
     /// It differs.
     NotReproduced,
+    /// The published numbers are not at hand: who has them enters them.
+    NeedsData,
     /// There is nothing to compare it with.
     ComputedOnly,
+    /// The published value is off, and the closed form, which ours meets, shows by how much.
+    TheirError,
+    /// The published value is that of its time step: the published scheme gives it at that step,
+    /// and ours at a small one.
+    AtTheirStep,
     /// It comes out near the print if the test was read as is supposed.
     UnderTheReading,
     /// The source's own numbers are lost; an independent evaluation agrees.
@@ -23,7 +30,10 @@ impl Verdict {
     pub fn words(self) -> &'static str {
         match self {
             Self::NotReproduced => "not reproduced",
+            Self::NeedsData => "needs data",
             Self::ComputedOnly => "computed only",
+            Self::TheirError => "their error",
+            Self::AtTheirStep => "reproduced at their step",
             Self::UnderTheReading => "reproduced under the reading",
             Self::AgreesWithReference => "agrees with the reference",
             Self::Reproduced => "reproduced",

@@ -20,6 +20,7 @@ mod error;
 mod iwan;
 mod papi_toopchi_2022;
 mod restitution;
+mod structures;
 mod zhou_2012;
 
 pub use borovin_2014::borovin_2014;
@@ -28,4 +29,5 @@ pub use error::VerificationError;
 pub use iwan::iwan;
 pub use papi_toopchi_2022::papi_toopchi_2022;
 pub use restitution::restitution;
+pub use structures::{Entered, EnteredError, Structures, TEMPLATE};
 pub use zhou_2012::zhou_2012;

@@ -58,7 +58,8 @@ pub struct HysteresisArguments {
     #[arg(long, default_value = "25", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub points: u32,
     /// Fit iwan_six_parameter to a measured curve: a text file with the columns amplitude and
-    /// dissipation of a cycle, units in the header, such as amplitude_mm,dissipation_J
+    /// dissipation of a cycle, units in the header, such as amplitude_mm,dissipation_J, or to a
+    /// backbone: deformation and force on first loading, such as deformation_mm,force_kN
     #[arg(long, value_name = "FILE", requires = "law")]
     pub fit: Option<InputPath>,
 

@@ -2,7 +2,7 @@
 
 use clap::{Subcommand, ValueEnum};
 
-use super::VerifyHysteresisArguments;
+use super::{InputPath, VerifyHysteresisArguments};
 
 /// What `impact` does beside a collision.
 #[derive(Debug, Subcommand)]
@@ -57,6 +57,46 @@ pub enum VerifySubject {
     Impact(VerifyImpactArguments),
     /// Compute what the publication on the six-parameter Iwan model prints and draws
     Hysteresis(VerifyHysteresisArguments),
+    /// Run structures that others computed
+    Structures(VerifyStructuresArguments),
+}
+
+/// Arguments of `verify structures`.
+#[derive(Debug, clap::Args)]
+pub struct VerifyStructuresArguments {
+    /// Only this source; may be repeated
+    #[arg(long, value_delimiter = ',')]
+    pub source: Vec<StructureSource>,
+    /// Compare with published numbers that you entered in this file (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub data: Option<InputPath>,
+    /// Print the file for --data, to fill in
+    #[arg(long, conflicts_with_all = ["source", "data", "json"])]
+    pub template: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A source of published structures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StructureSource {
+    /// OpenSees: pairs of one and of three storeys, elastic and yielding
+    Opensees,
+    /// Code_Aster: oscillators and falling bodies at stops
+    CodeAster,
+    /// Siconos: a bouncing ball and a column of beads
+    Siconos,
+    /// Modelica Standard Library: a mass between two stops
+    Modelica,
+    /// Ansys VM65: a ball that falls on a spring
+    Ansys,
+    /// Chung and Ooi 2011: elastic impacts of spheres
+    ChungOoi,
+    /// OpenSees: laws of storeys and links along one path
+    Laws,
+    /// Publications whose numbers are not at hand: enter them
+    Entered,
 }
 
 /// Arguments of `verify impact`.

@@ -43,7 +43,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Gap(arguments) => gap::gap(&arguments, files),
         Command::Compare(arguments) => compare::run(&arguments, files),
         Command::Hysteresis(arguments) => hysteresis::hysteresis(&arguments),
-        Command::Verify(arguments) => verify::verify(&arguments),
+        Command::Verify(arguments) => verify::verify(&arguments, files),
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command, files),
         Command::Sweep(arguments) => sweep::sweep(&arguments, files),

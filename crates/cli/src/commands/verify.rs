@@ -2,21 +2,70 @@
 
 use clap::ValueEnum;
 use pounding_catalogue::wording::counted;
+use pounding_files::FileUse;
 use pounding_verification::{
-    Comparison, Line, Part, Report, VerificationError, borovin_2014, holds, iwan,
-    papi_toopchi_2022, restitution, zhou_2012,
+    Comparison, Entered, Line, Part, Report, Structures, TEMPLATE, VerificationError, borovin_2014,
+    holds, iwan, papi_toopchi_2022, restitution, zhou_2012,
 };
 
-use crate::arguments::{ImpactSource, VerifyArguments, VerifyImpactArguments, VerifySubject};
+use crate::arguments::{
+    ImpactSource, StructureSource, VerifyArguments, VerifyImpactArguments,
+    VerifyStructuresArguments, VerifySubject,
+};
 use crate::failure::Failure;
+use crate::files::reads_too;
 use crate::output::{pretty, print};
+use crate::progress::Progress;
 use crate::tables::Table;
 
 /// Exit code 1 if anything that is said to reproduce does not.
-pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
+pub fn verify(arguments: &VerifyArguments, files: FileUse) -> Result<(), Failure> {
     match &arguments.subject {
         VerifySubject::Impact(arguments) => impact(arguments),
         VerifySubject::Hysteresis(arguments) => shown(&[iwan()?], arguments.json),
+        VerifySubject::Structures(arguments) => structures(arguments, files),
+    }
+}
+
+fn structures(arguments: &VerifyStructuresArguments, mut files: FileUse) -> Result<(), Failure> {
+    if arguments.template {
+        return print(TEMPLATE.trim_end());
+    }
+    let entered = match &arguments.data {
+        Some(path) => Entered::read(path),
+        None => Entered::template(),
+    };
+    let entered = entered.map_err(VerificationError::from)?;
+    reads_too(
+        &mut files,
+        entered.cases().into_iter().map(|path| ("case", path)),
+    )?;
+    let wanted = |source| match (arguments.source.is_empty(), &arguments.data) {
+        (false, _) => arguments.source.contains(&source),
+        // Who enters numbers wants them compared.
+        (true, Some(_)) => source == StructureSource::Entered,
+        (true, None) => true,
+    };
+    let progress = Progress::working("running published cases".to_owned())?;
+    let parts = StructureSource::value_variants()
+        .iter()
+        .filter(|source| wanted(**source))
+        .map(|source| source_of(*source).compare(&entered))
+        .collect::<Result<Vec<_>, _>>()?;
+    drop(progress);
+    shown(&parts, arguments.json)
+}
+
+fn source_of(source: StructureSource) -> Structures {
+    match source {
+        StructureSource::Opensees => Structures::OpenSees,
+        StructureSource::CodeAster => Structures::CodeAster,
+        StructureSource::Siconos => Structures::Siconos,
+        StructureSource::Modelica => Structures::Modelica,
+        StructureSource::Ansys => Structures::Ansys,
+        StructureSource::ChungOoi => Structures::ChungOoi,
+        StructureSource::Laws => Structures::Laws,
+        StructureSource::Entered => Structures::Entered,
     }
 }
 

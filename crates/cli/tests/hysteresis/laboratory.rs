@@ -338,3 +338,57 @@ fn a_fit_finds_the_density_that_made_the_curve() {
     assert!(csv.contains("amplitude_m,measured_j,fitted_j"));
     assert_eq!(csv.lines().count(), 32);
 }
+
+/// A backbone gives all but phi_1 back, with the density that its curvature means.
+#[test]
+fn a_backbone_is_fitted_too() {
+    let truth = IwanDensity {
+        density: 2.0e6,
+        exponent: -0.3,
+        phi_1: 0.0,
+        phi_2: 1.0e-4,
+        slider_stiffness: 3.0e3,
+        residual_stiffness: 1.0e3,
+    };
+    let mut rows = "deformation (mm); force (N)\n0; 0\n".to_owned();
+    for i in 1..=40 {
+        let deformation = 5.0e-6 * f64::from(i);
+        let force = truth.backbone(deformation).0;
+        rows.push_str(&format!("{:e}; {force:e}\n", 1.0e3 * deformation));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = write(folder.path(), "backbone.csv", &rows);
+    let (table, figure) = (folder.path().join("b.csv"), folder.path().join("b.svg"));
+    let command = format!(
+        "iwan_six_parameter --fit {file} --csv {} --svg {}",
+        table.display(),
+        figure.display()
+    );
+    let result = json(&command);
+    for (name, expected) in [
+        ("density", truth.density),
+        ("exponent", truth.exponent),
+        ("phi_2", truth.phi_2),
+        ("slider_stiffness", truth.slider_stiffness),
+        ("residual_stiffness", truth.residual_stiffness),
+    ] {
+        close(&result["parameters"][name], expected, 1.0e-4);
+    }
+    // -F'' = R phi^alpha at 0.05 mm.
+    let curvature = result["fit"]["density_by_curvature"].as_array().unwrap();
+    assert_eq!(curvature.len(), 39);
+    close(&curvature[9][0], 5.0e-5, 1.0e-9);
+    close(&curvature[9][1], 2.0e6 * 5.0e-5_f64.powf(-0.3), 3.0e-3);
+    let shown = text(&format!("iwan_six_parameter --fit {file}"));
+    for part in [
+        "Fitted to 40 points of the backbone",
+        "never slips",
+        "Density of sliders, -F''",
+    ] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    let csv = std::fs::read_to_string(&table).unwrap();
+    assert!(csv.contains("deformation_m,measured_n,fitted_n"));
+    let picture = std::fs::read_to_string(&figure).unwrap();
+    assert!(picture.contains("force of the backbone"));
+}

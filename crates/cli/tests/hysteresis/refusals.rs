@@ -216,10 +216,20 @@ fn curves_that_cannot_be_fitted_are_refused() {
         &format!("iwan_six_parameter --fit {path}"),
         &["greater than zero", "input.csv:3"],
     );
-    let path = file(folder.path(), "a_mm,d_kN\n1,1\n");
+    let path = file(folder.path(), "a_mm,d_s\n1,1\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),
-        &["dissipation column is in \"kN\""],
+        &["dissipation column is in \"s\""],
+    );
+    let path = file(folder.path(), "d_mm,f_kN\n0,0\n1,1\n3,2\n2,1.5\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &["deformation does not grow", "input.csv:5"],
+    );
+    let path = file(folder.path(), "d_mm,f_kN\n1,1\n2,2\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &["2 rows of numbers for 5 unknowns"],
     );
 }
 

@@ -22,15 +22,17 @@ fn the_example_against_its_measured_history() {
     let [exact, jankowski, rigid] = [0, 1, 2].map(|i| &result["models"][i]["against"]);
     close(&exact["peak_force_error_percent"], -1.51, 1e-2);
     close(&exact["impulse_error_percent"], 0.19, 3e-2);
-    close(&exact["rms_force_difference_percent_of_peak"], 1.508, 1e-3);
+    close(&exact["rms_force_difference_percent_of_peak"], 1.068, 1e-3);
     close(&jankowski["peak_force_error_percent"], -21.86, 1e-3);
     close(
         &jankowski["rms_force_difference_percent_of_peak"],
-        15.126,
+        15.610,
         1e-3,
     );
     assert!(rigid["peak_force_error_percent"].is_null());
     close(&rigid["impulse_error_percent"], 0.19, 3e-2);
+    // Extrapolated along F^(2/3), 9 us beside the true 5.13 ms.
+    close(&exact["first_contact"], 5.1391e-3, 1e-4);
     // With the true time of first contact the difference is the noise.
     let true_time = json(&format!(
         "exact_hunt_crossley|--example|--against|{file}|--shift|5.13 ms"
@@ -44,7 +46,7 @@ fn the_example_against_its_measured_history() {
             "| measured ",
             "1557.7",
             "-21.86",
-            "15.126",
+            "15.61",
             "impulse: each over its own contact",
         ],
     );

@@ -31,6 +31,16 @@ const STUCK: [Transition; 2] = [
     },
 ];
 
+/// The ways between slipping in approach, in restitution, and sticking.
+pub(crate) fn transitions(phase: Phase) -> &'static [Transition] {
+    match phase {
+        Phase::Approach => &APPROACH,
+        Phase::Restitution => &RESTITUTION_PHASE,
+        Phase::Stuck => &STUCK,
+        _ => &[],
+    }
+}
+
 /// `F = k delta^n (1 + D sgn v + b v)`; at `v = 0` it holds with any force between
 /// `k delta^n (1 - D)` and `k delta^n (1 + D)`.
 #[derive(Debug)]
@@ -51,8 +61,12 @@ pub(crate) fn friction(e: f64) -> f64 {
 
 /// Restitution of `F = f(delta) (1 + D sgn v + y v / v0)`: the two phases are
 /// integrated in the phase plane and joined at the maximum penetration, where
-/// both have done the work `L` on the spring.
+/// both have done the work `L` on the spring. With `D >= 1` friction holds what the spring
+/// pushes: the impact is plastic.
 fn restitution(d: f64, y: f64) -> f64 {
+    if d >= 1.0 {
+        return 0.0;
+    }
     if y == 0.0 {
         return ((1.0 - d) / (1.0 + d)).sqrt();
     }
@@ -127,12 +141,7 @@ impl ImpactModel for DryFriction {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {
-        match phase {
-            Phase::Approach => &APPROACH,
-            Phase::Restitution => &RESTITUTION_PHASE,
-            Phase::Stuck => &STUCK,
-            _ => &[],
-        }
+        transitions(phase)
     }
     fn stick_range(&self, _: &Collision, _: &Memory, delta: f64) -> (f64, f64) {
         let (spring, _) = hunt_crossley::elastic(self.stiffness, self.exponent, delta);
@@ -155,7 +164,8 @@ impl ImpactModel for DryFriction {
             peak_penetration: Some(peak),
             peak_force: alone
                 .then(|| hunt_crossley::elastic(self.stiffness, self.exponent, peak).0 * (1.0 + d)),
-            duration: alone.then_some(compression * (1.0 + 1.0 / restitution)),
+            duration: (alone && restitution > 0.0)
+                .then_some(compression * (1.0 + 1.0 / restitution)),
         })
     }
     fn smooth_at_closure(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The classes that carry most published laws, each with its closed forms.
 
 pub(crate) mod dry_friction;
+pub(crate) mod dry_friction_table;
 pub(crate) mod hunt_crossley;
 pub(crate) mod linear;
 

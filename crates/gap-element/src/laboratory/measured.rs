@@ -26,6 +26,12 @@ pub struct MeasuredForce {
     pub impulse: f64,
     /// Samples in the contact.
     pub samples_in_contact: usize,
+    /// Time (s) and force (N) as in the history.
+    raw: Vec<(f64, f64)>,
+    /// The first sample in contact among them.
+    first: usize,
+    /// Whether the first contact was given.
+    is_given: bool,
     /// What makes the numbers doubtful.
     pub warnings: Vec<String>,
 }
@@ -88,6 +94,8 @@ pub struct Difference {
     /// Its window (s): from first contact until both contacts are over, as far as both are
     /// known; not a number for a rigid impact.
     pub window: f64,
+    /// First contact in the measured history (s) for this law.
+    pub first_contact: f64,
 }
 
 impl MeasuredForce {
@@ -114,7 +122,7 @@ impl MeasuredForce {
         let level = threshold * raw[top].1;
         let percent = significant(100.0 * threshold);
         let first = raw.iter().position(|(_, f)| *f > level).unwrap_or(top);
-        let first_contact = shift.unwrap_or_else(|| closure(raw, first));
+        let first_contact = shift.unwrap_or_else(|| closure(raw, first, 1.0));
         let step = raw.get(1).map_or(0.0, |second| second.0 - raw[0].0);
         if !(first_contact >= raw[0].0 - step && first_contact <= raw[top].0) {
             return Err(MeasuredForceError::FirstContact {
@@ -160,6 +168,9 @@ impl MeasuredForce {
         let last = released.map_or(raw[raw.len() - 1].1, |_| 0.0);
         contact.push((contact_time, last));
         Ok(Self {
+            raw: raw.to_vec(),
+            first,
+            is_given: shift.is_some(),
             name,
             first_contact,
             peak: (raw[top].1, raw[top].0 - first_contact),
@@ -171,38 +182,59 @@ impl MeasuredForce {
         })
     }
 
-    /// How far a collision is from the history.
+    /// First contact in the history (s) for a law whose force begins as a power of the
+    /// penetration with this exponent (-): where the line through the first two samples in
+    /// contact of `F^(1/exponent)` meets zero, not much earlier; that given, where one was.
     #[must_use]
-    pub fn difference(&self, outcome: &CollisionOutcome) -> Difference {
+    pub fn first_contact_of(&self, exponent: f64) -> f64 {
+        match self.is_given {
+            true => self.first_contact,
+            false => closure(&self.raw, self.first, exponent),
+        }
+    }
+
+    /// How far a collision by a law with this exponent (-) is from the history.
+    #[must_use]
+    pub fn difference(&self, outcome: &CollisionOutcome, exponent: f64) -> Difference {
         let error = |computed: f64, value: f64| 100.0 * (computed - value) / value;
-        let (rms, window) = self.force_difference(outcome);
+        let first_contact = self.first_contact_of(exponent);
+        let (rms, window) = self.force_difference(outcome, first_contact);
         Difference {
             peak_force_error_percent: error(outcome.peak_force, self.peak.0),
             impulse_error_percent: error(outcome.impulse_of_parted(), self.impulse),
             rms_force_difference_percent_of_peak: rms,
             window,
+            first_contact,
         }
     }
 
-    /// Root mean square of the difference in % of the measured peak, and its window (s).
-    fn force_difference(&self, outcome: &CollisionOutcome) -> (f64, f64) {
+    /// Root mean square of the difference in % of the measured peak, and its window (s), with the
+    /// closure of the collision at this time of the history (s).
+    fn force_difference(&self, outcome: &CollisionOutcome, first_contact: f64) -> (f64, f64) {
         if outcome.is_rigid() {
             return (f64::NAN, f64::NAN);
         }
         let history = outcome.history.iter();
         let computed: Vec<_> = history.map(|s| (s.time, s.force)).collect();
+        let start = match self.is_given {
+            true => interpolate(&self.raw, first_contact),
+            false => 0.0,
+        };
+        let mut samples = vec![(0.0, start)];
+        let later = self.raw.iter().filter(|(t, _)| *t > first_contact);
+        samples.extend(later.map(|(t, f)| (t - first_contact, *f)));
         let over = computed.last().map_or(0.0, |(t, _)| *t);
-        let known = self.samples.last().map_or(0.0, |(t, _)| *t);
+        let known = samples.last().map_or(0.0, |(t, _)| *t);
         let both = if outcome.stays_in_contact {
             over
         } else {
-            over.max(self.contact_time)
+            over.max(self.contact_time + self.first_contact - first_contact)
         };
         let window = both.min(known);
         let square = |time: f64, force: f64| (time, (force - interpolate(&computed, time)).powi(2));
-        let inside = self.samples.iter().filter(|(t, _)| *t < window);
+        let inside = samples.iter().filter(|(t, _)| *t < window);
         let mut squares: Vec<_> = inside.map(|(t, f)| square(*t, *f)).collect();
-        squares.push(square(window, interpolate(&self.samples, window)));
+        squares.push(square(window, interpolate(&samples, window)));
         let mean = trapezoid(&squares) / window;
         (100.0 * mean.sqrt() / self.peak.0, window)
     }
@@ -229,18 +261,23 @@ impl serde::Serialize for MeasuredForce {
     }
 }
 
-/// Time of zero force on the line through the first sample in contact and the next,
-/// at most one sample earlier; where the force does not rise any more, the time of
-/// the sample before.
-fn closure(raw: &[(f64, f64)], first: usize) -> f64 {
+/// Time of zero force on the line through the first sample in contact and the next, of forces
+/// to the power `1/exponent`, at most as many samples earlier as the exponent rounded up, since
+/// a force that begins slowly has samples below the threshold; where the force does not rise any
+/// more, the time of the sample before.
+fn closure(raw: &[(f64, f64)], first: usize, exponent: f64) -> f64 {
+    let root = |force: f64| force.powf(1.0 / exponent);
     let (time, force) = raw[first];
-    let before = first.checked_sub(1).map(|i| raw[i].0);
+    let samples = (1..=first).take_while(|i| (*i as f64) < exponent + 1.0);
+    let earliest = raw[first - samples.last().unwrap_or(0)].0;
     match raw.get(first + 1) {
         Some((next_time, next_force)) if *next_force > force => {
+            let (force, next_force) = (root(force), root(*next_force));
             let back = force * (next_time - time) / (next_force - force);
-            (time - back).max(before.unwrap_or(time - (next_time - time)))
+            let without = time - (next_time - time);
+            (time - back).max(if first > 0 { earliest } else { without })
         }
-        _ => before.unwrap_or(time),
+        _ => raw[first.saturating_sub(1)].0,
     }
 }
 

@@ -6,7 +6,7 @@ mod measured;
 mod specimen;
 
 pub use measured::{Difference, MeasuredForce, MeasuredForceError};
-pub use specimen::{Specimen, unit_of};
+pub use specimen::{Specimen, exponent_of, unit_of};
 
 use crate::collision::Bodies;
 

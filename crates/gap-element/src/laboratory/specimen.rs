@@ -84,6 +84,12 @@ impl Specimen {
         registry::build(self.descriptor.name, &self.parameters)
     }
 
+    /// Exponent of its spring ([`exponent_of`]).
+    #[must_use]
+    pub fn exponent(&self) -> f64 {
+        exponent_of(self.descriptor, &self.parameters)
+    }
+
     /// The rule by which its contact ends.
     #[must_use]
     pub fn separation(&self) -> SeparationRule {
@@ -103,10 +109,23 @@ pub fn unit_of(
     match known(name)?.unit {
         ParameterUnit::One => None,
         ParameterUnit::NewtonPerMetreToExponent => {
-            let given = parameters.given("exponent");
-            let exponent = given.or(known("exponent").and_then(|p| p.default));
-            Some(format!("N/m^{}", exponent.unwrap_or(1.5)))
+            Some(format!("N/m^{}", exponent_of(descriptor, parameters)))
         }
         unit => Some(unit.symbol().to_owned()),
     }
+}
+
+/// Exponent of the spring of a law, with which its force begins: as given, else that of the
+/// descriptor, else that of its stiffness; 1 for a law without one.
+#[must_use]
+pub fn exponent_of(descriptor: &ModelDescriptor, parameters: &ModelParameters) -> f64 {
+    let known = |name: &str| descriptor.parameters.iter().find(|p| p.name == name);
+    let of_stiffness = match known("stiffness").map(|p| p.unit) {
+        Some(ParameterUnit::NewtonPerMetreToExponent) => 1.5,
+        _ => 1.0,
+    };
+    let given = parameters.given("exponent");
+    given
+        .or(known("exponent").and_then(|p| p.default))
+        .unwrap_or(of_stiffness)
 }

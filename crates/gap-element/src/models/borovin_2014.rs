@@ -37,6 +37,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     traps: &[
         "Exact restitution, independent of speed, mass and spring.",
         "The force drops by (1 - D) / (1 + D) at the turning point.",
+        "With D = 1 and above friction holds what the spring pushes: a plastic impact, restitution 0. The floors stay together, overlapping, until they are pulled apart by more than k delta^n (D - 1).",
         "Floors that stop relative to one another stick; fixed steps without that state chatter.",
         "The preprint's force law lacks a bracket: its equations 3 and 4 use F = f (1 + D sgn v).",
     ],

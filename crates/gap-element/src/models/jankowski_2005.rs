@@ -19,10 +19,11 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     citation: "Jankowski, Earthquake Engineering and Structural Dynamics 34 (2005) 595; xi(e): 35 (2006) 517",
     class: "linear class, exponent 3/2, damping in approach only",
     parameters: &[HERTZ_STIFFNESS, RESTITUTION, DAMPING_RATIO],
-    verification: Verification::SecondarySources(
-        "formula and xi(e) as documented in OpenSees; behaviour verified against the closed form e = exp(-g(2 xi / sqrt5))",
+    verification: Verification::Verified(
+        "JankowskiImpact of OpenSees in pairs of one and three storeys, elastic and yielding: peaks to 3e-5 at its steps of 10 us, falling with them (pounding verify structures); closed form e = exp(-g(2 xi / sqrt5))",
     ),
     traps: &[
+        "The papers were not read: formula and xi(e) are those that OpenSees documents.",
         "The relation of the 2006 paper returns slightly less than asked: 0.0933 for 0.1, 0.4946 for 0.5, 0.6470 for 0.65.",
         "The 2005 paper gives xi by numerical calibration: its often quoted damping_ratio = 0.35 for concrete returns 0.6618.",
         "The xi that returns exactly what is asked is in exact_linear_approach with exponent = 1.5; at e = 0.65 it is 0.3682 instead of 0.3728.",

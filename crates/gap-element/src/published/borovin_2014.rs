@@ -6,10 +6,11 @@
 
 use std::f64::consts::PI;
 
+use crate::classes::dry_friction_table::TabulatedDryFriction;
 use crate::collision::{Bodies, CollisionOutcome, collide};
 use crate::contact_stiffness::{ContactStiffnessError, Sphere, hertz};
 use crate::error::GapElementError;
-use crate::model::{Memory, Phase};
+use crate::model::{ImpactModel, Memory, Phase};
 use crate::parameters::ModelParameters;
 use crate::registry;
 
@@ -84,6 +85,20 @@ pub fn ball_on_concrete(stiffness: f64, velocity: f64) -> Result<BallOnConcrete,
         force_after_turning: after.value,
         outcome,
     })
+}
+
+/// The law of the preprint about a spring that is a table of penetrations (m) and forces (N),
+/// both increasing from above zero: its equations hold for any f(x).
+///
+/// # Errors
+/// A table that is empty or does not increase, or a friction (-) that is negative or not finite.
+pub fn about_table(
+    table: &[(f64, f64)],
+    friction: f64,
+) -> Result<Box<dyn ImpactModel>, GapElementError> {
+    let descriptor = registry::find("borovin_2014")?;
+    let model = TabulatedDryFriction::new(descriptor, table, friction)?;
+    Ok(Box::new(model))
 }
 
 /// Reference values at one velocity.

@@ -32,27 +32,65 @@ pub struct PrintedRow {
     pub alpha: f64,
     /// Restitution printed (-).
     pub restitution: f64,
+    /// Error printed beside it (%).
+    pub error_percent: f64,
 }
 
 /// Table 1 as printed, its row "8" read as 0.6.
 pub const TABLE_1: [PrintedRow; 10] = [
-    row(0.1, 0.2, 0.1272),
-    row(0.2, 0.3, 0.2077),
-    row(0.3, 0.4, 0.3002),
-    row(0.4, 0.5, 0.3975),
-    row(0.5, 0.6, 0.4962),
-    row(0.6, 0.7, 0.5950),
-    row(0.7, 0.8, 0.6933),
-    row(0.8, 1.0, 0.8013),
-    row(0.9, 1.0, 0.8897),
-    row(1.0, 1.0, 0.9883),
+    row(0.1, 0.2, 0.1272, 27.2),
+    row(0.2, 0.3, 0.2077, 3.87),
+    row(0.3, 0.4, 0.3002, 0.05),
+    row(0.4, 0.5, 0.3975, 0.62),
+    row(0.5, 0.6, 0.4962, 0.75),
+    row(0.6, 0.7, 0.5950, 0.84),
+    row(0.7, 0.8, 0.6933, 0.95),
+    row(0.8, 1.0, 0.8013, 0.17),
+    row(0.9, 1.0, 0.8897, 1.15),
+    row(1.0, 1.0, 0.9883, 1.17),
 ];
 
-const fn row(requested: f64, alpha: f64, restitution: f64) -> PrintedRow {
+const fn row(requested: f64, alpha: f64, restitution: f64, error_percent: f64) -> PrintedRow {
     PrintedRow {
         requested,
         alpha,
         restitution,
+        error_percent,
+    }
+}
+
+/// What a drop test depends on: its speed, stiffness and time of reading enter the restitution in
+/// two groups alone, weight and time in units of the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DropTestGroups {
+    /// `g / (v0 w)` (-), with `w = sqrt(k / m)`.
+    pub weight: f64,
+    /// `w t` (-), t the time of the reading; `None` where the body leaves the slab.
+    pub time: Option<f64>,
+}
+
+impl DropTestGroups {
+    /// The groups of a drop test.
+    #[must_use]
+    pub fn of(test: &DropTest) -> Self {
+        let circular = (test.stiffness / test.mass).sqrt();
+        Self {
+            weight: test.gravity / (test.approach_velocity * circular),
+            time: test.read_at.map(|t| circular * t),
+        }
+    }
+
+    /// Another test with these groups, of this mass (kg), velocity (m/s) and gravity (m/s2).
+    #[must_use]
+    pub fn test(&self, mass: f64, approach_velocity: f64, gravity: f64) -> DropTest {
+        let circular = gravity / (approach_velocity * self.weight);
+        DropTest {
+            mass,
+            gravity,
+            approach_velocity,
+            stiffness: mass * circular * circular,
+            read_at: self.time.map(|time| time / circular),
+        }
     }
 }
 

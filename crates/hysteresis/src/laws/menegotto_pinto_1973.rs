@@ -44,8 +44,8 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.15),
     ],
     rate_dependent: false,
-    verification: Verification::SecondarySources(
-        "the formula; equals the bilinear law away from the knee for a large R0",
+    verification: Verification::Verified(
+        "Steel02 of OpenSees along a path with partial unloadings, to round-off (pounding verify structures); the bilinear law away from the knee for a large R0",
     ),
     example: &[
         ("stiffness", 2.0e7),

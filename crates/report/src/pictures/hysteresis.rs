@@ -1,6 +1,6 @@
 //! Loops and dissipation curves of laws.
 
-use pounding_hysteresis::iwan::DissipationFit;
+use pounding_hysteresis::iwan::{DensityFit, MeasuredCurve};
 use pounding_hysteresis::laboratory::Loop;
 
 use super::panel;
@@ -20,8 +20,9 @@ pub struct LawPicture<'a> {
     pub driven: Option<&'a Loop>,
     /// Amplitudes (m) of steady cycles with what each dissipates (J).
     pub dissipation: Option<&'a Pairs>,
-    /// A fit, and the amplitudes (m) and dissipations (J) that it was fitted to.
-    pub fitted: Option<(&'a DissipationFit, &'a Pairs)>,
+    /// A fit, and the amplitudes (m) and dissipations (J), or deformations (m) and forces (N), that
+    /// it was fitted to.
+    pub fitted: Option<(&'a DensityFit, &'a Pairs)>,
 }
 
 impl LawPicture<'_> {
@@ -34,7 +35,7 @@ impl LawPicture<'_> {
             panels.push(deformation_panel(law, vec![("loop".to_owned(), driven)]));
         }
         let of_fit = self.fitted.map(|(fit, measured)| {
-            let pair = |(a, _): &(f64, f64)| (*a, fit.density.cycle_dissipation(*a));
+            let pair = |(a, _): &(f64, f64)| (*a, fit.curve.value(&fit.density, *a));
             measured.iter().map(pair).collect::<Vec<_>>()
         });
         if let Some(pairs) = self.dissipation.or(of_fit.as_deref()) {
@@ -46,12 +47,14 @@ impl LawPicture<'_> {
                     curve: logarithms("measured", measured, unit),
                 });
             }
+            let curve = self.fitted.map(|(fit, _)| fit.curve);
+            let (what, of, over) = match curve.filter(|_| self.dissipation.is_none()) {
+                Some(MeasuredCurve::Backbone) => ("force of the backbone", "N", "deformation"),
+                _ => ("dissipation of a cycle", "J", "amplitude"),
+            };
             panels.push(panel(
-                &format!(
-                    "{law}: log10 of the dissipation of a cycle over {:.3e} J",
-                    unit.1
-                ),
-                &format!("log10 of the amplitude over {:.4} mm", 1.0e3 * unit.0),
+                &format!("{law}: log10 of the {what} over {:.3e} {of}", unit.1),
+                &format!("log10 of the {over} over {:.4} mm", 1.0e3 * unit.0),
                 vec![logarithms("law", pairs, unit)],
             ));
         }

@@ -1,16 +1,18 @@
-//! An Iwan density from a measured dissipation curve.
+//! An Iwan density from a measured dissipation curve, or from a measured backbone.
 
 use std::path::Path;
 
 use pounding_case::Dimension;
 use pounding_catalogue::numbers::significant;
 use pounding_catalogue::wording::counted;
-use pounding_hysteresis::LawDescriptor;
-use pounding_hysteresis::iwan::{DissipationFit, FitOptions, fit_from_many, unknowns_of_fit};
+use pounding_hysteresis::iwan::{
+    DensityFit, FitOptions, MeasuredCurve, density_of_backbone, fit_from_many, unknowns_of_fit,
+};
+use pounding_hysteresis::{LawDescriptor, LawParameters};
 use serde::Serialize;
 
 use super::chosen::given;
-use crate::columns::{Column, Source};
+use crate::columns::{Column, Source, unit_in};
 use crate::failure::Failure;
 use crate::tables::new_table;
 
@@ -19,13 +21,13 @@ const LAW: &str = "iwan_six_parameter";
 /// A fitted density beside what was measured.
 pub struct Fitted {
     /// The fit.
-    pub fit: DissipationFit,
-    /// Pairs of amplitude (m) and energy of a cycle (J).
+    pub fit: DensityFit,
+    /// Pairs of amplitude (m) and energy of a cycle (J), or of deformation (m) and force (N).
     pub measured: Vec<(f64, f64)>,
 }
 
 /// Fits the density to the pairs of a file. Parameters of `--set` are where the fit sets
-/// out; `phi_1 = 0` and `slider_stiffness = 0` are kept.
+/// out; `phi_1 = 0`, `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
 pub fn fit(law: &LawDescriptor, path: &Path, set: &[String]) -> Result<Fitted, Failure> {
     if law.name != LAW {
         return Err(Failure::input(
@@ -36,36 +38,67 @@ pub fn fit(law: &LawDescriptor, path: &Path, set: &[String]) -> Result<Fitted, F
         ));
     }
     let start = given(pounding_hysteresis::find(LAW)?, set)?;
-    let measured = read(path, unknowns_of_fit(&start))?;
-    let fit = fit_from_many(&measured, &start, FitOptions::default())?;
+    let (curve, measured) = read(path, &start)?;
+    let fit = fit_from_many(curve, &measured, &start, FitOptions::default())?;
     Ok(Fitted { fit, measured })
 }
 
-/// Pairs of amplitude (m) and energy of a cycle (J), all positive.
-fn read(path: &Path, unknowns: usize) -> Result<Vec<(f64, f64)>, Failure> {
-    let columns = [
-        Column {
-            name: "amplitude",
-            dimension: Dimension::LENGTH,
-        },
-        Column {
-            name: "dissipation",
-            dimension: Dimension::ENERGY,
-        },
-    ];
+/// Pairs of amplitude (m) and energy of a cycle (J), or of deformation (m) and force (N) on first
+/// loading, all positive: the unit of the second column says which.
+fn read(path: &Path, start: &LawParameters) -> Result<(MeasuredCurve, Vec<(f64, f64)>), Failure> {
+    let column = |name, dimension| Column { name, dimension };
+    let force = column("force", Dimension::FORCE);
     let source = Source::open_regular(path, "--fit", "amplitude_mm,dissipation_J")?;
-    let mut pairs = Vec::new();
+    let header = source.lines().next();
+    let second = header
+        .as_ref()
+        .and_then(|(_, fields)| unit_in(fields.get(1)?));
+    let is_backbone = second.is_some_and(|unit| force.size(unit).is_ok());
+    let (curve, columns) = match is_backbone {
+        true => (
+            MeasuredCurve::Backbone,
+            [column("deformation", Dimension::LENGTH), force],
+        ),
+        false => (
+            MeasuredCurve::Dissipation,
+            [
+                column("amplitude", Dimension::LENGTH),
+                column("dissipation", Dimension::ENERGY),
+            ],
+        ),
+    };
+    let mut pairs: Vec<(f64, f64)> = Vec::new();
     for (place, row) in source.rows(&[&columns])? {
-        let (amplitude, energy) = (row[0], row[1]);
-        if !(amplitude > 0.0 && energy > 0.0) {
+        let (reach, value) = (row[0], row[1]);
+        let before = pairs.last().map_or(0.0, |(reach, _)| *reach);
+        // A backbone begins at zero.
+        if is_backbone && reach == 0.0 && value == 0.0 && pairs.is_empty() {
+            continue;
+        }
+        if !(reach > 0.0 && value > 0.0) {
+            let (what, help) = match is_backbone {
+                true => (
+                    "deformation and force",
+                    "give the first loading, from zero on",
+                ),
+                false => (
+                    "amplitude and dissipation",
+                    "leave out cycles without dissipation",
+                ),
+            };
+            let message = format!("{what} must be greater than zero");
+            return Err(source.error(place, message, help));
+        }
+        if is_backbone && !(reach > before) {
             return Err(source.error(
                 place,
-                "amplitude and dissipation must be greater than zero".to_owned(),
-                "leave out cycles without dissipation",
+                "the deformation does not grow here".to_owned(),
+                "give the first loading alone, without unloading",
             ));
         }
-        pairs.push((amplitude, energy));
+        pairs.push((reach, value));
     }
+    let unknowns = unknowns_of_fit(curve, start);
     if pairs.len() < unknowns {
         return Err(source.error(
             0..0,
@@ -77,39 +110,98 @@ fn read(path: &Path, unknowns: usize) -> Result<Vec<(f64, f64)>, Failure> {
             "measure more amplitudes, or set slider_stiffness=0, and phi_1=0",
         ));
     }
-    Ok(pairs)
+    Ok((curve, pairs))
 }
 
 impl Fitted {
+    /// What the fit has at a deformation (m).
+    pub fn fitted(&self, deformation: f64) -> f64 {
+        self.fit.curve.value(&self.fit.density, deformation)
+    }
+
     /// Measured beside fitted, for people.
     pub fn text(&self) -> String {
-        let mut table = new_table(["amplitude (mm)", "measured (J)", "fitted (J)", "error (%)"]);
-        for (amplitude, energy) in &self.measured {
-            let fitted = self.fit.density.cycle_dissipation(*amplitude);
+        let (over, unit) = match self.fit.curve {
+            MeasuredCurve::Dissipation => ("amplitude (mm)", "J"),
+            MeasuredCurve::Backbone => ("deformation (mm)", "N"),
+        };
+        let measured = format!("measured ({unit})");
+        let fitted = format!("fitted ({unit})");
+        let mut table = new_table([over, measured.as_str(), fitted.as_str(), "error (%)"]);
+        for (reach, value) in &self.measured {
+            let fitted = self.fitted(*reach);
             table.add_row([
-                significant(1.0e3 * amplitude),
-                significant(*energy),
+                significant(1.0e3 * reach),
+                significant(*value),
                 significant(fitted),
-                format!("{:+.2}", 100.0 * (fitted / energy - 1.0)),
+                format!("{:+.2}", 100.0 * (fitted / value - 1.0)),
             ]);
         }
-        format!(
-            "\nFitted to {}\n{table}\nroot mean square of the relative errors {:.3} %, {}\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m is taken as given: a spring does not dissipate\n",
-            counted(self.measured.len(), "measured cycle"),
+        let count = match self.fit.curve {
+            MeasuredCurve::Dissipation => counted(self.measured.len(), "measured cycle"),
+            MeasuredCurve::Backbone => format!("{} points of the backbone", self.measured.len()),
+        };
+        let mut text = format!(
+            "\nFitted to {count}\n{table}\nroot mean square of the relative errors {:.3} %, {}\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m ",
             100.0 * self.fit.relative_error,
             counted(self.fit.iterations, "iteration"),
             significant(self.fit.density.initial_stiffness()),
             significant(self.fit.density.residual_stiffness),
+        );
+        text.push_str(match self.fit.curve {
+            MeasuredCurve::Dissipation => "is taken as given: a spring does not dissipate\n",
+            MeasuredCurve::Backbone => "never slips\n",
+        });
+        text.push_str(&self.density_text());
+        text
+    }
+
+    /// The density by the curvature of a backbone, for people.
+    fn density_text(&self) -> String {
+        let curvature = self.curvature();
+        if curvature.is_empty() {
+            return String::new();
+        }
+        let mut table = new_table(["phi (mm)", "density by curvature (N/m2)", "fitted (N/m2)"]);
+        for (phi, density) in &curvature {
+            let of = &self.fit.density;
+            let inside = (of.phi_1..of.phi_2).contains(phi);
+            let fitted = if inside {
+                of.density * phi.powf(of.exponent)
+            } else {
+                0.0
+            };
+            table.add_row([
+                significant(1.0e3 * phi),
+                significant(*density),
+                significant(fitted),
+            ]);
+        }
+        format!(
+            "\nDensity of sliders, -F'': by differences, and of the fit without its lump\n{table}\n"
         )
+    }
+
+    /// The density (N/m2) at deformations (m) by the curvature of a backbone; nothing of other
+    /// curves.
+    fn curvature(&self) -> Vec<(f64, f64)> {
+        match self.fit.curve {
+            MeasuredCurve::Backbone => density_of_backbone(&self.measured).unwrap_or_default(),
+            MeasuredCurve::Dissipation => Vec::new(),
+        }
     }
 
     /// For machines, SI.
     pub fn shown(&self) -> ShownFit {
-        let fitted = |a: f64| self.fit.density.cycle_dissipation(a);
         let measured = self.measured.iter();
+        let over = match self.fit.curve {
+            MeasuredCurve::Dissipation => "amplitude",
+            MeasuredCurve::Backbone => "deformation",
+        };
         ShownFit {
-            columns: ["amplitude", "measured", "fitted"],
-            curve: measured.map(|(a, d)| (*a, *d, fitted(*a))).collect(),
+            columns: [over, "measured", "fitted"],
+            curve: measured.map(|(a, d)| (*a, *d, self.fitted(*a))).collect(),
+            density_by_curvature: self.curvature(),
             relative_error: self.fit.relative_error,
             iterations: self.fit.iterations,
         }
@@ -121,6 +213,8 @@ impl Fitted {
 pub struct ShownFit {
     columns: [&'static str; 3],
     curve: Vec<(f64, f64, f64)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    density_by_curvature: Vec<(f64, f64)>,
     relative_error: f64,
     iterations: usize,
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_hysteresis::iwan::MeasuredCurve;
 use pounding_report::pictures::hysteresis::LawPicture;
 
 use super::{Results, chosen};
@@ -33,9 +34,13 @@ pub fn write_csv(path: &Path, results: &Results) -> Result<(), Failure> {
         let rows: Vec<_> = fitted
             .measured
             .iter()
-            .map(|(a, d)| (*a, *d, fitted.fit.density.cycle_dissipation(*a)))
+            .map(|(a, d)| (*a, *d, fitted.fitted(*a)))
             .collect();
-        comma_separated(&["amplitude_m", "measured_j", "fitted_j"], &rows)?
+        let names = match fitted.fit.curve {
+            MeasuredCurve::Dissipation => ["amplitude_m", "measured_j", "fitted_j"],
+            MeasuredCurve::Backbone => ["deformation_m", "measured_n", "fitted_n"],
+        };
+        comma_separated(&names, &rows)?
     } else {
         String::new()
     };

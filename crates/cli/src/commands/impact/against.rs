@@ -48,7 +48,7 @@ pub fn text(
     let found = match arguments.shift {
         Some(_) => "as given by --shift".to_owned(),
         None => format!(
-            "extrapolated to zero force from the first sample above {} % of the peak",
+            "extrapolated to zero force from the first two samples above {} % of the peak; of each law along F^(1/n), n its exponent",
             significant(100.0 * threshold(arguments)?)
         ),
     };
@@ -83,6 +83,7 @@ fn comparison(
         "contact time (ms)",
         "rms difference (% of measured peak)",
         "over (ms)",
+        "first contact (ms)",
     ];
     let mut table = right_aligned(header.map(str::to_owned).into());
     let kilo = |x: f64| significant(x * 1e-3);
@@ -96,6 +97,7 @@ fn comparison(
         milli(measured.contact_time),
         String::new(),
         String::new(),
+        milli(measured.first_contact),
     ]);
     for (one, difference) in collided.iter().zip(compared) {
         table.add_row([
@@ -107,6 +109,7 @@ fn comparison(
             milli(one.outcome.contact_time()),
             significant(difference.rms_force_difference_percent_of_peak),
             milli(difference.window),
+            milli(difference.first_contact),
         ]);
     }
     table

@@ -47,8 +47,9 @@ fn collisions(
     let history = against::measured(arguments)?;
     let collided = collisions::collide_all(chosen, setting)?;
     let compared: Option<Vec<Difference>> = history.as_ref().map(|measured| {
-        let outcomes = collided.iter().map(|c| &c.outcome);
-        outcomes.map(|o| measured.difference(o)).collect()
+        let of =
+            |c: &collisions::Collided<'_>| measured.difference(&c.outcome, c.chosen.exponent());
+        collided.iter().map(of).collect()
     });
     if let Some(path) = &arguments.csv {
         curves::write_csv(path, &collided, setting)?;

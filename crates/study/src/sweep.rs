@@ -8,7 +8,7 @@ use std::time::Duration;
 use pounding_files::PartFile;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::study::{
-    Coordinate, Description, ResultReader, ResultWriter, StudyFileError,
+    Coordinate, Description, Part, ResultReader, ResultWriter, StudyFileError,
 };
 
 use crate::BUILD;
@@ -30,6 +30,11 @@ pub struct Shard {
 impl Shard {
     /// All runs.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// What its result holds; the whole study if its numbers cannot be.
+    fn part(self) -> Part {
+        Part::of(vec![self.index], self.count).unwrap_or_else(Part::whole)
+    }
 }
 
 impl FromStr for Shard {
@@ -237,7 +242,10 @@ fn chunks(runs: usize, chunk: usize, shard: Shard) -> Vec<Range<usize>> {
 fn signature(d: &Description) -> String {
     format!(
         "{} {}/{}\n{}",
-        d.study_sha256, d.shard.0, d.shard.1, d.build
+        d.study_sha256,
+        d.part.shards()[0],
+        d.part.count(),
+        d.build
     )
 }
 
@@ -263,7 +271,7 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         build: BUILD.to_owned(),
         runs: study.runs(),
         chunk: study.chunk,
-        shard: (shard.index, shard.count),
+        part: shard.part(),
         warnings: runner.warnings.clone(),
         layout: runner.layout.clone(),
         coordinates: coordinates(study),
@@ -346,10 +354,10 @@ fn complete(
 fn other(found: &Description, wanted: &Description) -> Option<String> {
     if found.study_sha256 != wanted.study_sha256 {
         Some("it is the result of another study, or of another version of this one".to_owned())
-    } else if found.shard != wanted.shard {
-        Some(match found.shard {
-            (_, 1) => "it is the result of the whole study".to_owned(),
-            (index, count) => format!("it is shard {index}/{count} of this study"),
+    } else if found.part != wanted.part {
+        Some(match found.part.is_whole() {
+            true => "it is the result of the whole study".to_owned(),
+            false => format!("it is {} of this study", found.part),
         })
     } else if found.build != wanted.build {
         Some(format!(

@@ -215,7 +215,7 @@ fn a_study_has_a_column_for_each() {
         build: "test".to_owned(),
         runs: 2,
         chunk: 2,
-        shard: (1, 1),
+        part: Part::whole(),
         warnings: Vec::new(),
         layout: layout.clone(),
         coordinates: Vec::new(),

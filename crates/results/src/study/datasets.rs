@@ -7,9 +7,12 @@ use hdf5::{Dataset, File, Group, H5Type, Result};
 use serde_json::json;
 
 use super::writing::{BLOCK, Id};
-use super::{Axis, Description};
+use super::{Axis, Description, ranges};
 use crate::attributes::{self, text, unicode};
 use crate::dimension_scales::attach;
+
+/// Root attribute of a result of several shards, but not all: their numbers.
+pub(super) const MERGED_SHARDS: &str = "merged_shards";
 
 /// What datasets are attached to.
 pub(super) struct Axes<'d> {
@@ -118,11 +121,19 @@ pub(super) fn root(file: &File, d: &Description) -> Result<()> {
     ] {
         text(file, name, value)?;
     }
+    // One that holds several shards names them; readers that know only one refuse the zero.
+    let shard = match d.part.shards() {
+        [one] => *one,
+        several => {
+            text(file, MERGED_SHARDS, &ranges(several))?;
+            0
+        }
+    };
     for (name, value) in [
         ("runs", d.runs),
         ("chunk", d.chunk),
-        ("shard", d.shard.0),
-        ("shards", d.shard.1),
+        ("shard", shard),
+        ("shards", d.part.count()),
     ] {
         file.new_attr::<u64>()
             .create(name)?

@@ -8,9 +8,12 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 
+use super::datasets::MERGED_SHARDS;
 use super::writing::Id;
-use super::{Axis, Coordinate, Description, Ending, Layout, Place, Row, StudyFileError, Value};
-use crate::{OpenError, ResultFile, dataset, number, text, texts, values};
+use super::{
+    Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
+};
+use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
 
 /// A result that is read.
 #[derive(Debug)]
@@ -22,6 +25,8 @@ pub struct ResultReader {
     pub rows: usize,
     /// What its checksum says.
     pub checksum: Checksum,
+    /// What tells whether the file has changed since.
+    pub(super) stamp: Stamp,
     run: Dataset,
     id: Dataset,
     status: Dataset,
@@ -53,10 +58,28 @@ impl ResultReader {
                 source,
             },
         })?;
-        Self::with_parts(path, &opened).map_err(|e| {
+        Self::of(path, &opened)
+    }
+
+    /// Opens a result once more that was open before, if it has not changed since.
+    pub(super) fn open_again(path: &Path, stamp: &Stamp) -> Result<Self, StudyFileError> {
+        let opened = stamp.open_again(path);
+        let opened = opened.map_err(|source| StudyFileError::Checksum {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::of(path, &opened)
+    }
+
+    fn of(path: &Path, opened: &ResultFile) -> Result<Self, StudyFileError> {
+        Self::with_parts(path, opened).map_err(|e| {
             let reason = e.to_string();
             let reason = reason.lines().next().unwrap_or_default();
-            failed(format!("it is not the result of a study ({reason})"))
+            StudyFileError::File {
+                what: "read",
+                path: path.to_owned(),
+                reason: format!("it is not the result of a study ({reason})"),
+            }
         })
     }
 
@@ -65,7 +88,7 @@ impl ResultReader {
         let description = description(file)?;
         let run = part::<i64>(file, "run")?;
         let rows = run.size();
-        if Some(rows) != description.rows_of_shard() {
+        if Some(rows) != description.part.rows(description.runs, description.chunk) {
             return Err(hdf5::Error::from(
                 "its rows are not those of its part of the study",
             ));
@@ -104,6 +127,7 @@ impl ResultReader {
             path: path.to_owned(),
             rows,
             checksum: opened.checksum(),
+            stamp: opened.stamp().clone(),
             id: fits(id, "run_id", None)?,
             status: fits(status, "status", None)?,
             run,
@@ -222,24 +246,6 @@ fn bytes(text: &str) -> Option<[u8; 16]> {
     Some(id)
 }
 
-impl Description {
-    /// Rows of this shard; `None` if its numbers cannot be.
-    fn rows_of_shard(&self) -> Option<usize> {
-        let (index, count) = self.shard;
-        if self.chunk == 0 || index == 0 || index > count {
-            return None;
-        }
-        let all = self.runs.div_ceil(self.chunk);
-        let ours = all.saturating_sub(index - 1).div_ceil(count);
-        let short = match ours > 0 && (all - index).is_multiple_of(count) {
-            // The last chunk of the study is ours: it may be shorter.
-            true => all.checked_mul(self.chunk)? - self.runs,
-            false => 0,
-        };
-        Some(ours.checked_mul(self.chunk)? - short)
-    }
-}
-
 fn description(file: &File) -> hdf5::Result<Description> {
     let text = |name: &str| -> hdf5::Result<String> {
         text(file, name).map_err(|e| of(&format!("attribute {name}"), &e))
@@ -279,7 +285,7 @@ fn description(file: &File) -> hdf5::Result<Description> {
         },
         runs: number("runs")?,
         chunk: number("chunk")?,
-        shard: (number("shard")?, number("shards")?),
+        part: part_of(file, number("shard")?, number("shards")?)?,
         // Versions before had none.
         warnings: match file.attr_names()?.iter().any(|n| n == "warnings") {
             true => text("warnings")?.lines().map(str::to_owned).collect(),
@@ -293,6 +299,16 @@ fn description(file: &File) -> hdf5::Result<Description> {
             .map(coordinate)
             .collect(),
     })
+}
+
+/// Which shards a result holds.
+fn part_of(file: &File, shard: usize, of: usize) -> hdf5::Result<Part> {
+    let shards = match shard {
+        0 => numbers(&text(file, MERGED_SHARDS)?, of),
+        one => Some(vec![one]),
+    };
+    let part = shards.and_then(|shards| Part::of(shards, of));
+    part.ok_or_else(|| hdf5::Error::from("its shards are none that can be"))
 }
 
 fn layout(file: &File) -> hdf5::Result<Layout> {

@@ -36,7 +36,8 @@ pub use error::StudyError;
 pub use ida::*;
 pub use merge::{MergeReport, merge};
 pub use pounding_results::study::{
-    Coordinate, Description, MergeOptions, Part, ResultReader, StudyFileError, Survey, ranges, survey,
+    Coordinate, Description, MergeOptions, Part, ResultReader, StudyFileError, Survey, ranges,
+    survey,
 };
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use shown::case_of_run;

@@ -72,8 +72,10 @@ pub enum Command {
     Compare(Box<CompareArguments>),
     /// Run a case many times with varying values, models or records
     Sweep(Box<SweepArguments>),
-    /// Merge the results of all shards of a sweep
+    /// Merge the results of all shards of a study
     Merge(MergeArguments),
+    /// How far the shards of a study are, and which command goes on
+    Status(StatusArguments),
     /// Incremental dynamic analysis (IDA): fragility, and the gap for a target frequency
     Ida(Box<IdaArguments>),
     /// Ground motions: read, measure, convert, process, generate and match

@@ -61,7 +61,12 @@ impl Part {
         let of_shard = |shard: &usize| all.saturating_sub(shard - 1).div_ceil(self.of);
         let chunks: usize = self.shards.iter().map(of_shard).sum();
         // The last chunk of the study may be shorter.
-        let short = match all > 0 && self.shards.binary_search(&((all - 1) % self.of + 1)).is_ok() {
+        let short = match all > 0
+            && self
+                .shards
+                .binary_search(&((all - 1) % self.of + 1))
+                .is_ok()
+        {
             true => all.checked_mul(chunk)? - runs,
             false => 0,
         };
@@ -105,8 +110,7 @@ pub fn numbers(text: &str, most: usize) -> Option<Vec<usize>> {
     let mut numbers = Vec::new();
     for part in text.split(',') {
         let (first, last) = part.split_once('-').unwrap_or((part, part));
-        let (first, last): (usize, usize) =
-            (first.trim().parse().ok()?, last.trim().parse().ok()?);
+        let (first, last): (usize, usize) = (first.trim().parse().ok()?, last.trim().parse().ok()?);
         if first > last || last > most {
             return None;
         }

@@ -49,8 +49,6 @@ pub struct Survey {
     pub unchecked: Vec<PathBuf>,
     /// Files that make the study, in the order of their first shards.
     heads: Vec<Head>,
-    /// What the first of them says.
-    description: Option<Description>,
 }
 
 /// What is kept of a file.

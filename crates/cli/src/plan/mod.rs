@@ -7,12 +7,11 @@ mod slurm;
 
 use std::path::Path;
 
-use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_study::{Study, Value};
 use serde::Serialize;
 
-use crate::arguments::{PlanArguments, RunningArguments, Scheduler, value};
+use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
 use crate::failure::Failure;
 use crate::interruption::{quoted, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
@@ -133,7 +132,7 @@ impl Plan {
         }
         let time = planning.time.as_deref();
         let time = time
-            .map(|t| value(t, "time", Dimension::TIME))
+            .map(|t| time_limit(t, "time"))
             .transpose()?;
         if let Some(seconds) = time.filter(|seconds| !(120.0..=3.0e7).contains(seconds)) {
             return Err(Failure::input(

@@ -148,6 +148,7 @@ pub fn sweep(
         Parts::discard(&options.output, &signature(&description));
         return Ok(report);
     }
+    spare_other_shards(&description, &options.output)?;
     let chunks = chunks(study.runs(), study.chunk, options.shard);
     let total = chunks.iter().map(Range::len).sum();
     let mut parts = Parts::open(
@@ -350,6 +351,22 @@ fn complete(
     Ok(Some(report))
 }
 
+/// A shard never takes the place of another one, or of the whole: where all are given one name
+/// by mistake, what has been computed stays.
+fn spare_other_shards(description: &Description, output: &Path) -> Result<(), StudyError> {
+    if description.part.is_whole() || !output.is_file() {
+        return Ok(());
+    }
+    match ResultReader::open(output, WithoutChecksum::Refuse) {
+        Ok(found) if found.description.part != description.part => Err(StudyError::OtherShard {
+            path: output.to_owned(),
+            reason: other(&found.description, description).unwrap_or_default(),
+        }),
+        // Anything else is replaced, as the output of any command is.
+        _ => Ok(()),
+    }
+}
+
 /// What a result is that is not this one.
 fn other(found: &Description, wanted: &Description) -> Option<String> {
     if found.study_sha256 != wanted.study_sha256 {
@@ -388,6 +405,8 @@ fn assemble(
     options: &SweepOptions,
 ) -> Result<SweepReport, StudyError> {
     let rows = parts.chunks.iter().map(Range::len).sum();
+    // Another process may have written there since the runs were begun.
+    spare_other_shards(description, &options.output)?;
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
     let mut table = table(options, description)?;

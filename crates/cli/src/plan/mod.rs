@@ -131,9 +131,7 @@ impl Plan {
             ));
         }
         let time = planning.time.as_deref();
-        let time = time
-            .map(|t| time_limit(t, "time"))
-            .transpose()?;
+        let time = time.map(|t| time_limit(t, "time")).transpose()?;
         if let Some(seconds) = time.filter(|seconds| !(120.0..=3.0e7).contains(seconds)) {
             return Err(Failure::input(
                 format!("--time: {seconds} s is no time limit of a task"),

@@ -7,10 +7,13 @@ mod errors;
 mod examples;
 mod failing;
 mod interrupted;
+mod merging;
 mod parquet;
+mod plans;
 mod python;
 mod shards;
 mod shown;
+mod status;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

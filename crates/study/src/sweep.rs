@@ -274,6 +274,11 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         chunk: study.chunk,
         part: shard.part(),
         warnings: runner.warnings.clone(),
+        quantities: study.quantities.as_ref().map(|_| {
+            let kept = runner.layout.quantities.iter();
+            kept.map(|q| q.name.to_owned()).collect()
+        }),
+        float32: study.float32,
         layout: runner.layout.clone(),
         coordinates: coordinates(study),
     }

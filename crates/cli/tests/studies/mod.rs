@@ -8,6 +8,7 @@ mod examples;
 mod failing;
 mod interrupted;
 mod merging;
+mod output;
 mod parquet;
 mod plans;
 mod python;

@@ -11,7 +11,7 @@ mod shards;
 mod writing;
 
 pub use error::StudyFileError;
-pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result};
+pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result, quantity_names};
 pub use part::{Part, numbers, ranges};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};
@@ -57,6 +57,10 @@ pub struct Description {
     pub part: Part,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
+    /// Names of the quantities that are stored, if the study chooses some; the columns are those.
+    pub quantities: Option<Vec<String>>,
+    /// Whether quantities are stored as numbers of 32 bits.
+    pub float32: bool,
     /// Columns.
     pub layout: Layout,
     /// Variables of the study.

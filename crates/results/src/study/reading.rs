@@ -8,7 +8,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 
-use super::datasets::MERGED_SHARDS;
+use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, MERGED_SHARDS, NUMBERS};
 use super::writing::Id;
 use super::{
     Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
@@ -119,8 +119,11 @@ impl ResultReader {
                 axis => Some(layout.width(axis)),
             };
             if columns != Some(0) {
-                let data = fits(part::<f64>(file, q.name)?, q.name, columns)?;
-                quantities.push((data, columns));
+                let data = match description.float32 {
+                    true => part::<f32>(file, q.name)?,
+                    false => part::<f64>(file, q.name)?,
+                };
+                quantities.push((fits(data, q.name, columns)?, columns));
             }
         }
         Ok(Self {
@@ -198,19 +201,33 @@ impl ResultReader {
             }
         }
         for (data, columns) in &self.quantities {
-            if columns.is_none() {
-                for (row, value) in rows.iter_mut().zip(column::<f64>(data, &places)?) {
-                    row.0.values.push(value);
-                }
-            } else {
-                let block = data.read_slice_2d::<f64, _>((places.clone(), ..))?;
-                for (row, values) in rows.iter_mut().zip(block.rows()) {
-                    row.0.values.extend(values);
-                }
+            match self.description.float32 {
+                true => add::<f32>(&mut rows, data, *columns, &places)?,
+                false => add::<f64>(&mut rows, data, *columns, &places)?,
             }
         }
         Ok(rows)
     }
+}
+
+/// Adds the values of a quantity to rows.
+fn add<T: H5Type + Copy + Into<f64>>(
+    rows: &mut [(Row, Vec<Value>)],
+    data: &Dataset,
+    columns: Option<usize>,
+    places: &Range<usize>,
+) -> hdf5::Result<()> {
+    if columns.is_none() {
+        for (row, value) in rows.iter_mut().zip(column::<T>(data, places)?) {
+            row.0.values.push(value.into());
+        }
+        return Ok(());
+    }
+    let block = data.read_slice_2d::<T, _>((places.clone(), ..))?;
+    for (row, values) in rows.iter_mut().zip(block.rows()) {
+        row.0.values.extend(values.iter().map(|x| (*x).into()));
+    }
+    Ok(())
 }
 
 /// A dataset of this type, or which one is damaged and how.
@@ -272,6 +289,24 @@ fn description(file: &File) -> hdf5::Result<Description> {
             choices: v["choices"].as_array().map(named),
         }
     };
+    let has = |name: &str| -> hdf5::Result<bool> {
+        Ok(file.attr_names()?.iter().any(|found| found == name))
+    };
+    let quantities = match has(CHOSEN_QUANTITIES)? {
+        true => Some(text(CHOSEN_QUANTITIES)?),
+        false => None,
+    };
+    let quantities: Option<Vec<String>> =
+        quantities.map(|names| names.split_whitespace().map(str::to_owned).collect());
+    let float32 = match has(NUMBERS)? {
+        true if text(NUMBERS)? == FLOAT32 => true,
+        true => {
+            return Err(hdf5::Error::from(
+                "its numbers have a type that we do not know",
+            ));
+        }
+        false => false,
+    };
     Ok(Description {
         title: text("title")?,
         study_sha256: text("study_sha256")?,
@@ -291,7 +326,9 @@ fn description(file: &File) -> hdf5::Result<Description> {
             true => text("warnings")?.lines().map(str::to_owned).collect(),
             false => Vec::new(),
         },
-        layout: layout(file)?,
+        layout: layout(file, quantities.as_deref())?,
+        quantities,
+        float32,
         coordinates: variables
             .as_array()
             .into_iter()
@@ -311,7 +348,8 @@ fn part_of(file: &File, shard: usize, of: usize) -> hdf5::Result<Part> {
     part.ok_or_else(|| hdf5::Error::from("its shards are none that can be"))
 }
 
-fn layout(file: &File) -> hdf5::Result<Layout> {
+/// The columns of a result, of which a study may have chosen some quantities.
+fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
     let labels = |name: &str| match file.link_exists(name) {
         true => texts(file, name).map_err(|e| of(name, &e)),
         false => Ok(Vec::new()),
@@ -389,12 +427,13 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
                 width,
             },
         );
-    // A study without such buildings may have a variable of that name.
-    let buildings = match file.link_exists("peak_base_moment") {
+    // A study without such buildings may have had a variable of that name, in versions that let
+    // no quantities be chosen.
+    let buildings = match chosen.is_some() || file.link_exists("peak_base_moment") {
         true => labels("building")?,
         false => Vec::new(),
     };
-    Ok(Layout::from_places(
+    let mut layout = Layout::from_places(
         (storeys.collect(), levels.collect()),
         buildings,
         |response| file.link_exists(response.peak.name),
@@ -402,5 +441,15 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
             file.link_exists("peak_column_shear"),
             file.link_exists("isolated_demand"),
         ),
-    ))
+    );
+    if let Some(names) = chosen {
+        layout.keep(names);
+        // Else a quantity whose dataset is lost would not be missed.
+        if layout.quantities.len() != names.len() {
+            return Err(hdf5::Error::from(
+                "a quantity that the study chose is not there",
+            ));
+        }
+    }
+    Ok(layout)
 }

@@ -66,6 +66,16 @@ impl<'s> Runner<'s> {
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
+        let mut missing = Vec::new();
+        if let Some(names) = &study.quantities {
+            let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
+            missing.extend(names.iter().filter(|name| !has(name)).cloned());
+            let mut kept = names.clone();
+            if study.isolated_demand {
+                kept.push("isolated_demand".to_owned());
+            }
+            layout.keep(&kept);
+        }
         let varied = leave_out_varied(&mut layout, study, &system);
         let mut warnings: Vec<String> = system
             .unequal_floor_warnings()
@@ -80,6 +90,12 @@ impl<'s> Runner<'s> {
                 gap.name
             )
         }));
+        if !missing.is_empty() {
+            warnings.push(format!(
+                "[output] chooses {}, which no building or gap of this study has",
+                missing.join(", ")
+            ));
+        }
         let base =
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         Ok(Self {
@@ -131,6 +147,12 @@ impl<'s> Runner<'s> {
             Err(reason) => {
                 row.ending = Ending::Failed(reason);
                 row.values = vec![f64::NAN; self.layout.columns()];
+            }
+        }
+        if self.study.float32 {
+            // Here, so that every file and table of the run says the same.
+            for value in &mut row.values {
+                *value = f64::from(*value as f32);
             }
         }
         row

@@ -6,6 +6,7 @@
 mod arguments;
 mod columns;
 mod commands;
+mod deal;
 mod descriptor;
 mod failure;
 mod faults;

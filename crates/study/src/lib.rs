@@ -11,6 +11,7 @@ pub mod faults;
 pub mod gap_check;
 
 mod case_text;
+mod dealt;
 mod design;
 mod error;
 mod fractiles;
@@ -31,6 +32,7 @@ mod table;
 /// mixed in a result unless that is asked for.
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
+pub use dealt::Deal;
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
 pub use ida::*;

@@ -1,6 +1,7 @@
 //! Arguments of all commands.
 
 mod compare;
+mod deal;
 mod gap;
 mod hysteresis;
 mod impact;
@@ -16,6 +17,7 @@ use clap_complete::Shell;
 use quantities::figure_file;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
+pub use deal::DealArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;

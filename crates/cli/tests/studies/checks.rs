@@ -10,7 +10,7 @@ fn shards_of_checks_give_what_one_process_gives() {
         ("gap", "--points 12", 1),
         (
             "compare",
-            "--models anagnostopoulos_2004,jankowski_2005,ye_2009",
+            "--models anagnostopoulos_2004,jankowski_2005,ye_li_2009",
             0,
         ),
     ] {

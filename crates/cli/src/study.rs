@@ -98,6 +98,7 @@ pub fn options(
         resume: running.resume,
         store_every,
         keep_going: running.keep_going,
+        shared: into.map(Path::to_owned),
     })
 }
 

@@ -72,6 +72,9 @@ pub struct SweepOptions {
     pub store_every: Duration,
     /// Records runs whose motion cannot be read as failed, instead of refusing the study.
     pub keep_going: bool,
+    /// Folder of all shards, in which they share records: each is kept there once, and a shard
+    /// reads those of its own runs alone.
+    pub shared: Option<PathBuf>,
 }
 
 /// What is known while a study runs.
@@ -141,7 +144,8 @@ pub fn sweep(
     options: &SweepOptions,
     progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SweepReport, StudyError> {
-    let runner = Runner::new(study, options.keep_going)?;
+    let shared = options.shared.as_deref();
+    let mut runner = Runner::new(study, options.keep_going, shared)?;
     let description = describe(&runner, options.shard);
     if let Some(report) = complete(&runner, &description, options)? {
         // What an interrupted call made of these runs stands in the result as well.
@@ -157,6 +161,7 @@ pub fn sweep(
         chunks,
         options.resume,
     )?;
+    runner.need(&parts.left(), options.keep_going, shared)?;
     let now = make(&runner, &mut parts, total, options, progress)?;
     let mut report = assemble(&runner, &description, &parts, options)?;
     report.made = now.made;

@@ -40,6 +40,7 @@ fn description(folder: &Path) -> Description {
         resume: false,
         store_every: Duration::from_secs(5),
         keep_going: false,
+        shared: None,
     };
     sweep(&study, &options, &mut |_| ControlFlow::Continue(())).unwrap();
     let reader = ResultReader::open(&output, WithoutChecksum::Refuse).unwrap();

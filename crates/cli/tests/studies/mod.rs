@@ -14,6 +14,7 @@ mod parquet;
 mod plans;
 mod python;
 mod shards;
+mod shared_records;
 mod shown;
 mod status;
 

@@ -21,7 +21,7 @@ assert part.sizes["run"] == 10 and not force.variable._in_memory
 assert int(part["run"][0]) == 4000
 
 connection = duckdb.connect()
-groups = connection.sql(f"select count(distinct row_group_id) from parquet_metadata('{table}')").fetchone()[0]
+groups = connection.sql(f"select count(distinct row_group_id) from parquet_metadata('{table}')").fetchall()[0][0]
 assert groups == 2, groups
 names = [row[0] for row in connection.sql(f"describe select * from '{table}'").fetchall()]
 column = next(name for name in names if name.startswith("peak_force"))
@@ -32,6 +32,6 @@ expected = part.sel(level=level).values
 found = np.array([row[1] for row in rows], dtype=np.float32)
 assert np.array_equal(found, expected, equal_nan=True), (found, expected)
 # The same over all rows, by the engine of each.
-largest = connection.sql(f'select max("{column}") from \'{table}\' where not isnan("{column}")').fetchone()[0]
+largest = connection.sql(f'select max("{column}") from \'{table}\' where not isnan("{column}")').fetchall()[0][0]
 assert largest == float(force.sel(level=level).max())
 print("read in parts")

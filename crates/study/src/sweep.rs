@@ -361,20 +361,24 @@ fn complete(
     Ok(Some(report))
 }
 
-/// A shard never takes the place of another one, or of the whole: where all are given one name
-/// by mistake, what has been computed stays.
+/// A shard never takes the place of another one of its study, or of the whole: where all are given
+/// one name by mistake, what has been computed stays.
 fn spare_other_shards(description: &Description, output: &Path) -> Result<(), StudyError> {
     if description.part.is_whole() || !output.is_file() {
         return Ok(());
     }
-    match ResultReader::open(output, WithoutChecksum::Refuse) {
-        Ok(found) if found.description.part != description.part => Err(StudyError::OtherShard {
-            path: output.to_owned(),
-            reason: other(&found.description, description).unwrap_or_default(),
-        }),
-        // Anything else is replaced, as the output of any command is.
-        _ => Ok(()),
+    // Anything else is replaced, as the output of any command is.
+    let Ok(found) = ResultReader::open(output, WithoutChecksum::Refuse) else {
+        return Ok(());
+    };
+    let found = &found.description;
+    if found.study_sha256 != description.study_sha256 || found.part == description.part {
+        return Ok(());
     }
+    Err(StudyError::OtherShard {
+        path: output.to_owned(),
+        reason: other(found, description).unwrap_or_default(),
+    })
 }
 
 /// What a result is that is not this one.

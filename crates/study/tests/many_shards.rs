@@ -2,7 +2,7 @@
 //! one writer gives. `POUNDING_SHARDS=10000 POUNDING_RUNS=100 cargo test --release -p
 //! pounding-study --test many_shards -- --nocapture` measures by hand.
 #![cfg(target_os = "linux")]
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

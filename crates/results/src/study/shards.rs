@@ -355,7 +355,7 @@ impl Shards {
     /// Hands out all rows with the values of their variables, in the order of the runs.
     ///
     /// Runs of a shard lie far apart in the whole: so many rows are held that each file is
-    /// opened once for them, within [`HELD`] bytes.
+    /// opened once for them, within some tens of megabytes.
     ///
     /// # Errors
     /// [`StudyFileError::File`], [`StudyFileError::Merge`] if a shard lacks a run, and what

@@ -55,3 +55,70 @@ pub fn have_a_place<'p>(
     }
     Ok(())
 }
+
+/// Results of shards that arguments name, with those in folders: files there that are called as
+/// shards are, or as results that were merged from some of them.
+pub fn shard_files(given: &[InputPath]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for path in given {
+        if !path.is_dir() {
+            files.push(path.to_path_buf());
+            continue;
+        }
+        let failed = |e: std::io::Error| {
+            Failure::input(format!("cannot read {}: {e}", path.display()), None)
+        };
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(failed)? {
+            let file = entry.map_err(failed)?.path();
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            if ShardName::of(&name).is_some() {
+                found.push(file);
+            }
+        }
+        if found.is_empty() {
+            return Err(Failure::input(
+                format!("{} holds no results of shards", path.display()),
+                Some(
+                    "they are called NAME.shard-I-of-N.h5; name files of other names one by one"
+                        .to_owned(),
+                ),
+            ));
+        }
+        found.sort();
+        files.append(&mut found);
+    }
+    Ok(files)
+}
+
+/// The name of the result of a shard.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ShardName {
+    /// Name of the study.
+    pub study: String,
+    /// Of how many shards.
+    pub count: usize,
+    /// Which shard, from 1.
+    pub index: usize,
+}
+
+impl ShardName {
+    /// Reads the name of a result.
+    pub fn of(file: &str) -> Option<Self> {
+        let (study, rest) = file.strip_suffix(".h5")?.rsplit_once(".shard-")?;
+        let (index, count) = rest.split_once("-of-")?;
+        let (index, count) = (index.parse().ok()?, count.parse().ok()?);
+        (1..=count).contains(&index).then(|| Self {
+            study: study.to_owned(),
+            count,
+            index,
+        })
+    }
+}
+
+impl std::fmt::Display for ShardName {
+    /// The name of the result without its ending.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}.shard-{}-of-{}", self.study, self.index, self.count)
+    }
+}

@@ -138,11 +138,23 @@ pub fn quoted(text: &str) -> String {
 
 /// This command as it was given, with `--resume`.
 pub fn this_command_resumed() -> String {
-    let mut words: Vec<String> = std::env::args_os()
-        .map(|word| quoted(&word.to_string_lossy()))
-        .collect();
+    let mut words = this_command();
     if !words.iter().any(|word| word == "--resume") {
         words.push("--resume".to_owned());
     }
-    words.join(" ")
+    shell_line(&words)
+}
+
+/// The words of this command.
+pub fn this_command() -> Vec<String> {
+    let words = std::env::args_os();
+    words
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect()
+}
+
+/// Words as a shell takes them.
+pub fn shell_line<W: AsRef<str>>(words: &[W]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| quoted(word.as_ref())).collect();
+    quoted.join(" ")
 }

@@ -6,13 +6,16 @@
 mod arguments;
 mod columns;
 mod commands;
+mod deal;
 mod descriptor;
 mod failure;
 mod faults;
 mod files;
+mod heartbeat;
 mod interruption;
 mod output;
 mod page;
+mod plan;
 mod plot;
 mod progress;
 mod separate;

@@ -204,7 +204,7 @@ impl Now {
 }
 
 /// Seconds, minutes or hours as people say them.
-fn time(seconds: f64) -> String {
+pub fn time(seconds: f64) -> String {
     let whole = seconds.round();
     if whole < 120.0 {
         format!("{whole:.0} s")

@@ -13,32 +13,70 @@ use pounding_study::{
 };
 use serde::Serialize;
 
-use crate::arguments::{RunningArguments, value};
+use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
-use crate::files::{name_left_over, reads_too};
+use crate::files::{ShardName, name_left_over, reads_too};
+use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
 use crate::tables::warning_lines;
+
+/// The shard that arguments name, or the whole study.
+pub fn shard(sharing: &ShardArguments, running: &RunningArguments) -> Result<Shard, Failure> {
+    let refused = |message: &str, help: &str| Err(Failure::input(message, Some(help.to_owned())));
+    if sharing.into.is_some() {
+        if sharing.shard.is_none() {
+            return refused(
+                "--into is a folder of shards, and the whole study is none",
+                "add --shard I/N or --plan, or name the result with -o",
+            );
+        }
+        if running.output.is_some() {
+            return refused(
+                "a shard has a name of its own in the folder --into",
+                "leave -o away, or --into",
+            );
+        }
+    }
+    match &sharing.shard {
+        Some(text) => Ok(text.parse()?),
+        None => Ok(Shard::WHOLE),
+    }
+}
 
 /// How a study is run, as the arguments say; finds out before the runs that the result
 /// has no place, or would have that of a file that is read.
 pub fn options(
     study: &Study,
     running: &RunningArguments,
-    shard: Shard,
+    (shard, into): (Shard, Option<&Path>),
     files: &mut FileUse,
 ) -> Result<SweepOptions, Failure> {
-    let output = match &running.output {
-        Some(output) => output.to_path_buf(),
-        None => {
+    let output = match (&running.output, into) {
+        (Some(output), _) => output.to_path_buf(),
+        (None, into) => {
             let output = default_output(&study.file, shard);
-            files.writes("result", &output);
-            name_left_over(&output);
-            output
+            match into {
+                // Nothing that is read lies in that folder, and no other output.
+                Some(folder) => {
+                    let made = std::fs::create_dir_all(folder);
+                    made.map_err(|e| Failure::output(&e, &folder.display().to_string()))?;
+                    folder.join(output)
+                }
+                None => {
+                    files.writes("result", &output);
+                    output
+                }
+            }
         }
     };
-    let folder = "the folder of its finished runs, which is removed at the end";
-    files.fills(folder, parts_folder(&output));
+    if running.output.is_none() {
+        name_left_over(&output);
+    }
+    if into.is_none() {
+        let folder = "the folder of its finished runs, which is removed at the end";
+        files.fills(folder, parts_folder(&output));
+    }
     reads_too(files, study.files())?;
     writable(&output)?;
     if let Some(csv) = &running.csv {
@@ -60,11 +98,12 @@ pub fn options(
         resume: running.resume,
         store_every,
         keep_going: running.keep_going,
+        shared: into.map(Path::to_owned),
     })
 }
 
 /// The study's name, or that of its folder where it is called `study.toml`.
-fn default_output(study: &Path, shard: Shard) -> PathBuf {
+pub fn name(study: &Path) -> String {
     let stem = study.file_stem().unwrap_or_default();
     let folder = study
         .canonicalize()
@@ -74,21 +113,42 @@ fn default_output(study: &Path, shard: Shard) -> PathBuf {
         Some(folder) if stem == "study" => folder,
         _ => stem.to_owned(),
     };
-    let name = name.to_string_lossy();
-    PathBuf::from(if shard == Shard::WHOLE {
-        format!("{name}.h5")
-    } else {
-        format!("{name}.shard-{}-of-{}.h5", shard.index, shard.count)
+    name.to_string_lossy().into_owned()
+}
+
+fn default_output(study: &Path, shard: Shard) -> PathBuf {
+    let study = name(study);
+    PathBuf::from(match shard == Shard::WHOLE {
+        true => format!("{study}.h5"),
+        false => format!("{}.h5", shard_name(study, shard)),
     })
 }
 
-/// Runs a study and shows how far it is. Asked to end, it stores what has finished, says
-/// how to go on, and ends the process.
-pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure> {
+fn shard_name(study: String, shard: Shard) -> ShardName {
+    ShardName {
+        study,
+        count: shard.count,
+        index: shard.index,
+    }
+}
+
+/// Runs a study and shows how far it is, beside a terminal or a log also in the folder of its
+/// shards. Asked to end, it stores what has finished, says how to go on, and ends the process.
+pub fn run(
+    study: &Study,
+    options: &SweepOptions,
+    into: Option<&Path>,
+) -> Result<SweepReport, Failure> {
     interruption::resume_with(interruption::this_command_resumed());
+    let heartbeat =
+        into.map(|folder| Heartbeat::begin(folder, &shard_name(name(&study.file), options.shard)));
+    let mut heartbeat = heartbeat.transpose()?;
     let progress = Progress::begin(Unit::Runs)?;
     let report = make(study, options, &mut |now| {
         show(&progress, now);
+        if let Some(heartbeat) = &mut heartbeat {
+            heartbeat.beat(now);
+        }
         // Once all runs are stored nobody looks any more: a signal ends the process at once.
         if !interruption::wait(now.stored < now.total) {
             return ControlFlow::Continue(());
@@ -100,11 +160,25 @@ pub fn run(study: &Study, options: &SweepOptions) -> Result<SweepReport, Failure
                 counted(now.total, "run"),
                 agreeing(&now.total, "is", "are")
             );
+            if let Some(heartbeat) = &mut heartbeat {
+                heartbeat.end(State::Interrupted, &stored);
+            }
             interruption::leave(&stored);
         }
         ControlFlow::Break(())
     });
     drop(progress);
+    if let Some(heartbeat) = &mut heartbeat {
+        match &report {
+            Ok(report) => heartbeat.done(report),
+            Err(e @ StudyError::Interrupted { .. }) => {
+                heartbeat.end(State::Interrupted, &e.to_string());
+            }
+            // The process that is at work there says how far it is.
+            Err(StudyError::Busy { .. }) => {}
+            Err(e) => heartbeat.end(State::Failed, &e.to_string()),
+        }
+    }
     Ok(report?)
 }
 
@@ -119,9 +193,11 @@ fn show(progress: &Progress, now: &Stand) {
     progress.show(now.made, now.total - now.stored_before, &more);
 }
 
-/// A study of which no run succeeded has computed nothing.
-pub fn all_failed(report: &SweepReport) -> Result<(), Failure> {
+/// A study of which no run succeeded has computed nothing. Of a shard that is not known: its
+/// result is complete, and the whole decides.
+pub fn all_failed(report: &SweepReport, shard: Shard) -> Result<(), Failure> {
     match report.failures.first() {
+        _ if shard != Shard::WHOLE => Ok(()),
         Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
             match report.runs {
                 1 => format!("the only run failed: {reason}"),

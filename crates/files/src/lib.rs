@@ -11,4 +11,4 @@ mod file_use;
 mod part_file;
 
 pub use file_use::{FileUse, FileUseError, same_file};
-pub use part_file::{LeftOver, PartFile, left_over, remove_part_files, write};
+pub use part_file::{LeftOver, PartFile, left_over, remove_part_files, runs_here, write};

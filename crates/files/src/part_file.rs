@@ -180,7 +180,8 @@ pub fn left_over(target: &Path) -> Vec<LeftOver> {
 
 /// Whether a process of this number runs on this machine, whoever owns it.
 #[cfg(unix)]
-fn runs_here(process: u32) -> bool {
+#[must_use]
+pub fn runs_here(process: u32) -> bool {
     use rustix::process::{Pid, test_kill_process};
     let number = i32::try_from(process).ok().and_then(Pid::from_raw);
     number.is_some_and(|number| test_kill_process(number) != Err(rustix::io::Errno::SRCH))
@@ -188,7 +189,8 @@ fn runs_here(process: u32) -> bool {
 
 /// Where this cannot be found out, any may run.
 #[cfg(not(unix))]
-fn runs_here(_: u32) -> bool {
+#[must_use]
+pub fn runs_here(_: u32) -> bool {
     true
 }
 

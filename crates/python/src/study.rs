@@ -69,6 +69,7 @@ fn run_study(
             resume,
             store_every: STORE_EVERY,
             keep_going,
+            shared: None,
         };
         let report = sweep(&read, &options, &mut |now| {
             watch.tell(now.made + now.stored_before, now.total);

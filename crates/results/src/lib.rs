@@ -32,6 +32,46 @@ pub const CHECKSUM_FORM: &str = "pounding-sha256:1, SHA-256 of all bytes before 
 pub struct ResultFile {
     file: hdf5::File,
     checksum: Checksum,
+    stamp: Stamp,
+}
+
+/// What tells whether a file has changed since its checksum was compared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Stamp {
+    checksum: Checksum,
+    bytes: u64,
+    changed: Option<std::time::SystemTime>,
+}
+
+impl Stamp {
+    fn of(path: &Path, checksum: Checksum) -> std::io::Result<Self> {
+        let found = std::fs::metadata(path)?;
+        Ok(Self {
+            checksum,
+            bytes: found.len(),
+            // Where the file system has no times, the length decides.
+            changed: found.modified().ok(),
+        })
+    }
+
+    /// What the checksum said.
+    pub(crate) fn checksum(&self) -> Checksum {
+        self.checksum
+    }
+
+    /// Opens the file without comparing its content anew.
+    pub(crate) fn open_again(&self, path: &Path) -> Result<ResultFile, OpenError> {
+        let now = Self::of(path, self.checksum).map_err(ChecksumError::Read)?;
+        if now != *self {
+            return Err(OpenError::Changed);
+        }
+        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(first_line(&e)))?;
+        Ok(ResultFile {
+            file,
+            checksum: self.checksum,
+            stamp: now,
+        })
+    }
 }
 
 /// Why a result file cannot be opened.
@@ -44,6 +84,9 @@ pub enum OpenError {
     /// HDF5.
     #[error("HDF5 cannot open it: {0}")]
     Hdf5(String),
+    /// Another process has written it while it was read.
+    #[error("it was changed while it was being read")]
+    Changed,
 }
 
 impl OpenError {
@@ -53,6 +96,7 @@ impl OpenError {
         match self {
             Self::Checksum(error) => error.help(),
             Self::Hdf5(_) => None,
+            Self::Changed => Some("wait until nobody writes it any more, and begin again"),
         }
     }
 }
@@ -64,19 +108,31 @@ impl ResultFile {
     /// # Errors
     /// [`OpenError`].
     pub fn open(path: &Path, without: WithoutChecksum) -> Result<Self, OpenError> {
+        // Before the content is read: what is written meanwhile is seen by it.
+        let before = Stamp::of(path, Checksum::Matches).map_err(ChecksumError::Read)?;
         let checksum = check(path, without)?;
         let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(first_line(&e)))?;
         // Cut off right where its content ends, a file looks as if it never had one.
         if checksum == Checksum::Absent && file.attr_names().is_ok_and(|all| has_one(&all)) {
             return Err(ChecksumError::Removed.into());
         }
-        Ok(Self { file, checksum })
+        let stamp = Stamp { checksum, ..before };
+        Ok(Self {
+            file,
+            checksum,
+            stamp,
+        })
     }
 
     /// What the checksum said.
     #[must_use]
     pub fn checksum(&self) -> Checksum {
         self.checksum
+    }
+
+    /// What tells whether it has changed since.
+    pub(crate) fn stamp(&self) -> &Stamp {
+        &self.stamp
     }
 
     /// The file.

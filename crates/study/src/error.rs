@@ -101,6 +101,14 @@ pub enum StudyError {
         /// What it is.
         reason: String,
     },
+    /// The result of another shard in the place of that of this one.
+    #[error("{path} is not replaced: {reason}")]
+    OtherShard {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        reason: String,
+    },
     /// Another process works on the same runs.
     #[error("another process is working in {folder}")]
     Busy {
@@ -209,6 +217,9 @@ impl StudyError {
             }
             Self::Standing { .. } => {
                 "name another result with -o; move the file away if it is of no use; without --resume it is replaced"
+            }
+            Self::OtherShard { .. } => {
+                "name another result with -o, or give all shards one folder with --into, where each has a name of its own; move the file away if it is of no use"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::ResultFile(error) => error.help(),

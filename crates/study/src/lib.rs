@@ -11,6 +11,7 @@ pub mod faults;
 pub mod gap_check;
 
 mod case_text;
+mod dealt;
 mod design;
 mod error;
 mod fractiles;
@@ -31,12 +32,14 @@ mod table;
 /// mixed in a result unless that is asked for.
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
+pub use dealt::Deal;
 pub use design::{Design, MOST_DIMENSIONS};
 pub use error::StudyError;
 pub use ida::*;
 pub use merge::{MergeReport, merge};
 pub use pounding_results::study::{
-    Coordinate, Description, MergeOptions, ResultReader, StudyFileError,
+    Coordinate, Description, MergeOptions, Part, ResultReader, StudyFileError, Survey, ranges,
+    survey,
 };
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
 pub use shown::case_of_run;

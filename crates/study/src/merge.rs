@@ -21,10 +21,13 @@ pub struct MergeReport {
     pub unchecked: Vec<PathBuf>,
     /// Builds that computed the shards, each with them, if there are several.
     pub builds: Vec<String>,
+    /// Shards that are still missing, ascending, and of how many.
+    pub missing: (Vec<usize>, usize),
 }
 
 /// Merges the results of all shards of a study into one, and into a table if `csv` names
-/// a file. The result is that of one call for the whole study.
+/// a file. The result is that of one call for the whole study; one of several shards, if a partial
+/// merge lacks some.
 ///
 /// # Errors
 /// [`StudyError::FileUse`] if the output or the table is one of the files,
@@ -48,10 +51,11 @@ pub fn merge(
     let mut report = MergeReport {
         unchecked: shards.unchecked().to_vec(),
         builds: shards.builds().to_vec(),
+        missing: (shards.missing().to_vec(), shards.description().part.count()),
         ..MergeReport::default()
     };
     let whole = shards.description();
-    let mut writer = ResultWriter::create(output, whole, whole.runs)?;
+    let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
     let mut table = csv.map(|path| RunTable::create(path, whole)).transpose()?;
     shards.rows(|row, point| {
         report.runs += 1;

@@ -43,8 +43,10 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
         if let Some(scale) = factor(Some(intensity), Ok(&motion)).map_err(not_shown)? {
             let case = Case::parse(&text, &study.base.file);
             let case = case.map_err(|e| not_shown(e.to_string()))?;
-            scales = further_scales(&case, &motion.record, scale)
-                .map_err(|e| not_shown(e.to_string()))?;
+            if let Some(record) = &motion.record {
+                scales =
+                    further_scales(&case, record, scale).map_err(|e| not_shown(e.to_string()))?;
+            }
             scales.push(("ground_motion.scale".to_owned(), scale));
         }
         let title = measure.title();

@@ -8,7 +8,7 @@ use std::time::Duration;
 use pounding_files::PartFile;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::study::{
-    Coordinate, Description, ResultReader, ResultWriter, StudyFileError,
+    Coordinate, Description, Part, ResultReader, ResultWriter, StudyFileError,
 };
 
 use crate::BUILD;
@@ -30,6 +30,11 @@ pub struct Shard {
 impl Shard {
     /// All runs.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// What its result holds; the whole study if its numbers cannot be.
+    fn part(self) -> Part {
+        Part::of(vec![self.index], self.count).unwrap_or_else(Part::whole)
+    }
 }
 
 impl FromStr for Shard {
@@ -67,6 +72,9 @@ pub struct SweepOptions {
     pub store_every: Duration,
     /// Records runs whose motion cannot be read as failed, instead of refusing the study.
     pub keep_going: bool,
+    /// Folder of all shards, in which they share records: each is kept there once, and a shard
+    /// reads those of its own runs alone.
+    pub shared: Option<PathBuf>,
 }
 
 /// What is known while a study runs.
@@ -136,13 +144,15 @@ pub fn sweep(
     options: &SweepOptions,
     progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SweepReport, StudyError> {
-    let runner = Runner::new(study, options.keep_going)?;
+    let shared = options.shared.as_deref();
+    let mut runner = Runner::new(study, options.keep_going, shared)?;
     let description = describe(&runner, options.shard);
     if let Some(report) = complete(&runner, &description, options)? {
         // What an interrupted call made of these runs stands in the result as well.
         Parts::discard(&options.output, &signature(&description));
         return Ok(report);
     }
+    spare_other_shards(&description, &options.output)?;
     let chunks = chunks(study.runs(), study.chunk, options.shard);
     let total = chunks.iter().map(Range::len).sum();
     let mut parts = Parts::open(
@@ -151,6 +161,7 @@ pub fn sweep(
         chunks,
         options.resume,
     )?;
+    runner.need(&parts.left(), options.keep_going, shared)?;
     let now = make(&runner, &mut parts, total, options, progress)?;
     let mut report = assemble(&runner, &description, &parts, options)?;
     report.made = now.made;
@@ -237,7 +248,10 @@ fn chunks(runs: usize, chunk: usize, shard: Shard) -> Vec<Range<usize>> {
 fn signature(d: &Description) -> String {
     format!(
         "{} {}/{}\n{}",
-        d.study_sha256, d.shard.0, d.shard.1, d.build
+        d.study_sha256,
+        d.part.shards()[0],
+        d.part.count(),
+        d.build
     )
 }
 
@@ -263,8 +277,13 @@ fn describe(runner: &Runner<'_>, shard: Shard) -> Description {
         build: BUILD.to_owned(),
         runs: study.runs(),
         chunk: study.chunk,
-        shard: (shard.index, shard.count),
+        part: shard.part(),
         warnings: runner.warnings.clone(),
+        quantities: study.quantities.as_ref().map(|_| {
+            let kept = runner.layout.quantities.iter();
+            kept.map(|q| q.name.to_owned()).collect()
+        }),
+        float32: study.float32,
         layout: runner.layout.clone(),
         coordinates: coordinates(study),
     }
@@ -342,14 +361,34 @@ fn complete(
     Ok(Some(report))
 }
 
+/// A shard never takes the place of another one of its study, or of the whole: where all are given
+/// one name by mistake, what has been computed stays.
+fn spare_other_shards(description: &Description, output: &Path) -> Result<(), StudyError> {
+    if description.part.is_whole() || !output.is_file() {
+        return Ok(());
+    }
+    // Anything else is replaced, as the output of any command is.
+    let Ok(found) = ResultReader::open(output, WithoutChecksum::Refuse) else {
+        return Ok(());
+    };
+    let found = &found.description;
+    if found.study_sha256 != description.study_sha256 || found.part == description.part {
+        return Ok(());
+    }
+    Err(StudyError::OtherShard {
+        path: output.to_owned(),
+        reason: other(found, description).unwrap_or_default(),
+    })
+}
+
 /// What a result is that is not this one.
 fn other(found: &Description, wanted: &Description) -> Option<String> {
     if found.study_sha256 != wanted.study_sha256 {
         Some("it is the result of another study, or of another version of this one".to_owned())
-    } else if found.shard != wanted.shard {
-        Some(match found.shard {
-            (_, 1) => "it is the result of the whole study".to_owned(),
-            (index, count) => format!("it is shard {index}/{count} of this study"),
+    } else if found.part != wanted.part {
+        Some(match found.part.is_whole() {
+            true => "it is the result of the whole study".to_owned(),
+            false => format!("it is {} of this study", found.part),
         })
     } else if found.build != wanted.build {
         Some(format!(
@@ -380,6 +419,8 @@ fn assemble(
     options: &SweepOptions,
 ) -> Result<SweepReport, StudyError> {
     let rows = parts.chunks.iter().map(Range::len).sum();
+    // Another process may have written there since the runs were begun.
+    spare_other_shards(description, &options.output)?;
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
     let mut table = table(options, description)?;

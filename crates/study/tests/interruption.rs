@@ -40,6 +40,7 @@ fn what_has_finished_is_stored_and_the_rest_made_later() {
         // Chunks have 256 runs: nothing is stored but for the interruption.
         store_every: Duration::from_secs(100_000),
         keep_going: false,
+        shared: None,
     };
     let (mut broken_off, mut told) = (false, Vec::new());
     let outcome = sweep(&study, &options("broken.h5"), &mut |now| {

@@ -49,6 +49,7 @@ fn rows(study: &Study, folder: &Path, keep_going: bool) -> (Vec<Row>, ResultRead
         resume: false,
         store_every: std::time::Duration::from_secs(5),
         keep_going,
+        shared: None,
     };
     sweep(
         study,

@@ -44,6 +44,7 @@ fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
         resume: false,
         store_every: std::time::Duration::from_secs(5),
         keep_going: false,
+        shared: None,
     };
     sweep(
         study,

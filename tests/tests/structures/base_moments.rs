@@ -7,7 +7,7 @@ use std::sync::Arc;
 use hdf5::File;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::study::{
-    Axis, Description, Ending, ID, Layout, ResultReader, ResultWriter, Row, is_result,
+    Axis, Description, Ending, ID, Layout, Part, ResultReader, ResultWriter, Row, is_result,
 };
 use pounding_results::{RunEnding, RunHead, RunWriter, read_all, value};
 use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
@@ -215,8 +215,10 @@ fn a_study_has_a_column_for_each() {
         build: "test".to_owned(),
         runs: 2,
         chunk: 2,
-        shard: (1, 1),
+        part: Part::whole(),
         warnings: Vec::new(),
+        quantities: None,
+        float32: false,
         layout: layout.clone(),
         coordinates: Vec::new(),
     };

@@ -1,6 +1,6 @@
 //! Arguments of `compare`.
 
-use super::{InputPath, OutputPath};
+use super::{DealArguments, InputPath, OutputPath};
 
 use clap::ValueEnum;
 
@@ -44,6 +44,9 @@ pub struct CompareArguments {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    /// How its runs are shared
+    #[command(flatten)]
+    pub dealing: DealArguments,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

@@ -1,6 +1,6 @@
 //! Arguments of `gap`.
 
-use super::{InputPath, OutputPath};
+use super::{DealArguments, InputPath, OutputPath};
 
 use super::figure::{FigureArguments, figure_file};
 use super::quantities::number;
@@ -67,6 +67,9 @@ pub struct GapArguments {
     /// Show every rule by itself, provisions that lack an input or do not apply, and every record
     #[arg(long)]
     pub all: bool,
+    /// How its runs are shared
+    #[command(flatten)]
+    pub dealing: DealArguments,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

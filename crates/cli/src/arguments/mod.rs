@@ -1,6 +1,7 @@
 //! Arguments of all commands.
 
 mod compare;
+mod deal;
 mod figure;
 mod gap;
 mod hysteresis;
@@ -17,13 +18,14 @@ use clap_complete::Shell;
 use figure::figure_file;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
+pub use deal::DealArguments;
 pub use figure::FigureArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
 pub use motion::*;
 pub use paths::{InputPath, OutputFolder, OutputPath, PathKind, file_use};
-pub use quantities::{optional, positive, value};
+pub use quantities::{optional, positive, time_limit, value};
 pub use study::*;
 pub use verification::*;
 
@@ -74,8 +76,10 @@ pub enum Command {
     Compare(Box<CompareArguments>),
     /// Run a case many times with varying values, models or records
     Sweep(Box<SweepArguments>),
-    /// Merge the results of all shards of a sweep
+    /// Merge the results of all shards of a study
     Merge(MergeArguments),
+    /// How far the shards of a study are, and which command goes on
+    Status(StatusArguments),
     /// Incremental dynamic analysis (IDA): fragility, and the gap for a target frequency
     Ida(Box<IdaArguments>),
     /// Ground motions: read, measure, convert, process, generate and match

@@ -27,7 +27,20 @@ pub fn value(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure
     }
 }
 
-/// The same of an option that may be left out.
+/// Seconds of a time limit, which is also given in minutes, hours and days.
+pub fn time_limit(text: &str, option: &str) -> Result<f64, Failure> {
+    let long = [("min", 60.0), ("h", 3600.0), ("d", 86_400.0)];
+    let of_unit = |(unit, seconds): &(&str, f64)| {
+        let number = text.trim().strip_suffix(unit)?.trim_end().parse::<f64>();
+        Some(number.ok()? * seconds)
+    };
+    match long.iter().find_map(of_unit) {
+        Some(seconds) => Ok(seconds),
+        None => value(text, option, Dimension::TIME),
+    }
+}
+
+/// The value of an option that may be left out.
 pub fn optional(
     text: Option<&str>,
     option: &str,

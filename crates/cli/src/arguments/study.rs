@@ -1,6 +1,8 @@
 //! Arguments of `sweep`, `merge` and `ida`.
 
-use super::{InputPath, OutputPath};
+use clap::ValueEnum;
+
+use super::{InputPath, OutputFolder, OutputPath};
 
 use super::figure::{FigureArguments, figure_file};
 
@@ -12,21 +14,70 @@ pub struct SweepArguments {
     /// How it is run
     #[command(flatten)]
     pub running: RunningArguments,
-    /// Run only part I of N, into a result that `merge` takes
-    #[arg(long, value_name = "I/N")]
-    pub shard: Option<String>,
-    /// Print the number of runs and lines for HyperQueue and Slurm; run nothing
-    #[arg(long)]
-    pub plan: bool,
-    /// Shards of the plan
-    #[arg(long, default_value_t = 8, requires = "plan", value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub shards: u32,
+    /// Which part is run
+    #[command(flatten)]
+    pub sharing: ShardArguments,
+    /// How all parts are handed out
+    #[command(flatten)]
+    pub planning: PlanArguments,
     /// Print the case of this run; run nothing
     #[arg(long, value_name = "RUN", conflicts_with = "plan")]
     pub show: Option<usize>,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,
+}
+
+/// The part of a study that is run.
+#[derive(Debug, clap::Args)]
+pub struct ShardArguments {
+    /// Run only part I of N, into a result that `merge` takes
+    #[arg(long, value_name = "I/N", conflicts_with = "plan")]
+    pub shard: Option<String>,
+    /// Folder of the results of all shards: a shard goes there under a name of its own, and
+    /// says how far it is, for `status` and `merge`
+    #[arg(long, value_name = "FOLDER")]
+    pub into: Option<OutputFolder>,
+}
+
+/// How the shards of a study are handed out.
+#[derive(Debug, clap::Args)]
+pub struct PlanArguments {
+    /// Print how the study is dealt in shards, or the script that has them run and merged; run
+    /// nothing
+    #[arg(
+        long,
+        value_name = "WHERE",
+        value_enum,
+        num_args = 0..=1,
+        require_equals = true
+    )]
+    pub plan: Option<Option<Scheduler>>,
+    /// Shards of the plan
+    #[arg(long, default_value_t = 8, requires = "plan", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub shards: u32,
+    /// Time limit of a task, such as "2 h"
+    #[arg(long, value_name = "TIME", requires = "plan")]
+    pub time: Option<String>,
+    /// Tasks that run at the same time at most
+    #[arg(long, value_name = "N", requires = "plan", value_parser = clap::value_parser!(u32).range(1..))]
+    pub at_once: Option<u32>,
+    /// MaxArraySize of the Slurm cluster, one more than the tasks that an array can have
+    #[arg(long, value_name = "N", default_value_t = 1001, requires = "plan", value_parser = clap::value_parser!(u32).range(2..))]
+    pub array_limit: u32,
+}
+
+/// What hands out the shards of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Scheduler {
+    /// Slurm, by an array of tasks and a job that merges
+    Slurm,
+    /// HyperQueue, by an array of tasks
+    HyperQueue,
+    /// Dask, by a Python script
+    Dask,
+    /// A plain shell with xargs, on one machine
+    Shell,
 }
 
 /// How the runs of a study are computed.
@@ -59,15 +110,27 @@ pub struct RunningArguments {
 /// Arguments of `merge`.
 #[derive(Debug, clap::Args)]
 pub struct MergeArguments {
-    /// Results of all shards of a study
+    /// Results of all shards of a study, or folders of them
     #[arg(required = true)]
     pub shards: Vec<InputPath>,
     /// Result of the whole study (HDF5)
-    #[arg(short, long)]
-    pub output: OutputPath,
+    #[arg(short, long, required_unless_present = "check")]
+    pub output: Option<OutputPath>,
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV
-    #[arg(long, visible_alias = "export", value_name = "FILE")]
+    #[arg(
+        long,
+        visible_alias = "export",
+        value_name = "FILE",
+        conflicts_with = "check"
+    )]
     pub csv: Option<OutputPath>,
+    /// Say which shards are there and whether they make one result; write nothing
+    #[arg(long, conflicts_with = "output")]
+    pub check: bool,
+    /// Merge the shards that are there, though others are missing, into a result that is merged
+    /// again
+    #[arg(long)]
+    pub partial: bool,
     /// Merge shards that different builds of the program computed; the result says which
     #[arg(long)]
     pub allow_mixed_builds: bool,
@@ -79,6 +142,26 @@ pub struct MergeArguments {
     pub accept_without_checksum: bool,
 }
 
+/// Arguments of `status`.
+#[derive(Debug, clap::Args)]
+pub struct StatusArguments {
+    /// Folder of the results of shards, as `--into` or a plan named it
+    pub folder: InputPath,
+    /// Print it anew until all shards are done
+    #[arg(long)]
+    pub watch: bool,
+    /// Time between two looks of `--watch`
+    #[arg(long, value_name = "TIME", default_value = "10 s", requires = "watch")]
+    pub every: String,
+    /// Print the numbers of the shards that are neither done nor running, as plans take them,
+    /// such as 3,7-9
+    #[arg(long, conflicts_with_all = ["watch", "json"])]
+    pub unfinished: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Arguments of `ida`.
 #[derive(Debug, clap::Args)]
 pub struct IdaArguments {
@@ -87,11 +170,17 @@ pub struct IdaArguments {
     /// How it is run
     #[command(flatten)]
     pub running: RunningArguments,
+    /// Which part is run
+    #[command(flatten)]
+    pub sharing: ShardArguments,
+    /// How all parts are handed out
+    #[command(flatten)]
+    pub planning: PlanArguments,
     /// Write the counts of every state at every intensity as a CSV table
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     pub table: Option<OutputPath>,
     /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), value_name = "FILE", conflicts_with = "shard")]
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -7,10 +7,12 @@ pub mod gap;
 mod hysteresis;
 pub mod ida;
 mod impact;
+mod merge;
 pub mod models;
 mod motion;
 mod report;
 mod run;
+mod status;
 mod stiffness;
 mod sweep;
 mod verify;
@@ -47,7 +49,8 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command, files),
         Command::Sweep(arguments) => sweep::sweep(&arguments, files),
-        Command::Merge(arguments) => sweep::merge(&arguments),
+        Command::Merge(arguments) => merge::merge(&arguments),
+        Command::Status(arguments) => status::status(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments, files),
         Command::Report {
             result,

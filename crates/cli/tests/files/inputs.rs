@@ -18,7 +18,7 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 31] = [
+const CALLS: [Call; 33] = [
     call("run case.toml", CASE),
     call("report result.h5", &["result.h5"]),
     call(
@@ -50,6 +50,14 @@ const CALLS: [Call; 31] = [
     call(
         "compare case.toml --models anagnostopoulos_2004 --records second.csv",
         &["case.toml", "second.csv", "target.csv", "step.csv"],
+    ),
+    call(
+        "gap case.toml --points 3 --merge gap.runs",
+        &["case.toml", "record.csv", "gap.runs"],
+    ),
+    call(
+        "compare case.toml --models anagnostopoulos_2004 --merge compare.runs",
+        &["case.toml", "record.csv", "compare.runs"],
     ),
     call("sweep study.toml", STUDY),
     call(
@@ -227,7 +235,8 @@ fn gives(command: &Command, name: &str, call: &Call, argument: &Arg) -> bool {
     let needed = of_kind(command, &[PathKind::Output]);
     let needed: Vec<String> = needed
         .iter()
-        .filter(|a| a.is_required_set())
+        // `merge` needs its own unless it only checks.
+        .filter(|a| a.is_required_set() || name == "merge" && a.get_id() == "output")
         .map(|a| format!("--{}=new", a.get_long().unwrap()))
         .collect();
     words.extend(needed.iter().map(String::as_str));
@@ -243,10 +252,17 @@ fn bench() -> Fixture {
         "ida study.toml -o ida.h5",
         "sweep study.toml --shard 1/2 -o 1.h5",
         "sweep study.toml --shard 2/2 -o 2.h5",
+        "gap case.toml --points 3 --shard 1/1 --into parts",
+        "compare case.toml --models anagnostopoulos_2004 --shard 1/1 --into parts",
     ] {
         let output = fixture.run(&words.split_whitespace().collect::<Vec<_>>());
         assert!(output.status.success(), "{}", message(&output));
     }
+    for check in ["gap", "compare"] {
+        let shard = fixture.path(&format!("parts/case.{check}-shard-1-of-1.runs"));
+        std::fs::rename(shard, fixture.path(&format!("{check}.runs"))).unwrap();
+    }
+    std::fs::remove_dir(fixture.path("parts")).unwrap();
     fixture
 }
 

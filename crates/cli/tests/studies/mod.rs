@@ -1,16 +1,22 @@
 //! Studies from the command line: examples, interruption, failure, shards.
 #![allow(clippy::unwrap_used)]
 
+mod checks;
 mod collapsing;
 mod damaged;
 mod errors;
 mod examples;
 mod failing;
 mod interrupted;
+mod merging;
+mod output;
 mod parquet;
+mod plans;
 mod python;
 mod shards;
+mod shared_records;
 mod shown;
+mod status;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -71,9 +71,9 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
         ("build", d.build.clone()),
         (
             "part",
-            match d.shard {
-                (_, 1) => String::new(),
-                (index, count) => format!("{index} of {count}"),
+            match d.part.is_whole() {
+                true => String::new(),
+                false => d.part.to_string(),
             },
         ),
         ("SHA-256 of the study", d.study_sha256.clone()),

@@ -7,9 +7,19 @@ use hdf5::{Dataset, File, Group, H5Type, Result};
 use serde_json::json;
 
 use super::writing::{BLOCK, Id};
-use super::{Axis, Description};
+use super::{Axis, Description, ranges};
 use crate::attributes::{self, text, unicode};
 use crate::dimension_scales::attach;
+
+/// Root attribute of a result with some quantities alone: their names.
+pub(super) const CHOSEN_QUANTITIES: &str = "quantities";
+/// Root attribute of the type of quantities, and its value where they have 32 bits.
+pub(super) const NUMBERS: &str = "numbers";
+/// See [`NUMBERS`].
+pub(super) const FLOAT32: &str = "float32";
+
+/// Root attribute of a result of several shards, but not all: their numbers.
+pub(super) const MERGED_SHARDS: &str = "merged_shards";
 
 /// What datasets are attached to.
 pub(super) struct Axes<'d> {
@@ -88,7 +98,10 @@ pub(super) fn quantities(
         if width == Some(0) {
             continue;
         }
-        let data = dataset::<f64>(file, q.name, rows, width)?;
+        let data = match description.float32 {
+            true => dataset::<f32>(file, q.name, rows, width)?,
+            false => dataset::<f64>(file, q.name, rows, width)?,
+        };
         describe(&data, q.unit, q.long_name)?;
         let names = [axes.coordinates, places].join(" ");
         text(&data, "coordinates", names.trim())?;
@@ -118,11 +131,25 @@ pub(super) fn root(file: &File, d: &Description) -> Result<()> {
     ] {
         text(file, name, value)?;
     }
+    if let Some(names) = &d.quantities {
+        text(file, CHOSEN_QUANTITIES, &names.join(" "))?;
+    }
+    if d.float32 {
+        text(file, NUMBERS, FLOAT32)?;
+    }
+    // One that holds several shards names them; readers that know only one refuse the zero.
+    let shard = match d.part.shards() {
+        [one] => *one,
+        several => {
+            text(file, MERGED_SHARDS, &ranges(several))?;
+            0
+        }
+    };
     for (name, value) in [
         ("runs", d.runs),
         ("chunk", d.chunk),
-        ("shard", d.shard.0),
-        ("shards", d.shard.1),
+        ("shard", shard),
+        ("shards", d.part.count()),
     ] {
         file.new_attr::<u64>()
             .create(name)?

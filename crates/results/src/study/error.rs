@@ -32,6 +32,14 @@ pub enum StudyFileError {
         /// Why.
         reason: String,
     },
+    /// Something wrong with several files of a merge.
+    #[error("{first}; {others} more of the files cannot be merged")]
+    Several {
+        /// The first.
+        first: Box<StudyFileError>,
+        /// How many more.
+        others: usize,
+    },
     /// Shards that different builds of the program computed.
     #[error("cannot merge shards that different builds of the program computed:\n{list}")]
     MixedBuilds {
@@ -63,6 +71,7 @@ impl StudyFileError {
             Self::Merge { .. } => {
                 "merge all shards i/n of one study for one n, computed by one version of the program"
             }
+            Self::Several { .. } => "`pounding merge --check` with the same files names them all",
             Self::MixedBuilds { .. } => {
                 "compute all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
             }

@@ -306,6 +306,16 @@ const COLUMN_SHEAR: Quantity = quantity(
     "maximum shear of the columns that are hit, below or above the hit, missing where floors hit floors",
 );
 
+/// Names of all quantities that results may have.
+pub fn quantity_names() -> impl Iterator<Item = &'static str> {
+    let more = [&BASE_MOMENT, &COLUMN_SHEAR, &ISOLATED_DEMAND];
+    QUANTITIES
+        .iter()
+        .chain(more)
+        .chain(RESPONSES.iter().map(|r| &r.peak))
+        .map(|q| q.name)
+}
+
 /// Whether a name is taken by the results.
 #[must_use]
 pub fn is_result(name: &str) -> bool {
@@ -322,12 +332,7 @@ pub fn is_result(name: &str) -> bool {
         "level_width",
         "failures",
     ];
-    QUANTITIES
-        .iter()
-        .chain([&BASE_MOMENT, &COLUMN_SHEAR, &ISOLATED_DEMAND])
-        .chain(RESPONSES.iter().map(|r| &r.peak))
-        .any(|q| q.name == name)
-        || labels.contains(&name)
+    quantity_names().any(|q| q == name) || labels.contains(&name)
 }
 
 /// A storey or a contact level.
@@ -447,6 +452,12 @@ impl Layout {
         }
     }
 
+    /// Keeps the quantities of these names alone, in the order that all have.
+    pub fn keep<N: AsRef<str>>(&mut self, names: &[N]) {
+        let kept = |q: &Quantity| names.iter().any(|name| name.as_ref() == q.name);
+        self.quantities.retain(kept);
+    }
+
     /// Number of values of a quantity.
     #[must_use]
     pub fn width(&self, axis: Axis) -> usize {
@@ -482,44 +493,63 @@ impl Layout {
     pub fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
         out.clear();
         let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
-        out.extend(storeys().map(|s| s.displacement.value));
-        out.extend(storeys().map(|s| s.drift_ratio.value));
-        out.extend(storeys().map(|s| s.storey_shear.value));
-        out.extend(storeys().map(|s| s.acceleration_absolute.value));
         let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
-        out.extend(levels().map(|l| l.impacts as f64));
-        out.extend(levels().map(|l| l.first_contact.unwrap_or(f64::NAN)));
-        out.extend(levels().map(|l| l.peak_force.value));
-        out.extend(levels().map(|l| l.peak_penetration.value));
-        out.extend(levels().map(|l| l.approach_velocity_max));
-        out.extend(levels().map(|l| l.impulse));
-        out.extend(levels().map(|l| l.impulse_max));
-        out.extend(levels().map(|l| l.energy_dissipated));
         let end = outcome.energy.end;
-        out.extend([end.input, end.viscous, end.hysteretic, end.impact]);
-        out.push(outcome.energy.residual_ratio);
-        let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
-        out.extend(moments.map(|m| m.value));
-        for response in RESPONSES
-            .iter()
-            .filter(|r| self.quantities.contains(&r.peak))
-        {
-            if response.peak.axis == Axis::Storey {
-                for building in &outcome.buildings {
-                    let storeys = 1..=building.storeys.len();
-                    let of = |n| response.of_storey(building, n).unwrap_or(f64::NAN);
-                    out.extend(storeys.map(of));
+        for quantity in &self.quantities {
+            match quantity.name {
+                "peak_displacement" => out.extend(storeys().map(|s| s.displacement.value)),
+                "peak_drift_ratio" => out.extend(storeys().map(|s| s.drift_ratio.value)),
+                "peak_storey_shear" => out.extend(storeys().map(|s| s.storey_shear.value)),
+                "peak_acceleration_absolute" => {
+                    out.extend(storeys().map(|s| s.acceleration_absolute.value));
                 }
-                continue;
+                "impacts" => out.extend(levels().map(|l| l.impacts as f64)),
+                "first_contact" => {
+                    out.extend(levels().map(|l| l.first_contact.unwrap_or(f64::NAN)));
+                }
+                "peak_force" => out.extend(levels().map(|l| l.peak_force.value)),
+                "peak_penetration" => out.extend(levels().map(|l| l.peak_penetration.value)),
+                "approach_velocity_max" => out.extend(levels().map(|l| l.approach_velocity_max)),
+                "impulse" => out.extend(levels().map(|l| l.impulse)),
+                "impulse_max" => out.extend(levels().map(|l| l.impulse_max)),
+                "energy_dissipated" => out.extend(levels().map(|l| l.energy_dissipated)),
+                "energy_input" => out.push(end.input),
+                "energy_viscous" => out.push(end.viscous),
+                "energy_hysteretic" => out.push(end.hysteretic),
+                "energy_impact" => out.push(end.impact),
+                "energy_residual_ratio" => out.push(outcome.energy.residual_ratio),
+                "peak_base_moment" => {
+                    let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
+                    out.extend(moments.map(|m| m.value));
+                }
+                "peak_column_shear" => {
+                    let shear =
+                        |l: &LevelOutcome| l.column_shear().map_or(f64::NAN, |r| r.peak.value);
+                    out.extend(levels().map(shear));
+                }
+                "isolated_demand" => out.extend(demand),
+                _ => {
+                    let own = RESPONSES.iter().find(|r| r.peak == *quantity);
+                    out.extend(own.into_iter().flat_map(|r| Self::response(r, outcome)));
+                }
             }
-            let buildings = outcome.buildings.iter().filter(|b| b.base_moment.is_some());
-            out.extend(buildings.map(|b| response.of(b).unwrap_or(f64::NAN)));
         }
-        if self.quantities.contains(&COLUMN_SHEAR) {
-            let shear = |l: &LevelOutcome| l.column_shear().map_or(f64::NAN, |r| r.peak.value);
-            out.extend(levels().map(shear));
+    }
+
+    /// Peaks of a response, of each storey or of each building with a base moment; NaN where a
+    /// building has none.
+    fn response(response: &Response, outcome: &Outcome) -> Vec<f64> {
+        let mut peaks = Vec::new();
+        for building in &outcome.buildings {
+            if response.peak.axis == Axis::Storey {
+                let storeys = 1..=building.storeys.len();
+                let of = |n| response.of_storey(building, n).unwrap_or(f64::NAN);
+                peaks.extend(storeys.map(of));
+            } else if building.base_moment.is_some() {
+                peaks.push(response.of(building).unwrap_or(f64::NAN));
+            }
         }
-        out.extend(demand);
+        peaks
     }
 
     /// Puts a collapse into columns: nothing is known but the isolated demand of each level.

@@ -4,16 +4,18 @@
 mod datasets;
 mod error;
 mod layout;
+mod part;
 mod reading;
 mod row;
 mod shards;
 mod writing;
 
 pub use error::StudyFileError;
-pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result};
+pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result, quantity_names};
+pub use part::{Part, numbers, ranges};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};
-pub use shards::{MergeOptions, Shards};
+pub use shards::{Fault, MergeOptions, Shards, Survey, survey};
 pub use writing::ResultWriter;
 
 /// A coordinate of the runs.
@@ -51,10 +53,14 @@ pub struct Description {
     pub runs: usize,
     /// Runs that are stored at once.
     pub chunk: usize,
-    /// Which shard this is, from 1, and of how many; `(1, 1)` is the whole.
-    pub shard: (usize, usize),
+    /// Which shards of the study it holds.
+    pub part: Part,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
+    /// Names of the quantities that are stored, if the study chooses some; the columns are those.
+    pub quantities: Option<Vec<String>>,
+    /// Whether quantities are stored as numbers of 32 bits.
+    pub float32: bool,
     /// Columns.
     pub layout: Layout,
     /// Variables of the study.

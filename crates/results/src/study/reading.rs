@@ -8,9 +8,12 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 
+use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, MERGED_SHARDS, NUMBERS};
 use super::writing::Id;
-use super::{Axis, Coordinate, Description, Ending, Layout, Place, Row, StudyFileError, Value};
-use crate::{OpenError, ResultFile, dataset, number, text, texts, values};
+use super::{
+    Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
+};
+use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
 
 /// A result that is read.
 #[derive(Debug)]
@@ -22,6 +25,8 @@ pub struct ResultReader {
     pub rows: usize,
     /// What its checksum says.
     pub checksum: Checksum,
+    /// What tells whether the file has changed since.
+    pub(super) stamp: Stamp,
     run: Dataset,
     id: Dataset,
     status: Dataset,
@@ -53,10 +58,28 @@ impl ResultReader {
                 source,
             },
         })?;
-        Self::with_parts(path, &opened).map_err(|e| {
+        Self::of(path, &opened)
+    }
+
+    /// Opens a result once more that was open before, if it has not changed since.
+    pub(super) fn open_again(path: &Path, stamp: &Stamp) -> Result<Self, StudyFileError> {
+        let opened = stamp.open_again(path);
+        let opened = opened.map_err(|source| StudyFileError::Checksum {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::of(path, &opened)
+    }
+
+    fn of(path: &Path, opened: &ResultFile) -> Result<Self, StudyFileError> {
+        Self::with_parts(path, opened).map_err(|e| {
             let reason = e.to_string();
             let reason = reason.lines().next().unwrap_or_default();
-            failed(format!("it is not the result of a study ({reason})"))
+            StudyFileError::File {
+                what: "read",
+                path: path.to_owned(),
+                reason: format!("it is not the result of a study ({reason})"),
+            }
         })
     }
 
@@ -65,7 +88,7 @@ impl ResultReader {
         let description = description(file)?;
         let run = part::<i64>(file, "run")?;
         let rows = run.size();
-        if Some(rows) != description.rows_of_shard() {
+        if Some(rows) != description.part.rows(description.runs, description.chunk) {
             return Err(hdf5::Error::from(
                 "its rows are not those of its part of the study",
             ));
@@ -96,14 +119,18 @@ impl ResultReader {
                 axis => Some(layout.width(axis)),
             };
             if columns != Some(0) {
-                let data = fits(part::<f64>(file, q.name)?, q.name, columns)?;
-                quantities.push((data, columns));
+                let data = match description.float32 {
+                    true => part::<f32>(file, q.name)?,
+                    false => part::<f64>(file, q.name)?,
+                };
+                quantities.push((fits(data, q.name, columns)?, columns));
             }
         }
         Ok(Self {
             path: path.to_owned(),
             rows,
             checksum: opened.checksum(),
+            stamp: opened.stamp().clone(),
             id: fits(id, "run_id", None)?,
             status: fits(status, "status", None)?,
             run,
@@ -174,19 +201,33 @@ impl ResultReader {
             }
         }
         for (data, columns) in &self.quantities {
-            if columns.is_none() {
-                for (row, value) in rows.iter_mut().zip(column::<f64>(data, &places)?) {
-                    row.0.values.push(value);
-                }
-            } else {
-                let block = data.read_slice_2d::<f64, _>((places.clone(), ..))?;
-                for (row, values) in rows.iter_mut().zip(block.rows()) {
-                    row.0.values.extend(values);
-                }
+            match self.description.float32 {
+                true => add::<f32>(&mut rows, data, *columns, &places)?,
+                false => add::<f64>(&mut rows, data, *columns, &places)?,
             }
         }
         Ok(rows)
     }
+}
+
+/// Adds the values of a quantity to rows.
+fn add<T: H5Type + Copy + Into<f64>>(
+    rows: &mut [(Row, Vec<Value>)],
+    data: &Dataset,
+    columns: Option<usize>,
+    places: &Range<usize>,
+) -> hdf5::Result<()> {
+    if columns.is_none() {
+        for (row, value) in rows.iter_mut().zip(column::<T>(data, places)?) {
+            row.0.values.push(value.into());
+        }
+        return Ok(());
+    }
+    let block = data.read_slice_2d::<T, _>((places.clone(), ..))?;
+    for (row, values) in rows.iter_mut().zip(block.rows()) {
+        row.0.values.extend(values.iter().map(|x| (*x).into()));
+    }
+    Ok(())
 }
 
 /// A dataset of this type, or which one is damaged and how.
@@ -222,24 +263,6 @@ fn bytes(text: &str) -> Option<[u8; 16]> {
     Some(id)
 }
 
-impl Description {
-    /// Rows of this shard; `None` if its numbers cannot be.
-    fn rows_of_shard(&self) -> Option<usize> {
-        let (index, count) = self.shard;
-        if self.chunk == 0 || index == 0 || index > count {
-            return None;
-        }
-        let all = self.runs.div_ceil(self.chunk);
-        let ours = all.saturating_sub(index - 1).div_ceil(count);
-        let short = match ours > 0 && (all - index).is_multiple_of(count) {
-            // The last chunk of the study is ours: it may be shorter.
-            true => all.checked_mul(self.chunk)? - self.runs,
-            false => 0,
-        };
-        Some(ours.checked_mul(self.chunk)? - short)
-    }
-}
-
 fn description(file: &File) -> hdf5::Result<Description> {
     let text = |name: &str| -> hdf5::Result<String> {
         text(file, name).map_err(|e| of(&format!("attribute {name}"), &e))
@@ -266,6 +289,24 @@ fn description(file: &File) -> hdf5::Result<Description> {
             choices: v["choices"].as_array().map(named),
         }
     };
+    let has = |name: &str| -> hdf5::Result<bool> {
+        Ok(file.attr_names()?.iter().any(|found| found == name))
+    };
+    let quantities = match has(CHOSEN_QUANTITIES)? {
+        true => Some(text(CHOSEN_QUANTITIES)?),
+        false => None,
+    };
+    let quantities: Option<Vec<String>> =
+        quantities.map(|names| names.split_whitespace().map(str::to_owned).collect());
+    let float32 = match has(NUMBERS)? {
+        true if text(NUMBERS)? == FLOAT32 => true,
+        true => {
+            return Err(hdf5::Error::from(
+                "its numbers have a type that we do not know",
+            ));
+        }
+        false => false,
+    };
     Ok(Description {
         title: text("title")?,
         study_sha256: text("study_sha256")?,
@@ -279,13 +320,15 @@ fn description(file: &File) -> hdf5::Result<Description> {
         },
         runs: number("runs")?,
         chunk: number("chunk")?,
-        shard: (number("shard")?, number("shards")?),
+        part: part_of(file, number("shard")?, number("shards")?)?,
         // Versions before had none.
         warnings: match file.attr_names()?.iter().any(|n| n == "warnings") {
             true => text("warnings")?.lines().map(str::to_owned).collect(),
             false => Vec::new(),
         },
-        layout: layout(file)?,
+        layout: layout(file, quantities.as_deref())?,
+        quantities,
+        float32,
         coordinates: variables
             .as_array()
             .into_iter()
@@ -295,7 +338,18 @@ fn description(file: &File) -> hdf5::Result<Description> {
     })
 }
 
-fn layout(file: &File) -> hdf5::Result<Layout> {
+/// Which shards a result holds.
+fn part_of(file: &File, shard: usize, of: usize) -> hdf5::Result<Part> {
+    let shards = match shard {
+        0 => numbers(&text(file, MERGED_SHARDS)?, of),
+        one => Some(vec![one]),
+    };
+    let part = shards.and_then(|shards| Part::of(shards, of));
+    part.ok_or_else(|| hdf5::Error::from("its shards are none that can be"))
+}
+
+/// The columns of a result, of which a study may have chosen some quantities.
+fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
     let labels = |name: &str| match file.link_exists(name) {
         true => texts(file, name).map_err(|e| of(name, &e)),
         false => Ok(Vec::new()),
@@ -373,12 +427,13 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
                 width,
             },
         );
-    // A study without such buildings may have a variable of that name.
-    let buildings = match file.link_exists("peak_base_moment") {
+    // A study without such buildings may have had a variable of that name, in versions that let
+    // no quantities be chosen.
+    let buildings = match chosen.is_some() || file.link_exists("peak_base_moment") {
         true => labels("building")?,
         false => Vec::new(),
     };
-    Ok(Layout::from_places(
+    let mut layout = Layout::from_places(
         (storeys.collect(), levels.collect()),
         buildings,
         |response| file.link_exists(response.peak.name),
@@ -386,5 +441,15 @@ fn layout(file: &File) -> hdf5::Result<Layout> {
             file.link_exists("peak_column_shear"),
             file.link_exists("isolated_demand"),
         ),
-    ))
+    );
+    if let Some(names) = chosen {
+        layout.keep(names);
+        // Else a quantity whose dataset is lost would not be missed.
+        if layout.quantities.len() != names.len() {
+            return Err(hdf5::Error::from(
+                "a quantity that the study chose is not there",
+            ));
+        }
+    }
+    Ok(layout)
 }

@@ -38,6 +38,7 @@ struct Open {
     coordinates: Vec<(Dataset, Option<Vec<String>>)>,
     quantities: Vec<(Dataset, std::ops::Range<usize>)>,
     failures: (Dataset, Dataset),
+    float32: bool,
     written: usize,
     block: Vec<(Row, Vec<Value>)>,
 }
@@ -161,6 +162,7 @@ impl Open {
             coordinates,
             quantities,
             failures,
+            float32: description.float32,
             written: 0,
             block: Vec::new(),
         })
@@ -211,14 +213,13 @@ impl Open {
                 .flat_map(|(r, _)| &r.values[columns.clone()])
                 .copied()
                 .collect();
-            if data.ndim() == 1 {
-                put(data, &values, place.clone())?;
-                continue;
+            let shape = (data.ndim() > 1).then_some((rows.len(), columns.len()));
+            if self.float32 {
+                let values: Vec<f32> = values.iter().map(|x| *x as f32).collect();
+                put_block(data, &values, shape, place.clone())?;
+            } else {
+                put_block(data, &values, shape, place.clone())?;
             }
-            let shape = (rows.len(), columns.len());
-            let view = ArrayView2::from_shape(shape, &values);
-            let view = view.map_err(|e| hdf5::Error::from(e.to_string()))?;
-            data.write_slice(view, (place.clone(), ..))?;
         }
         self.add_failures(&rows)?;
         self.written = place.end;
@@ -250,4 +251,19 @@ impl Open {
 
 fn put<T: H5Type>(data: &Dataset, values: &[T], place: std::ops::Range<usize>) -> Result<()> {
     data.write_slice(ArrayView1::from(values), place)
+}
+
+/// Puts rows of one value, or of as many as the shape has columns.
+fn put_block<T: H5Type>(
+    data: &Dataset,
+    values: &[T],
+    shape: Option<(usize, usize)>,
+    place: std::ops::Range<usize>,
+) -> Result<()> {
+    let Some(shape) = shape else {
+        return put(data, values, place);
+    };
+    let view = ArrayView2::from_shape(shape, values);
+    let view = view.map_err(|e| hdf5::Error::from(e.to_string()))?;
+    data.write_slice(view, (place, ..))
 }

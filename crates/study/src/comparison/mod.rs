@@ -20,8 +20,9 @@ use std::sync::Arc;
 use pounding_case::Case;
 use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
 use pounding_hysteresis::help_among_gaps;
-use pounding_time_history::{BuildingOutcome, StoreyPeaks, System, run};
+use pounding_time_history::{BuildingOutcome, Peak, StoreyPeaks, System, run};
 
+use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, amplification,
     demands, in_parallel, levels, rebuilt,
@@ -68,6 +69,49 @@ pub struct ModelRun {
     pub amplification: Vec<Vec<Amplification>>,
     /// Impacts of each gap and level.
     pub impacts: Vec<Vec<usize>>,
+}
+
+impl Stored for ModelRun {
+    fn to_numbers(&self, numbers: &mut Vec<f64>) {
+        numbers.push(self.values.len() as f64);
+        numbers.extend(&self.values);
+        numbers.push(self.storeys.len() as f64);
+        for building in &self.storeys {
+            numbers.push(building.len() as f64);
+            for s in building {
+                let peaks = [s.displacement, s.drift_ratio, s.storey_shear];
+                let peaks = peaks.into_iter().chain([s.acceleration_absolute]);
+                numbers.extend(peaks.flat_map(|peak| [peak.value, peak.time]));
+            }
+        }
+        Amplification::to_numbers(&self.amplification, numbers);
+        numbers.push(self.impacts.len() as f64);
+        for gap in &self.impacts {
+            numbers.push(gap.len() as f64);
+            numbers.extend(gap.iter().map(|n| *n as f64));
+        }
+    }
+
+    fn from_numbers(numbers: &mut Numbers<'_>) -> Option<Self> {
+        let peak = |numbers: &mut Numbers<'_>| {
+            let (value, time) = (numbers.take()?, numbers.take()?);
+            Some(Peak { value, time })
+        };
+        let storey = |numbers: &mut Numbers<'_>| {
+            let mut storey = StoreyPeaks::default();
+            storey.displacement = peak(numbers)?;
+            storey.drift_ratio = peak(numbers)?;
+            storey.storey_shear = peak(numbers)?;
+            storey.acceleration_absolute = peak(numbers)?;
+            Some(storey)
+        };
+        Some(Self {
+            values: numbers.list(Numbers::take)?,
+            storeys: numbers.list(|numbers| numbers.list(storey))?,
+            amplification: Amplification::from_numbers(numbers)?,
+            impacts: numbers.list(|numbers| numbers.list(|n| Some(n.take()? as usize)))?,
+        })
+    }
 }
 
 impl ComparedModel {
@@ -135,6 +179,19 @@ pub fn compare(
     options: &ComparisonOptions,
     progress: Progress<'_>,
 ) -> Result<Comparison, CheckError> {
+    compare_dealt(case, records, options, (progress, &Deal::All))
+}
+
+/// The same with the runs of the models dealt out to several processes.
+///
+/// # Errors
+/// As [`compare`], and [`CheckError::Shards`].
+pub fn compare_dealt(
+    case: &Case,
+    records: &[CaseUnderRecord],
+    options: &ComparisonOptions,
+    (progress, deal): (Progress<'_>, &Deal),
+) -> Result<Comparison, CheckError> {
     let first = records.first().ok_or(CheckError::NoGap)?;
     let system = &first.assembly.system;
     if system.gaps().is_empty() {
@@ -160,11 +217,17 @@ pub fn compare(
     let quantities = quantities::of_system(system);
     let tell = |done, _| progress(records.len() + done, total);
     let count = models.len() * records.len();
-    let runs = in_parallel(count, options.threads, &tell, |number| {
+    let asked = ComparisonOptions {
+        // Nothing depends on it.
+        threads: 0,
+        ..options.clone()
+    };
+    let identity = || identity("compare", &asked, case, records);
+    let runs = deal.runs(identity, count, (options.threads, &tell), |number| {
         let model = &models[number / records.len()];
         let record = number % records.len();
         one(model, &records[record], &own[record].isolated, &quantities)
-    });
+    })?;
     let mut runs = runs.into_iter();
     for model in &mut models {
         model.records = runs.by_ref().take(records.len()).collect();

@@ -1,5 +1,6 @@
 //! Demand of each record, and what pounding does at the provided gap.
 
+use crate::dealt::Numbers;
 use pounding_time_history::{
     BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, System, TimeHistoryError, isolated_demand,
     run,
@@ -36,6 +37,29 @@ pub struct Amplification {
 pub type AmplifiedQuantity = (&'static str, fn(&Amplification) -> f64);
 
 impl Amplification {
+    /// Adds the numbers of each building and storey.
+    pub(crate) fn to_numbers(all: &[Vec<Self>], numbers: &mut Vec<f64>) {
+        numbers.push(all.len() as f64);
+        for building in all {
+            numbers.push(building.len() as f64);
+            for a in building {
+                numbers.extend([a.displacement, a.storey_shear, a.acceleration_absolute]);
+            }
+        }
+    }
+
+    /// Takes them back.
+    pub(crate) fn from_numbers(numbers: &mut Numbers<'_>) -> Option<Vec<Vec<Self>>> {
+        let storey = |numbers: &mut Numbers<'_>| {
+            Some(Self {
+                displacement: numbers.take()?,
+                storey_shear: numbers.take()?,
+                acceleration_absolute: numbers.take()?,
+            })
+        };
+        numbers.list(|numbers| numbers.list(storey))
+    }
+
     /// The quantities, in the order of tables and pictures.
     pub const QUANTITIES: [AmplifiedQuantity; 3] = [
         ("displacement", |a| a.displacement),

@@ -60,6 +60,14 @@ pub enum CheckError {
         /// Why.
         reason: String,
     },
+    /// The file of a shard of the check that cannot be used.
+    #[error("{path}: {reason}")]
+    Shards {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// An option out of range.
     #[error("{option} = {value} is out of range: {reason}")]
     Option {
@@ -103,6 +111,10 @@ impl CheckError {
             ),
             Self::NoGap => Some("add a [[gap]] to the case".to_owned()),
             Self::UnknownGap { known, .. } => Some(format!("its gaps are {}", known.join(", "))),
+            Self::Shards { .. } => Some(
+                "make all shards i/n for one n by one build of the program, with the same options, case and records"
+                    .to_owned(),
+            ),
             Self::NoRecords { .. } => Some("name record files, or a folder of them".to_owned()),
             Self::Option { reason, .. } => Some((*reason).to_owned()),
             Self::UnknownModel { help, .. } => Some(help.clone()),

@@ -33,6 +33,8 @@ pub(crate) use systems::rebuilt;
 use pounding_case::{Case, Separation};
 use pounding_time_history::NamedPeak;
 
+use crate::dealt::{Deal, identity};
+
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapCheckOptions {
@@ -194,6 +196,20 @@ pub fn gap_check(
     options: &GapCheckOptions,
     progress: Progress<'_>,
 ) -> Result<GapCheck, CheckError> {
+    gap_check_dealt(case, separation, records, options, (progress, &Deal::All))
+}
+
+/// The same with the runs of the sweep dealt out to several processes.
+///
+/// # Errors
+/// As [`gap_check`], and [`CheckError::Shards`].
+pub fn gap_check_dealt(
+    case: &Case,
+    separation: &Separation,
+    records: &[CaseUnderRecord],
+    options: &GapCheckOptions,
+    (progress, deal): (Progress<'_>, &Deal),
+) -> Result<GapCheck, CheckError> {
     check_options(options)?;
     let chosen = codes::chosen(case, separation)?;
     let code = codes::chosen_code(case, separation)?;
@@ -224,7 +240,14 @@ pub fn gap_check(
     }
     let sweep = swept.map(|asked| {
         let tell = |done, _| progress(records.len() + done, total);
-        sweep::sweep(records, &demands, (asked, gap), options.threads, &tell)
+        let identity = || identity("gap", asked, case, records);
+        let shared = sweep::Shared {
+            deal,
+            identity: &identity,
+            threads: options.threads,
+            progress: &tell,
+        };
+        sweep::sweep(records, &demands, (asked, gap), &shared)
     });
     Ok(GapCheck {
         options: options.clone(),

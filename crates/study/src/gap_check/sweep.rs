@@ -6,9 +6,10 @@ use pounding_time_history::{System, run};
 
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
-use super::parallel::{Progress, in_parallel};
+use super::parallel::Progress;
 use super::records::CaseUnderRecord;
 use super::systems::rebuilt;
+use crate::dealt::{Deal, Numbers, Stored};
 
 /// Which widths.
 #[derive(Debug, Clone, PartialEq)]
@@ -168,17 +169,44 @@ pub(crate) fn find(system: &System, name: &str) -> Result<usize, CheckError> {
     })
 }
 
+/// Who makes the runs, and how.
+pub(crate) struct Shared<'s> {
+    pub deal: &'s Deal,
+    pub identity: &'s dyn Fn() -> String,
+    pub threads: usize,
+    pub progress: Progress<'s>,
+}
+
+impl Stored for SweepRun {
+    fn to_numbers(&self, numbers: &mut Vec<f64>) {
+        numbers.extend([self.impacts as f64, self.peak_force, self.impact_energy]);
+        Amplification::to_numbers(&self.amplification, numbers);
+    }
+
+    fn from_numbers(numbers: &mut Numbers<'_>) -> Option<Self> {
+        Some(Self {
+            impacts: numbers.take()? as usize,
+            peak_force: numbers.take()?,
+            impact_energy: numbers.take()?,
+            amplification: Amplification::from_numbers(numbers)?,
+        })
+    }
+}
+
 pub(crate) fn sweep(
     records: &[CaseUnderRecord],
     demands: &[RecordDemand],
     (asked, gap): (&SweepOptions, Option<usize>),
-    threads: usize,
-    progress: Progress<'_>,
+    shared: &Shared<'_>,
 ) -> Result<GapSweep, CheckError> {
     let to = match (asked.to, widest(demands, gap)) {
         (Some(to), _) => to,
         (None, to) if to > asked.from.unwrap_or(0.0) => to,
         (None, 0.0) if asked.from.is_none() => {
+            // Nothing to make, which is dealt out as well.
+            let on = (shared.threads, shared.progress);
+            let none = |_: usize| Err::<SweepRun, _>(String::new());
+            shared.deal.runs(shared.identity, 0, on, none)?;
             return Ok(GapSweep {
                 gap: asked.gap.clone(),
                 widths: Vec::new(),
@@ -198,11 +226,13 @@ pub(crate) fn sweep(
     let width = |i: usize| from + (to - from) * i as f64 / steps;
     let widths: Vec<f64> = (0..asked.points).map(width).collect();
     let count = widths.len() * records.len();
-    let mut runs = in_parallel(count, threads, progress, |number| {
+    let make = |number: usize| {
         let (i, r) = (number / records.len(), number % records.len());
         one(&records[r], &demands[r], widths[i], gap)
-    })
-    .into_iter();
+    };
+    let on = (shared.threads, shared.progress);
+    let runs = shared.deal.runs(shared.identity, count, on, make)?;
+    let mut runs = runs.into_iter();
     let by_width = widths.iter();
     let runs = by_width.map(|_| runs.by_ref().take(records.len()).collect());
     Ok(GapSweep {

@@ -4,6 +4,7 @@ mod cache;
 mod engine;
 mod motions;
 mod runner;
+mod shared_records;
 mod varied;
 
 pub(crate) use engine::run_all;

@@ -1,19 +1,24 @@
 //! The motions of a study: read once.
 
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::Arc;
 
 use pounding_assembly::read_record;
 use pounding_ground_motion::Accelerogram;
 use sha2::{Digest, Sha256};
 
+use super::shared_records::{self, SharedRecords};
 use crate::case_text::hexadecimal;
 use crate::error::StudyError;
-use crate::study_file::{IntensityMeasure, RecordKind, Study, Target};
+use crate::study_file::{IntensityMeasure, RecordKind, RecordSource, Study, Target};
 
-/// A motion as it was read.
+/// A motion of a study.
 #[derive(Debug, Clone)]
 pub(crate) struct Motion {
-    pub record: Arc<Accelerogram>,
+    /// The motion as it was read; `None` where its hash and intensity are known from another
+    /// process, and no run here needs more.
+    pub record: Option<Arc<Accelerogram>>,
     /// Hash of the bytes of its file, or of its samples if it is synthetic.
     pub sha256: String,
     /// Intensity as recorded, if the study scales to one.
@@ -38,35 +43,89 @@ pub struct RecordReport {
 }
 
 impl Motions {
-    /// Reads all motions of a study.
+    /// Reads all motions of a study, but those that a folder of shared records knows: of these
+    /// the hash and the intensity are enough until a run needs them. The folder is given what it
+    /// does not know.
     ///
     /// # Errors
     /// [`StudyError::Records`] if there are some that cannot be read, unless they are to
-    /// be kept as failures.
-    pub(crate) fn read(study: &Study, keep_failures: bool) -> Result<Self, StudyError> {
-        let measure = study.variables.iter().find_map(|v| match &v.target {
-            Target::Intensity(measure) => Some(measure),
-            _ => None,
+    /// be kept as failures; a folder that cannot be written to.
+    pub(crate) fn read(
+        study: &Study,
+        keep_failures: bool,
+        folder: Option<&Path>,
+    ) -> Result<Self, StudyError> {
+        let mut shared = folder.map(|folder| SharedRecords::open(folder, study));
+        let known = |source: &RecordSource| shared.as_ref().and_then(|s| s.known(source));
+        let all = study.records.iter().map(|source| match known(source) {
+            Some(known) => Ok(known),
+            None => read(study, &source.kind),
         });
-        let all: Vec<_> = study
-            .records
-            .iter()
-            .map(|source| motion(&source.kind, measure).map_err(|e| e.to_string()))
-            .collect();
-        let failed: Vec<String> = all
+        let motions = Self { all: all.collect() };
+        motions.check(study, keep_failures)?;
+        if let Some(shared) = &mut shared {
+            shared.add(&study.records, &motions.all)?;
+        }
+        Ok(motions)
+    }
+
+    /// Reads those that runs need and that were only known until now.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); a record that has changed since its hash was taken.
+    pub(crate) fn need(
+        &mut self,
+        study: &Study,
+        wanted: &BTreeSet<usize>,
+        keep_failures: bool,
+        folder: Option<&Path>,
+    ) -> Result<(), StudyError> {
+        for number in wanted {
+            let Ok(known) = &self.all[*number] else {
+                continue;
+            };
+            if known.record.is_some() {
+                continue;
+            }
+            let source = &study.records[*number];
+            let copy = folder.and_then(|f| shared_records::copy(f, source, &known.sha256));
+            let made = read(study, copy.as_ref().unwrap_or(&source.kind));
+            self.all[*number] = match made {
+                Ok(made) if made.sha256 != known.sha256 => Err(format!(
+                    "it has changed since the study was begun (SHA-256 {}, now {})",
+                    known.sha256, made.sha256
+                )),
+                made => made,
+            };
+        }
+        self.check(study, keep_failures)
+    }
+
+    fn check(&self, study: &Study, keep_failures: bool) -> Result<(), StudyError> {
+        let failed: Vec<String> = self
+            .all
             .iter()
             .zip(&study.records)
             .filter_map(|(m, s)| m.as_ref().err().map(|e| format!("  {}: {e}", s.name)))
             .collect();
-        if failed.is_empty() || (keep_failures && failed.len() < all.len()) {
-            return Ok(Self { all });
+        if failed.is_empty() || (keep_failures && failed.len() < self.all.len()) {
+            return Ok(());
         }
         Err(StudyError::Records {
             count: failed.len(),
-            of: all.len(),
+            of: self.all.len(),
             list: failed.join("\n"),
         })
     }
+}
+
+/// Reads a motion of a study.
+fn read(study: &Study, kind: &RecordKind) -> Result<Motion, String> {
+    let measure = study.variables.iter().find_map(|v| match &v.target {
+        Target::Intensity(measure) => Some(measure),
+        _ => None,
+    });
+    motion(kind, measure).map_err(|e| e.to_string())
 }
 
 /// Reads a motion, and measures it if the study scales.
@@ -94,7 +153,7 @@ pub(crate) fn motion(
     };
     Ok(Motion {
         intensity: measure.map(|m| m.of(&record)).transpose()?,
-        record: Arc::new(record),
+        record: Some(Arc::new(record)),
         sha256,
     })
 }

@@ -1,7 +1,7 @@
 //! One run of a study: from its number to its row.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pounding_assembly::{
@@ -58,14 +58,29 @@ pub(crate) struct Runner<'s> {
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl<'s> Runner<'s> {
-    pub(crate) fn new(study: &'s Study, keep_failures: bool) -> Result<Self, StudyError> {
-        let motions = Motions::read(study, keep_failures)?;
+    /// Prepares the runs of a study; records are shared with other shards in their folder.
+    pub(crate) fn new(
+        study: &'s Study,
+        keep_failures: bool,
+        folder: Option<&Path>,
+    ) -> Result<Self, StudyError> {
+        let motions = Motions::read(study, keep_failures, folder)?;
         let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
         let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
         let assembly = assemble_with_record(&study.base, &rest)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
+        let mut missing = Vec::new();
+        if let Some(names) = &study.quantities {
+            let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
+            missing.extend(names.iter().filter(|name| !has(name)).cloned());
+            let mut kept = names.clone();
+            if study.isolated_demand {
+                kept.push("isolated_demand".to_owned());
+            }
+            layout.keep(&kept);
+        }
         let varied = leave_out_varied(&mut layout, study, &system);
         let mut warnings: Vec<String> = system
             .unequal_floor_warnings()
@@ -80,6 +95,12 @@ impl<'s> Runner<'s> {
                 gap.name
             )
         }));
+        if !missing.is_empty() {
+            warnings.push(format!(
+                "[output] chooses {}, which no building or gap of this study has",
+                missing.join(", ")
+            ));
+        }
         let base =
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         Ok(Self {
@@ -94,6 +115,19 @@ impl<'s> Runner<'s> {
             buildings: Cache::new(KEPT),
             demands: Cache::new(KEPT),
         })
+    }
+
+    /// Reads the records that these runs use, as far as they are not read yet.
+    pub(crate) fn need(
+        &mut self,
+        runs: &[usize],
+        keep_failures: bool,
+        folder: Option<&Path>,
+    ) -> Result<(), StudyError> {
+        let study = self.study;
+        let wanted = runs.iter().map(|run| chosen(study, &study.point(*run)));
+        let wanted = wanted.collect();
+        self.motions.need(study, &wanted, keep_failures, folder)
     }
 
     /// The text of the case of a run.
@@ -133,6 +167,12 @@ impl<'s> Runner<'s> {
                 row.values = vec![f64::NAN; self.layout.columns()];
             }
         }
+        if self.study.float32 {
+            // Here, so that every file and table of the run says the same.
+            for value in &mut row.values {
+                *value = f64::from(*value as f32);
+            }
+        }
         row
     }
 
@@ -153,7 +193,8 @@ impl<'s> Runner<'s> {
     ) -> Result<(Vec<f64>, Ending), String> {
         let said = |e: AssemblyError| e.to_string();
         let case = variant.case().map_err(|e| e.to_string())?;
-        let scaled = |case: &Case| scaled(case, motion, factor);
+        let read = motion.record.as_ref().ok_or_else(unread)?;
+        let scaled = |case: &Case| scaled(case, read, factor);
         let record = variant.make(&case, scaled).map_err(said)?;
         let key = key(self.study, point);
         let base = self.buildings.get(&key.buildings, || {
@@ -173,7 +214,7 @@ impl<'s> Runner<'s> {
         let base = match factor {
             // All that moves the ground is scaled as its first motion is.
             Some(_) if base.has_further_records() => {
-                let by_case = |case: &Case| scale_record(case, Accelerogram::clone(&motion.record));
+                let by_case = |case: &Case| scale_record(case, Accelerogram::clone(read));
                 let by_case = variant.make(&case, by_case).map_err(said)?.scale();
                 Arc::new(base.with_further_records_scaled(record.scale() / by_case))
             }
@@ -272,7 +313,7 @@ impl<'s> Runner<'s> {
 }
 
 /// Hashes of the files that a study names beside its records, each file once.
-fn named_files(study: &Study) -> Vec<String> {
+pub(super) fn named_files(study: &Study) -> Vec<String> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (what, path) in study.files() {
         let named = [
@@ -364,13 +405,17 @@ pub(crate) fn factor(
     }
 }
 
+/// A record that a run needs and that was not read: a defect of the program.
+fn unread() -> String {
+    "its record was not read".to_owned()
+}
+
 /// The motion as this run has it.
 fn scaled(
     case: &Case,
-    motion: &Motion,
+    record: &Arc<Accelerogram>,
     factor: Option<f64>,
 ) -> Result<Arc<Accelerogram>, AssemblyError> {
-    let record = &motion.record;
     Ok(match (factor, &case.ground_motion.scale) {
         (Some(factor), _) => Arc::new(record.scaled_by(factor)?),
         (None, None) => Arc::clone(record),

@@ -46,6 +46,10 @@ pub struct Study {
     pub chunk: usize,
     /// Whether the maximum relative displacement of the isolated buildings is wanted.
     pub isolated_demand: bool,
+    /// Names of the quantities that are stored; `None`: all.
+    pub quantities: Option<Vec<String>>,
+    /// Whether quantities are stored as numbers of 32 bits.
+    pub float32: bool,
     /// What an incremental dynamic analysis evaluates.
     pub ida: Option<IdaSettings>,
     /// Motions: those of the variable `records`, else the one of the case alone.

@@ -10,6 +10,7 @@ use pounding_case::document::{Entry, Field, List, Optional, Reader, Table, schem
 use pounding_case::{CaseError, Errors, Located};
 use pounding_catalogue::suggestion;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+use pounding_results::study::quantity_names;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
@@ -81,7 +82,67 @@ struct OutputTable {
     chunk: Optional<Whole<1>>,
     /// Adds the gap that just keeps the isolated buildings apart, by default false
     isolated_demand: Optional<bool>,
+    /// Names of the quantities that are stored, by default all
+    quantities: Optional<List<String>>,
+    /// Type of the numbers of quantities, float64 (default) or float32
+    numbers: Optional<Numbers>,
 }
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(
+    rename = "type of numbers",
+    rename_all = "lowercase",
+    expecting = "a text in quotes"
+)]
+enum Numbers {
+    Float64,
+    Float32,
+}
+
+/// What is stored of each run.
+struct Output {
+    chunk: usize,
+    isolated_demand: bool,
+    quantities: Option<Vec<String>>,
+    float32: bool,
+}
+
+impl OutputTable {
+    fn read(self, reader: &Reader<'_>, with_ida: bool) -> Option<Output> {
+        let chunk = self.chunk.value_or(Whole(CHUNK));
+        let demand = self.isolated_demand.value_or(false);
+        let numbers = self.numbers.value_or(Numbers::Float64);
+        let quantities = match self.quantities.stated()? {
+            None => None,
+            Some(list) if with_ida => {
+                let message = "an incremental dynamic analysis is evaluated from all quantities";
+                return reader.refuse(list.span, message, "remove `quantities`, or [ida]");
+            }
+            Some(list) => Some(all(list.value.0.into_iter().map(|name| {
+                let Located { value: name, span } = name.located()?;
+                if quantity_names().any(|known| known == name) {
+                    return Some(name);
+                }
+                let nearest = suggestion::misspelt(&name, quantity_names());
+                let guess = nearest.map_or_else(String::new, |n| format!("did you mean {n}? "));
+                let known: Vec<&str> = quantity_names().collect();
+                let help = format!("{guess}known quantities: {}", known.join(", "));
+                reader.refuse(span, format!("no quantity is called {name:?}"), help)
+            }))?),
+        };
+        let is_chosen = |names: &Vec<String>| names.iter().any(|n| n == ISOLATED_DEMAND);
+        let isolated_demand = demand? || quantities.as_ref().is_some_and(is_chosen);
+        Some(Output {
+            chunk: chunk?.0,
+            isolated_demand,
+            quantities,
+            float32: numbers? == Numbers::Float32,
+        })
+    }
+}
+
+/// The quantity that takes runs of its own.
+const ISOLATED_DEMAND: &str = "isolated_demand";
 
 /// JSON Schema (2020-12) of a study file: the keys that the reader accepts, with what they
 /// are and their units.
@@ -149,6 +210,7 @@ impl StudyFile {
         let measure = read
             .as_ref()
             .and_then(|read| read.variables.iter().find_map(intensity_of));
+        let with_ida = self.ida.is_some();
         let ida = self.ida.stated().and_then(|ida| match ida {
             None => Some(None),
             Some(Located { value, span }) => {
@@ -157,14 +219,15 @@ impl StudyFile {
             }
         });
         let output = match self.output.stated()? {
-            None => Some((CHUNK, false)),
-            Some(Located { value, .. }) => value
-                .chunk
-                .value_or(Whole(CHUNK))
-                .map(|chunk| chunk.0)
-                .zip(value.isolated_demand.value_or(false)),
+            None => Some(Output {
+                chunk: CHUNK,
+                isolated_demand: false,
+                quantities: None,
+                float32: false,
+            }),
+            Some(Located { value, .. }) => value.read(reader, with_ida),
         };
-        let (ida, (chunk, demand), read) = (ida?, output?, read?);
+        let (ida, output, read) = (ida?, output?, read?);
         let base = context.base.take()?.case;
         Some(Study {
             title: self.title.value().unwrap_or_default(),
@@ -172,8 +235,10 @@ impl StudyFile {
             source: reader.source.to_owned(),
             variables: read.variables,
             design: design?,
-            chunk,
-            isolated_demand: demand || ida.is_some(),
+            chunk: output.chunk,
+            isolated_demand: output.isolated_demand || ida.is_some(),
+            quantities: output.quantities,
+            float32: output.float32,
             ida,
             records: read
                 .records

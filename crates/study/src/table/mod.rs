@@ -21,6 +21,7 @@ pub struct RunTable {
     /// Dropped after `writer`, which writes into it.
     part: PartFile,
     choices: Vec<Option<Vec<String>>>,
+    float32: bool,
 }
 
 #[derive(Debug)]
@@ -56,6 +57,7 @@ impl RunTable {
                 .iter()
                 .map(|c| c.choices.clone())
                 .collect(),
+            float32: description.float32,
         })
     }
 
@@ -77,7 +79,10 @@ impl RunTable {
         );
         cells.push(Cell::Text(row.ending.status().1.to_owned()));
         cells.push(Cell::Text(hexadecimal(&row.id)));
-        cells.extend(row.values.iter().map(|x| Cell::Number(*x)));
+        cells.extend(row.values.iter().map(|x| match self.float32 {
+            true => Cell::Single(*x as f32),
+            false => Cell::Number(*x),
+        }));
         let diagnosis = row.ending.diagnosis().unwrap_or_default();
         cells.push(Cell::Text(diagnosis.to_owned()));
         let written = match &mut self.writer {
@@ -108,6 +113,8 @@ fn in_characters(cell: Cell) -> String {
     match cell {
         Cell::Whole(i) => i.to_string(),
         Cell::Number(x) => number(x),
+        Cell::Single(x) if x.is_nan() => String::new(),
+        Cell::Single(x) => format!("{x:?}"),
         Cell::Text(text) => text,
     }
 }
@@ -122,7 +129,11 @@ fn kinds(d: &Description) -> Vec<Cell> {
     }));
     kinds.extend([word(), word()]);
     let values = header(d).len() - kinds.len() - 1;
-    kinds.extend(std::iter::repeat_n(Cell::Number(0.0), values));
+    let value = match d.float32 {
+        true => Cell::Single(0.0),
+        false => Cell::Number(0.0),
+    };
+    kinds.extend(std::iter::repeat_n(value, values));
     kinds.push(word());
     kinds
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
@@ -22,6 +22,8 @@ pub(super) enum Cell {
     Whole(i64),
     /// A number; NaN where it is missing.
     Number(f64),
+    /// The same with 32 bits.
+    Single(f32),
     /// A word.
     Text(String),
 }
@@ -31,6 +33,7 @@ pub(super) enum Cell {
 enum Column {
     Whole(Vec<i64>),
     Number(Vec<f64>),
+    Single(Vec<f32>),
     Text(Vec<ByteArray>),
 }
 
@@ -59,6 +62,7 @@ impl ParquetTable {
             let field = match kind {
                 Cell::Whole(_) => Type::primitive_type_builder(name, Physical::INT64),
                 Cell::Number(_) => Type::primitive_type_builder(name, Physical::DOUBLE),
+                Cell::Single(_) => Type::primitive_type_builder(name, Physical::FLOAT),
                 Cell::Text(_) => Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
                     .with_logical_type(Some(LogicalType::String)),
             };
@@ -74,6 +78,7 @@ impl ParquetTable {
         let columns = kinds.iter().map(|kind| match kind {
             Cell::Whole(_) => Column::Whole(Vec::new()),
             Cell::Number(_) => Column::Number(Vec::new()),
+            Cell::Single(_) => Column::Single(Vec::new()),
             Cell::Text(_) => Column::Text(Vec::new()),
         });
         Ok(Self {
@@ -89,6 +94,7 @@ impl ParquetTable {
             match (column, cell) {
                 (Column::Whole(all), Cell::Whole(x)) => all.push(x),
                 (Column::Number(all), Cell::Number(x)) => all.push(x),
+                (Column::Single(all), Cell::Single(x)) => all.push(x),
                 (Column::Text(all), Cell::Text(x)) => all.push(x.as_str().into()),
                 (_, cell) => {
                     let text = format!("{cell:?} does not belong into its column");
@@ -124,6 +130,10 @@ impl ParquetTable {
                 }
                 Column::Number(all) => {
                     writer.typed::<DoubleType>().write_batch(all, None, None)?;
+                    all.clear();
+                }
+                Column::Single(all) => {
+                    writer.typed::<FloatType>().write_batch(all, None, None)?;
                     all.clear();
                 }
                 Column::Text(all) => {

@@ -6,9 +6,12 @@ mod text;
 
 use pounding_files::FileUse;
 use pounding_report::pictures::comparison::peak_ratios;
-use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
+use pounding_study::comparison::{
+    ComparisonOptions, RestitutionRule, StiffnessRule, compare_dealt,
+};
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
+use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -22,6 +25,7 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
+    let deal = deal(&arguments.dealing, ("compare", &arguments.case), &mut files)?;
     have_a_place([
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
@@ -43,8 +47,11 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     };
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
-    let comparison = compare(&case, &records, &options, &tell).map_err(failed)?;
+    let comparison = compare_dealt(&case, &records, &options, (&tell, &deal)).map_err(failed)?;
     drop(progress);
+    if told_part(&deal, "compare")? {
+        return Ok(());
+    }
     if let Some(path) = &arguments.csv {
         plot::write(path, &files::table(&comparison)?)?;
     }

@@ -13,9 +13,11 @@ use std::path::Path;
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
 use pounding_report::pictures::gap::{amplifications, spectra};
-use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check};
+use pounding_study::Deal;
+use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
+use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -33,6 +35,12 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let options = options(arguments)?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
+    let deal = deal(&arguments.dealing, ("gap", path), &mut files)?;
+    if arguments.points == 0 && deal != Deal::All {
+        let help = "leave --points 0 away, or --shard and --merge".to_owned();
+        let message = "without a sweep there are no runs to share";
+        return Err(Failure::input(message, Some(help)));
+    }
     have_a_place([
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
@@ -42,8 +50,12 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
-    let check = gap_check(&case, &separation, &records, &options, &tell).map_err(failed)?;
+    let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));
+    let check = check.map_err(failed)?;
     drop(progress);
+    if told_part(&deal, "gap")? {
+        return Ok(());
+    }
     write_files(arguments, &check)?;
     if let Some(output) = &arguments.report {
         let answer = page::answer(&numbers::Check::of(&check))?;

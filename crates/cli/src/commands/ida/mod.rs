@@ -9,13 +9,17 @@ use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_report::page::Inputs;
 use pounding_report::pictures::ida::fragility;
-use pounding_study::{IdaReport, ResultReader, Shard, Study, StudyError, evaluate};
+use pounding_study::{
+    IdaReport, ResultReader, Shard, Study, StudyError, SweepOptions, SweepReport, evaluate,
+};
 
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
 use crate::files::{have_a_place, reads_too};
+use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print};
-use crate::study::{Finished, all_failed, options, run, summary};
+use crate::plan::{self, Planned};
+use crate::study::{Finished, all_failed, options, run, shard, summary};
 use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
@@ -24,14 +28,29 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let Some(settings) = &study.ida else {
         return Err(no_analysis(&study));
     };
-    let options = options(&study, &arguments.running, Shard::WHOLE, &mut files)?;
+    if let Some(scheduler) = arguments.planning.plan {
+        let planned = Planned {
+            command: "ida",
+            at_the_end: at_the_end(arguments),
+            running: &arguments.running,
+            into: arguments.sharing.into.as_deref(),
+            planning: &arguments.planning,
+        };
+        return plan::print_plan(&study, &planned, scheduler, arguments.json);
+    }
+    let shard = shard(&arguments.sharing, &arguments.running)?;
+    let into = arguments.sharing.into.as_deref();
+    let options = options(&study, &arguments.running, (shard, into), &mut files)?;
     have_a_place([
         arguments.plot.as_deref(),
         arguments.table.as_deref(),
         arguments.running.report.as_deref(),
     ])?;
-    let sweep = run(&study, &options)?;
-    all_failed(&sweep)?;
+    let sweep = run(&study, &options, into)?;
+    all_failed(&sweep, shard)?;
+    if shard != Shard::WHOLE {
+        return part(arguments, &study, &sweep, &options);
+    }
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
     let result = result.map_err(StudyError::from)?;
     let report = evaluate(&study, &result)?;
@@ -54,6 +73,37 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let mut text = summary(&study, &sweep, &options);
     text.push_str(&tables::report(&report, settings));
     print(&text)
+}
+
+/// A part of the study is a part of its runs, which the whole is evaluated from.
+fn part(
+    arguments: &IdaArguments,
+    study: &Study,
+    sweep: &SweepReport,
+    options: &SweepOptions,
+) -> Result<(), Failure> {
+    if let Some(path) = &arguments.running.report {
+        page::of_sweep(&options.output, path)?;
+    }
+    if arguments.json {
+        return print(&pretty(&Finished::of(sweep, options))?);
+    }
+    let mut text = summary(study, sweep, options);
+    let file = quoted(&study.file.display().to_string());
+    text.push_str(&format!(
+        "When all shards are done: `pounding merge` with all of them and -o ALL.h5, then `pounding ida {file} -o ALL.h5 --resume`\n"
+    ));
+    print(&text)
+}
+
+/// Options of the analysis of the whole study.
+fn at_the_end(arguments: &IdaArguments) -> Vec<String> {
+    let files = [("--table", &arguments.table), ("--plot", &arguments.plot)];
+    let given = files.iter().filter_map(|(option, path)| {
+        let path = path.as_ref()?.display().to_string();
+        Some([(*option).to_owned(), path])
+    });
+    given.flatten().collect()
 }
 
 /// Counts of every state at every intensity, for other programs to fit.

@@ -1,0 +1,189 @@
+//! `pounding merge`: one result from the results of shards.
+
+use std::path::PathBuf;
+
+use pounding_catalogue::wording::counted;
+use pounding_files::checksum::WithoutChecksum;
+use pounding_study::{MergeOptions, Survey, ranges, survey, writable};
+use serde::Serialize;
+
+use crate::arguments::MergeArguments;
+use crate::failure::Failure;
+use crate::files::shard_files;
+use crate::output::{pretty, print, warn};
+use crate::separate::{Reading, reading, warnings};
+
+/// Merges the results of shards, or says whether they can be merged.
+pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+    let shards = shard_files(&arguments.shards)?;
+    if let Some(output) = &arguments.output {
+        writable(output)?;
+    }
+    let without_checksum = match reading(&shards, arguments.accept_without_checksum)? {
+        Reading::Here(without) => without,
+        Reading::Done => return Ok(()),
+    };
+    match &arguments.output {
+        Some(output) => merged(arguments, &shards, output, without_checksum),
+        None => checked(arguments, &shards, without_checksum),
+    }
+}
+
+fn merged(
+    arguments: &MergeArguments,
+    shards: &[PathBuf],
+    output: &std::path::Path,
+    without_checksum: WithoutChecksum,
+) -> Result<(), Failure> {
+    let merged = pounding_study::merge(
+        shards,
+        output,
+        arguments.csv.as_deref(),
+        MergeOptions {
+            mixed_builds: arguments.allow_mixed_builds,
+            without_checksum,
+            partial: arguments.partial,
+        },
+    )?;
+    let mut reported = warnings(&merged.unchecked);
+    if !merged.builds.is_empty() {
+        reported.push(format!(
+            "the shards were computed by different builds of the program:\n{}",
+            merged.builds.join("\n")
+        ));
+    }
+    for text in &reported {
+        warn(text);
+    }
+    let (missing, count) = &merged.missing;
+    if arguments.json {
+        return print(&pretty(&MergedShards {
+            runs: merged.runs,
+            failed: merged.failed,
+            collapsed: merged.collapsed,
+            output: output.display().to_string(),
+            missing,
+            warnings: reported,
+        })?);
+    }
+    let mut text = format!(
+        "{}, {} of them failed and {} collapsed, merged from {} into {}",
+        counted(merged.runs, "run"),
+        merged.failed,
+        merged.collapsed,
+        counted(shards.len(), "shard"),
+        output.display()
+    );
+    if !missing.is_empty() {
+        text.push_str(&format!(
+            "\n{} of {count} shards are still missing: {}",
+            missing.len(),
+            ranges(missing)
+        ));
+    }
+    print(&text)
+}
+
+/// What `merge --json` prints.
+#[derive(Serialize)]
+struct MergedShards<'m> {
+    runs: usize,
+    failed: usize,
+    collapsed: usize,
+    output: String,
+    missing: &'m [usize],
+    warnings: Vec<String>,
+}
+
+/// Says what the files are; exit code 1 if they do not make one result.
+fn checked(
+    arguments: &MergeArguments,
+    shards: &[PathBuf],
+    without_checksum: WithoutChecksum,
+) -> Result<(), Failure> {
+    let survey = survey(shards, without_checksum);
+    let merges = survey.faults.is_empty()
+        && survey.count > 0
+        && (survey.builds.len() < 2 || arguments.allow_mixed_builds)
+        && (survey.missing.is_empty() || arguments.partial);
+    if arguments.json {
+        let faults = survey.faults.iter();
+        print(&pretty(&Checked {
+            merges,
+            shards: survey.count,
+            present: &survey.present,
+            missing: &survey.missing,
+            faults: faults
+                .map(|f| Faulty {
+                    file: f.path.display().to_string(),
+                    reason: f.error.to_string(),
+                })
+                .collect(),
+            builds: survey
+                .builds
+                .iter()
+                .map(|(build, shards)| OfBuild { build, shards })
+                .collect(),
+            warnings: warnings(&survey.unchecked),
+        })?)?;
+    } else {
+        print(&told(&survey, merges))?;
+    }
+    match merges {
+        true => Ok(()),
+        false => Err(Failure::No),
+    }
+}
+
+fn told(survey: &Survey, merges: bool) -> String {
+    let mut text = format!(
+        "{} of {} are there",
+        survey.present.len(),
+        counted(survey.count, "shard")
+    );
+    if !survey.missing.is_empty() {
+        text.push_str(&format!("; missing: {}", ranges(&survey.missing)));
+    }
+    text.push('\n');
+    for fault in &survey.faults {
+        text.push_str(&format!("  {}\n", fault.error));
+    }
+    if survey.builds.len() > 1 {
+        text.push_str("The shards were computed by different builds of the program:\n");
+        for (build, shards) in &survey.builds {
+            text.push_str(&format!("  shards {}: {build}\n", ranges(shards)));
+        }
+    }
+    for warning in warnings(&survey.unchecked) {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    text.push_str(match merges {
+        true => "They can be merged.\n",
+        false => "They cannot be merged.\n",
+    });
+    text
+}
+
+/// What `merge --check --json` prints.
+#[derive(Serialize)]
+struct Checked<'s> {
+    merges: bool,
+    shards: usize,
+    present: &'s [usize],
+    missing: &'s [usize],
+    faults: Vec<Faulty>,
+    builds: Vec<OfBuild<'s>>,
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Faulty {
+    file: String,
+    reason: String,
+}
+
+#[derive(Serialize)]
+struct OfBuild<'s> {
+    build: &'s str,
+    shards: &'s [usize],
+}

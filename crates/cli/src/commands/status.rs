@@ -1,0 +1,330 @@
+//! `pounding status`: how far the shards of a study are, and which command goes on.
+
+use std::collections::BTreeMap;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use pounding_case::Dimension;
+use pounding_catalogue::wording::counted;
+use pounding_study::ranges;
+use serde::Serialize;
+
+use crate::arguments::{StatusArguments, value};
+use crate::failure::Failure;
+use crate::files::ShardName;
+use crate::heartbeat::{BETWEEN, Beat, State, host, now, read, told};
+use crate::interruption::shell_line;
+use crate::output::{pretty, print, print_as_it_is};
+use crate::progress::time;
+
+/// A shard that has not told of itself for this long is taken as ended: clocks of machines, and
+/// file systems that several machines share, may lag.
+const SILENT: Duration = Duration::from_secs(90);
+/// Shards of a kind that are shown one by one.
+const SHOWN: usize = 20;
+
+/// Prints how far all shards are; exit code 1 if some are not done.
+pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
+    let every = value(&arguments.every, "every", Dimension::TIME)?;
+    let every = Duration::try_from_secs_f64(every).map_err(|_| {
+        let help = "give a time such as \"10 s\"".to_owned();
+        Failure::input(format!("--every: {every} s is no time to wait"), Some(help))
+    })?;
+    loop {
+        let studies = look(&arguments.folder)?;
+        let done = studies.iter().all(Progress::is_done);
+        if arguments.unfinished {
+            let lists = studies.iter().map(|s| ranges(&s.unfinished()));
+            let lists: Vec<String> = lists.filter(|list| !list.is_empty()).collect();
+            return print_as_it_is(&lists.join(","));
+        }
+        if arguments.json {
+            print(&pretty(&Told {
+                folder: &arguments.folder,
+                studies: &studies,
+            })?)?;
+        } else {
+            if arguments.watch && std::io::stdout().is_terminal() {
+                // To the beginning of a screen that is empty from there on.
+                let _ = write!(std::io::stdout(), "\x1b[H\x1b[J");
+            }
+            let told: Vec<String> = studies.iter().map(|s| s.told(&arguments.folder)).collect();
+            print(&told.join("\n"))?;
+        }
+        match (done, arguments.watch) {
+            (true, _) => return Ok(()),
+            (false, false) => return Err(Failure::No),
+            (false, true) => std::thread::sleep(every),
+        }
+    }
+}
+
+/// What `status --json` prints.
+#[derive(Serialize)]
+struct Told<'s> {
+    folder: &'s Path,
+    studies: &'s [Progress],
+}
+
+/// How far a study is.
+#[derive(Debug, Serialize)]
+struct Progress {
+    name: String,
+    shards: usize,
+    done: Vec<usize>,
+    running: Vec<Of>,
+    /// Those that an error, a signal or the end of their machine has ended.
+    ended: Vec<Of>,
+    /// Those of which nothing is known.
+    missing: Vec<usize>,
+    /// Runs in shards that have told of themselves: finished, failed, collapsed.
+    finished: usize,
+    failed: usize,
+    collapsed: usize,
+    /// The command that goes on with a shard, and the folder that it is called in; unknown
+    /// before the first has told of itself.
+    #[serde(skip)]
+    command: Option<(PathBuf, Vec<String>)>,
+    /// Commands that go on with shards that are neither done nor running.
+    commands: Vec<String>,
+}
+
+/// How far a shard is.
+#[derive(Debug, Serialize)]
+struct Of {
+    shard: usize,
+    how: String,
+    runs: usize,
+    finished: usize,
+    rate: f64,
+    remaining_seconds: Option<f64>,
+    host: String,
+    seconds_since_word: u64,
+}
+
+/// Looks at a folder of shards.
+fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
+    let failed = |e: std::io::Error| {
+        let help = "give the folder that --into named, or that the plan of the study names";
+        Failure::input(
+            format!("cannot read {}: {e}", folder.display()),
+            Some(help.to_owned()),
+        )
+    };
+    // Of each study the shards that stand complete.
+    let mut studies: BTreeMap<(String, usize), Vec<usize>> = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let name = entry.map_err(failed)?.file_name();
+        let name = name.to_string_lossy();
+        if let Some(shard) = ShardName::of(&name) {
+            let key = (shard.study, shard.count);
+            studies.entry(key).or_default().push(shard.index);
+        }
+    }
+    for shard in told(folder) {
+        studies.entry((shard.study, shard.count)).or_default();
+    }
+    if studies.is_empty() {
+        let help = "no shard has begun: run the plan, or a shard with --into and this folder";
+        return Err(Failure::input(
+            format!("{} holds no shards", folder.display()),
+            Some(help.to_owned()),
+        ));
+    }
+    let studies = studies.into_iter();
+    Ok(studies
+        .map(|((study, count), done)| Progress::of(folder, &study, count, done))
+        .collect())
+}
+
+impl Progress {
+    fn of(folder: &Path, study: &str, count: usize, mut done: Vec<usize>) -> Self {
+        done.sort_unstable();
+        let mut progress = Self {
+            name: study.to_owned(),
+            shards: count,
+            done: Vec::new(),
+            running: Vec::new(),
+            ended: Vec::new(),
+            missing: Vec::new(),
+            finished: 0,
+            failed: 0,
+            collapsed: 0,
+            command: None,
+            commands: Vec::new(),
+        };
+        for index in 1..=count {
+            let name = ShardName {
+                study: study.to_owned(),
+                count,
+                index,
+            };
+            let beat = read(folder, &name);
+            if let Some(beat) = &beat {
+                progress.finished += beat.finished;
+                progress.failed += beat.failed;
+                progress.collapsed += beat.collapsed;
+                let command = || (beat.folder.clone(), beat.command.clone());
+                progress.command.get_or_insert_with(command);
+            }
+            match beat {
+                _ if done.binary_search(&index).is_ok() => progress.done.push(index),
+                None => progress.missing.push(index),
+                Some(beat) => {
+                    let silent = now().saturating_sub(beat.updated);
+                    let running = beat.state == State::Running && !gone(&beat, silent);
+                    let of = Of {
+                        shard: index,
+                        how: how(&beat, silent),
+                        runs: beat.runs,
+                        finished: beat.finished,
+                        rate: beat.rate,
+                        remaining_seconds: beat.remaining_seconds,
+                        host: beat.host,
+                        seconds_since_word: silent,
+                    };
+                    match running {
+                        true => progress.running.push(of),
+                        false => progress.ended.push(of),
+                    }
+                }
+            }
+        }
+        let unfinished = progress.unfinished();
+        let commands = unfinished
+            .iter()
+            .filter_map(|shard| progress.goes_on(*shard));
+        progress.commands = commands.collect();
+        progress
+    }
+
+    fn is_done(&self) -> bool {
+        self.done.len() == self.shards
+    }
+
+    /// Shards that are neither done nor running.
+    fn unfinished(&self) -> Vec<usize> {
+        let ended = self.ended.iter().map(|of| of.shard);
+        let mut all: Vec<usize> = self.missing.iter().copied().chain(ended).collect();
+        all.sort_unstable();
+        all
+    }
+
+    /// The command that goes on with a shard: that of another one, with this number.
+    fn goes_on(&self, shard: usize) -> Option<String> {
+        let (folder, words) = self.command.as_ref()?;
+        let mut words = words.clone();
+        let numbered = format!("{shard}/{}", self.shards);
+        let at = words.iter().position(|word| word == "--shard");
+        match at.and_then(|at| words.get_mut(at + 1)) {
+            Some(word) => *word = numbered,
+            None => {
+                let joined = words.iter_mut().find(|word| word.starts_with("--shard="))?;
+                *joined = format!("--shard={numbered}");
+            }
+        }
+        if !words.iter().any(|word| word == "--resume") {
+            words.push("--resume".to_owned());
+        }
+        let line = shell_line(&words);
+        let here = std::env::current_dir().is_ok_and(|here| here == *folder);
+        Some(match here {
+            true => line,
+            false => format!("cd {} && {line}", shell_line(&[folder.to_string_lossy()])),
+        })
+    }
+
+    fn told(&self, folder: &Path) -> String {
+        let mut text = format!(
+            "{}: {} of {} done in {}, {} finished",
+            self.name,
+            self.done.len(),
+            counted(self.shards, "shard"),
+            folder.display(),
+            counted(self.finished, "run")
+        );
+        for (count, what) in [(self.failed, "failed"), (self.collapsed, "collapsed")] {
+            if count > 0 {
+                text.push_str(&format!(", {count} {what}"));
+            }
+        }
+        text.push('\n');
+        for (what, shards) in [
+            ("running", &self.running),
+            ("ended before its end", &self.ended),
+        ] {
+            for of in shards.iter().take(SHOWN) {
+                text.push_str(&format!("  shard {} {what}: {}\n", of.shard, of.how));
+            }
+            if shards.len() > SHOWN {
+                let numbers: Vec<usize> = shards.iter().skip(SHOWN).map(|of| of.shard).collect();
+                text.push_str(&format!("  {what}, too: {}\n", ranges(&numbers)));
+            }
+        }
+        if !self.missing.is_empty() {
+            text.push_str(&format!("  not begun: {}\n", ranges(&self.missing)));
+        }
+        let rate: f64 = self.running.iter().map(|of| of.rate).sum();
+        if rate > 0.0 {
+            let left = self.running.iter().filter_map(|of| of.remaining_seconds);
+            text.push_str(&format!(
+                "  {rate:.1} runs/s; those that run are done in about {}\n",
+                time(left.fold(0.0, f64::max))
+            ));
+        }
+        let unfinished = self.unfinished();
+        if let Some(first) = self.commands.first() {
+            text.push_str(&format!("go on with\n  {first}\n"));
+            if unfinished.len() > 1 {
+                text.push_str(&format!(
+                    "and likewise with the others, or give the script of the plan this list: {}\n",
+                    ranges(&unfinished)
+                ));
+            }
+        }
+        if self.is_done() {
+            text.push_str(&format!(
+                "merge them with\n  pounding merge {} -o {}.h5\n",
+                shell_line(&[folder.to_string_lossy()]),
+                shell_line(&[&self.name])
+            ));
+        }
+        text
+    }
+}
+
+/// Whether a shard that ran has ended without a word.
+fn gone(beat: &Beat, silent: u64) -> bool {
+    if beat.host == host() && !beat.host.is_empty() && !pounding_files::runs_here(beat.process) {
+        return true;
+    }
+    silent > SILENT.max(3 * BETWEEN).as_secs()
+}
+
+fn how(beat: &Beat, silent: u64) -> String {
+    let mut text = format!("{} of {}", beat.finished, counted(beat.runs, "run"));
+    if beat.failed > 0 {
+        text.push_str(&format!(", {} failed", beat.failed));
+    }
+    match beat.state {
+        State::Running if gone(beat, silent) => text.push_str(&format!(
+            ", {} stored; without a word for {} (process {} on {})",
+            beat.stored,
+            time(silent as f64),
+            beat.process,
+            beat.host
+        )),
+        State::Running => {
+            text.push_str(&format!(", {:.1} runs/s", beat.rate));
+            if let Some(left) = beat.remaining_seconds {
+                text.push_str(&format!(", about {} left", time(left)));
+            }
+            text.push_str(&format!(" (process {} on {})", beat.process, beat.host));
+        }
+        State::Done => text.push_str("; it was done, but its result is gone"),
+        State::Interrupted => text.push_str(&format!(", {} stored; interrupted", beat.stored)),
+        State::Failed => text.push_str(&format!("; {}", beat.message)),
+    }
+    text
+}

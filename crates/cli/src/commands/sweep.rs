@@ -1,0 +1,44 @@
+//! `pounding sweep`: many runs of one case.
+
+use pounding_files::FileUse;
+use pounding_study::{Study, case_of_run};
+
+use crate::arguments::SweepArguments;
+use crate::failure::Failure;
+use crate::files::have_a_place;
+use crate::output::{pretty, print, print_as_it_is};
+use crate::page;
+use crate::plan::{self, Planned};
+use crate::study::{Finished, all_failed, options, run, shard, summary};
+
+/// Runs a study, or shows what it would run.
+pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
+    let study = Study::read(&arguments.study)?;
+    if let Some(run) = arguments.show {
+        return print_as_it_is(&case_of_run(&study, run)?);
+    }
+    if let Some(scheduler) = arguments.planning.plan {
+        let planned = Planned {
+            command: "sweep",
+            at_the_end: Vec::new(),
+            running: &arguments.running,
+            into: arguments.sharing.into.as_deref(),
+            planning: &arguments.planning,
+        };
+        return plan::print_plan(&study, &planned, scheduler, arguments.json);
+    }
+    let shard = shard(&arguments.sharing, &arguments.running)?;
+    let into = arguments.sharing.into.as_deref();
+    let options = options(&study, &arguments.running, (shard, into), &mut files)?;
+    have_a_place([arguments.running.report.as_deref()])?;
+    let report = run(&study, &options, into)?;
+    if let Some(path) = &arguments.running.report {
+        page::of_sweep(&options.output, path)?;
+    }
+    if arguments.json {
+        print(&pretty(&Finished::of(&report, &options))?)?;
+    } else {
+        print(&summary(&study, &report, &options))?;
+    }
+    all_failed(&report, shard)
+}

@@ -1,0 +1,193 @@
+//! How far a shard is, in a small file in the folder of all shards: `status` reads it on another
+//! machine than the one that computes.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use pounding_study::{Progress, SweepReport};
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Failure;
+use crate::files::ShardName;
+use crate::interruption::this_command;
+
+/// Time between two beats of a shard that runs.
+pub const BETWEEN: Duration = Duration::from_secs(10);
+/// The folder of these files in that of the shards.
+const FOLDER: &str = "status";
+
+/// What a shard does, or how it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// It computes, or did when it last told of itself.
+    Running,
+    /// Its result is complete.
+    Done,
+    /// A signal ended it.
+    Interrupted,
+    /// An error ended it.
+    Failed,
+}
+
+/// What stands in the file.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Beat {
+    /// What it does.
+    pub state: State,
+    /// Its runs.
+    pub runs: usize,
+    /// Those that have finished, in this call or before.
+    pub finished: usize,
+    /// Those that are stored.
+    pub stored: usize,
+    /// Failures among those of this call; once it is done, among all.
+    pub failed: usize,
+    /// Collapses among them.
+    pub collapsed: usize,
+    /// Runs a second of this call.
+    pub rate: f64,
+    /// Time that is left by this rate (s); unknown before the first run.
+    pub remaining_seconds: Option<f64>,
+    /// When the call began, and when this was written: seconds since 1970.
+    pub began: u64,
+    /// See `began`.
+    pub updated: u64,
+    /// Machine and process that compute.
+    pub host: String,
+    /// See `host`.
+    pub process: u32,
+    /// Folder in which the command was called, and its words.
+    pub folder: PathBuf,
+    /// See `folder`.
+    pub command: Vec<String>,
+    /// How it ended.
+    pub message: String,
+}
+
+/// Writes the file of a shard from time to time.
+#[derive(Debug)]
+pub struct Heartbeat {
+    path: PathBuf,
+    began: Instant,
+    last: Instant,
+    beat: Beat,
+}
+
+impl Heartbeat {
+    /// Begins to tell how far a shard is.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn begin(folder: &Path, shard: &ShardName) -> Result<Self, Failure> {
+        let path = path(folder, shard);
+        let failed = |e: std::io::Error| {
+            Failure::output(&e, &path.parent().unwrap_or(folder).display().to_string())
+        };
+        std::fs::create_dir_all(folder.join(FOLDER)).map_err(failed)?;
+        let heartbeat = Self {
+            path: path.clone(),
+            began: Instant::now(),
+            last: Instant::now(),
+            beat: Beat {
+                state: State::Running,
+                runs: 0,
+                finished: 0,
+                stored: 0,
+                failed: 0,
+                collapsed: 0,
+                rate: 0.0,
+                remaining_seconds: None,
+                began: now(),
+                updated: now(),
+                host: host(),
+                process: std::process::id(),
+                folder: std::env::current_dir().unwrap_or_default(),
+                command: this_command(),
+                message: String::new(),
+            },
+        };
+        heartbeat.write().map_err(failed)?;
+        Ok(heartbeat)
+    }
+
+    /// Tells how far it is, if it is time to.
+    pub fn beat(&mut self, progress: &Progress) {
+        let first = self.beat.runs == 0;
+        let beat = &mut self.beat;
+        beat.runs = progress.total;
+        beat.finished = progress.stored_before + progress.made;
+        beat.stored = progress.stored;
+        (beat.failed, beat.collapsed) = (progress.failed, progress.collapsed);
+        let seconds = self.began.elapsed().as_secs_f64();
+        beat.rate = progress.made as f64 / seconds.max(1.0e-3);
+        let left = beat.runs - beat.finished;
+        beat.remaining_seconds = (beat.rate > 0.0).then_some(left as f64 / beat.rate);
+        if first || self.last.elapsed() >= BETWEEN {
+            self.told();
+        }
+    }
+
+    /// Tells that the result is complete.
+    pub fn done(&mut self, report: &SweepReport) {
+        let beat = &mut self.beat;
+        (beat.runs, beat.finished, beat.stored) = (report.runs, report.runs, report.runs);
+        (beat.failed, beat.collapsed) = (report.failed, report.collapsed);
+        beat.remaining_seconds = Some(0.0);
+        self.end(State::Done, "");
+    }
+
+    /// Tells how it ended.
+    pub fn end(&mut self, state: State, message: &str) {
+        self.beat.state = state;
+        message.clone_into(&mut self.beat.message);
+        self.told();
+    }
+
+    fn told(&mut self) {
+        self.last = Instant::now();
+        self.beat.updated = now();
+        // Runs are worth more than word of them: a full disk is reported where they are stored.
+        let _ = self.write();
+    }
+
+    fn write(&self) -> std::io::Result<()> {
+        let text = serde_json::to_string(&self.beat)?;
+        pounding_files::write(&self.path, text.as_bytes())
+    }
+}
+
+/// Reads what a shard last told of itself; `None` if it told nothing.
+pub fn read(folder: &Path, shard: &ShardName) -> Option<Beat> {
+    let text = std::fs::read(path(folder, shard)).ok()?;
+    serde_json::from_slice(&text).ok()
+}
+
+/// The shards that have told of themselves.
+pub fn told(folder: &Path) -> Vec<ShardName> {
+    let entries = std::fs::read_dir(folder.join(FOLDER)).into_iter().flatten();
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let shard = |name: String| ShardName::of(&format!("{}.h5", name.strip_suffix(".json")?));
+    names.filter_map(shard).collect()
+}
+
+fn path(folder: &Path, shard: &ShardName) -> PathBuf {
+    folder.join(FOLDER).join(format!("{shard}.json"))
+}
+
+/// Seconds since 1970.
+pub fn now() -> u64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |time| time.as_secs())
+}
+
+/// Name of this machine; empty where it is not known.
+pub fn host() -> String {
+    #[cfg(unix)]
+    return rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned();
+    #[cfg(not(unix))]
+    std::env::var("COMPUTERNAME").unwrap_or_default()
+}

@@ -1,0 +1,275 @@
+//! Scripts that have all shards of a study run, and merge their results.
+
+mod dask;
+mod hyper_queue;
+mod shell;
+mod slurm;
+
+use std::path::Path;
+
+use pounding_catalogue::wording::counted;
+use pounding_study::{Study, Value};
+use serde::Serialize;
+
+use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
+use crate::failure::Failure;
+use crate::interruption::{quoted, shell_line};
+use crate::output::{note, pretty, print, print_as_it_is};
+use crate::study::name;
+
+/// What is planned: the command, as it was given.
+pub struct Planned<'p> {
+    /// `sweep` or `ida`.
+    pub command: &'static str,
+    /// Options that belong to the whole study, for a last call of the command.
+    pub at_the_end: Vec<String>,
+    /// How it is run.
+    pub running: &'p RunningArguments,
+    /// Folder of the shards, if one is named.
+    pub into: Option<&'p Path>,
+    /// How it is handed out.
+    pub planning: &'p PlanArguments,
+}
+
+/// All that scripts are made of.
+#[derive(Debug)]
+struct Plan {
+    /// Name of the study.
+    name: String,
+    runs: usize,
+    chunk: usize,
+    shards: usize,
+    /// Tasks of a Slurm array, which take several shards if these are more.
+    tasks: usize,
+    threads: u32,
+    /// Time limit of a task (s).
+    time: Option<f64>,
+    at_once: Option<u32>,
+    /// Folder of the results.
+    folder: String,
+    /// Where the commands are called.
+    here: String,
+    /// The command that runs a shard, but for its number.
+    command: Vec<String>,
+    /// Commands that make the whole result, one after another.
+    at_the_end: Vec<Vec<String>>,
+    /// The command that lists what is missing.
+    unfinished: Vec<String>,
+    /// What the user should know.
+    notes: Vec<String>,
+}
+
+/// What `--plan --json` prints.
+#[derive(Serialize)]
+struct Scripts<'p> {
+    runs: usize,
+    chunk: usize,
+    shards: usize,
+    slurm_tasks: usize,
+    folder: &'p str,
+    notes: &'p [String],
+    slurm: String,
+    hyper_queue: String,
+    dask: String,
+    shell: String,
+}
+
+/// Prints how a study is dealt in shards, or one of the scripts.
+pub fn print_plan(
+    study: &Study,
+    planned: &Planned<'_>,
+    scheduler: Option<Scheduler>,
+    json: bool,
+) -> Result<(), Failure> {
+    let plan = Plan::of(study, planned)?;
+    if json {
+        return print(&pretty(&Scripts {
+            runs: plan.runs,
+            chunk: plan.chunk,
+            shards: plan.shards,
+            slurm_tasks: plan.tasks,
+            folder: &plan.folder,
+            notes: &plan.notes,
+            slurm: slurm::script(&plan),
+            hyper_queue: hyper_queue::script(&plan),
+            dask: dask::script(&plan),
+            shell: shell::script(&plan),
+        })?);
+    }
+    plan.notes.iter().for_each(|text| note(text));
+    match scheduler {
+        Some(Scheduler::Slurm) => print_as_it_is(&slurm::script(&plan)),
+        Some(Scheduler::HyperQueue) => print_as_it_is(&hyper_queue::script(&plan)),
+        Some(Scheduler::Dask) => print_as_it_is(&dask::script(&plan)),
+        Some(Scheduler::Shell) => print_as_it_is(&shell::script(&plan)),
+        None => print(&plan.overview(study)),
+    }
+}
+
+impl Plan {
+    fn of(study: &Study, planned: &Planned<'_>) -> Result<Self, Failure> {
+        let (running, planning) = (planned.running, planned.planning);
+        let runs = study.runs();
+        let mut notes = Vec::new();
+        // More shards than chunks would leave some empty.
+        let (asked, chunks) = (planning.shards as usize, runs.div_ceil(study.chunk));
+        let shards = asked.min(chunks);
+        if shards < asked {
+            notes.push(format!(
+                "{shards} shards instead of {asked}: the {} are dealt out in chunks of {}, of which there are {chunks}; a smaller `chunk` in [output] makes more",
+                counted(runs, "run"),
+                study.chunk
+            ));
+        }
+        let most = planning.array_limit as usize - 1;
+        let tasks = shards.min(most);
+        if tasks < shards {
+            notes.push(format!(
+                "for Slurm, {shards} shards in {tasks} tasks of {} or fewer, one after another: an array has {most} tasks at most where MaxArraySize is {} (`scontrol show config`), which --array-limit says",
+                shards.div_ceil(tasks),
+                planning.array_limit
+            ));
+        }
+        let time = planning.time.as_deref();
+        let time = time.map(|t| time_limit(t, "time")).transpose()?;
+        if let Some(seconds) = time.filter(|seconds| !(120.0..=3.0e7).contains(seconds)) {
+            return Err(Failure::input(
+                format!("--time: {seconds} s is no time limit of a task"),
+                Some("give one from \"2 min\" to \"300 d\"".to_owned()),
+            ));
+        }
+        let name = name(&study.file);
+        let folder = planned.into.map_or_else(
+            || format!("{name}.shards"),
+            |folder| folder.display().to_string(),
+        );
+        let program = program();
+        let words = |words: &[&str]| words.iter().map(|w| (*w).to_owned()).collect::<Vec<_>>();
+        let file = study.file.display().to_string();
+        let threads = running.threads.unwrap_or(1);
+        let mut command = words(&[&program, planned.command, &file, "--into", &folder]);
+        command.extend(words(&["--threads", &threads.to_string(), "--resume"]));
+        command.extend(words(&["--store-every", &running.store_every]));
+        let mut merge = words(&[&program, "merge", &folder, "-o"]);
+        let output = running.output.as_deref();
+        let output = output.map_or_else(|| format!("{name}.h5"), |o| o.display().to_string());
+        merge.push(output.clone());
+        let mut last = words(&[&program, planned.command, &file, "-o", &output, "--resume"]);
+        if running.keep_going {
+            command.push("--keep-going".to_owned());
+            last.push("--keep-going".to_owned());
+        }
+        let mut at_the_end = vec![merge];
+        for (option, path) in [("--csv", &running.csv), ("--report", &running.report)] {
+            if let Some(path) = path {
+                last.extend(words(&[option, &path.display().to_string()]));
+            }
+        }
+        last.extend(planned.at_the_end.iter().cloned());
+        if planned.command != "sweep" || running.csv.is_some() || running.report.is_some() {
+            // Goes on with the merged result: it finds all runs there.
+            at_the_end.push(last);
+        }
+        Ok(Self {
+            unfinished: words(&[&program, "status", &folder, "--unfinished"]),
+            name,
+            runs,
+            chunk: study.chunk,
+            shards,
+            tasks,
+            threads,
+            time,
+            at_once: planning.at_once,
+            folder,
+            here: std::env::current_dir()
+                .unwrap_or_default()
+                .display()
+                .to_string(),
+            command,
+            at_the_end,
+            notes,
+        })
+    }
+
+    /// What varies, how many runs and shards, and how to get the scripts.
+    fn overview(&self, study: &Study) -> String {
+        let mut text = String::new();
+        for (i, variable) in study.variables.iter().enumerate() {
+            let shown = |run: usize| match study.point(run)[i] {
+                Value::Number(x) => format!("{x} {}", variable.unit),
+                Value::Choice(c) => study.label(i, c).to_owned(),
+            };
+            text.push_str(&format!(
+                "{}: {} ... {}\n",
+                variable.name,
+                shown(0).trim_end(),
+                shown(self.runs - 1).trim_end()
+            ));
+        }
+        text.push_str(&format!(
+            "{} in {}, dealt out in chunks of {}\nresults of shards: {}\n\nA shard:\n{}\n\nAt the end:\n{}\n\n--plan=slurm, --plan=hyper-queue, --plan=dask and --plan=shell print scripts that do all of this.\n",
+            counted(self.runs, "run"),
+            counted(self.shards, "shard"),
+            self.chunk,
+            self.folder,
+            self.of_shard(&format!("1/{}", self.shards)),
+            self.last_lines()
+        ));
+        text
+    }
+
+    /// The command of a shard, whose number is a word of a shell as it stands.
+    fn of_shard(&self, shard: &str) -> String {
+        format!("{} --shard {shard}", shell_line(&self.command))
+    }
+
+    /// The commands at the end, a line each.
+    fn last_lines(&self) -> String {
+        let lines: Vec<String> = self.at_the_end.iter().map(|c| shell_line(c)).collect();
+        lines.join("\n")
+    }
+
+    /// The first lines of a script: what it is, and how it is called again.
+    fn head(&self, what: &str, again: &str) -> String {
+        let mut text = format!(
+            "# {}: {} in {} of chunks of {}, {what}.\n",
+            self.name.replace('\n', " "),
+            counted(self.runs, "run"),
+            counted(self.shards, "shard"),
+            self.chunk
+        );
+        for note in &self.notes {
+            text.push_str(&format!("# Note: {note}.\n"));
+        }
+        text.push_str(&format!("# Again, what is missing only: {again}\n"));
+        text
+    }
+
+    /// Goes to the folder of the study, and makes that of the results.
+    fn begin(&self) -> String {
+        format!(
+            "set -eu\ncd {}\nmkdir -p {}\n",
+            quoted(&self.here),
+            quoted(&format!("{}/log", self.folder))
+        )
+    }
+
+    /// Prints every number of a list such as 3,7-9, or of all shards, into a variable of a shell.
+    fn list_of_shards(&self) -> String {
+        format!(
+            "list=${{1-1-{}}}\nshards=$(for range in $(echo \"$list\" | tr , ' '); do seq \"${{range%-*}}\" \"${{range#*-}}\"; done)\n",
+            self.shards
+        )
+    }
+}
+
+/// The program as it was called: by its name where a shell finds it, else by its path.
+fn program() -> String {
+    let called = std::env::args_os().next().unwrap_or_default();
+    let path = Path::new(&called);
+    if path.components().count() < 2 {
+        return called.to_string_lossy().into_owned();
+    }
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    absolute.display().to_string()
+}

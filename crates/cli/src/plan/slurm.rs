@@ -1,0 +1,124 @@
+//! An array of tasks for Slurm, and a job that merges.
+
+use super::Plan;
+use crate::interruption::{quoted, shell_line};
+
+/// Exit code of a task that is to go on where it is: see `commands.md`.
+const RESUME: u8 = crate::interruption::EXIT_CODE;
+/// Time before the limit at which a task stores what has finished (s).
+const BEFORE_LIMIT: u32 = 60;
+/// How often a task that reaches its time limit is put back into the queue.
+const MOST_RESTARTS: u32 = 100;
+
+/// The script that submits both.
+pub fn script(plan: &Plan) -> String {
+    let (shards, tasks) = (plan.shards, plan.tasks);
+    let again = format!("bash THIS_SCRIPT \"$({})\"", shell_line(&plan.unfinished));
+    let mut text = format!(
+        "#!/bin/bash\n{}# Partition, account and the like: SBATCH_PARTITION, SBATCH_ACCOUNT, ... in the environment.\n",
+        plan.head("for Slurm", &again)
+    );
+    text.push_str(&plan.begin());
+    text.push_str(&plan.list_of_shards());
+    // Of each task once, however many of its shards are in the list.
+    text.push_str(&format!(
+        "tasks=$(for shard in $shards; do echo $(( (shard - 1) % {tasks} + 1 )); done | sort -nu | paste -sd, -)\n"
+    ));
+    let at_once = plan.at_once.map_or_else(String::new, |n| format!("%{n}"));
+    let mut options = vec![
+        "--parsable".to_owned(),
+        format!("--array=\"$tasks{at_once}\""),
+        format!("--job-name={}", quoted(&plan.name)),
+        "--nodes=1".to_owned(),
+        "--ntasks=1".to_owned(),
+        format!("--cpus-per-task={}", plan.threads),
+        "--requeue".to_owned(),
+        "--open-mode=append".to_owned(),
+        format!(
+            "--output={}",
+            quoted(&format!("{}/log/%a.txt", plan.folder))
+        ),
+    ];
+    if let Some(seconds) = plan.time {
+        options.push(format!("--time={}", clock(seconds)));
+        options.push(format!("--signal=B:USR1@{BEFORE_LIMIT}"));
+    }
+    text.push_str(&format!(
+        "after=\nif [ -n \"$tasks\" ]; then\narray=$(sbatch {} <<'ARRAY'\n{}ARRAY\n)\nafter=--dependency=afterok:$array\nfi\n",
+        options.join(" \\\n  "),
+        task(plan)
+    ));
+    let merge = [
+        "--parsable".to_owned(),
+        "$after".to_owned(),
+        "--kill-on-invalid-dep=yes".to_owned(),
+        format!("--job-name={}", quoted(&format!("{}-merge", plan.name))),
+        "--nodes=1".to_owned(),
+        "--ntasks=1".to_owned(),
+        format!(
+            "--output={}",
+            quoted(&format!("{}/log/merge.txt", plan.folder))
+        ),
+    ];
+    text.push_str(&format!(
+        "merge=$(sbatch {} <<'MERGE'\n#!/bin/bash\nset -e\n{}\nMERGE\n)\necho \"array ${{array:-none}}, merge $merge; {shards} shards: see {}\"\n",
+        merge.join(" \\\n  "),
+        plan.last_lines(),
+        shell_line(&plan.unfinished[..plan.unfinished.len() - 1])
+    ));
+    text
+}
+
+/// What a task of the array does. A signal before the time limit goes to this shell alone, which
+/// has the shard store what has finished, and goes back into the queue; a task that is cancelled
+/// does not.
+fn task(plan: &Plan) -> String {
+    let (shards, tasks) = (plan.shards, plan.tasks);
+    let shard = plan.of_shard(&format!("\"$shard/{shards}\""));
+    format!(
+        r#"#!/bin/bash
+code=0 limit=0 child=
+trap 'limit=1; kill -TERM "$child" 2>/dev/null' USR1
+trap 'kill -TERM "$child" 2>/dev/null' TERM INT
+for shard in $(seq "$SLURM_ARRAY_TASK_ID" {tasks} {shards}); do
+  {shard} &
+  child=$!
+  wait "$child"
+  ended=$?
+  # A signal ends the first wait, before the shard has stored what has finished.
+  while kill -0 "$child" 2>/dev/null; do wait "$child"; ended=$?; done
+  if [ "$ended" -ne 0 ]; then code=$ended; fi
+  if [ "$ended" -eq {RESUME} ]; then break; fi
+done
+if [ "$limit" -eq 1 ] && [ "$code" -eq {RESUME} ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {MOST_RESTARTS} ]; then
+  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"
+fi
+exit "$code"
+"#
+    )
+}
+
+/// A time as Slurm reads it, days-hours:minutes:seconds.
+fn clock(seconds: f64) -> String {
+    let seconds = seconds.ceil() as u64;
+    let (days, rest) = (seconds / 86_400, seconds % 86_400);
+    format!(
+        "{days}-{:02}:{:02}:{:02}",
+        rest / 3600,
+        rest / 60 % 60,
+        rest % 60
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clock;
+
+    /// The forms of `sbatch --time`.
+    #[test]
+    fn times_are_written_as_slurm_reads_them() {
+        assert_eq!(clock(90.0), "0-00:01:30");
+        assert_eq!(clock(7200.0), "0-02:00:00");
+        assert_eq!(clock(2.5 * 86_400.0 + 0.2), "2-12:00:01");
+    }
+}

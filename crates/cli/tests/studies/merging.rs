@@ -1,0 +1,179 @@
+//! Merging many shards, some of them, and those that are not all well.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{Bench, MIXED};
+
+/// The shards `1.h5` to `count.h5` of a study.
+fn shards(bench: &Bench, count: usize) {
+    for index in 1..=count {
+        bench.text(&format!(
+            "sweep study.toml --shard {index}/{count} -o {index}.h5"
+        ));
+    }
+}
+
+/// More shards than the process may have files open: each is opened for itself.
+#[test]
+fn more_shards_than_open_files_are_merged() {
+    let bench = Bench::new(&MIXED.replace("chunk = 4", "chunk = 2"));
+    for index in 1..=30 {
+        bench.text(&format!(
+            "sweep study.toml --shard {index}/30 --into all --threads 1"
+        ));
+    }
+    bench.text("sweep study.toml -o whole.h5 --csv whole.csv");
+    let script = format!(
+        "ulimit -n 16; exec {} merge all -o merged.h5 --csv merged.csv",
+        env!("CARGO_BIN_EXE_pounding")
+    );
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(bench.folder.path())
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+    assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
+}
+
+/// In any tree of partial merges the result has the bytes of one call.
+#[test]
+fn partial_merges_are_merged_again() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 7);
+    bench.text("sweep study.toml -o whole.h5 --csv whole.csv");
+    let told = bench.text("merge 5.h5 1.h5 3.h5 -o odd.h5 --partial");
+    assert!(
+        told.contains("4 of 7 shards are still missing: 2,4,6-7"),
+        "{told}"
+    );
+    bench.text("merge 2.h5 7.h5 -o some.h5 --partial");
+    let told = bench.complaint("merge odd.h5 some.h5 -o out.h5", 2);
+    assert!(told.contains("missing 2 of 7 shards: 4,6"), "{told}");
+    let told = bench.complaint("merge odd.h5 3.h5 -o out.h5 --partial", 2);
+    assert!(told.contains("3.h5 is shard 3/7 once more"), "{told}");
+    assert!(!bench.path("out.h5").exists());
+    bench.text("merge some.h5 odd.h5 6.h5 -o more.h5 --partial");
+    bench.text("merge 4.h5 more.h5 -o merged.h5 --csv merged.csv");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+    assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
+    // A part is a result of its own: in order, and refused where the whole is wanted.
+    let file = hdf5::File::open(bench.path("odd.h5")).unwrap();
+    let runs: Vec<i64> = file.dataset("run").unwrap().read_raw().unwrap();
+    let expected = (0..60).filter(|run| [0, 2, 4].contains(&(run / 4 % 7)));
+    assert_eq!(runs, expected.collect::<Vec<_>>());
+    drop(file);
+    let told = bench.complaint("sweep study.toml -o odd.h5 --resume", 2);
+    assert!(told.contains("shards 1,3,5 of 7"), "{told}");
+    bench.text("report odd.h5 -o odd.html");
+}
+
+/// Everything that is wrong is named at once, and nothing is written.
+#[test]
+fn a_check_names_all_that_is_wrong() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 5);
+    let told = bench.text("merge 1.h5 2.h5 3.h5 4.h5 5.h5 --check");
+    assert!(told.contains("5 of 5 shards are there"), "{told}");
+    let mut damaged = bench.bytes("2.h5");
+    damaged[5000] ^= 1;
+    std::fs::write(bench.path("2.h5"), damaged).unwrap();
+    std::fs::write(bench.path("text.h5"), "no HDF5").unwrap();
+    bench.study(&MIXED.replace("seed = 3", "seed = 4"));
+    bench.text("sweep study.toml --shard 4/5 -o other.h5");
+    // First: what most files are of is the study.
+    let files = "other.h5 1.h5 2.h5 3.h5 text.h5 nowhere.h5 3.h5 5.h5";
+    let output = bench.run(&format!("merge {files} --check"));
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "3 of 5 shards are there; missing: 2,4",
+        "cannot read the result 2.h5: it is damaged",
+        "text.h5: it is not the result of a study",
+        "nowhere.h5: No such file",
+        "3.h5 is shard 3/5 once more",
+        "other.h5 is of another study, or of another version of it, than 1.h5",
+        "They cannot be merged",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let output = bench.run(&format!("merge {files} --check --json"));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["merges"], false);
+    assert_eq!(json["missing"], serde_json::json!([2, 4]));
+    assert_eq!(json["faults"].as_array().unwrap().len(), 5);
+    let told = bench.complaint(&format!("merge {files} -o out.h5"), 2);
+    assert!(
+        told.contains("4 more of the files") && told.contains("--check"),
+        "{told}"
+    );
+    assert!(!bench.path("out.h5").exists());
+}
+
+/// A name given to all shards by mistake loses nothing.
+#[test]
+fn a_shard_replaces_no_other_one() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 3);
+    bench.text("sweep study.toml -o whole.h5");
+    for (output, is) in [
+        ("2.h5", "it is shard 2/3 of this study"),
+        ("whole.h5", "it is the result of the whole study"),
+    ] {
+        let before = bench.bytes(output);
+        for resume in ["", "--resume"] {
+            let told = bench.complaint(
+                &format!("sweep study.toml --shard 3/3 -o {output} {resume}"),
+                2,
+            );
+            assert!(told.contains(is), "{told}");
+        }
+        assert!(bench.bytes(output) == before);
+        assert!(!bench.path(&format!("{output}.parts")).exists());
+    }
+    // Its own result it replaces, as any command does.
+    bench.text("sweep study.toml --shard 2/3 -o 2.h5");
+    let told = bench.complaint("sweep study.toml --shard 2/3 --into all -o 4.h5", 2);
+    assert!(told.contains("a name of its own"), "{told}");
+    let told = bench.complaint("sweep study.toml --into all", 2);
+    assert!(told.contains("--shard"), "{told}");
+}
+
+/// The runs of an incremental dynamic analysis are dealt out, merged and evaluated.
+#[test]
+fn an_incremental_dynamic_analysis_is_dealt_out() {
+    let bench = Bench::new(IDA);
+    let whole = bench.text("ida study.toml -o whole.h5 --table whole.csv");
+    for index in 1..=3 {
+        let told = bench.text(&format!("ida study.toml --shard {index}/3 --into all"));
+        assert!(told.contains("-o ALL.h5 --resume"), "{told}");
+    }
+    bench.text("merge all -o merged.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+    let merged = bench.text("ida study.toml -o merged.h5 --resume --table merged.csv");
+    assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
+    let answer = |text: &str| text.split_once("none failed").unwrap().1.to_owned();
+    assert_eq!(answer(&merged), answer(&whole));
+    let told = bench.complaint("ida study.toml --shard 1/3 --table part.csv", 2);
+    assert!(told.contains("cannot be used with"), "{told}");
+}
+
+/// Two records at six intensities, twelve runs in chunks of two.
+const IDA: &str = r#"
+case = "case.toml"
+[[variable]]
+records = ["MOTIONS/el_centro_1940_ns.csv", "MOTIONS/kobe_1995_jma_ns.csv"]
+[[variable]]
+intensity = "peak_ground_acceleration"
+from = "0.05 g"
+to = "0.6 g"
+count = 6
+[output]
+chunk = 2
+[ida]
+gaps = ["10 mm", "20 mm"]
+"#;

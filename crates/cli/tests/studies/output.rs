@@ -1,0 +1,156 @@
+//! What a study stores of each run: some quantities, in 32 bits if it says so.
+
+use std::process::Command;
+
+use super::{Bench, MIXED, root};
+
+/// The study with three quantities, one of them of levels, one of storeys, one of runs.
+fn chosen(numbers: &str) -> String {
+    MIXED.replace(
+        "isolated_demand = true",
+        &format!(
+            "quantities = [\"energy_input\", \"peak_force\", \"peak_displacement\"]\n{numbers}"
+        ),
+    )
+}
+
+fn numbers(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
+    let file = hdf5::File::open(bench.path(file)).unwrap();
+    file.dataset(name).unwrap().read_raw().unwrap()
+}
+
+/// Against the study that stores everything.
+#[test]
+fn quantities_are_chosen_and_have_the_values_of_all() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o all.h5 --csv all.csv");
+    bench.study(&chosen(""));
+    bench.text("sweep study.toml -o some.h5 --csv some.csv");
+    for name in ["energy_input", "peak_force", "peak_displacement", "gap"] {
+        let bits = |file| {
+            let numbers = numbers(&bench, file, name).into_iter();
+            numbers.map(f64::to_bits).collect::<Vec<_>>()
+        };
+        assert_eq!(bits("some.h5"), bits("all.h5"), "{name}");
+    }
+    let file = hdf5::File::open(bench.path("some.h5")).unwrap();
+    for name in ["impacts", "isolated_demand", "energy_impact"] {
+        assert!(!file.link_exists(name), "{name}");
+    }
+    let table = String::from_utf8(bench.bytes("some.csv")).unwrap();
+    let header = table.lines().next().unwrap();
+    assert!(
+        header.contains("peak_force: ") && !header.contains("impacts"),
+        "{header}"
+    );
+    bench.text("report some.h5 -o some.html");
+    // Shards of it merge into the same bytes.
+    for index in 1..=3 {
+        bench.text(&format!("sweep study.toml --shard {index}/3 --into shards"));
+    }
+    bench.text("merge shards -o merged.h5 --csv merged.csv");
+    assert!(bench.bytes("merged.h5") == bench.bytes("some.h5"));
+    assert!(bench.bytes("merged.csv") == bench.bytes("some.csv"));
+}
+
+/// Every value is that of 64 bits, rounded once; coordinates stay as they are.
+#[test]
+fn numbers_of_32_bits_are_those_of_64_rounded() {
+    let bench = Bench::new(&chosen(""));
+    bench.text("sweep study.toml -o long.h5");
+    bench.study(&chosen("numbers = \"float32\""));
+    bench.text("sweep study.toml -o short.h5 --csv short.csv --threads 1");
+    let file = hdf5::File::open(bench.path("short.h5")).unwrap();
+    for name in ["energy_input", "peak_force", "peak_displacement"] {
+        let data = file.dataset(name).unwrap();
+        assert!(data.dtype().unwrap().is::<f32>(), "{name}");
+        let short: Vec<f32> = data.read_raw().unwrap();
+        let long = numbers(&bench, "long.h5", name);
+        let rounded: Vec<u32> = long.iter().map(|x| (*x as f32).to_bits()).collect();
+        assert!(short.iter().map(|x| x.to_bits()).eq(rounded), "{name}");
+    }
+    assert!(file.dataset("gap").unwrap().dtype().unwrap().is::<f64>());
+    drop(file);
+    for index in 1..=4 {
+        bench.text(&format!("sweep study.toml --shard {index}/4 --into shards"));
+    }
+    bench.text("merge shards -o merged.h5 --csv merged.csv");
+    assert!(bench.bytes("merged.h5") == bench.bytes("short.h5"));
+    assert!(bench.bytes("merged.csv") == bench.bytes("short.csv"));
+    // Interrupted and resumed: from the stored runs, too.
+    bench.text("sweep study.toml -o short.h5 --resume --csv again.csv");
+    assert!(bench.bytes("again.csv") == bench.bytes("short.csv"));
+    bench.text("sweep study.toml -o short.h5 --resume --csv short.parquet");
+    let table = bench.path("short.parquet");
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    let reader = SerializedFileReader::new(std::fs::File::open(table).unwrap()).unwrap();
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let types = schema
+        .columns()
+        .iter()
+        .map(|c| (c.name(), c.physical_type()));
+    let forces: Vec<_> = types
+        .filter(|(name, _)| name.starts_with("peak_force"))
+        .collect();
+    assert!(!forces.is_empty());
+    assert!(
+        forces
+            .iter()
+            .all(|(_, t)| *t == parquet::basic::Type::FLOAT),
+        "{forces:?}"
+    );
+}
+
+#[test]
+fn quantities_that_cannot_be_chosen_are_refused() {
+    let bench =
+        Bench::new(&MIXED.replace("isolated_demand = true", "quantities = [\"peak_forse\"]"));
+    let told = bench.complaint("sweep study.toml", 2);
+    assert!(told.contains("did you mean peak_force?"), "{told}");
+    bench.study(&MIXED.replace("isolated_demand = true", "quantities = []"));
+    let told = bench.complaint("sweep study.toml", 2);
+    assert!(told.contains("not empty"), "{told}");
+    bench.study(&MIXED.replace("isolated_demand = true", "numbers = \"float16\""));
+    let told = bench.complaint("sweep study.toml", 2);
+    assert!(told.contains("float32"), "{told}");
+    // Of quantities that exist, but not here, it is said.
+    bench.study(&MIXED.replace(
+        "isolated_demand = true",
+        "quantities = [\"impacts\", \"peak_rotation\"]",
+    ));
+    let told = bench.text("sweep study.toml -o some.h5");
+    assert!(
+        told.contains("peak_rotation, which no building or gap"),
+        "{told}"
+    );
+}
+
+/// xarray reads what is asked for alone, and DuckDB the columns and rows of a query, from a
+/// Parquet table of several row groups.
+#[test]
+fn large_results_are_read_in_parts_by_python() {
+    let Some(python) = std::env::var_os("POUNDING_PYTHON") else {
+        return;
+    };
+    let bench = Bench::new(&chosen("numbers = \"float32\""));
+    // Short, so that there can be more runs than in a row group.
+    let case = std::fs::read_to_string(bench.path("case.toml")).unwrap();
+    std::fs::write(
+        bench.path("case.toml"),
+        case.replace("\"6 s\"", "\"0.1 s\""),
+    )
+    .unwrap();
+    bench.study(
+        &chosen("numbers = \"float32\"")
+            .replace("runs = 60", "runs = 9000")
+            .replace("chunk = 4", "chunk = 256"),
+    );
+    bench.text("sweep study.toml -o out.h5 --csv out.parquet");
+    let output = Command::new(python)
+        .arg(root().join("tests/python/read_in_parts.py"))
+        .args([bench.path("out.h5"), bench.path("out.parquet")])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+}

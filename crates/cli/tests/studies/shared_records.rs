@@ -1,0 +1,89 @@
+//! Records in the folder of all shards: each once, and read by those that need it.
+
+use super::{Bench, root};
+
+/// Three records, of which each of three shards uses one.
+const STUDY: &str = r#"
+case = "case.toml"
+[[variable]]
+records = ["a.csv", "b.csv", "c.csv"]
+[[variable]]
+intensity = "peak_ground_velocity"
+from = "0.1 m/s"
+to = "0.4 m/s"
+count = 4
+[output]
+chunk = 4
+"#;
+
+fn bench() -> Bench {
+    let bench = Bench::new(STUDY);
+    for (file, record) in [
+        ("a.csv", "el_centro_1940_ns.csv"),
+        ("b.csv", "kobe_1995_jma_ns.csv"),
+        ("c.csv", "el_centro_1940_ns.csv"),
+    ] {
+        let text = std::fs::read(root().join("ground_motions").join(record)).unwrap();
+        std::fs::write(bench.path(file), text).unwrap();
+    }
+    bench
+}
+
+/// The files of the shared records, without their list.
+fn copies(bench: &Bench) -> Vec<String> {
+    let entries = std::fs::read_dir(bench.path("all/records")).unwrap();
+    let names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<_> = names.filter(|name| name != "list.json").collect();
+    names.sort();
+    names
+}
+
+/// What the first shard has read is enough for the others, though the files are gone, and of what
+/// is kept each needs its own record alone.
+#[test]
+fn a_shard_needs_the_records_of_its_runs_alone() {
+    let bench = bench();
+    bench.text("sweep study.toml -o whole.h5");
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    // Two files of the same bytes are one.
+    let kept = copies(&bench);
+    assert_eq!(kept.len(), 2, "{kept:?}");
+    for file in ["a.csv", "b.csv", "c.csv"] {
+        std::fs::remove_file(bench.path(file)).unwrap();
+    }
+    // That of b, by its content.
+    let bytes = std::fs::read(root().join("ground_motions/kobe_1995_jma_ns.csv")).unwrap();
+    let of = |name: &&String| bench.bytes(&format!("all/records/{name}")) == bytes;
+    let b = kept.iter().find(of).unwrap();
+    let moved = |from: &str, to: &str| std::fs::rename(bench.path(from), bench.path(to)).unwrap();
+    moved(&format!("all/records/{b}"), "elsewhere.csv");
+    bench.text("sweep study.toml --shard 3/3 --into all");
+    // Without its copy and its file, the second shard has nothing to read.
+    let told = bench.complaint("sweep study.toml --shard 2/3 --into all", 2);
+    assert!(told.contains("1 of the 3 records cannot be read"), "{told}");
+    moved("elsewhere.csv", &format!("all/records/{b}"));
+    bench.text("sweep study.toml --shard 2/3 --into all");
+    bench.text("merge all -o merged.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+    // Nothing is left to do: no record is needed at all.
+    std::fs::remove_file(bench.path(&format!("all/records/{b}"))).unwrap();
+    bench.text("sweep study.toml --shard 2/3 --into all --resume");
+}
+
+/// A file that was changed is another record, and its shards are of another study.
+#[test]
+fn a_changed_record_is_read_anew() {
+    let bench = bench();
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let text = String::from_utf8(bench.bytes("b.csv")).unwrap();
+    std::fs::write(bench.path("b.csv"), format!("{text}# changed\n")).unwrap();
+    bench.text("sweep study.toml --shard 2/3 --into all");
+    assert_eq!(copies(&bench).len(), 3);
+    let told = bench.complaint("merge all -o merged.h5 --partial", 2);
+    assert!(told.contains("another study"), "{told}");
+    // A damaged copy is not read where the file is there.
+    for name in copies(&bench) {
+        std::fs::write(bench.path(&format!("all/records/{name}")), "damaged").unwrap();
+    }
+    bench.text("sweep study.toml --shard 3/3 --into all");
+}

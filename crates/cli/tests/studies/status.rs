@@ -1,0 +1,131 @@
+//! How far the shards of a study are.
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use super::{Bench, MIXED};
+
+/// Of four shards one is done, one was lost with its machine, one has failed, one has not begun:
+/// all are named, and the commands that are shown complete them.
+#[test]
+fn what_is_missing_is_named_and_goes_on() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/4 --into all --keep-going");
+    let folder = bench.folder.path().canonicalize().unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let of = |index: usize| format!("all/status/{name}.shard-{index}-of-4.json");
+    let beat: Value = serde_json::from_slice(&bench.bytes(&of(1))).unwrap();
+    assert_eq!(
+        (&beat["state"], &beat["runs"], &beat["finished"]),
+        (&json!("done"), &json!(16), &json!(16))
+    );
+    let told_by = |index: usize, changed: Value| {
+        let mut beat = beat.clone();
+        for (key, value) in changed.as_object().unwrap() {
+            beat[key] = value.clone();
+        }
+        std::fs::write(bench.path(&of(index)), beat.to_string()).unwrap();
+    };
+    // No process has this number.
+    told_by(
+        2,
+        json!({"state": "running", "finished": 7, "stored": 6, "process": 999_999_999}),
+    );
+    told_by(
+        3,
+        json!({"state": "failed", "finished": 0, "message": "no room on the disk"}),
+    );
+    let output = bench.run("status all");
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "1 of 4 shards done in all",
+        "shard 2 ended before its end: 7 of 16 runs, 6 stored; without a word",
+        "shard 3 ended before its end: 0 of 16 runs; no room on the disk",
+        "not begun: 4",
+        "--shard 2/4 --into all --keep-going --resume",
+        "2-4",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    // Another machine that told of itself just now computes.
+    let soon = beat["updated"].as_u64().unwrap() + 3600;
+    told_by(
+        2,
+        json!({"state": "running", "host": "another", "updated": soon, "rate": 2.0, "finished": 7}),
+    );
+    assert_eq!(bench.run("status all --unfinished").stdout, b"3-4\n");
+    // One that has been silent does not.
+    told_by(
+        2,
+        json!({"state": "running", "host": "another", "updated": 1_000_000}),
+    );
+    let output = bench.run("status all --json");
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let study = &json["studies"][0];
+    assert_eq!(
+        (&study["done"], &study["missing"]),
+        (&json!([1]), &json!([4]))
+    );
+    assert_eq!(study["ended"].as_array().unwrap().len(), 2);
+    for line in study["commands"].as_array().unwrap() {
+        let done = Command::new("sh")
+            .args(["-c", line.as_str().unwrap()])
+            .current_dir(bench.folder.path())
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{line}: {done:?}");
+    }
+    let told = bench.text("status all --watch");
+    assert!(told.contains("4 of 4 shards done"), "{told}");
+    assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
+    bench.text("merge all -o merged.h5");
+    bench.text("sweep study.toml -o whole.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+}
+
+#[test]
+fn a_folder_without_shards_is_refused() {
+    let bench = Bench::new(MIXED);
+    for (folder, why) in [(".", "holds no shards"), ("nowhere", "No such file")] {
+        let told = bench.complaint(&format!("status {folder}"), 2);
+        assert!(told.contains(why), "{told}");
+    }
+}
+
+/// A signal in a folder of shards leaves word of it.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_shard_says_so() {
+    let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 6000"));
+    let mut child = bench
+        .command("sweep study.toml --shard 2/2 --into all --store-every 10ms --threads 1")
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let parts = || {
+        let entries = std::fs::read_dir(bench.path("all")).into_iter().flatten();
+        let folders = entries.filter_map(|e| std::fs::read_dir(e.unwrap().path()).ok());
+        let mut files = folders.flatten().map(|f| f.unwrap().path());
+        files.any(|f| f.extension().is_some_and(|e| e == "runs"))
+    };
+    while !parts() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-TERM", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(5));
+    let output = bench.run("status all");
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("shard 2 ended before its end: "), "{told}");
+    assert!(told.contains("stored; interrupted"), "{told}");
+    assert!(told.contains("not begun: 1"), "{told}");
+}

@@ -1,0 +1,190 @@
+//! Records of a study in the folder of its shards: each once, by its hash.
+//!
+//! The first shard that comes reads all records, copies each under the name of its hash and
+//! writes down the hash, the intensity, and the size and time of change of the file. The others
+//! look these up, and read the records of their own runs alone, from the copies.
+
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::motions::Motion;
+use super::runner::named_files;
+use crate::case_text::{canonical, hexadecimal};
+use crate::error::StudyError;
+use crate::study_file::{RecordKind, RecordSource, Study};
+
+/// The folder of the copies in that of the shards.
+const FOLDER: &str = "records";
+/// The list of what is known of them.
+const LIST: &str = "list.json";
+
+/// What is known of the records of a study.
+#[derive(Debug)]
+pub(super) struct SharedRecords {
+    folder: PathBuf,
+    list: List,
+}
+
+/// What stands in the list.
+#[derive(Debug, Serialize, Deserialize)]
+struct List {
+    /// Hash of study and case, which say how records are read and measured, and of the build.
+    study: String,
+    records: Vec<Known>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Known {
+    name: String,
+    file: PathBuf,
+    /// Size and time of change, by which a file that was changed is told.
+    stamp: (u64, u128),
+    sha256: String,
+    /// The bits of the intensity, so that none is lost.
+    intensity: Option<u64>,
+}
+
+impl SharedRecords {
+    /// Opens the list in a folder of shards; an empty one if there is none, or one of another
+    /// study.
+    pub(super) fn open(folder: &Path, study: &Study) -> Self {
+        let folder = folder.join(FOLDER);
+        let mut hash = Sha256::new();
+        hash.update(crate::BUILD);
+        for text in [&study.source, &study.base.source] {
+            hash.update(canonical(text));
+            hash.update([0]);
+        }
+        // Periods of buildings and target spectra, which records are measured by or fitted to.
+        named_files(study).iter().for_each(|f| hash.update(f));
+        let study = hexadecimal(&hash.finalize());
+        let list = std::fs::read(folder.join(LIST)).ok();
+        let list = list.and_then(|text| serde_json::from_slice::<List>(&text).ok());
+        let list = list.filter(|list| list.study == study);
+        Self {
+            folder,
+            list: list.unwrap_or(List {
+                study,
+                records: Vec::new(),
+            }),
+        }
+    }
+
+    /// What is known of a record whose file is as it was, or gone.
+    pub(super) fn known(&self, source: &RecordSource) -> Option<Motion> {
+        let file = file(source)?;
+        let mut known = self.list.records.iter();
+        let known = known.find(|k| k.name == source.name && k.file == file)?;
+        // Of a file that is gone the copy is left.
+        if stamp(&file).is_some_and(|now| now != known.stamp) {
+            return None;
+        }
+        Some(Motion {
+            record: None,
+            sha256: known.sha256.clone(),
+            intensity: known.intensity.map(f64::from_bits),
+        })
+    }
+
+    /// Copies the records that were read, and writes down what is known of them.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub(super) fn add(
+        &mut self,
+        sources: &[RecordSource],
+        motions: &[Result<Motion, String>],
+    ) -> Result<(), StudyError> {
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| StudyError::File {
+                what: "write",
+                path,
+                source,
+            }
+        };
+        let before = self.list.records.clone();
+        for (source, motion) in sources.iter().zip(motions) {
+            let (Some(file), Ok(motion)) = (file(source), motion) else {
+                continue;
+            };
+            // Synthetic motions are made anew; those without a record are known.
+            let (Some(_), Some(stamp)) = (&motion.record, stamp(&file)) else {
+                continue;
+            };
+            let Ok(bytes) = std::fs::read(&file) else {
+                continue;
+            };
+            // Changed since it was read: nothing of it is written down.
+            if hexadecimal(&Sha256::digest(&bytes)) != motion.sha256 {
+                continue;
+            }
+            std::fs::create_dir_all(&self.folder).map_err(failed(&self.folder))?;
+            let copy = self.folder.join(name(&file, &motion.sha256));
+            if !copy.is_file() {
+                pounding_files::write(&copy, &bytes).map_err(failed(&copy))?;
+            }
+            self.list.records.retain(|k| k.name != source.name);
+            self.list.records.push(Known {
+                name: source.name.clone(),
+                file,
+                stamp,
+                sha256: motion.sha256.clone(),
+                intensity: motion.intensity.map(f64::to_bits),
+            });
+        }
+        if self.list.records == before {
+            return Ok(());
+        }
+        let path = self.folder.join(LIST);
+        let text = serde_json::to_string(&self.list).map_err(std::io::Error::from);
+        let written = text.and_then(|text| pounding_files::write(&path, text.as_bytes()));
+        written.map_err(failed(&path))
+    }
+}
+
+/// A record read from its copy; `None` if there is none that is whole.
+pub(super) fn copy(folder: &Path, source: &RecordSource, sha256: &str) -> Option<RecordKind> {
+    let RecordKind::File { case, edits } = &source.kind else {
+        return None;
+    };
+    let path = folder.join(FOLDER).join(name(&file(source)?, sha256));
+    let path = std::path::absolute(path).ok()?;
+    let bytes = std::fs::read(&path).ok()?;
+    if hexadecimal(&Sha256::digest(bytes)) != sha256 {
+        return None;
+    }
+    let mut case = case.clone();
+    case.ground_motion.file.value = path;
+    Some(RecordKind::File {
+        case,
+        edits: edits.clone(),
+    })
+}
+
+/// The name of a copy: its hash, and the ending of the file, which may tell its format.
+fn name(file: &Path, sha256: &str) -> String {
+    match file.extension().and_then(|e| e.to_str()) {
+        Some(ending) => format!("{sha256}.{ending}"),
+        None => sha256.to_owned(),
+    }
+}
+
+/// The file of a record; `None` of a synthetic one.
+fn file(source: &RecordSource) -> Option<PathBuf> {
+    let RecordKind::File { case, .. } = &source.kind else {
+        return None;
+    };
+    let file = case.resolve(&case.ground_motion.file.value);
+    std::path::absolute(file).ok()
+}
+
+/// Size and time of change (ns since 1970) of a file.
+fn stamp(file: &Path) -> Option<(u64, u128)> {
+    let found = std::fs::metadata(file).ok()?;
+    let changed = found.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
+    Some((found.len(), changed.as_nanos()))
+}

@@ -81,7 +81,9 @@ impl Rule {
         let readings = p.status().readings().iter().enumerate();
         let readings: Vec<Self> = readings
             .map(|(i, reading)| {
-                let name = format!("{} ({})", p.name(), reading.text);
+                // The rest of the text stands in the answer and in files.
+                let text = reading.text.split(',').next().unwrap_or_default();
+                let name = format!("{} ({text})", p.name());
                 Self::of(gap, (name, kind.clone()), judged, factor, |r| {
                     c.width_by_reading(r, i)
                 })

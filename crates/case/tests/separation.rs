@@ -81,3 +81,50 @@ fn mistakes_are_placed() {
     let error = Separation::parse("soil_zone = II", 2).unwrap_err();
     assert!(error.help.unwrap().contains("texts in quotes"));
 }
+
+/// Rules of the user, each with its file and the places of its texts; a country stands for its
+/// code.
+#[test]
+fn rules_country_and_date() {
+    let rule = "country = \"Italy\"\ndate = \"2020-01-01\"\n[[separation.rule]]\nname = \"mine\"\nkind = \"boundary\"\nexpression = \"max(least, u)\"\ninputs = { least = \"30 mm\" }\n[separation.rule.tables]\nt = { points = [[1, \"2 m\"], [2, \"3 m\"]], interpolation = \"steps\" }\n";
+    let text = format!("{CASE}{rule}");
+    let s = Case::parse(&text, Path::new("case.toml"))
+        .unwrap()
+        .separation;
+    assert_eq!(s.country.unwrap().value, "Italy");
+    assert_eq!(s.date.unwrap().value, "2020-01-01");
+    let rule = &s.rules[0];
+    assert!(!rule.between && &*rule.file == "case.toml");
+    assert_eq!(&text[rule.expression.span.clone()], "\"max(least, u)\"");
+    assert_eq!(rule.inputs[0].1.value, 0.03);
+    assert!(rule.tables[0].1.steps);
+    assert_eq!(rule.tables[0].1.points[1][1].value, 3.0);
+    let mut case = Case::parse(&text, Path::new("case.toml"))
+        .unwrap()
+        .separation;
+    let argument = Separation::parse("code = \"ntc_2018\"", 2).unwrap();
+    case = case.overridden_by(argument);
+    assert_eq!(
+        (case.country, case.code.unwrap().value.as_str()),
+        (None, "ntc_2018")
+    );
+    for (from, to, says) in [
+        (
+            "country",
+            "code = \"ntc_2018\"\ncountry",
+            "`country` and `code` are both given",
+        ),
+        ("\"boundary\"", "\"beside\"", "beside"),
+        ("expression =", "expresion =", "did you mean `expression`?"),
+        ("\"30 mm\"", "\"30 furlongs\"", "is not a known unit"),
+        ("[2, \"3 m\"]", "[2]", "a point of a table has 1 values"),
+        ("name = \"mine\"", "name = \"\"", "a rule needs a name"),
+    ] {
+        let error = Case::parse(&text.replace(from, to), Path::new("case.toml")).unwrap_err();
+        let all = error
+            .each()
+            .map(|e| format!("{e} {} ", e.help.clone().unwrap_or_default()));
+        let all: String = all.collect();
+        assert!(all.contains(says), "{says}: {all}");
+    }
+}

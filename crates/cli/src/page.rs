@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_case::Case;
+use pounding_case::{Case, Separation};
 use pounding_files::checksum::{WithoutChecksum, hexadecimal};
 use pounding_report::page::{self as pages, Inputs, Picture};
 use pounding_report::{Chart, ReportError, RunResult};
@@ -62,6 +62,31 @@ pub fn of_case(command: &str, case: &Case, file: &Path, records: &[CaseUnderReco
     }
     let listing = ("The case file".to_owned(), case.source.clone());
     inputs.listings.push(listing);
+    inputs
+}
+
+/// What a page says of a gap check: also the files of rules beside the case.
+pub fn of_gap(
+    case: &Case,
+    file: &Path,
+    records: &[CaseUnderRecord],
+    separation: &Separation,
+) -> Inputs {
+    let mut inputs = of_case("gap", case, file, records);
+    let mut listed: Vec<&str> = vec![&case.source];
+    for rule in &separation.rules {
+        let source: &str = &rule.source;
+        if listed.contains(&source) {
+            continue;
+        }
+        listed.push(source);
+        let hash = hexadecimal(&Sha256::digest(source));
+        inputs
+            .facts
+            .push((format!("SHA-256 of {}", rule.file), hash));
+        let listing = (format!("The rules of {}", rule.file), source.to_owned());
+        inputs.listings.push(listing);
+    }
     inputs
 }
 

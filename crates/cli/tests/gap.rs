@@ -278,7 +278,7 @@ fn sweep_files() {
     assert!(
         codes
             .lines()
-            .any(|l| l.contains("nbcc_2015_between,verified,0.116"))
+            .any(|l| l.contains("nbcc_2015_between,seen in a secondary text,0.116"))
     );
     assert!(codes.lines().any(|l| l.contains("unverified")));
     assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
@@ -363,7 +363,7 @@ fn codes_are_marked_where_buildings_yield() {
     );
     for text in [&shown, &codes] {
         assert!(
-            !text.contains("not judged") && !text.contains("inelastic"),
+            !text.contains("not judged: elastic only") && !text.contains("inelastic"),
             "{text}"
         );
     }
@@ -390,7 +390,17 @@ fn provisions_are_listed_with_their_status() {
     let provisions = result["provisions"].as_array().unwrap();
     assert!(provisions.len() > 50);
     for p in provisions {
-        assert!(["verified", "unverified"].contains(&p["status"].as_str().unwrap()));
+        let statuses = ["seen in a secondary text", "unverified", "disputed"];
+        assert!(statuses.contains(&p["status"].as_str().unwrap()));
+        for said in ["displacement", "height", "ownership", "alignment"] {
+            assert!(
+                p["assumptions"][said]
+                    .as_str()
+                    .is_some_and(|s| !s.is_empty()),
+                "{p}"
+            );
+        }
+        assert!(p["source"].as_str().is_some_and(|s| !s.is_empty()), "{p}");
     }
     let factor =
         |name| named(&result["provisions"], "name", name)["elastic_displacement_factor"].clone();
@@ -733,7 +743,7 @@ fn mistakes() {
     for (arguments, says) in [
         (vec!["--provisions", "nbcc"], "nbcc_2015_between"),
         (
-            vec!["--code", "eurocode_8"],
+            vec!["--code", "eurocode"],
             "did you mean \"eurocode_8_2004\"?",
         ),
         (

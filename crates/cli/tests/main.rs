@@ -23,6 +23,7 @@ mod messages;
 mod model_pages;
 mod motion;
 mod plausibility;
+mod provisions;
 mod report;
 mod shown_commands;
 mod sizes;

@@ -1,7 +1,7 @@
 //! Rules that combine the peak displacements of two buildings.
 
-use crate::descriptor::Verification;
 use crate::error::SeparationError;
+use pounding_catalogue::Verification;
 
 /// How two peak displacements make a gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,11 +1,13 @@
 //! The descriptor of a provision.
 
 use pounding_catalogue::Descriptor;
-pub use pounding_catalogue::Verification;
 
+use crate::assumptions::{Assumptions, Ground, HeightDatum};
+use crate::edition::Edition;
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
-use crate::working::{Requirement, Working};
+use crate::status::{Reading, Status};
+use crate::working::{ReadingWidth, Requirement, Working};
 
 /// What a rule measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +16,8 @@ pub enum Place {
     Boundary,
     /// Between two buildings.
     Between,
+    /// The seat of what spans a gap: no width of the gap, and not held against it.
+    Seat,
 }
 
 impl Place {
@@ -23,6 +27,7 @@ impl Place {
         match self {
             Self::Boundary => "boundary",
             Self::Between => "between",
+            Self::Seat => "seat of a bridge",
         }
     }
 }
@@ -54,6 +59,8 @@ pub(crate) enum Rule {
     Boundary(fn(&mut Working, &Structure, f64, &Site) -> Result<f64, SeparationError>),
     /// Two buildings.
     Between(fn(&mut Working, &Situation) -> Result<f64, SeparationError>),
+    /// The seat of a bridge between two buildings.
+    Seat(fn(&mut Working, &Situation) -> Result<f64, SeparationError>),
 }
 
 /// Everything that is known of a provision without applying it.
@@ -61,14 +68,16 @@ pub(crate) enum Rule {
 pub struct ProvisionDescriptor {
     /// Name: code, edition, and what it measures.
     pub name: &'static str,
-    /// Country or city.
-    pub region: &'static str,
     /// Code with its edition.
-    pub edition: &'static str,
+    pub edition: &'static Edition,
     /// Clause; empty if not known.
     pub clause: &'static str,
     /// What it rests on.
     pub basis: Basis,
+    /// Where it measures heights from.
+    pub height: HeightDatum,
+    /// Whose ground it speaks of.
+    pub ground: Ground,
     /// What the code multiplies the displacement of an elastic analysis under its reduced
     /// forces by, in its own symbols; `None` for a rule that takes displacements as an
     /// analysis gives them, or none. Such a rule does not hold for the displacement of an
@@ -81,9 +90,12 @@ pub struct ProvisionDescriptor {
     /// Inputs that it needs beside heights and storeys.
     pub inputs: &'static [Input],
     /// How far the formula has been checked.
-    pub status: Verification,
+    pub status: Status,
     /// What else a user should know.
     pub remarks: &'static [&'static str],
+    /// The width of the [worked example](crate::worked_example) by hand, in mm: an expression of
+    /// numbers that the expressions of users can be.
+    pub worked: &'static str,
     pub(crate) rule: Rule,
 }
 
@@ -115,6 +127,33 @@ impl ProvisionDescriptor {
         match self.rule {
             Rule::Boundary(_) => Place::Boundary,
             Rule::Between(_) => Place::Between,
+            Rule::Seat(_) => Place::Seat,
+        }
+    }
+
+    /// What it takes for granted.
+    #[must_use]
+    pub fn assumptions(&self) -> Assumptions {
+        let displacement = match (self.basis, self.elastic_displacement_factor) {
+            (Basis::Prescriptive, _) => "none is taken".to_owned(),
+            (Basis::Displacement, Some(factor)) => format!(
+                "that of an elastic analysis under reduced forces, times {factor}; the unreduced peak u of the run stands for it"
+            ),
+            (Basis::Displacement, None) => {
+                "unreduced, as the analysis gives it: the peak u of the run".to_owned()
+            }
+        };
+        let alignment = if self.inputs.contains(&Input::FloorsAligned) {
+            "asks whether all floors of the lower building face floors"
+        } else {
+            "does not ask whether floors face floors"
+        };
+        Assumptions {
+            displacement,
+            height: self.height.explanation().to_owned(),
+            ownership: self.ground.explanation().to_owned(),
+            alignment: alignment.to_owned(),
+            others: Vec::new(),
         }
     }
 
@@ -129,12 +168,15 @@ impl ProvisionDescriptor {
         elevation: f64,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
-        let mut working = Working::new(self.name);
-        let Rule::Boundary(rule) = self.rule else {
-            return Err(working.not_applicable("it needs a building on either side"));
+        let width = |rule, formula: &str| {
+            let mut working = Working::new(self.name);
+            let Rule::Boundary(rule) = rule else {
+                return Err(working.not_applicable("it needs a building on either side"));
+            };
+            let width = rule(&mut working, structure, elevation, site)?;
+            working.finish(formula, (width, site), self.caution(&[structure]))
         };
-        let width = rule(&mut working, structure, elevation, site)?;
-        working.finish(self.formula, (width, site), self.caution(&[structure]))
+        self.required(width)
     }
 
     /// Distance between two buildings (m). A boundary rule gives the sum of the
@@ -143,28 +185,58 @@ impl ProvisionDescriptor {
     /// # Errors
     /// An input that is missing, or a situation that the provision does not cover.
     pub fn between(&self, situation: &Situation) -> Result<Requirement, SeparationError> {
-        let mut working = Working::new(self.name);
-        let caution = self.caution(&[&situation.left, &situation.right]);
-        match self.rule {
-            Rule::Between(rule) => {
-                let width = rule(&mut working, situation)?;
-                working.finish(self.formula, (width, &situation.site), caution)
+        self.required(|rule, formula| {
+            let mut working = Working::new(self.name);
+            let caution = self.caution(&[&situation.left, &situation.right]);
+            match rule {
+                Rule::Between(rule) | Rule::Seat(rule) => {
+                    let width = rule(&mut working, situation)?;
+                    working.finish(formula, (width, &situation.site), caution)
+                }
+                Rule::Boundary(rule) => {
+                    let side = |working: &mut Working, structure: &Structure| {
+                        rule(working, structure, situation.elevation, &situation.site)
+                    };
+                    let left = side(&mut working, &situation.left)?;
+                    let right = side(&mut working, &situation.right)?;
+                    let width = working.summed(left, right);
+                    let formula = format!("{formula}, summed over both sides");
+                    working.finish(&formula, (width, &situation.site), caution)
+                }
             }
-            Rule::Boundary(rule) => {
-                let Situation {
-                    left,
-                    right,
-                    elevation,
-                    site,
-                } = situation;
-                let left = rule(&mut working, left, *elevation, site)?;
-                let right = rule(&mut working, right, *elevation, site)?;
-                let width = working.note("own side, left", left, "m")
-                    + working.note("own side, right", right, "m");
-                let formula = format!("{}, summed over both sides", self.formula);
-                working.finish(&formula, (width, site), caution)
-            }
-        }
+        })
+    }
+
+    /// What the rule requires; of a disputed one what each reading does, with the width of the
+    /// widest.
+    fn required(
+        &self,
+        width: impl Fn(Rule, &str) -> Result<Requirement, SeparationError>,
+    ) -> Result<Requirement, SeparationError> {
+        let of = |reading: &'static Reading| Ok((reading, width(reading.rule, reading.formula)?));
+        let readings = self.status.readings().iter().map(of);
+        let readings: Vec<_> = readings.collect::<Result<_, SeparationError>>()?;
+        let Some((_, first)) = readings.first() else {
+            return width(self.rule, self.formula);
+        };
+        let explained = readings
+            .iter()
+            .map(|(reading, r)| format!("{}: {}", reading.text, r.explanation));
+        let explanation = explained.collect::<Vec<_>>().join("; or, by ");
+        let widest = readings.iter().map(|(_, r)| r.width);
+        Ok(Requirement {
+            width: widest.fold(0.0, f64::max),
+            factors: first.factors.clone(),
+            explanation: format!("disputed, by {explanation}"),
+            caution: first.caution.clone(),
+            readings: readings
+                .iter()
+                .map(|(reading, r)| ReadingWidth {
+                    text: reading.text,
+                    width: r.width,
+                })
+                .collect(),
+        })
     }
 
     /// Why the rule does not hold for the displacements of these structures.

@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use crate::combination::Oscillator;
-use crate::descriptor::Verification;
 use crate::error::SeparationError;
+use pounding_catalogue::Verification;
 
 /// A bilinear building as an oscillator.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,8 @@
 //! Why a provision gives no gap.
 
-use pounding_catalogue::DefinitionError;
+use pounding_catalogue::{DefinitionError, suggestion};
 
+use crate::edition::Date;
 use crate::inputs::Input;
 
 /// A provision that is unknown, does not apply, or lacks an input.
@@ -15,7 +16,7 @@ pub enum SeparationError {
     #[error("{provision} needs {} ({}){}", input.key(), input.explanation(), of(structure))]
     MissingInput {
         /// Provision.
-        provision: &'static str,
+        provision: String,
         /// What it needs.
         input: Input,
         /// Structure that lacks it; empty where it belongs to the site.
@@ -25,9 +26,57 @@ pub enum SeparationError {
     #[error("{provision} does not apply: {reason}")]
     NotApplicable {
         /// Provision.
-        provision: &'static str,
+        provision: String,
         /// Why.
         reason: String,
+    },
+    /// What stands in an expression of a user's rule cannot be computed here.
+    #[error("{provision}: {message}, at `{part}`, character {character} of its {of}")]
+    Expression {
+        /// The rule.
+        provision: String,
+        /// What is wrong.
+        message: String,
+        /// The part of the expression.
+        part: String,
+        /// Where it starts, in characters from 1.
+        character: usize,
+        /// `expression`, or the definition that it stands in.
+        of: String,
+    },
+    /// What is no date.
+    #[error("\"{text}\" is no date")]
+    NoDate {
+        /// The text.
+        text: String,
+    },
+    /// No edition of a code, or no code of a country, is in force on a day.
+    #[error("of {what} no edition that is known here is in force on {date}")]
+    NotInForce {
+        /// Code or country.
+        what: String,
+        /// The day.
+        date: Date,
+        /// The editions that are known, with their dates.
+        known: Vec<String>,
+    },
+    /// Several codes of a country are in force on a day.
+    #[error("{country} has several codes in force on {date}: {}", codes.join(", "))]
+    SeveralCodes {
+        /// Country.
+        country: String,
+        /// The day.
+        date: Date,
+        /// Their names.
+        codes: Vec<&'static str>,
+    },
+    /// A country without codes here.
+    #[error("no code of \"{country}\" is known here")]
+    UnknownCountry {
+        /// The name asked for.
+        country: String,
+        /// The countries and cities that have one.
+        known: Vec<&'static str>,
     },
     /// An input that no structure can have.
     #[error("{quantity} = {value} is outside {range}")]
@@ -61,6 +110,18 @@ impl SeparationError {
             Self::NotApplicable { .. } => {
                 "choose the rule of the code that covers this situation".to_owned()
             }
+            Self::Expression { .. } => {
+                "correct the rule, or the inputs that it is given".to_owned()
+            }
+            Self::NoDate { .. } => "write year, month and day, such as 2018-03-22".to_owned(),
+            Self::NotInForce { known, .. } => format!("known are {}", known.join("; ")),
+            Self::SeveralCodes { .. } => {
+                "name one of them: --code, or `code` in [separation]".to_owned()
+            }
+            Self::UnknownCountry { country, known } => match suggestion::misspelt(country, known) {
+                Some(meant) => format!("did you mean \"{meant}\"?"),
+                None => format!("known are {}", known.join(", ")),
+            },
             Self::OutOfRange { .. } => "check the value and its unit".to_owned(),
         })
     }

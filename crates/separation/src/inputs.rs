@@ -29,6 +29,8 @@ pub enum Input {
     SeismicCoefficient,
     /// `S_M1` of ASCE 7.
     SpectralAccelerationAtOneSecond,
+    /// Whether the neighbour has left its own distance from the property line.
+    NeighbourHasGap,
     /// `T_M`: effective period of isolators.
     IsolationPeriod,
     /// `B_M`: what their damping divides displacements by.
@@ -43,7 +45,7 @@ pub enum Input {
 
 impl Input {
     /// All inputs.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Displacement,
         Self::ResponseModification,
         Self::DisplacementAmplification,
@@ -57,6 +59,7 @@ impl Input {
         Self::DesignGroundAcceleration,
         Self::SeismicCoefficient,
         Self::SpectralAccelerationAtOneSecond,
+        Self::NeighbourHasGap,
         Self::IsolationPeriod,
         Self::IsolationDampingCoefficient,
         Self::PlanLength,
@@ -81,6 +84,7 @@ impl Input {
             Self::DesignGroundAcceleration => "design_ground_acceleration",
             Self::SeismicCoefficient => "seismic_coefficient",
             Self::SpectralAccelerationAtOneSecond => "spectral_acceleration_1s",
+            Self::NeighbourHasGap => "neighbour_has_gap",
             Self::IsolationPeriod => "isolation_period",
             Self::IsolationDampingCoefficient => "isolation_damping_coefficient",
             Self::PlanLength => "plan_length",
@@ -103,10 +107,13 @@ impl Input {
             Self::SameOwner => "true if no property line lies in the gap",
             Self::FortificationIntensity => "6, 7, 8 or 9",
             Self::SoilZone => "I, II or III of Mexico City",
-            Self::DesignGroundAcceleration => "a_g S, m/s2",
+            Self::DesignGroundAcceleration => "a_g S, or Z S g of Peru, m/s2",
             Self::SeismicCoefficient => "alpha_h, -",
             Self::SpectralAccelerationAtOneSecond => {
                 "S_M1 of the maximum considered earthquake, m/s2"
+            }
+            Self::NeighbourHasGap => {
+                "true if the neighbour has left its own distance from the property line"
             }
             Self::IsolationPeriod => "effective period T_M of the isolators at D_M, s",
             Self::IsolationDampingCoefficient => "B_M of the damping of the isolators at D_M, -",
@@ -215,6 +222,9 @@ pub struct Structure {
     /// Displacement at the level under the reduced design forces of the code (m), where
     /// it is known itself. Taken instead of `I u / R`.
     pub elastic_displacement: Option<f64>,
+    /// Whether `displacement` holds sway and rotation of the base: the structure stands on a
+    /// foundation in the model.
+    pub base_moves: bool,
     /// `R`, `q`, `Rd Ro`, `R*`, `Ra` (-).
     pub response_modification: Option<f64>,
     /// `Cd` (-).
@@ -256,6 +266,8 @@ pub struct Site {
     /// `S_M1`: spectral acceleration of the maximum considered earthquake at one second, damped
     /// by 5 % (m/s2).
     pub spectral_acceleration_1s: Option<f64>,
+    /// Whether the neighbour has left its own distance from the property line.
+    pub neighbour_has_gap: Option<bool>,
     /// Maximum displacement of the ground on one side of the gap relative to that on the other
     /// (m): zero where one motion is under both. Codes suppose that, so that it is added to
     /// what they require.

@@ -5,25 +5,45 @@
 //! from the border of its own site; a *between* rule says how far two buildings must
 //! stand from one another. And two kinds of answer: *displacement-based* rules need an
 //! analysis, *prescriptive* ones need only heights and kinds of structure. Every
-//! provision says whether its formula was seen in a text or is unverified.
+//! provision says how far its formula was compared with a text ([`Status`]), from when to when its
+//! edition is in force ([`Edition`]) and what it takes for granted ([`Assumptions`]). Users state
+//! rules of their own as expressions ([`OwnRule`]); a [`Provision`] is one of either kind.
 
+mod assumptions;
 mod codes;
 mod combination;
 mod descriptor;
+mod edition;
 mod effective_properties;
 mod error;
 mod inputs;
+mod own;
+mod provision;
 mod provisions;
 mod registry;
+mod status;
 mod suite_rule;
+mod worked_example;
 mod working;
 
-pub use codes::{Cases, CodeDescriptor, CodeWidth, Ownership, Rules, Sides, codes, find_code};
+pub use assumptions::{Assumptions, Ground, HeightDatum};
+pub use codes::{
+    Cases, Code, CodeDescriptor, CodeWidth, Ownership, Rules, Sides, choose_code, code_in_country,
+    codes, find_code,
+};
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
-pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable, Verification};
+pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable};
+pub use edition::{Date, Edition, InForce};
 pub use effective_properties::{EffectiveProperties, YieldingOscillator};
 pub use error::SeparationError;
 pub use inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};
+pub use own::{OwnRule, RuleName, arithmetic, rule_names};
+pub use provision::Provision;
 pub use registry::{descriptors, find, unavailable};
+pub use status::{Reading, Status};
 pub use suite_rule::{Statistic, SuiteRule};
-pub use working::{Factor, Requirement};
+pub use worked_example::worked_example;
+pub use working::{Factor, ReadingWidth, Requirement};
+
+// The status of combination rules and of what codes take of many records.
+pub use pounding_catalogue::Verification;

@@ -111,6 +111,12 @@ pub(crate) const NZS_1170_5: SuiteRule = SuiteRule {
     status: RECALLED,
 };
 
+/// What a rule of the user takes.
+pub(crate) const OF_A_RULE: SuiteRule = SuiteRule {
+    status: Verification::Unverified("a rule of the user says nothing of many records"),
+    ..NOT_KNOWN
+};
+
 /// Where nothing is known of what a code takes.
 pub(crate) const NOT_KNOWN: SuiteRule = SuiteRule {
     mean_from: None,

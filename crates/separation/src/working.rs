@@ -27,21 +27,53 @@ pub struct Requirement {
     /// analysis, and the one given is that of a structure that yields. `None` for a width
     /// that holds.
     pub caution: Option<String>,
+    /// What each reading of a disputed provision requires; none of any other. A width with
+    /// readings is that of the widest, and decides nothing.
+    pub readings: Vec<ReadingWidth>,
+}
+
+/// The width by one reading of a disputed provision.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadingWidth {
+    /// Whose reading it is.
+    pub text: &'static str,
+    /// Width (m).
+    pub width: f64,
+}
+
+impl Requirement {
+    /// Why the width decides nothing: a caution, or a dispute. `None` for one that holds.
+    #[must_use]
+    pub fn undecided(&self) -> Option<String> {
+        if let Some(caution) = &self.caution {
+            return Some(caution.clone());
+        }
+        let (first, rest) = self.readings.split_first()?;
+        let rest = rest
+            .iter()
+            .map(|r| format!("{:.1} mm by {}", r.width * 1e3, r.text));
+        Some(format!(
+            "the texts differ: {:.1} mm by {}, {}; none is chosen",
+            first.width * 1e3,
+            first.text,
+            rest.collect::<Vec<_>>().join(", ")
+        ))
+    }
 }
 
 /// Collects factors and complains of missing ones.
 #[derive(Debug)]
 pub(crate) struct Working {
-    provision: &'static str,
+    provision: String,
     factors: Vec<Factor>,
 }
 
 type Number = Result<f64, SeparationError>;
 
 impl Working {
-    pub(crate) fn new(provision: &'static str) -> Self {
+    pub(crate) fn new(provision: &str) -> Self {
         Self {
-            provision,
+            provision: provision.to_owned(),
             factors: Vec::new(),
         }
     }
@@ -77,7 +109,13 @@ impl Working {
             factors: self.factors,
             explanation,
             caution,
+            readings: Vec::new(),
         })
+    }
+
+    /// The distances of both sides from the border, summed.
+    pub(crate) fn summed(&mut self, left: f64, right: f64) -> f64 {
+        self.note("own side, left", left, "m") + self.note("own side, right", right, "m")
     }
 
     /// Notes a number and hands it on.
@@ -92,7 +130,7 @@ impl Working {
 
     pub(crate) fn not_applicable(&self, reason: impl Into<String>) -> SeparationError {
         SeparationError::NotApplicable {
-            provision: self.provision,
+            provision: self.provision.clone(),
             reason: reason.into(),
         }
     }
@@ -105,7 +143,7 @@ impl Working {
         structure: &str,
     ) -> Result<T, SeparationError> {
         value.ok_or_else(|| SeparationError::MissingInput {
-            provision: self.provision,
+            provision: self.provision.clone(),
             input,
             structure: structure.to_owned(),
         })

@@ -31,12 +31,14 @@ mod law;
 mod levels;
 mod plan;
 mod process;
+mod rule;
 mod scale;
 mod separation;
 mod tree;
 
 pub use ground_motion::ground_motion_schema;
 pub use process::process_steps;
+pub(crate) use rule::file as rule_file;
 pub(crate) use separation::keys as separation_keys;
 pub use tree::CaseTree;
 

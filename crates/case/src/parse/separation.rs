@@ -3,10 +3,11 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::rule::{RuleTable, read_all};
 use super::spread;
 use crate::document::{
     Acceleration, Count, Dimensioned, Entry, Length, Number, OneOrEach, Optional, Positive, Reader,
-    Time,
+    Tables, Time,
 };
 use crate::error::{CaseError, Errors};
 use crate::types::{Located, Separation};
@@ -35,7 +36,7 @@ pub(super) struct SeparationTable {
     fortification_intensity: Optional<Count<1>>,
     /// Zone of Mexico City: I, II or III
     soil_zone: Optional<String>,
-    /// a_g S of Eurocode 8 and NTC (m/s2)
+    /// a_g S of Eurocode 8 and NTC, Z S g of E.030 of 2026 (m/s2)
     design_ground_acceleration: Optional<Positive<Acceleration>>,
     /// alpha_h of the Indian code (-)
     seismic_coefficient: Optional<Positive<Number>>,
@@ -55,10 +56,20 @@ pub(super) struct SeparationTable {
     /// Eccentricity of mass and isolators with the accidental one (m), one for all buildings or
     /// a list
     plan_eccentricity: PerBuilding<Length>,
-    /// Code whose answer is the verdict, such as eurocode_8_2004; by default the demand is
+    /// Whether the neighbour has left its own distance from the property line
+    neighbour_has_gap: Optional<bool>,
+    /// Code whose answer is the verdict, such as eurocode_8_2004, a family of editions such as ntc,
+    /// or a rule of your own; by default the demand is
     code: Optional<String>,
+    /// Country or city whose one code in force is the verdict, in the place of `code`
+    country: Optional<String>,
+    /// Day on which editions are in force, such as "2018-03-22", for a family or a country; by
+    /// default today, which the answer names
+    date: Optional<String>,
     /// Provisions to apply, by default all that apply
     provisions: Optional<Texts>,
+    /// Rules of your own
+    rule: Optional<Tables<RuleTable>>,
 }
 
 type PerBuilding<D = Number> = Optional<OneOrEach<Positive<D>>>;
@@ -77,6 +88,12 @@ impl SeparationTable {
         let numbers = |list: PerBuilding| each(reader, list, buildings);
         let lengths = |list: PerBuilding<Length>| each(reader, list, buildings);
         let systems = self.structural_system.located();
+        let country = self.country.located();
+        if let (Some(country), Some(_)) = (&country, self.code.span()) {
+            let help = "give one of them: a country stands for its one code in force";
+            let message = "`country` and `code` are both given";
+            reader.refuse::<()>(country.span.clone(), message, help);
+        }
         Separation {
             response_modification: numbers(self.response_modification),
             displacement_amplification: numbers(self.displacement_amplification),
@@ -96,8 +113,15 @@ impl SeparationTable {
             plan_length: lengths(self.plan_length),
             plan_width: lengths(self.plan_width),
             plan_eccentricity: lengths(self.plan_eccentricity),
+            neighbour_has_gap: self.neighbour_has_gap.value(),
             code: self.code.located(),
+            country,
+            date: self.date.located(),
             provisions: self.provisions.value().map(|names| names.into_list()),
+            rules: self
+                .rule
+                .value()
+                .map_or_else(Vec::new, |rules| read_all(reader, rules)),
         }
     }
 }

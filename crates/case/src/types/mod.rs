@@ -1,6 +1,7 @@
 //! A case in SI units, with the place of what the layers above may refuse.
 
 mod laws;
+mod rule;
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -19,6 +20,7 @@ pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
 pub use pounding_shear_building::{
     ColumnEnds, Damping, Isolator, IsolatorKind, PostYield, Soil, SpringDashpot, Strength,
 };
+pub use rule::{RuleText, TableText};
 
 /// A value and where it stands in the source (bytes).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -575,10 +577,18 @@ pub struct Separation {
     pub plan_width: Option<Vec<f64>>,
     /// Eccentricities in plan (m).
     pub plan_eccentricity: Option<Vec<f64>>,
-    /// The code whose answer is asked for.
+    /// Whether the neighbour has left its own distance from the property line.
+    pub neighbour_has_gap: Option<bool>,
+    /// The code whose answer is asked for, with its edition or without, or a rule of the user.
     pub code: Option<Located<String>>,
+    /// The country whose code in force is asked for.
+    pub country: Option<Located<String>>,
+    /// The day on which editions are to be in force.
+    pub date: Option<Located<String>>,
     /// Names of the provisions to apply; all by default.
     pub provisions: Option<Vec<Located<String>>>,
+    /// Rules of the user.
+    pub rules: Vec<RuleText>,
 }
 
 impl Separation {
@@ -590,9 +600,14 @@ impl Separation {
         crate::parse::separation_keys(text, buildings)
     }
 
-    /// The same with what `other` gives in the place of what this one has.
+    /// The same with what `other` gives in the place of what this one has; a code in the place of
+    /// a country, and a country in that of a code. Rules are those of both.
     #[must_use]
     pub fn overridden_by(self, other: Self) -> Self {
+        let (code, country) = match (&other.code, &other.country) {
+            (None, None) => (self.code, self.country),
+            _ => (other.code, other.country),
+        };
         Self {
             response_modification: other.response_modification.or(self.response_modification),
             displacement_amplification: other
@@ -622,8 +637,12 @@ impl Separation {
             plan_length: other.plan_length.or(self.plan_length),
             plan_width: other.plan_width.or(self.plan_width),
             plan_eccentricity: other.plan_eccentricity.or(self.plan_eccentricity),
-            code: other.code.or(self.code),
+            neighbour_has_gap: other.neighbour_has_gap.or(self.neighbour_has_gap),
+            code,
+            country,
+            date: other.date.or(self.date),
             provisions: other.provisions.or(self.provisions),
+            rules: self.rules.into_iter().chain(other.rules).collect(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Arguments of `gap`.
 
-use super::{DealArguments, InputPath, OutputPath};
+use super::{DealArguments, InputPath, OutputFolder, OutputPath};
 
 use super::figure::{FigureArguments, figure_file};
 use super::quantities::number;
@@ -14,12 +14,29 @@ pub struct GapArguments {
     /// List the provisions and what each needs, instead of a check
     #[arg(long, conflicts_with_all = ["case", "records"])]
     pub list: bool,
+    /// Write the documentation's page of the provisions into this folder
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        requires = "list",
+        conflicts_with = "json"
+    )]
+    pub pages: Option<OutputFolder>,
     /// Records, or folders of them [default: that of the case]
     #[arg(long, num_args = 1.., value_name = "FILE")]
     pub records: Vec<InputPath>,
-    /// Code whose answer is the verdict, such as eurocode_8_2004 [default: that of the case; without one the demand decides]
+    /// Code whose answer is the verdict, such as eurocode_8_2004, a family of editions such as ntc, or a rule of your own [default: that of the case; without one the demand decides]
     #[arg(long, value_name = "NAME")]
     pub code: Option<String>,
+    /// Country or city whose one code in force is the verdict
+    #[arg(long, value_name = "NAME", conflicts_with = "code")]
+    pub country: Option<String>,
+    /// Day on which editions are in force, such as 2018-03-22, for a family or a country [default: that of the case, or today]
+    #[arg(long, value_name = "DATE")]
+    pub date: Option<String>,
+    /// Rules of your own, a file (TOML) of tables [[rule]]
+    #[arg(long, value_name = "FILE")]
+    pub rules: Option<InputPath>,
     /// Provisions to apply [default: those of the case, or all]
     #[arg(long, num_args = 1.., value_delimiter = ',', value_name = "NAME")]
     pub provisions: Vec<String>,
@@ -64,7 +81,7 @@ pub struct GapArguments {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// Show every rule by itself, provisions that lack an input or do not apply, and every record
+    /// Show all tables beside the answer of a code, every rule by itself with what it takes for granted, provisions that lack an input or do not apply, and every record
     #[arg(long)]
     pub all: bool,
     /// How its runs are shared

@@ -103,6 +103,11 @@ impl Fixture {
                 "deformation_mm\n0\n5\n-5\n0\n".to_owned(),
             ),
             ("dissipation.csv", dissipation),
+            (
+                "rules.toml",
+                "[[rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"u_left + u_right\"\n"
+                    .to_owned(),
+            ),
         ];
         for (name, text) in files {
             std::fs::write(fixture.path(name), text).unwrap();

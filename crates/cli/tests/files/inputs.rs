@@ -18,7 +18,7 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 33] = [
+const CALLS: [Call; 34] = [
     call("run case.toml", CASE),
     call("report result.h5", &["result.h5"]),
     call(
@@ -46,6 +46,16 @@ const CALLS: [Call; 33] = [
         ],
     ),
     call("gap case.toml --points 3", CASE),
+    call(
+        "gap case.toml --points 3 --rules rules.toml",
+        &[
+            "case.toml",
+            "rules.toml",
+            "record.csv",
+            "target.csv",
+            "step.csv",
+        ],
+    ),
     call("compare case.toml --models anagnostopoulos_2004", CASE),
     call(
         "compare case.toml --models anagnostopoulos_2004 --records second.csv",
@@ -492,11 +502,14 @@ fn links_as_outputs() {
 fn pages_do_not_take_the_place_of_a_file() {
     let fixture = Fixture::new();
     let before = fixture.content();
-    for command in ["models", "hysteresis"] {
-        let output = fixture.run(&[command, "--pages", "case.toml"]);
+    for command in [&["models"][..], &["hysteresis"], &["gap", "--list"]] {
+        let output = fixture.run(&[command, &["--pages", "case.toml"]].concat());
         let told = message(&output);
-        assert_eq!(output.status.code(), Some(4), "{command}: {told}");
-        assert!(told.contains("cannot write case.toml"), "{command}: {told}");
+        assert_eq!(output.status.code(), Some(4), "{command:?}: {told}");
+        assert!(
+            told.contains("cannot write case.toml"),
+            "{command:?}: {told}"
+        );
         assert!(fixture.content() == before);
     }
 }

@@ -121,6 +121,20 @@ fn codes_that_are_none() {
     for (arguments, says) in [
         (vec!["--code", "eurocode, ag=0.2 g"], "eurocode_8_2004"),
         (vec!["--code", "ag=0.2 g"], "name of a code"),
+        (
+            vec![
+                "--code",
+                "eurocode_8_2004, ag=0.2 g, ground_type=B, damping=0.03",
+            ],
+            "give it as --damping",
+        ),
+        (
+            vec![
+                "--code",
+                "eurocode_8_2004, ag=0.2 g, ag=0.3 g, ground_type=B",
+            ],
+            "once each, separated by commas",
+        ),
         (vec!["--code", "eurocode_8_2004, ag=0.2 g"], "ground_type"),
         (vec!["--code", "asce_7_2016, s_ds=1 g, s_d1=0.6 g"], "t_l"),
         (vec!["--code", EUROCODE, "--to", "5 s"], "outside [0.01, 4]"),
@@ -145,6 +159,7 @@ fn codes_that_are_none() {
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(said.contains(says), "{arguments:?}: {said}");
+        assert!(!said.contains("TOML"), "{arguments:?}: {said}");
     }
 }
 

@@ -1,12 +1,15 @@
-//! The reference pages of impact models and of laws of storeys and links: `docs/reference/models`
-//! and `docs/reference/hysteresis`, written from their descriptors.
+//! The reference pages of impact models, of laws of storeys and links, and of provisions:
+//! `docs/reference/models`, `docs/reference/hysteresis` and `docs/reference/provisions.md`, written
+//! from their descriptors.
 
 pub mod laws;
 pub mod models;
+pub mod provisions;
 
 use pounding_catalogue::Verification;
 use pounding_gap_element::GapElementError;
 use pounding_hysteresis::laboratory::LaboratoryError;
+use pounding_separation::SeparationError;
 
 use crate::error::ReportError;
 
@@ -29,6 +32,9 @@ pub enum DocumentationError {
     /// An example of a law.
     #[error(transparent)]
     Law(#[from] LaboratoryError),
+    /// The worked example of a provision.
+    #[error(transparent)]
+    Provision(#[from] SeparationError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] ReportError),

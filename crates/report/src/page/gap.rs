@@ -81,16 +81,55 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             }
             let governing = answer.at(&format!("{case}/governing_level")).as_u64();
             let level = governing.map_or(0, |level| level.saturating_sub(1));
-            let rule = format!("{case}/levels/{level}/provision");
+            let of_level = format!("{case}/levels/{level}");
+            let rule = format!("{of_level}/provision");
+            let place = answer.quote(&at(&format!("levels/{level}/level")));
+            let name = answer.quote(&format!("{rule}/name"));
+            let clause = match answer.text(&format!("{rule}/clause")) {
+                "" => String::new(),
+                clause => format!(", clause {}", escaped(clause)),
+            };
+            let provided = answer.say(&format!("{case}/provided"), 1.0e3);
+            let readings = answer.list(&format!("{of_level}/readings")).len();
+            let required = if readings == 0 {
+                let required = answer.say(&format!("{case}/required"), 1.0e3);
+                format!("{required} mm are required and {provided} mm are provided")
+            } else {
+                let reading = |r: usize| {
+                    let of = format!("{of_level}/readings/{r}");
+                    format!(
+                        "{} mm by {}",
+                        answer.say(&format!("{of}/width"), 1.0e3),
+                        answer.quote(&format!("{of}/text"))
+                    )
+                };
+                let all: Vec<_> = (0..readings).map(reading).collect();
+                format!(
+                    "the texts differ, and none is chosen: {}; {provided} mm are provided",
+                    all.join(", ")
+                )
+            };
             points.push(format!(
-                "{ownership}{} mm are required and {} mm are provided, at level {} ({}, clause {}, {}).",
-                answer.say(&format!("{case}/required"), 1.0e3),
-                answer.say(&format!("{case}/provided"), 1.0e3),
-                answer.quote(&at(&format!("levels/{level}/level"))),
-                answer.quote(&format!("{rule}/name")),
-                answer.quote(&format!("{rule}/clause")),
+                "{ownership}{required}, at level {place} ({name}{clause}, <strong>{}</strong>: {}).",
                 answer.quote(&format!("{rule}/status")),
+                answer.quote(&format!("{rule}/source")),
             ));
+            points.push(format!(
+                "{ownership}the rule takes for granted: {}.",
+                taken(answer, &format!("{rule}/assumptions"))
+            ));
+        }
+        let in_force = answer.quote(&at("code/in_force"));
+        if !in_force.is_empty() {
+            let chosen = match answer.text("/date") {
+                "" => String::new(),
+                date => format!(" It is the edition in force on {}.", escaped(date)),
+            };
+            let next = match answer.text(&at("code/superseded_by")) {
+                "" => String::new(),
+                next => format!(" Superseded by {}.", escaped(next)),
+            };
+            points.push(format!("The edition is in force {in_force}.{chosen}{next}"));
         }
         let stated = answer.quote(&at("code/ownership"));
         if !stated.is_empty() {
@@ -157,6 +196,17 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     }
     points.push(required);
     points
+}
+
+/// What a rule takes for granted, in a sentence.
+fn taken(answer: Answer<'_>, of: &str) -> String {
+    let mut parts: Vec<String> = ["displacement", "height", "ownership", "alignment"]
+        .iter()
+        .map(|what| format!("{what}: {}", answer.quote(&format!("{of}/{what}"))))
+        .collect();
+    let others = answer.list(&format!("{of}/others")).len();
+    parts.extend((0..others).map(|i| answer.quote(&format!("{of}/others/{i}"))));
+    parts.join("; ")
 }
 
 fn failures(answer: Answer<'_>) -> Vec<String> {
@@ -241,6 +291,7 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
         ),
         Column::words_of("provided reaches it", format!("{of}/*/satisfied")),
         Column::words_of("status", format!("{of}/*/status")),
+        Column::words_of("seen, or uncertain", format!("{of}/*/source")),
     ]);
     let all = answer.list(&of);
     let speaks = |i: &usize| all[*i]["refusal"].is_null();
@@ -277,9 +328,11 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
     out.push_str("<h3>Widths by code</h3>\n");
     out.push_str(&answer.table("Widths by code", &columns, spoken.into_iter().map(row)));
     out.push_str(&note(
-        "Unverified: the formula was not compared with the text of the code; check it there before it enters a \
-         design report. A rule without yes or no holds for elastic displacements, and a building yields here.",
+        "Unverified: the formula was not compared with any text of the code; seen in a secondary text: not with \
+         the code itself. Check it there before it enters a design report. A rule without yes or no holds for \
+         elastic displacements, and a building yields here, or texts on it differ.",
     ));
+    out.push_str(&disputed(answer, &of));
     if !silent.is_empty() {
         let columns = [
             Column::new("rule"),
@@ -294,6 +347,36 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
         out.push_str("</div>\n");
     }
     out
+}
+
+/// The widths by each reading of disputed rules, at the level and under the record that ask for
+/// most.
+fn disputed(answer: Answer<'_>, of: &str) -> String {
+    let mut lines = Vec::new();
+    for (i, rule) in answer.list(of).iter().enumerate() {
+        let readings = rule["records"][0]["levels"].as_array();
+        let readings = readings.and_then(|levels| levels.iter().find_map(|l| l["readings"].as_array()));
+        let count = readings.map_or(0, Vec::len);
+        let widths: Vec<String> = (0..count)
+            .map(|r| {
+                let text = readings.map_or("", |all| all[r]["text"].as_str().unwrap_or_default());
+                let path = format!("maximum {of}/{i}/records/+/levels/+/readings/{r}/width");
+                format!("{} mm by {}", answer.say(&path, 1.0e3), escaped(text))
+            })
+            .collect();
+        if !widths.is_empty() {
+            let name = rule["name"].as_str().unwrap_or_default();
+            lines.push(format!("{}: up to {}", escaped(name), widths.join(", ")));
+        }
+    }
+    match lines.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<h3>Disputed rules</h3>\n{}{}",
+            note("Texts on these rules differ: the width of each is shown, and none decides."),
+            sentences(&lines)
+        ),
+    }
 }
 
 /// Maximum amplifications at the provided gap, by building.

@@ -68,8 +68,10 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
     add("provided".to_owned(), level.width, "");
     let by_code = gap.code.as_ref().map(|code| {
         let widths = code.deciding().filter_map(|case| case.governing());
-        let widths = widths.map(|(_, level)| level.width.requirement.width);
-        (code.code.name, widths.reduce(f64::max))
+        // Readings of a disputed rule are no required width.
+        let required = widths.map(|(_, level)| &level.width.requirement);
+        let widths = required.filter(|r| r.readings.is_empty()).map(|r| r.width);
+        (code.code.name.as_str(), widths.reduce(f64::max))
     });
     match by_code {
         Some((code, Some(width))) => add(format!("required by {code}"), width, "7 3"),

@@ -1,8 +1,11 @@
 //! AS 1170.4 of Australia.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::Edition;
 use crate::error::SeparationError;
 use crate::inputs::{Site, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 /// Height (m) from which the rule speaks.
@@ -20,17 +23,26 @@ fn boundary(
     Ok(0.01 * working.elevation(elevation))
 }
 
+static EDITION: Edition = Edition {
+    title: "AS 1170.4",
+    region: "Australia",
+    in_force: None,
+    superseded_by: None,
+};
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "as_1170_4_boundary",
-    region: "Australia",
-    edition: "AS 1170.4",
+    edition: &EDITION,
     clause: "",
     basis: Basis::Prescriptive,
+    height: HeightDatum::NotSeen,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "h / 100, or by analysis",
     inputs: &[],
-    status: Verification::Unverified("the rule and its limit of 15 m"),
+    status: Status::Unverified("the rule and its limit of 15 m"),
     remarks: &["For levels above 15 m."],
+    worked: "18000 / 100",
     rule: Rule::Boundary(boundary),
 };
 

@@ -1,8 +1,11 @@
 //! ASCE/SEI 41: seismic evaluation and retrofit of existing buildings.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 /// Part of the height beyond which no gap is asked for.
@@ -28,17 +31,26 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(root(left, right).min(cap(working, situation.elevation)))
 }
 
+static EDITION: Edition = Edition {
+    title: "ASCE/SEI 41-17 and 41-23",
+    region: "United States",
+    in_force: InForce::recalled("2017", None),
+    superseded_by: None,
+};
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_41_boundary",
-    region: "United States",
-    edition: "ASCE/SEI 41-17 and 41-23",
+    edition: &EDITION,
     clause: "7.2.13",
     basis: Basis::Displacement,
+    height: HeightDatum::NotSeen,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "min(u, 0.04 h)",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("formula and clause"),
+    status: Status::Unverified("formula and clause"),
     remarks: &[],
+    worked: "min(80, 0.04 * 18000)",
     rule: Rule::Boundary(boundary),
 };
 
@@ -46,6 +58,8 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_41_between",
     formula: "min(sqrt(u1^2 + u2^2), 0.04 h)",
     rule: Rule::Between(between),
+    worked: "min(sqrt(pow(80, 2) + pow(60, 2)), 0.04 * 18000)",
+    ground: Ground::NotAsked,
     ..BOUNDARY
 };
 

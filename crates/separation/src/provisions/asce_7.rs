@@ -1,8 +1,11 @@
 //! ASCE/SEI 7 and the codes that follow it.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 const INPUTS: &[Input] = &[
@@ -43,17 +46,61 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(root(left, right))
 }
 
+pub(crate) static ASCE_7_10: Edition = Edition {
+    title: "ASCE/SEI 7-10",
+    region: "United States",
+    in_force: InForce::recalled("2010", Some("2017")),
+    superseded_by: Some("ASCE/SEI 7-16"),
+};
+
+pub(crate) static ASCE_7_16: Edition = Edition {
+    title: "ASCE/SEI 7-16",
+    region: "United States",
+    in_force: InForce::recalled("2017", Some("2022")),
+    superseded_by: Some("ASCE/SEI 7-22"),
+};
+
+pub(crate) static ASCE_7_22: Edition = Edition {
+    title: "ASCE/SEI 7-22",
+    region: "United States",
+    in_force: InForce::recalled("2022", None),
+    superseded_by: None,
+};
+
+static IBC_2009: Edition = Edition {
+    title: "IBC 2009",
+    region: "United States",
+    in_force: InForce::recalled("2009", Some("2012")),
+    superseded_by: Some("IBC 2012, which takes the clause of ASCE/SEI 7-10"),
+};
+
+static KDS: Edition = Edition {
+    title: "KBC and KDS",
+    region: "Korea",
+    in_force: None,
+    superseded_by: None,
+};
+
+static SNI_1726: Edition = Edition {
+    title: "SNI 1726:2019",
+    region: "Indonesia",
+    in_force: InForce::recalled("2019", None),
+    superseded_by: None,
+};
+
 pub(crate) static ASCE_7_10_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_10_boundary",
-    region: "United States",
-    edition: "ASCE/SEI 7-10",
+    edition: &ASCE_7_10,
     clause: "12.12.3",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: Some("Cd / Ie"),
     formula: "deltaM = Cd d / Ie (d = Ie u / R)",
     inputs: INPUTS,
-    status: Verification::Verified("text of 7-10"),
+    status: Status::SeenInText("an excerpt of ASCE/SEI 7-10 with equations 12.12-1 and 12.12-2"),
     remarks: &["Measured from the property line."],
+    worked: "4 * 80 / 8",
     rule: Rule::Boundary(boundary),
 };
 
@@ -62,49 +109,50 @@ pub(crate) static ASCE_7_10_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sqrt(deltaM1^2 + deltaM2^2), deltaM = Cd d / Ie (d = Ie u / R)",
     remarks: &[OPEN_QUESTION],
     rule: Rule::Between(between),
+    worked: "sqrt(pow(4 * 80 / 8, 2) + pow(4.5 * 60 / 5, 2))",
+    ground: Ground::OneProperty,
     ..ASCE_7_10_BOUNDARY
 };
 
-const UNCHANGED: Verification =
-    Verification::Unverified("that 7-16 left the clause of 7-10 unchanged");
+const UNCHANGED: Status = Status::Unverified("that 7-16 left the clause of 7-10 unchanged");
 
 pub(crate) static ASCE_7_16_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_16_boundary",
-    edition: "ASCE/SEI 7-16",
+    edition: &ASCE_7_16,
     status: UNCHANGED,
     ..ASCE_7_10_BOUNDARY
 };
 
 pub(crate) static ASCE_7_16_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_16_between",
-    edition: "ASCE/SEI 7-16",
+    edition: &ASCE_7_16,
     status: UNCHANGED,
     ..ASCE_7_10_BETWEEN
 };
 
-const REVISED: Verification = Verification::Unverified(
+const REVISED: Status = Status::Unverified(
     "7-22 writes the displacement in its revised notation of drifts; diaphragm deformation is to be added to u",
 );
 
 pub(crate) static ASCE_7_22_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_22_boundary",
-    edition: "ASCE/SEI 7-22",
+    edition: &ASCE_7_22,
     status: REVISED,
     ..ASCE_7_10_BOUNDARY
 };
 
 pub(crate) static ASCE_7_22_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_22_between",
-    edition: "ASCE/SEI 7-22",
+    edition: &ASCE_7_22,
     status: REVISED,
     ..ASCE_7_10_BETWEEN
 };
 
-const IBC: Verification = Verification::Verified("text of IBC 2009, equation 16-64");
+const IBC: Status = Status::SeenInText("an excerpt of IBC 2009, 1613.6.7, with equation 16-64");
 
 pub(crate) static IBC_2009_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "ibc_2009_boundary",
-    edition: "IBC 2009",
+    edition: &IBC_2009,
     clause: "1613.6.7",
     status: IBC,
     remarks: &["IBC 2009 restricts the clause to high design categories."],
@@ -113,7 +161,7 @@ pub(crate) static IBC_2009_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 
 pub(crate) static IBC_2009_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "ibc_2009_between",
-    edition: "IBC 2009",
+    edition: &IBC_2009,
     clause: "1613.6.7",
     status: IBC,
     remarks: &[
@@ -123,12 +171,11 @@ pub(crate) static IBC_2009_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ..ASCE_7_10_BETWEEN
 };
 
-const FOLLOWS: Verification = Verification::Unverified("that the code follows ASCE 7");
+const FOLLOWS: Status = Status::Unverified("that the code follows ASCE 7");
 
 pub(crate) static KDS_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "kds_boundary",
-    region: "Korea",
-    edition: "KBC and KDS",
+    edition: &KDS,
     clause: "",
     status: FOLLOWS,
     ..ASCE_7_10_BOUNDARY
@@ -136,8 +183,7 @@ pub(crate) static KDS_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 
 pub(crate) static KDS_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "kds_between",
-    region: "Korea",
-    edition: "KBC and KDS",
+    edition: &KDS,
     clause: "",
     status: FOLLOWS,
     ..ASCE_7_10_BETWEEN
@@ -145,8 +191,7 @@ pub(crate) static KDS_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
 
 pub(crate) static SNI_1726_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "sni_1726_2019_boundary",
-    region: "Indonesia",
-    edition: "SNI 1726:2019",
+    edition: &SNI_1726,
     clause: "",
     status: FOLLOWS,
     ..ASCE_7_10_BOUNDARY
@@ -154,8 +199,7 @@ pub(crate) static SNI_1726_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 
 pub(crate) static SNI_1726_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "sni_1726_2019_between",
-    region: "Indonesia",
-    edition: "SNI 1726:2019",
+    edition: &SNI_1726,
     clause: "",
     status: FOLLOWS,
     ..ASCE_7_10_BETWEEN

@@ -2,9 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Structure};
+use crate::provisions::asce_7;
+use crate::status::Status;
 use crate::working::Working;
 
 /// Least total maximum displacement over the maximum displacement, by edition.
@@ -87,10 +90,11 @@ const REMARKS: &[&str] = &[
 
 pub(crate) static ASCE_7_10: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_10_isolation_boundary",
-    region: "United States",
-    edition: "ASCE/SEI 7-10",
+    edition: &asce_7::ASCE_7_10,
     clause: "17.2.5.2 and 17.5.3",
     basis: Basis::Prescriptive,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "D_TM = D_M max(1 + 12 e y / (b^2 + d^2), 1.1), D_M = S_M1 T_M / (4 pi^2 B_M), y = d / 2",
     inputs: &[
@@ -101,25 +105,27 @@ pub(crate) static ASCE_7_10: ProvisionDescriptor = ProvisionDescriptor {
         Input::PlanWidth,
         Input::PlanEccentricity,
     ],
-    status: Verification::Unverified("the clause, its formulas and the least factor of 1.1"),
+    status: Status::Unverified("the clause, its formulas and the least factor of 1.1"),
     remarks: REMARKS,
+    worked: "8000 * 3 / (4 * pow(3.141592653589793, 2) * 1.5) * max(1 + 12 * 2 * 20 / (pow(20, 2) + pow(40, 2)), 1.1)",
     rule: Rule::Boundary(by_7_10),
 };
 
 pub(crate) static ASCE_7_16: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_16_isolation_boundary",
-    edition: "ASCE/SEI 7-16",
+    edition: &asce_7::ASCE_7_16,
     clause: "17.2.5.2 and 17.5.3",
     formula: "D_TM = D_M max(1 + 12 e y / (b^2 + d^2), 1.15), D_M = S_M1 T_M / (4 pi^2 B_M), y = d / 2",
-    status: Verification::Unverified("the clause, its formulas and the least factor of 1.15"),
+    status: Status::Unverified("the clause, its formulas and the least factor of 1.15"),
     rule: Rule::Boundary(by_7_16),
+    worked: "8000 * 3 / (4 * pow(3.141592653589793, 2) * 1.5) * max(1 + 12 * 2 * 20 / (pow(20, 2) + pow(40, 2)), 1.15)",
     ..ASCE_7_10
 };
 
 pub(crate) static ASCE_7_22: ProvisionDescriptor = ProvisionDescriptor {
     name: "asce_7_22_isolation_boundary",
-    edition: "ASCE/SEI 7-22",
-    status: Verification::Unverified("that 7-22 left the formulas of 7-16 unchanged"),
+    edition: &asce_7::ASCE_7_22,
+    status: Status::Unverified("that 7-22 left the formulas of 7-16 unchanged"),
     ..ASCE_7_16
 };
 

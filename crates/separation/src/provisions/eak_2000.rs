@@ -1,8 +1,11 @@
 //! Greek seismic code EAK 2000.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 fn displacement(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
@@ -21,17 +24,26 @@ fn joint(working: &mut Working, situation: &Situation) -> Result<f64, Separation
     })
 }
 
+static EDITION: Edition = Edition {
+    title: "EAK 2000",
+    region: "Greece",
+    in_force: InForce::recalled("2000", None),
+    superseded_by: None,
+};
+
 pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
     name: "eak_2000_between",
-    region: "Greece",
-    edition: "EAK 2000",
+    edition: &EDITION,
     clause: "4.1.7.2",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("that SRSS is allowed; a sum is the safe reading"),
+    status: Status::Unverified("that SRSS is allowed; a sum is the safe reading"),
     remarks: &[],
+    worked: "sqrt(pow(80, 2) + pow(60, 2))",
     rule: Rule::Between(displacement),
 };
 
@@ -40,9 +52,10 @@ pub(crate) static JOINT: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Prescriptive,
     formula: "40 mm up to 3 storeys in contact, 80 mm up to 8, 100 mm above",
     inputs: &[],
-    status: Verification::Unverified("the widths, and the numbers of storeys at which they change"),
+    status: Status::Unverified("the widths, and the numbers of storeys at which they change"),
     remarks: &["The storeys in contact are taken as those of the lower building."],
     rule: Rule::Between(joint),
+    worked: "80",
     ..DISPLACEMENT
 };
 

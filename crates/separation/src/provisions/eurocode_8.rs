@@ -1,8 +1,11 @@
 //! Eurocode 8, both generations.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 /// 0.7 where the floors of both buildings lie at equal elevations.
@@ -32,17 +35,33 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(root(left, right) * reduction(working, &situation.site)?)
 }
 
+static FIRST: Edition = Edition {
+    title: "EN 1998-1:2004",
+    region: "Europe",
+    in_force: InForce::recalled("2004", None),
+    superseded_by: None,
+};
+
+static SECOND: Edition = Edition {
+    title: "prEN 1998-1-2",
+    region: "Europe",
+    in_force: None,
+    superseded_by: None,
+};
+
 pub(crate) static FIRST_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "en_1998_1_2004_boundary",
-    region: "Europe",
-    edition: "EN 1998-1:2004",
+    edition: &FIRST,
     clause: "4.4.2.7",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: Some("qd"),
     formula: "ds, times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Verification::Unverified("the clause, with its reduction"),
+    status: Status::Unverified("the clause, with its reduction"),
     remarks: &["ds = qd de is taken as u: qd = q, as above the corner period TC."],
+    worked: "1 * 80",
     rule: Rule::Boundary(boundary),
 };
 
@@ -51,15 +70,17 @@ pub(crate) static FIRST_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sqrt(ds1^2 + ds2^2), times 0.7 where floors are aligned (ds = qd de = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned, Input::SameOwner],
     rule: Rule::Between(between),
+    worked: "1 * sqrt(pow(80, 2) + pow(60, 2))",
+    ground: Ground::OneProperty,
     ..FIRST_BOUNDARY
 };
 
-const SIMILAR: Verification = Verification::Unverified("that the draft keeps the rule of 2004");
+const SIMILAR: Status = Status::Unverified("that the draft keeps the rule of 2004");
 const STATE: &[&str] = &["For displacements of the limit state of significant damage."];
 
 pub(crate) static SECOND_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "pr_en_1998_1_2_boundary",
-    edition: "prEN 1998-1-2",
+    edition: &SECOND,
     clause: "",
     status: SIMILAR,
     remarks: STATE,
@@ -68,7 +89,7 @@ pub(crate) static SECOND_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 
 pub(crate) static SECOND_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "pr_en_1998_1_2_between",
-    edition: "prEN 1998-1-2",
+    edition: &SECOND,
     clause: "",
     status: SIMILAR,
     remarks: STATE,

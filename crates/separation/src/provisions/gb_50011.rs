@@ -1,8 +1,11 @@
 //! GB 50011 of China.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, StructuralSystem, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 /// Width (m) for frames: 100 mm up to 15 m, 20 mm more for every further step, begun
@@ -49,22 +52,31 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(width.max(for_structure(working, right, frames)?))
 }
 
+static EDITION: Edition = Edition {
+    title: "GB 50011-2010",
+    region: "China",
+    in_force: InForce::recalled("2010-12-01", None),
+    superseded_by: None,
+};
+
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "gb_50011_2010_between",
-    region: "China",
-    edition: "GB 50011-2010",
+    edition: &EDITION,
     clause: "6.1.4, 8.1.4",
     basis: Basis::Prescriptive,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "w = 100 mm + 20 mm for each begun step above 15 m; frame w, frame-wall max(100 mm, 0.7 w), wall max(100 mm, 0.5 w), steel 1.5 w",
     inputs: &[Input::FortificationIntensity, Input::StructuralSystem],
-    status: Verification::Verified(
-        "extract of the clause; whether begun steps count whole was not seen",
+    status: Status::SeenInText(
+        "an excerpt of 6.1.4, and 1.5 of 8.1.4 for steel; whether begun steps count whole was not seen",
     ),
     remarks: &[
         "The lower height and the wider of both requirements count.",
         "Single-storey factories have fixed widths, which are not here.",
     ],
+    worked: "100 + 20 * ceil((18 - 15) / (11 - 8))",
     rule: Rule::Between(between),
 };
 

@@ -1,8 +1,11 @@
 //! Standard 2800 of Iran, fourth edition, and a rule of Tehran.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 fn by_height(
@@ -42,17 +45,35 @@ fn tehran(working: &mut Working, situation: &Situation) -> Result<f64, Separatio
     Ok(0.01 * working.elevation(situation.elevation))
 }
 
+static EDITION: Edition = Edition {
+    title: "Standard 2800, 4th edition, and Mabhas 6",
+    region: "Iran",
+    in_force: InForce::recalled("2014", None),
+    superseded_by: None,
+};
+
+static MUNICIPAL: Edition = Edition {
+    title: "municipal rule",
+    region: "Tehran",
+    in_force: None,
+    superseded_by: None,
+};
+
 pub(crate) static BOUNDARY_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor {
     name: "iran_2800_boundary_by_height",
-    region: "Iran",
-    edition: "Standard 2800, 4th edition, and Mabhas 6",
-    clause: "1-6, 3-5",
+    edition: &EDITION,
+    clause: "1-4-1",
     basis: Basis::Prescriptive,
+    height: HeightDatum::Foundation,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "0.005 h",
     inputs: &[],
-    status: Verification::Verified("the sentence for up to 8 storeys"),
+    status: Status::SeenInText(
+        "an excerpt of the sentence for up to 8 storeys; 1/100 of the height between two buildings",
+    ),
     remarks: &["Buildings of high or very high importance need the analysis."],
+    worked: "0.005 * 18000",
     rule: Rule::Boundary(by_height),
 };
 
@@ -61,9 +82,13 @@ pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescripto
     basis: Basis::Displacement,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("the rule for more than 8 storeys or high importance"),
+    status: Status::Unverified(
+        "that the displacement is that of one side: the excerpt seen speaks of the distance between buildings",
+    ),
     remarks: &["Nonlinear displacement with P-delta, which u has to include."],
     rule: Rule::Boundary(by_analysis),
+    worked: "80",
+    height: HeightDatum::NotUsed,
     ..BOUNDARY_BY_HEIGHT
 };
 
@@ -72,21 +97,26 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("SRSS"),
+    status: Status::Unverified("SRSS"),
     remarks: &["Beside an unknown neighbour a rule of 70 % holds, which is not here."],
     rule: Rule::Between(between),
+    worked: "sqrt(pow(80, 2) + pow(60, 2))",
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     ..BOUNDARY_BY_HEIGHT
 };
 
 pub(crate) static TEHRAN: ProvisionDescriptor = ProvisionDescriptor {
     name: "tehran_between",
-    region: "Tehran",
-    edition: "municipal rule",
+    edition: &MUNICIPAL,
     clause: "",
     formula: "h / 100",
-    status: Verification::Verified("as quoted; what it is measured from was not said"),
+    status: Status::SeenInText("a quotation of the rule"),
     remarks: &["Above 12 m or 4 storeys."],
     rule: Rule::Between(tehran),
+    worked: "18000 / 100",
+    height: HeightDatum::NotSeen,
+    ground: Ground::NotAsked,
     ..BOUNDARY_BY_HEIGHT
 };
 

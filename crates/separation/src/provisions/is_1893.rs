@@ -1,8 +1,11 @@
 //! IS 1893 (Part 1) of India, editions 2016 and 2002.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
+use crate::status::Status;
 use crate::working::Working;
 
 /// `R1 d1 + R2 d2`, half of it where floors are aligned.
@@ -12,24 +15,42 @@ fn sum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationEr
     Ok(sum * working.note("factor", if aligned { 0.5 } else { 1.0 }, "-"))
 }
 
+static IS_1893_2016: Edition = Edition {
+    title: "IS 1893 (Part 1):2016",
+    region: "India",
+    in_force: InForce::recalled("2016", None),
+    superseded_by: None,
+};
+
+static IS_1893_2002: Edition = Edition {
+    title: "IS 1893 (Part 1):2002",
+    region: "India",
+    in_force: InForce::recalled("2002", Some("2016")),
+    superseded_by: Some("IS 1893 (Part 1):2016"),
+};
+
 pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_1893_2016_between",
-    region: "India",
-    edition: "IS 1893 (Part 1):2016",
+    edition: &IS_1893_2016,
     clause: "7.11.3",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: Some("R"),
     formula: "R1 d1 + R2 d2, half of it where floors are aligned (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Verification::Unverified("the formula; that the clause exists was seen"),
+    status: Status::Unverified(
+        "the half where floors are aligned; R times the drifts was seen in an excerpt of 7.11",
+    ),
     remarks: &[],
+    worked: "1 * (1.25 * 80 + 1.25 * 60)",
     rule: Rule::Between(sum),
 };
 
 pub(crate) static EDITION_2002: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_1893_2002_between",
-    edition: "IS 1893 (Part 1):2002",
-    status: Verification::Unverified("the formula"),
+    edition: &IS_1893_2002,
+    status: Status::Unverified("the formula"),
     remarks: &["R is halved where floors are aligned."],
     ..EDITION_2016
 };

@@ -1,8 +1,11 @@
 //! IS 4326 of India.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, StructuralSystem, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 /// Coefficient at which the table holds.
@@ -32,20 +35,29 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok((storeys * width * coefficient / REFERENCE).max(LEAST))
 }
 
+static EDITION: Edition = Edition {
+    title: "IS 4326:1993 and 2013",
+    region: "India",
+    in_force: InForce::recalled("1993", None),
+    superseded_by: None,
+};
+
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_4326_between",
-    region: "India",
-    edition: "IS 4326:1993 and 2013",
+    edition: &EDITION,
     clause: "Table 1",
     basis: Basis::Prescriptive,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "storeys * (15 mm walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
     inputs: &[Input::StructuralSystem, Input::SeismicCoefficient],
-    status: Verification::Unverified("the table"),
+    status: Status::Unverified("the table"),
     remarks: &[
         "Of two kinds of structure the wider width is taken.",
         "The table's kinds are box of walls, frame of reinforced concrete and steel; walls and frames with walls are counted to the nearest of them.",
     ],
+    worked: "max(6 * 20 * 0.12 / 0.12, 25)",
     rule: Rule::Between(between),
 };
 

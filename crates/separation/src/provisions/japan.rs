@@ -1,25 +1,40 @@
 //! Practice in Japan.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::Edition;
 use crate::error::SeparationError;
 use crate::inputs::Situation;
+use crate::status::Status;
 use crate::working::Working;
 
 fn practice(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
     Ok(0.01 * working.elevation(situation.elevation))
 }
 
+static PRACTICE_OF_JAPAN: Edition = Edition {
+    title: "practice, no explicit provision",
+    region: "Japan",
+    in_force: None,
+    superseded_by: None,
+};
+
 pub(crate) static PRACTICE: ProvisionDescriptor = ProvisionDescriptor {
     name: "japan_practice",
-    region: "Japan",
-    edition: "practice, no explicit provision",
+    edition: &PRACTICE_OF_JAPAN,
     clause: "",
     basis: Basis::Prescriptive,
+    height: HeightDatum::NotSeen,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "h / 100",
     inputs: &[],
-    status: Verification::Unverified("the practice"),
-    remarks: &["A drift of 1/100 in all; no provision speaks of the gap."],
+    status: Status::SeenInText("a description of the practice"),
+    remarks: &[
+        "A drift of 1/100 in all; no provision speaks of the gap.",
+        "Practice moves to 1/50, which is twice as wide.",
+    ],
+    worked: "18000 / 100",
     rule: Rule::Between(practice),
 };
 

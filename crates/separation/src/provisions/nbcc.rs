@@ -1,8 +1,11 @@
 //! National Building Code of Canada.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 /// Deflections of 4.1.8.13 are elastic ones times `Rd Ro / IE`: the unreduced `u`.
@@ -12,19 +15,28 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(root(left, right))
 }
 
+static EDITION: Edition = Edition {
+    title: "NBCC 2015 and 2020",
+    region: "Canada",
+    in_force: InForce::recalled("2015", None),
+    superseded_by: None,
+};
+
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nbcc_2015_between",
-    region: "Canada",
-    edition: "NBCC 2015 and 2020",
+    edition: &EDITION,
     clause: "4.1.8.14",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: Some("Rd Ro / IE"),
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
-    status: Verification::Verified("text of Ontario"),
+    status: Status::SeenInText("the text of the clause in the code of Ontario"),
     remarks: &[
         "Or tie the buildings: by a rigid tie, with the lower Rd Ro of the two; by any other, with a special study.",
     ],
+    worked: "sqrt(pow(80, 2) + pow(60, 2))",
     rule: Rule::Between(between),
 };
 

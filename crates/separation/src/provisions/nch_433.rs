@@ -1,21 +1,26 @@
 //! NCh433 of Chile.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::{Reading, Status};
 use crate::working::Working;
 
-fn own(working: &mut Working, structure: &Structure) -> Result<f64, SeparationError> {
-    Ok(working.restored(structure)? / working.note("divisor", 3.0, "-"))
+/// `R* d` times one third, or two thirds by the other reading.
+fn own(working: &mut Working, structure: &Structure, thirds: f64) -> Result<f64, SeparationError> {
+    let whole = thirds * working.restored(structure)?;
+    Ok(whole / working.note("divisor", 3.0, "-"))
 }
 
-fn boundary(
+fn boundary<const THIRDS: u8>(
     working: &mut Working,
     structure: &Structure,
     _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
-    own(working, structure)
+    own(working, structure, f64::from(THIRDS))
 }
 
 fn minimum(
@@ -27,22 +32,55 @@ fn minimum(
     Ok((0.002 * working.elevation(elevation)).max(0.015))
 }
 
-fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    Ok(own(working, &situation.left)? + own(working, &situation.right)?)
+fn between<const THIRDS: u8>(
+    working: &mut Working,
+    situation: &Situation,
+) -> Result<f64, SeparationError> {
+    let left = own(working, &situation.left, f64::from(THIRDS))?;
+    Ok(left + own(working, &situation.right, f64::from(THIRDS))?)
 }
+
+const ABOUT: &str = "R* / 3 is recalled, two texts on the clause have 2 R* / 3; R* stands under response_modification";
+const RECALLED: &str = "R* / 3, as recalled";
+const TEXTS: &str = "2 R* / 3, in two secondary texts";
+
+static EDITION: Edition = Edition {
+    title: "NCh433",
+    region: "Chile",
+    in_force: InForce::recalled("1996", None),
+    superseded_by: None,
+};
 
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "nch_433_boundary",
-    region: "Chile",
-    edition: "NCh433",
-    clause: "5.9",
+    edition: &EDITION,
+    clause: "5.10",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: Some("R* / 3"),
     formula: "(R* / 3) d (R* d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
-    status: Verification::Unverified("formula and clause; R* stands under response_modification"),
+    status: Status::Disputed {
+        about: ABOUT,
+        readings: &[
+            Reading {
+                text: RECALLED,
+                formula: "(R* / 3) d (R* d = I u)",
+                worked: "1.25 * 80 / 3",
+                rule: Rule::Boundary(boundary::<1>),
+            },
+            Reading {
+                text: TEXTS,
+                formula: "(2 R* / 3) d (R* d = I u)",
+                worked: "2 * 1.25 * 80 / 3",
+                rule: Rule::Boundary(boundary::<2>),
+            },
+        ],
+    },
     remarks: &[],
-    rule: Rule::Boundary(boundary),
+    worked: "1.25 * 80 / 3",
+    rule: Rule::Boundary(boundary::<1>),
 };
 
 pub(crate) static BOUNDARY_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
@@ -51,16 +89,37 @@ pub(crate) static BOUNDARY_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "max(0.002 h, 15 mm)",
     inputs: &[],
-    status: Verification::Unverified("formula and clause"),
+    status: Status::Unverified("15 mm; two per mil of the height was seen"),
     remarks: &["Holds beside the rule of displacements."],
     rule: Rule::Boundary(minimum),
+    worked: "max(0.002 * 18000, 15)",
+    height: HeightDatum::NotSeen,
     ..BOUNDARY
 };
 
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nch_433_between",
     formula: "sum over both buildings of (R* / 3) d (R* d = I u)",
-    rule: Rule::Between(between),
+    ground: Ground::OneProperty,
+    status: Status::Disputed {
+        about: ABOUT,
+        readings: &[
+            Reading {
+                text: RECALLED,
+                formula: "sum over both buildings of (R* / 3) d (R* d = I u)",
+                worked: "(1.25 * 80 + 1.25 * 60) / 3",
+                rule: Rule::Between(between::<1>),
+            },
+            Reading {
+                text: TEXTS,
+                formula: "sum over both buildings of (2 R* / 3) d (R* d = I u)",
+                worked: "2 * (1.25 * 80 + 1.25 * 60) / 3",
+                rule: Rule::Between(between::<2>),
+            },
+        ],
+    },
+    worked: "(1.25 * 80 + 1.25 * 60) / 3",
+    rule: Rule::Between(between::<1>),
     ..BOUNDARY
 };
 
@@ -70,8 +129,9 @@ mod tests {
 
     use super::*;
 
-    /// R* = 6, d = 15 mm: 30 mm; I = 1, u = 60 mm: 20 mm; together 50 mm. Least 15 mm up
-    /// to 7.5 m, 18 mm at 9 m.
+    /// R* = 6, d = 15 mm: 30 mm, or 60 mm; I = 1, u = 60 mm: 20 mm, or 40 mm; together 50 mm, or
+    /// 100 mm. The wider stands for the width, and neither decides. Least 15 mm up to 7.5 m, 18 mm
+    /// at 9 m.
     #[test]
     fn by_hand() {
         let structure = |u| Structure {
@@ -87,8 +147,15 @@ mod tests {
         };
         situation.left.elastic_displacement = Some(0.015);
         let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
-        assert!((own.unwrap().width - 0.03).abs() < 1.0e-12);
-        assert!((BETWEEN.between(&situation).unwrap().width - 0.05).abs() < 1.0e-12);
+        let both = BETWEEN.between(&situation);
+        for (found, narrow, wide) in [(own, 0.03, 0.06), (both, 0.05, 0.1)] {
+            let found = found.unwrap();
+            let widths: Vec<f64> = found.readings.iter().map(|r| r.width).collect();
+            assert!((widths[0] - narrow).abs() < 1.0e-12 && (widths[1] - wide).abs() < 1.0e-12);
+            assert_eq!(found.width, widths[1]);
+            let undecided = found.undecided().unwrap();
+            assert!(undecided.contains("none is chosen"), "{undecided}");
+        }
         let least = |h| BOUNDARY_MINIMUM.boundary(&situation.left, h, &situation.site);
         assert!((least(6.0).unwrap().width - 0.015).abs() < 1.0e-12);
         assert!((least(9.0).unwrap().width - 0.018).abs() < 1.0e-12);

@@ -2,9 +2,12 @@
 
 use pounding_catalogue::STANDARD_GRAVITY;
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
+use crate::status::Status;
 use crate::working::Working;
 
 fn sum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
@@ -20,18 +23,59 @@ fn minimum(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(0.01 * working.elevation(situation.elevation) * ratio)
 }
 
+static EDITION: Edition = Edition {
+    title: "NTC 2018",
+    region: "Italy",
+    in_force: Some(InForce {
+        from: "2018-03-22",
+        until: None,
+        source: Some("report on the decree of 17 January 2018 at ingenio-web.it"),
+    }),
+    superseded_by: None,
+};
+
 pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     name: "ntc_2018_between",
-    region: "Italy",
-    edition: "NTC 2018",
+    edition: &EDITION,
     clause: "7.2.1",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "u1 + u2",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("the clause"),
+    status: Status::Unverified(
+        "that 7.2.1 keeps the sum, which was seen in an excerpt of NTC 2008, 7.2.2",
+    ),
     remarks: &["For displacements of the limit state of life safety (SLV)."],
+    worked: "80 + 60",
     rule: Rule::Between(sum),
+};
+
+/// `h / 100 a_g S / g` for either building.
+fn without_calculation(
+    working: &mut Working,
+    situation: &Situation,
+) -> Result<f64, SeparationError> {
+    let given = situation.site.design_ground_acceleration;
+    let acceleration = working.need(given, Input::DesignGroundAcceleration, "")?;
+    let acceleration = working.note("a_g S", acceleration, "m/s2");
+    let one = 0.01 * working.elevation(situation.elevation) * acceleration / STANDARD_GRAVITY;
+    let one = working.note("u of either building", one, "m");
+    Ok(one + one)
+}
+
+pub(crate) static WITHOUT_CALCULATION: ProvisionDescriptor = ProvisionDescriptor {
+    name: "ntc_2018_without_calculation",
+    basis: Basis::Prescriptive,
+    height: HeightDatum::Foundation,
+    formula: "u1 + u2, u = h / 100 * a_g S / g",
+    inputs: &[Input::DesignGroundAcceleration],
+    status: Status::SeenInText("an excerpt of NTC 2018, 7.2.1"),
+    remarks: &["In place of the sum of displacements, where those of a building are not computed."],
+    worked: "2 * 18000 / 100 * 0.25",
+    rule: Rule::Between(without_calculation),
+    ..SUM
 };
 
 pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
@@ -39,9 +83,11 @@ pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Prescriptive,
     formula: "h / 100 * min(1, 2 a_g S / g)",
     inputs: &[Input::DesignGroundAcceleration],
-    status: Verification::Unverified("the clause, and that the factor is capped at 1"),
+    status: Status::SeenInText("an excerpt of NTC 2018, 7.2.1"),
     remarks: &["Holds beside the sum of displacements."],
     rule: Rule::Between(minimum),
+    worked: "18000 / 100 * min(1, 2 * 0.25)",
+    height: HeightDatum::Foundation,
     ..SUM
 };
 
@@ -74,5 +120,7 @@ mod tests {
         assert!((width(&SUM, 0.25) - 0.14).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.25) - 0.045).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.6) - 0.09).abs() < 1.0e-12);
+        // 9 m / 100 * 0.25 is 22.5 mm a building.
+        assert!((width(&WITHOUT_CALCULATION, 0.25) - 0.045).abs() < 1.0e-12);
     }
 }

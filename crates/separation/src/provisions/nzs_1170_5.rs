@@ -1,8 +1,11 @@
 //! NZS 1170.5 of New Zealand.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 fn boundary(
@@ -18,17 +21,26 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(working.displacement(&situation.left)? + working.displacement(&situation.right)?)
 }
 
+static EDITION: Edition = Edition {
+    title: "NZS 1170.5:2004",
+    region: "New Zealand",
+    in_force: InForce::recalled("2004", None),
+    superseded_by: None,
+};
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "nzs_1170_5_boundary",
-    region: "New Zealand",
-    edition: "NZS 1170.5:2004",
+    edition: &EDITION,
     clause: "7.4",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "u",
     inputs: &[Input::Displacement],
-    status: Verification::Unverified("the clause"),
+    status: Status::Unverified("the clause"),
     remarks: &["For deflections of the ultimate limit state."],
+    worked: "80",
     rule: Rule::Boundary(boundary),
 };
 
@@ -37,6 +49,8 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "u1 + u2",
     remarks: &["For deflections of the ultimate limit state; no relief by SRSS."],
     rule: Rule::Between(between),
+    worked: "80 + 60",
+    ground: Ground::OneProperty,
     ..BOUNDARY
 };
 

@@ -1,8 +1,11 @@
 //! Seismic design code of Taiwan, 2011.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 fn own(working: &mut Working, structure: &Structure) -> Result<f64, SeparationError> {
@@ -25,12 +28,20 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(own(working, &situation.left)? + own(working, &situation.right)?)
 }
 
+static EDITION: Edition = Edition {
+    title: "seismic design code, 2011",
+    region: "Taiwan",
+    in_force: InForce::recalled("2011", Some("2022")),
+    superseded_by: Some("seismic design code, 2022"),
+};
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "taiwan_2011_boundary",
-    region: "Taiwan",
-    edition: "seismic design code, 2011",
+    edition: &EDITION,
     clause: "2.16",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: Some("0.6 * 1.4 alpha_y Ra"),
     formula: "0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
     inputs: &[
@@ -38,16 +49,18 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
         Input::Importance,
         Input::YieldAmplification,
     ],
-    status: Verification::Unverified("the factors; Ra stands under response_modification"),
+    status: Status::Unverified("the factors; Ra stands under response_modification"),
     remarks: &[],
+    worked: "0.6 * 1.4 * 1 * 1.25 * 80",
     rule: Rule::Boundary(boundary),
 };
 
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "taiwan_2011_between",
     formula: "sum over both buildings of 0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
-    status: Verification::Unverified("the factors; the sum across the property line was seen"),
+    status: Status::Unverified("the factors; the sum across the property line was seen"),
     rule: Rule::Between(between),
+    worked: "0.6 * 1.4 * 1 * (1.25 * 80 + 1.25 * 60)",
     ..BOUNDARY
 };
 

@@ -1,8 +1,11 @@
 //! Building codes of Turkey, 2018 and 2007.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 /// 1/4 where floors are aligned, else 1/2.
@@ -37,17 +40,36 @@ fn minimum(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(0.03 + 0.01 * working.note("begun steps of 3 m above 6 m", steps, "-"))
 }
 
+static TBDY_2018_EDITION: Edition = Edition {
+    title: "TBDY 2018",
+    region: "Turkey",
+    in_force: InForce::recalled("2019-01-01", None),
+    superseded_by: None,
+};
+
+static TDY_2007_EDITION: Edition = Edition {
+    title: "TDY 2007",
+    region: "Turkey",
+    in_force: InForce::recalled("2007-03-06", Some("2019-01-01")),
+    superseded_by: Some("TBDY 2018"),
+};
+
 pub(crate) static TBDY_2018: ProvisionDescriptor = ProvisionDescriptor {
     name: "tbdy_2018_between",
-    region: "Turkey",
-    edition: "TBDY 2018",
-    clause: "4.9.3",
+    edition: &TBDY_2018_EDITION,
+    clause: "4.9.3.1",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::NotAsked,
     elastic_displacement_factor: Some("0.25 R / I or 0.5 R / I"),
     formula: "alpha sqrt(d1^2 + d2^2), alpha = 0.25 R / I where floors are aligned, else 0.5 R / I (R d / I = u)",
     inputs: &[Input::Displacement, Input::FloorsAligned],
-    status: Verification::Unverified("the clause"),
-    remarks: &["Each building's own R / I goes with its displacement."],
+    status: Status::SeenInText("an excerpt of 4.9.3.1"),
+    remarks: &[
+        "Each building's own R / I goes with its displacement.",
+        "If floors differ in some storeys only, 0.5 holds for the whole building.",
+    ],
+    worked: "0.5 * sqrt(pow(80, 2) + pow(60, 2))",
     rule: Rule::Between(tbdy_2018),
 };
 
@@ -57,29 +79,57 @@ pub(crate) static TBDY_2018_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     elastic_displacement_factor: None,
     formula: "30 mm up to 6 m, 10 mm more for each begun 3 m above",
     inputs: &[],
-    status: Verification::Unverified("the clause, and that begun steps count whole"),
+    clause: "4.9.3.2",
+    height: HeightDatum::NotSeen,
+    status: Status::SeenInText("an excerpt of 4.9.3.2; 50 mm at 12 m"),
     remarks: &["Holds beside the rule of displacements."],
+    worked: "30 + 10 * ceil((18 - 6) / 3)",
     rule: Rule::Between(minimum),
+    ..TBDY_2018
+};
+
+/// Seats of bridges between buildings: `1.5 (R / I) (d1 + d2)`.
+fn seat(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let left = over_importance(working, &situation.left)?;
+    let right = over_importance(working, &situation.right)?;
+    Ok(working.note("factor", 1.5, "-") * (left + right))
+}
+
+pub(crate) static TBDY_2018_SEAT: ProvisionDescriptor = ProvisionDescriptor {
+    name: "tbdy_2018_bridge_seat",
+    clause: "4.9.3.4",
+    elastic_displacement_factor: Some("1.5 R / I"),
+    formula: "1.5 (R / I) (|d1| + |d2|) (R d / I = u)",
+    inputs: &[Input::Displacement],
+    status: Status::SeenInText("an excerpt of 4.9.3.4"),
+    remarks: &[
+        "The seat of a bridge between two buildings, not a width of the gap.",
+        "Each building's own R / I goes with its displacement.",
+    ],
+    worked: "1.5 * (80 + 60)",
+    rule: Rule::Seat(seat),
     ..TBDY_2018
 };
 
 pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     name: "tdy_2007_between",
-    edition: "TDY 2007",
+    edition: &TDY_2007_EDITION,
     clause: "2.10.3",
     elastic_displacement_factor: Some("R / 4 or R / 2"),
     formula: "alpha (d1 + d2), alpha = R / 4 where floors are aligned, else R / 2 (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
-    status: Verification::Unverified("the clause; the sum is the safe reading of it"),
+    status: Status::Unverified("the clause; the sum is the safe reading of it"),
     remarks: &["Each building's own R goes with its displacement."],
     rule: Rule::Between(tdy_2007),
+    worked: "0.5 * (1.25 * 80 + 1.25 * 60)",
     ..TBDY_2018
 };
 
 pub(crate) static TDY_2007_MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     name: "tdy_2007_minimum",
-    edition: "TDY 2007",
+    edition: &TDY_2007_EDITION,
     clause: "2.10.3",
+    status: Status::Unverified("the clause, and that begun steps count whole"),
     ..TBDY_2018_MINIMUM
 };
 
@@ -112,6 +162,8 @@ mod tests {
             };
             situation.left.elastic_displacement = Some(0.016);
             assert!((TBDY_2018.between(&situation).unwrap().width - new).abs() < 1.0e-12);
+            // 1.5 (80 + 60) mm, whatever the floors.
+            assert!((TBDY_2018_SEAT.between(&situation).unwrap().width - 0.21).abs() < 1.0e-12);
             assert!((TDY_2007.between(&situation).unwrap().width - old).abs() < 1.0e-12);
         }
     }
@@ -119,7 +171,13 @@ mod tests {
     /// 6 m: 30 mm; 9 m: 40 mm; 9.1 m: 50 mm.
     #[test]
     fn minimum_by_hand() {
-        for (elevation, width) in [(3.0, 0.03), (6.0, 0.03), (9.0, 0.04), (9.1, 0.05)] {
+        for (elevation, width) in [
+            (3.0, 0.03),
+            (6.0, 0.03),
+            (9.0, 0.04),
+            (9.1, 0.05),
+            (12.0, 0.05),
+        ] {
             let situation = Situation {
                 elevation,
                 ..Situation::default()

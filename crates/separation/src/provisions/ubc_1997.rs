@@ -1,8 +1,11 @@
 //! UBC 1997 and the code of the Philippines after it.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::{Working, root};
 
 fn maximum(working: &mut Working, structure: &Structure) -> Result<f64, SeparationError> {
@@ -24,17 +27,37 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     Ok(root(left, right))
 }
 
+static UBC_1997: Edition = Edition {
+    title: "UBC 1997",
+    region: "United States",
+    in_force: InForce::recalled("1997", Some("2000")),
+    superseded_by: Some("IBC 2000"),
+};
+
+static NSCP_2015: Edition = Edition {
+    title: "NSCP 2015",
+    region: "Philippines",
+    in_force: InForce::recalled("2015", None),
+    superseded_by: None,
+};
+
+const FACTOR: Status = Status::Unverified(
+    "square root and clause; 0.7 R was seen in an excerpt of NSCP 2015, equation 208-21",
+);
+
 pub(crate) static UBC_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "ubc_1997_boundary",
-    region: "United States",
-    edition: "UBC 1997",
+    edition: &UBC_1997,
     clause: "1633.2.11",
     basis: Basis::Displacement,
+    height: HeightDatum::NotUsed,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: Some("0.7 R"),
     formula: "deltaM = 0.7 R d (R d = I u)",
     inputs: &[Input::Displacement, Input::Importance],
-    status: Verification::Unverified("the formula; that it applied in all zones was seen"),
+    status: FACTOR,
     remarks: &[],
+    worked: "0.7 * 1.25 * 80",
     rule: Rule::Boundary(boundary),
 };
 
@@ -43,26 +66,22 @@ pub(crate) static UBC_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sqrt(deltaM1^2 + deltaM2^2), deltaM = 0.7 R d (R d = I u)",
     remarks: &["For buildings on one property."],
     rule: Rule::Between(between),
+    worked: "0.7 * sqrt(pow(1.25 * 80, 2) + pow(1.25 * 60, 2))",
+    ground: Ground::OneProperty,
     ..UBC_BOUNDARY
 };
 
-const FOLLOWS: Verification = Verification::Unverified("that the code follows UBC 1997");
-
 pub(crate) static NSCP_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "nscp_2015_boundary",
-    region: "Philippines",
-    edition: "NSCP 2015",
+    edition: &NSCP_2015,
     clause: "",
-    status: FOLLOWS,
     ..UBC_BOUNDARY
 };
 
 pub(crate) static NSCP_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nscp_2015_between",
-    region: "Philippines",
-    edition: "NSCP 2015",
+    edition: &NSCP_2015,
     clause: "",
-    status: FOLLOWS,
     ..UBC_BETWEEN
 };
 

@@ -1,7 +1,7 @@
 //! The answer of one code for a suite of records.
 
 use pounding_separation::{
-    CodeDescriptor, CodeWidth, Ownership, SeparationError, Sides, Situation, Statistic,
+    Code, CodeWidth, Date, Ownership, Rules, SeparationError, Sides, Situation, Statistic,
 };
 
 use super::SAME;
@@ -11,8 +11,10 @@ use super::demand::RecordDemand;
 /// What one code says of a gap under a suite of records.
 #[derive(Debug, Clone)]
 pub struct CodeAnswer {
-    /// The code.
-    pub code: &'static CodeDescriptor,
+    /// The code, or the rule of the user.
+    pub code: Code,
+    /// The day on which its edition is in force, where that decided between editions.
+    pub date: Option<Date>,
     /// Which number of the responses under the records it takes.
     pub statistic: Statistic,
     /// Whether there are as many records as it asks for.
@@ -55,14 +57,12 @@ impl LevelAnswer {
     }
 
     /// Whether the provided width is no less; `None` for a rule that does not hold for
-    /// displacements of buildings that yield.
+    /// displacements of buildings that yield, and for one that is disputed.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
         let required = self.width.requirement.width;
-        match self.width.requirement.caution {
-            Some(_) => None,
-            None => Some(self.provided >= required * (1.0 - SAME)),
-        }
+        let decides = self.width.requirement.undecided().is_none();
+        decides.then_some(self.provided >= required * (1.0 - SAME))
     }
 }
 
@@ -123,7 +123,7 @@ impl CodeAnswer {
 /// The answer of a code at one gap: its rules take the code's statistic of the displacements
 /// under all records.
 pub(super) fn code_answer(
-    code: &'static CodeDescriptor,
+    (code, date): (Code, Option<Date>),
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
     records: &[RecordDemand],
@@ -131,16 +131,22 @@ pub(super) fn code_answer(
 ) -> CodeAnswer {
     let statistic = code.suite.statistic(records.len());
     let levels = place.levels();
-    let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule| {
+    let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule: (_, &Rules)| {
         answer_at(place, inputs, records, statistic, (level, *sides), rule)
     };
     let beside_wall = levels.iter().any(|sides| sides.contains(&None));
-    let rules = if beside_wall {
-        vec![(None, code.beside_a_wall())]
+    let rules: Vec<(Option<Ownership>, &Rules)> = if beside_wall {
+        code.beside_a_wall()
+            .map(|rules| (None, rules))
+            .into_iter()
+            .collect()
     } else {
-        code.rules()
+        code.rules
+            .iter()
+            .map(|(owner, rules)| (*owner, rules))
+            .collect()
     };
-    let cases = rules.into_iter().map(|(ownership, rules)| OwnershipAnswer {
+    let cases = rules.iter().map(|&(ownership, rules)| OwnershipAnswer {
         ownership,
         levels: levels
             .iter()
@@ -148,13 +154,15 @@ pub(super) fn code_answer(
             .map(|(level, sides)| at(level, sides, (ownership, rules)))
             .collect(),
     });
+    let cases = cases.collect();
     CodeAnswer {
-        code,
         statistic,
         enough_records: records.len() >= code.suite.least,
         demand: statistic.of(demand),
         ownership: inputs.ownership(),
-        cases: cases.collect(),
+        cases,
+        code,
+        date,
     }
 }
 
@@ -164,7 +172,7 @@ fn answer_at(
     records: &[RecordDemand],
     statistic: Statistic,
     (level, sides): (usize, [Option<(usize, usize)>; 2]),
-    (ownership, rules): (Option<Ownership>, pounding_separation::Rules),
+    (ownership, rules): (Option<Ownership>, &Rules),
 ) -> Result<LevelAnswer, SeparationError> {
     let buildings = place.system.buildings();
     let structures = sides.map(|side| {
@@ -197,7 +205,7 @@ fn answer_at(
         },
         [None, None] => {
             return Err(SeparationError::NotApplicable {
-                provision: "the code",
+                provision: "the code".to_owned(),
                 reason: "the level lies between two walls".to_owned(),
             });
         }

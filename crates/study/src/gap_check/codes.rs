@@ -1,11 +1,13 @@
 //! Gaps by code and by combination rules, beside the demand.
 
+use std::sync::Arc;
+
 use pounding_case::{Case, CaseError, Located, Separation};
 use pounding_separation::{
-    CodeDescriptor, CombinationRule, EffectiveProperties, Oscillator, Ownership,
-    ProvisionDescriptor, Requirement, SeparationError, Site, Situation, SoilZone, StructuralSystem,
-    Structure, Verification, YieldingOscillator, correlation_coefficient, descriptors, find,
-    find_code,
+    Code, CombinationRule, Date, EffectiveProperties, Oscillator, OwnRule, Ownership, Place,
+    Provision, Requirement, SeparationError, Site, Situation, SoilZone, StructuralSystem,
+    Structure, Verification, YieldingOscillator, choose_code, code_in_country, codes,
+    correlation_coefficient, descriptors, find,
 };
 use pounding_shear_building::{ShearBuilding, are_level};
 use pounding_time_history::{Gap, System};
@@ -18,7 +20,7 @@ use super::error::CheckError;
 #[derive(Debug, Clone)]
 pub struct CodeGap {
     /// The provision.
-    pub provision: &'static ProvisionDescriptor,
+    pub provision: Provision,
     /// What it requires for each record and level, or why it says nothing.
     pub records: Vec<Vec<Result<Requirement, SeparationError>>>,
 }
@@ -42,17 +44,39 @@ impl CodeGap {
         required.find_map(|r| r.caution.as_deref())
     }
 
+    /// Whether the texts on the provision differ, so that its widths decide nothing.
+    #[must_use]
+    pub fn is_disputed(&self) -> bool {
+        !self.provision.status().readings().is_empty()
+    }
+
+    /// Whether its widths are held against gaps: not those with a caution, of a disputed
+    /// provision, or of seats.
+    #[must_use]
+    pub fn judges(&self) -> bool {
+        self.caution().is_none() && !self.is_disputed() && self.provision.judges()
+    }
+
     /// Whether these provided widths are no less than what is required at any level under
-    /// any record; `None` if nothing is, and for a provision with a caution.
+    /// any record; `None` if nothing is, and for a provision that does not judge.
     #[must_use]
     pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
-        if self.caution().is_some() {
+        if !self.judges() {
             return None;
         }
         let records = self.records.iter();
         let pairs = records.flat_map(|r| r.iter().zip(levels));
         let known = pairs.filter_map(|(r, l)| Some((r.as_ref().ok()?.width, l.width)));
         satisfied(known)
+    }
+
+    /// Width by one reading of a disputed provision for one record (m): the maximum over the
+    /// levels.
+    #[must_use]
+    pub fn width_by_reading(&self, record: usize, reading: usize) -> Option<f64> {
+        let levels = self.records.get(record)?.iter().flatten();
+        let widths = levels.filter_map(|r| Some(r.readings.get(reading)?.width));
+        widths.reduce(f64::max)
     }
 
     /// Width for one record (m): the maximum over the levels.
@@ -199,6 +223,7 @@ impl<'a> Inputs<'a> {
             design_ground_acceleration: s.design_ground_acceleration,
             seismic_coefficient: s.seismic_coefficient,
             spectral_acceleration_1s: s.spectral_acceleration_1s,
+            neighbour_has_gap: s.neighbour_has_gap,
             relative_ground_displacement,
         }
     }
@@ -222,6 +247,7 @@ impl<'a> Inputs<'a> {
             // storeys elastic, and no code reduces forces for them.
             inelastic,
             elastic_displacement: None,
+            base_moves: building.foundation().is_some(),
             response_modification: of(&self.separation.response_modification),
             displacement_amplification: of(&self.separation.displacement_amplification),
             importance: of(&self.separation.importance),
@@ -253,28 +279,114 @@ fn zone_of(case: &Case, name: &Located<String>) -> Result<SoilZone, CheckError> 
     })
 }
 
+/// What the user asks for, found: rules of their own, provisions, and what gives the verdict.
+pub(crate) struct Chosen {
+    /// Provisions to apply.
+    pub provisions: Vec<Provision>,
+    /// The code or rule whose answer is asked for.
+    pub code: Option<Code>,
+    /// The day by which its edition was chosen, if it was.
+    pub date: Option<Date>,
+}
+
+impl Chosen {
+    pub(crate) fn of(case: &Case, separation: &Separation) -> Result<Self, CheckError> {
+        let own = own_rules(separation).map_err(|mut errors| errors.remove(0))?;
+        let (code, date) = chosen_code(case, separation, &own)?;
+        Ok(Self {
+            provisions: chosen(case, separation, &own)?,
+            code,
+            date,
+        })
+    }
+}
+
+/// Rules of the user, compiled; else all that is wrong with them.
+fn own_rules(separation: &Separation) -> Result<Vec<Provision>, Vec<CaseError>> {
+    let (mut rules, mut errors) = (Vec::<Provision>::new(), Vec::new());
+    for text in &separation.rules {
+        let name = &text.name.value;
+        let known = codes().iter().any(|c| c.name == name || c.family == name);
+        let refuse = |message: String| {
+            let help = Some("give the rule another name".to_owned());
+            text.error(text.name.span.clone(), message, help)
+        };
+        if known || find(name).is_ok() {
+            errors.push(refuse(format!(
+                "\"{name}\" is a provision or a code already"
+            )));
+        } else if rules.iter().any(|rule| rule.name() == name) {
+            errors.push(refuse(format!("two rules are called \"{name}\"")));
+        } else {
+            match OwnRule::compile(text) {
+                Ok(rule) => rules.push(Provision::Own(Arc::new(rule))),
+                Err(e) => errors.push(e),
+            }
+        }
+    }
+    match errors.is_empty() {
+        true => Ok(rules),
+        false => Err(errors),
+    }
+}
+
+/// What is wrong with rules of the user, with the text of the file that has them: the first such
+/// file, with all that is wrong in it. `None` if nothing is.
+#[must_use]
+pub fn wrong_rules(separation: &Separation) -> Option<(CaseError, Arc<str>)> {
+    let errors = own_rules(separation).err()?;
+    let file = errors.first()?.file.clone();
+    let rule = separation.rules.iter().find(|rule| *rule.file == *file)?;
+    let of_file = errors.into_iter().filter(|e| e.file == file);
+    Some((CaseError::of_all(of_file.collect())?, rule.source.clone()))
+}
+
 fn provision_of(
     case: &Case,
     name: &Located<String>,
-) -> Result<&'static ProvisionDescriptor, CheckError> {
-    find(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
+    own: &[Provision],
+) -> Result<Provision, CheckError> {
+    if let Some(rule) = own.iter().find(|rule| rule.name() == name.value) {
+        return Ok(rule.clone());
+    }
+    let found = find(&name.value).map(Provision::BuiltIn);
+    found.map_err(|e| unknown(case, name, e.to_string(), e.help()))
 }
 
-fn code_of(case: &Case, name: &Located<String>) -> Result<&'static CodeDescriptor, CheckError> {
-    find_code(&name.value).map_err(|e| unknown(case, name, e.to_string(), e.help()))
+/// The day that is given, or today.
+fn date_of(case: &Case, separation: &Separation) -> Result<Date, CheckError> {
+    let Some(text) = &separation.date else {
+        return Ok(Date::today());
+    };
+    let date = text.value.parse::<Date>();
+    date.map_err(|e| unknown(case, text, e.to_string(), e.help()))
 }
 
-/// The code whose answer is asked for, if there is one.
-pub(crate) fn chosen_code(
+/// The code or rule whose answer is asked for, if there is one, with the day that decided between
+/// its editions.
+fn chosen_code(
     case: &Case,
     separation: &Separation,
-) -> Result<Option<&'static CodeDescriptor>, CheckError> {
-    let name = separation.code.as_ref();
-    name.map(|name| code_of(case, name)).transpose()
+    own: &[Provision],
+) -> Result<(Option<Code>, Option<Date>), CheckError> {
+    let date = date_of(case, separation)?;
+    let wrong = |name, e: SeparationError| unknown(case, name, e.to_string(), e.help());
+    if let Some(country) = &separation.country {
+        let code = code_in_country(&country.value, date).map_err(|e| wrong(country, e))?;
+        return Ok((Some(code.code()), Some(date)));
+    }
+    let Some(name) = &separation.code else {
+        return Ok((None, None));
+    };
+    if let Some(rule) = own.iter().find(|rule| rule.name() == name.value) {
+        return Ok((Some(Code::of_rule(rule.clone())), None));
+    }
+    let (code, by_date) = choose_code(&name.value, date).map_err(|e| wrong(name, e))?;
+    Ok((Some(code.code()), by_date.then_some(date)))
 }
 
-/// Every word of `[separation]` in a case that is not known: structural systems, the soil zone,
-/// provisions, the code.
+/// Every word of `[separation]` in a case that is not known or cannot be used: structural systems,
+/// the soil zone, provisions, the code, the date, and what is wrong in rules of the user.
 #[must_use]
 pub fn unknown_words(case: &Case) -> Vec<CaseError> {
     let given = &case.separation;
@@ -282,16 +394,21 @@ pub fn unknown_words(case: &Case) -> Vec<CaseError> {
     let systems = systems.filter_map(|name| system_of(case, name).err());
     let zone = given.soil_zone.iter();
     let zone = zone.filter_map(|name| zone_of(case, name).err());
-    let provisions = given.provisions.iter().flatten();
-    let provisions = provisions.filter_map(|name| provision_of(case, name).err());
+    let own = own_rules(given);
+    let rules = own.as_ref().err().into_iter().flatten().cloned();
+    // What is chosen among rules that are wrong is not judged.
+    let known = own.as_deref().unwrap_or_default();
+    let of_own = |name: &Located<String>| given.rules.iter().any(|r| r.name.value == name.value);
+    let provisions = given.provisions.iter().flatten().filter(|n| !of_own(n));
+    let provisions = provisions.filter_map(|name| provision_of(case, name, known).err());
     let placed = |error| match error {
         CheckError::Case(error) => Some(error),
         _ => None,
     };
-    let code = given.code.iter();
-    let code = code.filter_map(|name| code_of(case, name).err());
-    let all = systems.chain(zone).chain(provisions).chain(code);
-    all.filter_map(placed).collect()
+    let is_own = given.code.as_ref().is_some_and(of_own);
+    let code = (!is_own).then(|| chosen_code(case, given, known).err());
+    let all = systems.chain(zone).chain(provisions).chain(code.flatten());
+    all.filter_map(placed).chain(rules).collect()
 }
 
 /// A word that is not known: with its place if it stands in the case, and not in an
@@ -310,26 +427,29 @@ fn unknown(
     }
 }
 
-/// Provisions that the case names; without a list all, but those for isolated structures where
-/// there is none.
-pub(crate) fn chosen(
+/// Provisions that the case names; without a list all and the user's own, but those for isolated
+/// structures where there is none, and seats, which are no gaps.
+fn chosen(
     case: &Case,
     separation: &Separation,
-) -> Result<Vec<&'static ProvisionDescriptor>, CheckError> {
+    own: &[Provision],
+) -> Result<Vec<Provision>, CheckError> {
     let Some(names) = &separation.provisions else {
         let isolated = case.buildings.iter().any(|b| b.isolator.is_some());
         let all = descriptors().iter().copied();
-        return Ok(all
-            .filter(|d| isolated || !d.is_of_isolated_structures())
-            .collect());
+        let speak = all
+            .filter(|d| (isolated || !d.is_of_isolated_structures()) && d.place() != Place::Seat);
+        let speak = speak.map(Provision::BuiltIn);
+        return Ok(speak.chain(own.iter().cloned()).collect());
     };
-    names.iter().map(|name| provision_of(case, name)).collect()
+    let names = names.iter();
+    names.map(|name| provision_of(case, name, own)).collect()
 }
 
 /// What the provisions require for every record and level.
 pub(crate) fn by_code(
     place: &GapPlace<'_>,
-    chosen: &[&'static ProvisionDescriptor],
+    chosen: &[Provision],
     inputs: &Inputs<'_>,
     records: &[RecordDemand],
 ) -> Vec<CodeGap> {
@@ -342,10 +462,7 @@ pub(crate) fn by_code(
             inputs.structure(&buildings[index], index, (displacement, inelastic))
         })
     };
-    let apply = |descriptor: &ProvisionDescriptor,
-                 record: &RecordDemand,
-                 level: usize,
-                 sides: &[_; 2]| {
+    let apply = |descriptor: &Provision, record: &RecordDemand, level: usize, sides: &[_; 2]| {
         let elevation = place.elevation(level);
         let site = inputs.site(place, record.ground_moves(place.gap, level));
         match (structure(sides[0], record), structure(sides[1], record)) {
@@ -357,13 +474,13 @@ pub(crate) fn by_code(
             }),
             (Some(one), None) | (None, Some(one)) => descriptor.boundary(&one, elevation, &site),
             (None, None) => Err(SeparationError::NotApplicable {
-                provision: descriptor.name,
+                provision: descriptor.name().to_owned(),
                 reason: "the level lies between two walls".to_owned(),
             }),
         }
     };
     let levels = place.levels();
-    let for_record = |descriptor: &ProvisionDescriptor, record: &RecordDemand| {
+    let for_record = |descriptor: &Provision, record: &RecordDemand| {
         let levels = levels.iter().enumerate();
         levels
             .map(|(level, sides)| apply(descriptor, record, level, sides))
@@ -372,7 +489,7 @@ pub(crate) fn by_code(
     chosen
         .iter()
         .map(|descriptor| CodeGap {
-            provision: descriptor,
+            provision: descriptor.clone(),
             records: records.iter().map(|r| for_record(descriptor, r)).collect(),
         })
         .collect()

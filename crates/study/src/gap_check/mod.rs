@@ -15,7 +15,7 @@ mod sweep;
 mod systems;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
-pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words};
+pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
 pub use demand::{Amplification, AmplifiedQuantity, GapLevel, RecordDemand};
 pub use error::CheckError;
 pub use parallel::Progress;
@@ -211,8 +211,7 @@ pub fn gap_check_dealt(
     (progress, deal): (Progress<'_>, &Deal),
 ) -> Result<GapCheck, CheckError> {
     check_options(options)?;
-    let chosen = codes::chosen(case, separation)?;
-    let code = codes::chosen_code(case, separation)?;
+    let chosen = codes::Chosen::of(case, separation)?;
     let inputs = codes::Inputs::of(case, separation)?;
     let first = records.first().ok_or(CheckError::NoGap)?;
     if first.assembly.system.gaps().is_empty() {
@@ -231,11 +230,13 @@ pub fn gap_check_dealt(
             system: &first.assembly.system,
             gap: index,
         };
-        let codes = codes::by_code(&place, &chosen, &inputs, &demands);
+        let codes = codes::by_code(&place, &chosen.provisions, &inputs, &demands);
         let combinations = codes::combinations(&place, &inputs, &demands)?;
         let mut report = report(&place, &demands, options, (codes, combinations))?;
-        report.code = code
-            .map(|code| code_answer::code_answer(code, &place, &inputs, &demands, &report.demand));
+        report.code = chosen.code.clone().map(|code| {
+            let code = (code, chosen.date);
+            code_answer::code_answer(code, &place, &inputs, &demands, &report.demand)
+        });
         gaps.push(report);
     }
     let sweep = swept.map(|asked| {

@@ -1,6 +1,7 @@
 //! The answer for a gap, before everything else.
 
 use pounding_catalogue::wording::{agreeing, counted};
+use pounding_separation::Requirement;
 use pounding_study::gap_check::{CodeAnswer, GapCheck, GapReport, LevelAnswer, OwnershipAnswer};
 
 use super::rules::widest;
@@ -104,13 +105,14 @@ fn provided(gap: &GapReport) -> String {
 }
 
 fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
-    let code = answer.code;
+    let code = &answer.code;
     let mut text = format!(
-        "\nGap {} by {} ({}): {}\n",
+        "\nGap {} by {} ({}): {}\n{}",
         gap.name,
         code.name,
-        code.edition(),
-        verdict(answer.satisfied())
+        code.edition,
+        verdict(answer.satisfied()),
+        edition(answer)
     );
     text.push_str(&statistic(answer, check.records.len()));
     text.push_str(&cases(gap, answer));
@@ -140,6 +142,21 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
             "  warning: that is a width that the code accepts and the {} of the records does not: the buildings touch\n",
             answer.statistic.name()
         ));
+    }
+    text
+}
+
+/// By which day the edition was chosen, and from when to when it is in force.
+fn edition(answer: &CodeAnswer) -> String {
+    let code = &answer.code;
+    let mut text = match answer.date {
+        Some(date) => format!("  the edition in force on {date}; --date chooses another day\n"),
+        None => String::new(),
+    };
+    if let Some(in_force) = &code.in_force {
+        let next = code.superseded_by;
+        let next = next.map_or_else(String::new, |next| format!("; superseded by {next}"));
+        text.push_str(&format!("  in force {in_force}{next}\n"));
     }
     text
 }
@@ -204,11 +221,11 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             gap.levels[level].place.label(),
             shown(displacement[0]),
             shown(displacement[1]),
-            format!("{:.1}", width.requirement.width * 1e3),
+            widths(&width.requirement),
             format!("{:.1}", provided * 1e3),
             reached.to_owned(),
-            width.provision.name.to_owned(),
-            width.provision.status.name().to_owned(),
+            width.provision.name().to_owned(),
+            width.provision.status().name().to_owned(),
         ]);
     }
     format!("{table}\n")
@@ -226,19 +243,30 @@ fn explained(case: &OwnershipAnswer) -> String {
     let Some((_, governing)) = case.governing() else {
         return String::new();
     };
-    let provision = governing.width.provision;
-    let status = if provision.status.is_verified() {
-        String::new()
-    } else {
-        format!("; {}", provision.status)
+    let provision = &governing.width.provision;
+    let requirement = &governing.width.requirement;
+    let clause = match provision.clause() {
+        "" => String::new(),
+        clause => format!("clause {clause}: "),
     };
-    format!(
-        "  {ownership}{}{}{status}\n",
-        if provision.clause.is_empty() {
-            String::new()
-        } else {
-            format!("clause {}: ", provision.clause)
-        },
-        governing.width.requirement.explanation
-    )
+    let mut text = format!("  {ownership}{clause}{}\n", requirement.explanation);
+    let mut add = |what: &str, said: &str| text.push_str(&format!("    {what}: {said}\n"));
+    add(provision.status().name(), &provision.source());
+    for (what, said) in provision.assumptions().list() {
+        add(what, said);
+    }
+    if let Some(undecided) = requirement.undecided() {
+        add("no verdict", &undecided);
+    }
+    text
+}
+
+/// The width (mm), or that of each reading of a disputed rule.
+fn widths(requirement: &Requirement) -> String {
+    let readings = requirement.readings.iter();
+    let readings: Vec<_> = readings.map(|r| format!("{:.1}", r.width * 1e3)).collect();
+    match readings.is_empty() {
+        true => format!("{:.1}", requirement.width * 1e3),
+        false => readings.join(" or "),
+    }
 }

@@ -105,11 +105,20 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                     add(&name, c.status.name(), Ok(width), [None; 2]);
                 }
                 for c in &gap.codes {
+                    let p = &c.provision;
+                    let factor = p.elastic_displacement_factor();
+                    let status = p.status().name();
                     let required = c.records[r][level].as_ref();
-                    let width = required.map(|w| w.width).map_err(ToString::to_string);
                     let caution = required.ok().and_then(|w| w.caution.as_deref());
-                    let marks = [c.provision.elastic_displacement_factor, caution];
-                    add(c.provision.name, c.provision.status.name(), width, marks);
+                    // A row for each reading of a disputed provision.
+                    for reading in required.map_or(&[][..], |r| &r.readings) {
+                        let name = format!("{} ({})", p.name(), reading.text);
+                        add(&name, status, Ok(reading.width), [factor, caution]);
+                    }
+                    if !required.is_ok_and(|r| !r.readings.is_empty()) {
+                        let width = required.map(|w| w.width).map_err(ToString::to_string);
+                        add(p.name(), status, width, [factor, caution]);
+                    }
                 }
             }
         }

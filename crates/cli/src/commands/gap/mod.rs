@@ -10,11 +10,13 @@ mod text;
 
 use std::path::Path;
 
-use pounding_case::{Case, Dimension, Separation};
+use pounding_case::{Case, Dimension, Located, RuleText, Separation, read_text};
 use pounding_files::FileUse;
 use pounding_report::pictures::gap::{amplifications, spectra};
 use pounding_study::Deal;
-use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
+use pounding_study::gap_check::{
+    GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt, wrong_rules,
+};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
 use crate::deal::{deal, told_part};
@@ -28,7 +30,10 @@ use crate::{page, plot};
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
 pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
     let Some(path) = arguments.case.as_deref().filter(|_| !arguments.list) else {
-        return provisions::list(arguments.json);
+        return match &arguments.pages {
+            Some(folder) => provisions::write_page(folder),
+            None => provisions::list(arguments.json),
+        };
     };
     let case = read_case(path, arguments.records.is_empty())?;
     let separation = separation(&case, arguments)?;
@@ -61,7 +66,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         let answer = page::answer(&numbers::Check::of(&check))?;
         let words = "Amplification of peaks by pounding over the width of the gap";
         let drawn = amplifications(&check).map(|drawn| page::picture(&drawn, words));
-        let inputs = page::of_case("gap", &case, path, &records);
+        let inputs = page::of_gap(&case, path, &records, &separation);
         let mut drawn: Vec<_> = drawn.into_iter().collect();
         let words = "Spectra of the records, their mean and the target";
         drawn.push(page::picture(&spectra(&check), words));
@@ -82,28 +87,36 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     }
 }
 
+/// What provisions need to know: of the case, of arguments in its place, and rules of a file.
 fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failure> {
     let mut separation = case.separation.clone();
     for text in &arguments.set {
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
     }
-    if let Some(code) = &arguments.code {
-        let text = format!("code = {code:?}");
-        let one = Separation::parse(&text, case.buildings.len());
-        separation = separation.overridden_by(one.map_err(|e| Failure::case(e, &text))?);
+    // Words of arguments stand in no file.
+    let word = |text: &String| Located {
+        value: text.clone(),
+        span: usize::MAX..usize::MAX,
+    };
+    let provisions = &arguments.provisions;
+    let mut given = Separation {
+        code: arguments.code.as_ref().map(word),
+        country: arguments.country.as_ref().map(word),
+        date: arguments.date.as_ref().map(word),
+        provisions: (!provisions.is_empty()).then(|| provisions.iter().map(word).collect()),
+        ..Separation::default()
+    };
+    if let Some(path) = arguments.rules.as_deref() {
+        let text = read_text(path, "rules").map_err(|e| Failure::case(e, ""))?;
+        let rules = RuleText::parse_all(&text, &path.display().to_string());
+        given.rules = rules.map_err(|e| Failure::case(e, &text))?;
     }
-    if !arguments.provisions.is_empty() {
-        let quoted: Vec<_> = arguments
-            .provisions
-            .iter()
-            .map(|p| format!("{p:?}"))
-            .collect();
-        let text = format!("provisions = [{}]", quoted.join(", "));
-        let one = Separation::parse(&text, case.buildings.len());
-        separation = separation.overridden_by(one.map_err(|e| Failure::case(e, &text))?);
+    let separation = separation.overridden_by(given);
+    match wrong_rules(&separation) {
+        None => Ok(separation),
+        Some((error, source)) => Err(Failure::case(error, &source)),
     }
-    Ok(separation)
 }
 
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {

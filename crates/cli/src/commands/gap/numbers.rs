@@ -1,5 +1,6 @@
 //! The gap check for machines: SI units, full precision.
 
+use pounding_separation::Requirement;
 use pounding_study::gap_check::{
     self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, RecordDemand,
 };
@@ -14,7 +15,10 @@ use super::text::rigid;
 pub struct Check<'c> {
     adequate: bool,
     /// The code that decides; `null` where the demand does.
-    decided_by_code: Option<&'static str>,
+    decided_by_code: Option<&'c str>,
+    /// The day on which the edition of that code is in force, where it was chosen by that;
+    /// `null` else.
+    date: Option<String>,
     target_probability: f64,
     confidence: f64,
     /// Whether velocities jump at impacts: accelerations leave that out.
@@ -34,7 +38,11 @@ impl<'c> Check<'c> {
             decided_by_code: check
                 .gaps
                 .iter()
-                .find_map(|g| g.code.as_ref().map(|c| c.code.name)),
+                .find_map(|g| g.code.as_ref().map(|c| c.code.name.as_str())),
+            date: check
+                .gaps
+                .iter()
+                .find_map(|g| g.code.as_ref()?.date.map(|date| date.to_string())),
             target_probability: check.options.target_probability,
             confidence: check.options.confidence,
             rigid_impacts: rigid(check),
@@ -293,8 +301,10 @@ impl Suite {
 /// The answer of the code that decides.
 #[derive(Serialize)]
 struct Code<'c> {
-    name: &'static str,
-    edition: &'static str,
+    name: &'c str,
+    edition: &'c str,
+    in_force: Option<&'c str>,
+    superseded_by: Option<&'static str>,
     statistic: &'static str,
     statistic_rule: String,
     statistic_clause: &'static str,
@@ -306,6 +316,29 @@ struct Code<'c> {
     ownership: Option<&'static str>,
     satisfied: Option<bool>,
     cases: Vec<CodeCase<'c>>,
+}
+
+/// A width of a provision, unless texts on it differ.
+fn decided(requirement: &Requirement) -> Option<f64> {
+    requirement.readings.is_empty().then_some(requirement.width)
+}
+
+/// The width by one reading of a disputed provision.
+#[derive(Serialize)]
+struct Reading<'c> {
+    text: &'c str,
+    width: f64,
+}
+
+impl<'c> Reading<'c> {
+    fn of_all(requirement: &'c Requirement) -> Vec<Self> {
+        let readings = requirement.readings.iter();
+        let readings = readings.map(|r| Self {
+            text: r.text,
+            width: r.width,
+        });
+        readings.collect()
+    }
 }
 
 /// The answer of a code for one kind of ownership.
@@ -328,7 +361,10 @@ enum CodeLevel<'c> {
     Required {
         provision: Box<Descriptor>,
         displacement: [Option<f64>; 2],
-        required: f64,
+        /// `null` for a disputed provision, whose readings stand beside it.
+        required: Option<f64>,
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        readings: Vec<Reading<'c>>,
         provided: f64,
         satisfied: Option<bool>,
         explanation: &'c str,
@@ -343,8 +379,10 @@ impl<'c> Code<'c> {
     fn of(answer: &'c gap_check::CodeAnswer) -> Self {
         let suite = &answer.code.suite;
         Self {
-            name: answer.code.name,
-            edition: answer.code.edition(),
+            name: &answer.code.name,
+            edition: &answer.code.edition,
+            in_force: answer.code.in_force.as_deref(),
+            superseded_by: answer.code.superseded_by,
             statistic: answer.statistic.name(),
             statistic_rule: suite.explanation(),
             statistic_clause: suite.clause,
@@ -363,9 +401,10 @@ impl<'c> CodeCase<'c> {
         let governing = case.governing();
         let level = |level: &'c Result<gap_check::LevelAnswer, _>| match level {
             Ok(answer) => CodeLevel::Required {
-                provision: Box::new(Descriptor::of(answer.width.provision)),
+                provision: Box::new(Descriptor::of(&answer.width.provision)),
                 displacement: answer.displacement,
-                required: answer.width.requirement.width,
+                required: decided(&answer.width.requirement),
+                readings: Reading::of_all(&answer.width.requirement),
                 provided: answer.provided,
                 satisfied: answer.satisfied(),
                 explanation: &answer.width.requirement.explanation,
@@ -379,7 +418,7 @@ impl<'c> CodeCase<'c> {
             ownership: case.ownership.map(|o| o.name()),
             satisfied: case.satisfied(),
             governing_level: governing.map(|(l, _)| l + 1),
-            required: governing.map(|(_, l)| l.width.requirement.width),
+            required: governing.and_then(|(_, l)| decided(&l.width.requirement)),
             provided: governing.map(|(_, l)| l.provided),
             refusal: case.refusal().map(ToString::to_string),
             levels: case.levels.iter().map(level).collect(),
@@ -516,7 +555,10 @@ struct OfRecord<'c> {
 #[serde(untagged)]
 enum OfLevel<'c> {
     Required {
-        width: f64,
+        /// `null` for a disputed provision, whose readings stand beside it.
+        width: Option<f64>,
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        readings: Vec<Reading<'c>>,
         explanation: &'c str,
         caution: Option<&'c str>,
     },
@@ -527,9 +569,10 @@ enum OfLevel<'c> {
 
 impl<'c> Provision<'c> {
     fn of(gap: &GapReport, c: &'c CodeGap) -> Self {
-        let level = |result: &'c Result<pounding_separation::Requirement, _>| match result {
+        let level = |result: &'c Result<Requirement, _>| match result {
             Ok(r) => OfLevel::Required {
-                width: r.width,
+                width: decided(r),
+                readings: Reading::of_all(r),
                 explanation: &r.explanation,
                 caution: r.caution.as_deref(),
             },
@@ -538,7 +581,7 @@ impl<'c> Provision<'c> {
             },
         };
         let records = c.records.iter().enumerate().map(|(r, levels)| {
-            let width = c.width(r);
+            let width = c.width(r).filter(|_| !c.is_disputed());
             OfRecord {
                 width,
                 ratio_to_demand: width.map(|w| w / gap.demand[r]),
@@ -546,7 +589,7 @@ impl<'c> Provision<'c> {
             }
         });
         Self {
-            descriptor: Descriptor::of(c.provision),
+            descriptor: Descriptor::of(&c.provision),
             refusal: c.refusal().map(ToString::to_string),
             caution: c.caution(),
             satisfied: c.satisfied_by(&gap.levels),

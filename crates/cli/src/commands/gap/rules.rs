@@ -10,6 +10,9 @@ use crate::tables::new_table;
 /// yield.
 const ELASTIC_ONLY: &str = "not judged: elastic only";
 
+/// Stands in place of a judgement by a rule on which texts differ.
+const DISPUTED: &str = "not judged: disputed";
+
 /// What a rule says of the provided widths.
 #[derive(Clone, Copy, PartialEq)]
 enum Judgement {
@@ -17,6 +20,8 @@ enum Judgement {
     Satisfied(Option<bool>),
     /// It holds for elastic displacements, and a building yields.
     ElasticOnly,
+    /// Texts on it differ.
+    Disputed,
 }
 
 /// A rule with what it asks for.
@@ -62,18 +67,35 @@ impl Rule {
         Self::of(gap, (name, kind), (satisfied, c.status.name()), None, width)
     }
 
-    fn provision(gap: &GapReport, c: &CodeGap) -> Self {
-        let p = c.provision;
-        let kind = format!("{}, {}", p.place().name(), p.basis.name());
+    /// A rule for each reading of a disputed provision, one for any other.
+    fn provisions(gap: &GapReport, c: &CodeGap) -> Vec<Self> {
+        let p = &c.provision;
+        let kind = format!("{}, {}", p.place().name(), p.basis().name());
         let judgement = match c.caution() {
             Some(_) => Judgement::ElasticOnly,
+            None if c.is_disputed() => Judgement::Disputed,
             None => Judgement::Satisfied(c.satisfied_by(&gap.levels)),
         };
-        let judged = (judgement, p.status.name());
-        let factor = p.elastic_displacement_factor;
-        Self::of(gap, (p.name.to_owned(), kind), judged, factor, |r| {
+        let judged = (judgement, p.status().name());
+        let factor = p.elastic_displacement_factor();
+        let readings = p.status().readings().iter().enumerate();
+        let readings: Vec<Self> = readings
+            .map(|(i, reading)| {
+                // The rest of the text stands in the answer and in files.
+                let text = reading.text.split(',').next().unwrap_or_default();
+                let name = format!("{} ({text})", p.name());
+                Self::of(gap, (name, kind.clone()), judged, factor, |r| {
+                    c.width_by_reading(r, i)
+                })
+            })
+            .collect();
+        if !readings.is_empty() {
+            return readings;
+        }
+        let rule = Self::of(gap, (p.name().to_owned(), kind), judged, factor, |r| {
             c.width(r)
-        })
+        });
+        vec![rule]
     }
 
     /// Width over the records (mm).
@@ -95,6 +117,7 @@ impl Rule {
             Judgement::Satisfied(Some(false)) => ("no", ratio, few),
             Judgement::Satisfied(None) => ("-", ratio, few),
             Judgement::ElasticOnly => (ELASTIC_ONLY, "-".to_owned(), "-".to_owned()),
+            Judgement::Disputed => (DISPUTED, "-".to_owned(), "-".to_owned()),
         };
         let satisfied = satisfied.to_owned();
         [self.range(), satisfied, ratio, few, self.status.to_owned()]
@@ -104,7 +127,7 @@ impl Rule {
 /// All rules that give a width, the widest first.
 fn rules(gap: &GapReport) -> Vec<Rule> {
     let spoken = gap.codes.iter().filter(|c| c.refusal().is_none());
-    let provisions = spoken.map(|c| Rule::provision(gap, c));
+    let provisions = spoken.flat_map(|c| Rule::provisions(gap, c));
     let combinations = gap.combinations.iter();
     let combinations = combinations.map(|c| Rule::combination(gap, c));
     let mut rules: Vec<Rule> = combinations.chain(provisions).collect();
@@ -133,17 +156,14 @@ pub fn widest(gap: &GapReport) -> String {
     )
 }
 
+/// How many rules give a width.
+pub fn count(gap: &GapReport) -> usize {
+    rules(gap).len()
+}
+
 /// Gaps by code and by combination rules: rules that ask for the same in a row, unless all are
 /// asked for.
 pub fn table(check: &GapCheck, gap: &GapReport, all: bool) -> String {
-    if gap.code.is_some() && !all {
-        let count = rules(gap).len();
-        return format!(
-            "\n{} {} for this gap: --all shows them\n",
-            counted(count, "rule"),
-            agreeing(&count, "gives a width", "give widths")
-        );
-    }
     let mut text = format!(
         "\nGap {}: widths by rule under {}, the widest first; boundary rules summed over both sides\n{}\n",
         gap.name,
@@ -155,8 +175,17 @@ pub fn table(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         },
     );
     text.push_str(
-        "\"unverified\": the formula was not compared with the code's text; check it there before it enters a design report.\n",
+        "\"unverified\": the formula was not compared with any text of the code, \"seen in a secondary text\": not with the code itself; check it there before it enters a design report. docs/reference/provisions.md says what was seen.\n",
     );
+    if gap
+        .codes
+        .iter()
+        .any(|c| c.refusal().is_none() && c.is_disputed())
+    {
+        text.push_str(&format!(
+            "\"{DISPUTED}\": texts on the rule differ; the width of each is shown, and none decides.\n"
+        ));
+    }
     text.push_str(&ground_added(check, gap));
     if gap.codes.iter().any(|c| c.caution().is_some()) {
         text.push_str(&elastic_only(check));
@@ -166,6 +195,7 @@ pub fn table(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         for refusal in refused {
             text.push_str(&format!("  {refusal}\n"));
         }
+        text.push_str(&taken_for_granted(gap));
     } else if !refused.is_empty() {
         text.push_str(&format!(
             "{} {}: --all says which, and lists each rule by itself\n",
@@ -176,6 +206,27 @@ pub fn table(check: &GapCheck, gap: &GapReport, all: bool) -> String {
                 "lack an input or do not apply"
             )
         ));
+    }
+    text
+}
+
+/// Sentences on what rules take for granted, each with the rules that do.
+fn taken_for_granted(gap: &GapReport) -> String {
+    let mut sentences: Vec<(String, Vec<&str>)> = Vec::new();
+    for c in gap.codes.iter().filter(|c| c.refusal().is_none()) {
+        for (what, sentence) in c.provision.assumptions().list() {
+            let sentence = format!("{what}: {sentence}");
+            let name = c.provision.name();
+            match sentences.iter_mut().find(|(known, _)| *known == sentence) {
+                Some((_, names)) => names.push(name),
+                None => sentences.push((sentence, vec![name])),
+            }
+        }
+    }
+    sentences.sort_by(|a, b| a.0.cmp(&b.0));
+    let mut text = "What rules take for granted:\n".to_owned();
+    for (sentence, names) in sentences {
+        text.push_str(&format!("  {sentence}\n    {}\n", names.join(", ")));
     }
     text
 }

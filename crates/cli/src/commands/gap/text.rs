@@ -32,17 +32,49 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     for gap in &check.gaps {
         text.push_str(&answer(check, gap));
     }
+    // The answer of a code stands for itself: what else was computed is folded away.
+    let folded = !all && check.gaps.iter().any(|gap| gap.code.is_some());
     for gap in 0..check.gaps.len() {
-        text.push_str(&demand(check, gap));
+        if !folded {
+            text.push_str(&demand(check, gap));
+        }
         text.push_str(&isolation(check, gap));
         text.push_str(&suite(check, gap, all));
-        text.push_str(&rules::table(check, &check.gaps[gap], all));
+        if !folded {
+            text.push_str(&rules::table(check, &check.gaps[gap], all));
+        }
+    }
+    if folded {
+        text.push_str(&columns(check));
+        text.push_str(&what_is_folded(check));
+        return text;
     }
     text.push_str(&provided(check));
     if let Some(sweep) = &check.sweep {
         text.push_str(&swept(check, sweep));
     }
     text
+}
+
+/// What `--all` shows beside the answer of a code.
+fn what_is_folded(check: &GapCheck) -> String {
+    let rules: usize = check.gaps.iter().map(rules::count).sum();
+    let mut shown = vec![
+        "demand by level".to_owned(),
+        format!("widths by {}", counted(rules, "rule")),
+        "what pounding does at the provided gaps".to_owned(),
+    ];
+    if let Some(sweep) = &check.sweep {
+        shown.push(format!(
+            "the sweep over {}",
+            counted(sweep.widths.len(), "width")
+        ));
+    }
+    let failed = check.records.iter().filter(|r| r.pounding.is_err());
+    let failed: String = failed
+        .map(|r| format!("warning: the run with pounding under {} failed\n", r.name))
+        .collect();
+    format!("\n{failed}--all also shows {}\n", shown.join(", "))
 }
 
 /// What floor displacements hold beside the deformation of the buildings.

@@ -1,6 +1,6 @@
 //! The spectrum of a code from the words of an option.
 
-use pounding_case::SpectrumSource;
+use pounding_case::{CaseError, SpectrumSource};
 use pounding_ground_motion::spectra::design::CodeSpectrum;
 
 use super::words::Words;
@@ -16,12 +16,17 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
             Some("write \"eurocode_8_2004, ag=0.25 g, ground_type=B\" or \"asce_7_2016, s_ds=1 g, s_d1=0.6 g, t_l=8 s\"".to_owned()),
         ));
     }
+    if words.has("damping") {
+        return Err(Failure::input(
+            format!("--code: \"{text}\" has a damping ratio"),
+            Some("give it as --damping, which holds for records and code alike".to_owned()),
+        ));
+    }
     let mut keys = words.pairs_as_toml();
     keys.insert(0, format!("code = {:?}", words.word));
     keys.push(format!("damping = {damping:?}"));
     let line = format!("process = [{{ scale = {{ {} }} }}]", keys.join(", "));
-    let read = pounding_case::process_steps(&line, "code")
-        .map_err(|e| Failure::input(format!("--code: {}", e.message), e.help))?;
+    let read = pounding_case::process_steps(&line, "code").map_err(|e| unreadable(text, &e))?;
     let target = read.first().and_then(|step| step.value.target());
     match target {
         Some(SpectrumSource::Code(code)) => Ok(code.value),
@@ -29,5 +34,16 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
             format!("--code: \"{text}\" is no code"),
             None,
         )),
+    }
+}
+
+/// What is wrong with the words of the option: the case file is not what was written.
+fn unreadable(text: &str, error: &CaseError) -> Failure {
+    match error.message.strip_prefix("this is not TOML: ") {
+        Some(reason) => Failure::input(
+            format!("--code: \"{text}\" cannot be read: {reason}"),
+            Some("write the code and its parameters once each, separated by commas: \"eurocode_8_2004, ag=0.25 g, ground_type=B\"".to_owned()),
+        ),
+        None => Failure::input(format!("--code: {}", error.message), error.help.clone()),
     }
 }

@@ -58,6 +58,11 @@ impl<'a> Words<'a> {
         Ok(())
     }
 
+    /// Whether a key is given.
+    pub fn has(&self, key: &str) -> bool {
+        self.pairs.iter().any(|(k, _)| *k == key)
+    }
+
     /// The text of a key.
     pub fn text(&self, key: &str) -> Result<&'a str, Failure> {
         let pair = self.pairs.iter().find(|(k, _)| *k == key);

@@ -1,8 +1,11 @@
-//! Complementary technical rules for seismic design of Mexico City, 2004.
+//! Complementary technical rules for seismic design of Mexico City, 2004 and 2020.
 
-use crate::descriptor::{Basis, ProvisionDescriptor, Rule, Verification};
+use crate::assumptions::{Ground, HeightDatum};
+use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
+use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::status::Status;
 use crate::working::Working;
 
 /// Narrowest distance from the border (m).
@@ -83,17 +86,33 @@ fn between_simplified(
     halved(working, situation, sum)
 }
 
+static NTC_2004: Edition = Edition {
+    title: "NTC-Sismo 2004",
+    region: "Mexico City",
+    in_force: InForce::recalled("2004-10-06", Some("2017-12-15")),
+    superseded_by: Some("NTC-Sismo 2017"),
+};
+
+static NTC_2020: Edition = Edition {
+    title: "NTC-Sismo 2020",
+    region: "Mexico City",
+    in_force: InForce::recalled("2020-06-09", Some("2023-11-06")),
+    superseded_by: Some("NTC-Sismo 2023"),
+};
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "mexico_city_2004_boundary",
-    region: "Mexico City",
-    edition: "NTC-Sismo 2004",
+    edition: &NTC_2004,
     clause: "1.10",
     basis: Basis::Displacement,
+    height: HeightDatum::Ground,
+    ground: Ground::OwnSide,
     elastic_displacement_factor: None,
     formula: "max(50 mm, u + (0.001, 0.003, 0.006 in zones I, II, III) h)",
     inputs: &[Input::Displacement, Input::SoilZone],
-    status: Verification::Verified("text of the clause"),
-    remarks: &[],
+    status: Status::SeenInText("a transcription of 1.10 (scribd.com, document 671909992)"),
+    remarks: &["Bending as a whole and rotation of the base are to be in u where they matter."],
+    worked: "max(50, 80 + 0.003 * 18000)",
     rule: Rule::Boundary(boundary),
 };
 
@@ -104,6 +123,40 @@ pub(crate) static BOUNDARY_SIMPLIFIED: ProvisionDescriptor = ProvisionDescriptor
     inputs: &[Input::SoilZone],
     remarks: &["For the simplified method of analysis."],
     rule: Rule::Boundary(boundary_simplified),
+    worked: "max(50, 0.009 * 18000)",
+    ..BOUNDARY
+};
+
+/// What rotation and sway of the base add where the model does not have them, by zone.
+const BASE: [f64; 3] = [0.0, 0.003, 0.006];
+
+fn boundary_2020(
+    working: &mut Working,
+    structure: &Structure,
+    elevation: f64,
+    site: &Site,
+) -> Result<f64, SeparationError> {
+    let mut width = working.displacement(structure)?;
+    // The zone is asked for either way: what is added is a fact of the building's model.
+    let base = part(working, BASE, elevation, site)?;
+    if !structure.base_moves {
+        width += working.note(format!("base({})", structure.name), base, "m");
+    }
+    Ok(width.max(LEAST))
+}
+
+pub(crate) static BOUNDARY_2020: ProvisionDescriptor = ProvisionDescriptor {
+    name: "mexico_city_2020_boundary",
+    edition: &NTC_2020,
+    clause: "1.9",
+    height: HeightDatum::NotSeen,
+    formula: "max(50 mm, u + (0, 0.003, 0.006 in zones I, II, III) h); nothing is added where the building stands on a foundation in the model",
+    status: Status::SeenInText("an excerpt of 1.9"),
+    remarks: &[
+        "u is the displacement of the limit state of collapse prevention.",
+        "What 1.9 says of two buildings on one property was not seen: both sides are summed.",
+    ],
+    rule: Rule::Boundary(boundary_2020),
     ..BOUNDARY
 };
 
@@ -121,6 +174,8 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ],
     remarks: &[ALIKE],
     rule: Rule::Between(between),
+    worked: "1 * (max(50, 80 + 0.003 * 18000) + max(50, 60 + 0.003 * 18000))",
+    ground: Ground::OneProperty,
     ..BOUNDARY
 };
 
@@ -135,6 +190,8 @@ pub(crate) static BETWEEN_SIMPLIFIED: ProvisionDescriptor = ProvisionDescriptor 
     ],
     remarks: &[ALIKE, "For the simplified method of analysis."],
     rule: Rule::Between(between_simplified),
+    worked: "1 * (max(50, 0.009 * 18000) + max(50, 0.009 * 18000))",
+    ground: Ground::OneProperty,
     ..BOUNDARY
 };
 
@@ -144,6 +201,35 @@ mod tests {
 
     use super::*;
     use crate::inputs::{SoilZone, StructuralSystem};
+
+    /// Zone II at 10 m: 80 + 30 = 110 mm, zone III 80 + 60 = 140 mm, zone I 80 mm; 80 mm in all of
+    /// them where the base moves in the model, and 50 mm at least.
+    #[test]
+    fn base_by_hand() {
+        for (zone, u, base_moves, width) in [
+            (SoilZone::One, 0.08, false, 0.08),
+            (SoilZone::Two, 0.08, false, 0.11),
+            (SoilZone::Three, 0.08, false, 0.14),
+            (SoilZone::Three, 0.08, true, 0.08),
+            (SoilZone::Three, 0.02, true, 0.05),
+        ] {
+            let structure = Structure {
+                displacement: Some(u),
+                base_moves,
+                ..Structure::default()
+            };
+            let site = Site {
+                soil_zone: Some(zone),
+                ..Site::default()
+            };
+            let own = BOUNDARY_2020.boundary(&structure, 10.0, &site).unwrap();
+            assert!(
+                (own.width - width).abs() < 1.0e-12,
+                "{zone:?}: {}",
+                own.width
+            );
+        }
+    }
 
     /// Zone II at 10 m: 80 + 30 = 110 and 60 + 30 = 90 mm, together 200 mm; half of it
     /// for buildings alike. Simplified 90 mm, 180 mm. Zone I at 10 m with 20 mm: 50 mm.

@@ -1,0 +1,351 @@
+//! Provisions: their page, editions by date, users' rules, and what a disputed one does.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use pounding_separation::{arithmetic, descriptors};
+use serde_json::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn pounding(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .current_dir(root())
+        .output()
+        .unwrap()
+}
+
+const CASE: &str = "examples/gap_check/case.toml";
+const RULES: &str = "examples/gap_check/rules.toml";
+
+fn gap(more: &[&str]) -> Output {
+    pounding(&[&["gap", CASE, "--points", "0"][..], more].concat())
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// A text in one line, without the frames of errors.
+fn plain(text: &str) -> String {
+    let words = text.replace('\u{2502}', " ");
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)))
+}
+
+fn named<'a>(list: &'a Value, name: &str) -> &'a Value {
+    let mut list = list.as_array().unwrap().iter();
+    list.find(|x| x["name"] == name)
+        .unwrap_or_else(|| panic!("{name}"))
+}
+
+const REMEDY: &str = "run `cargo run --bin pounding -- gap --list --pages docs/reference`, look at the difference and commit it";
+
+#[test]
+fn the_committed_page_is_what_the_code_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().to_str().unwrap();
+    let output = pounding(&["gap", "--list", "--pages", place]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let fresh = std::fs::read_to_string(folder.path().join("provisions.md")).unwrap();
+    let committed = std::fs::read_to_string(root().join("docs/reference/provisions.md")).unwrap();
+    let line = fresh
+        .lines()
+        .zip(committed.lines())
+        .position(|(a, b)| a != b);
+    assert!(
+        fresh == committed,
+        "docs/reference/provisions.md differs from line {:?} on; {REMEDY}",
+        line.map(|l| l + 1)
+    );
+}
+
+/// Every number of a worked example on the page is that of the arithmetic before it.
+#[test]
+fn worked_examples_of_the_page_are_right() {
+    let page = std::fs::read_to_string(root().join("docs/reference/provisions.md")).unwrap();
+    let mut worked = 0;
+    for part in page.split("\nWorked example").skip(1) {
+        let block = part.split("```").nth(1).unwrap();
+        for line in block.lines().skip(1) {
+            let (by_hand, result) = line.rsplit_once(" = ").unwrap();
+            let (width, _) = result.split_once(" mm").unwrap();
+            let expected = format!("{:.1}", arithmetic(by_hand).unwrap());
+            assert_eq!(width, expected, "{line}");
+            worked += 1;
+        }
+    }
+    // Two readings of either disputed provision.
+    assert_eq!(worked, descriptors().len() + 2);
+}
+
+/// The rules of the example: 0.8 of the sum of the peaks, and setbacks of 0.005 h on either side
+/// for three storeys and aligned floors.
+#[test]
+fn rules_of_a_file() {
+    let output = gap(&["--rules", RULES, "--code", "office_sum", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let result = json(&output);
+    assert_eq!(result["decided_by_code"], "office_sum");
+    assert!(result["date"].is_null());
+    let peak = |b: usize| {
+        let peaks = &result["records"][0]["isolated"][b]["displacement"];
+        peaks[2]["peak"].as_f64().unwrap()
+    };
+    let answer = &result["gaps"][0]["code"]["cases"][0];
+    let width = answer["required"].as_f64().unwrap();
+    assert!((width - 0.8 * (peak(0) + peak(1))).abs() < 1.0e-15);
+    assert!((width - 0.1079).abs() < 1.0e-4, "{width}");
+    let rule = &answer["levels"][2]["provision"];
+    assert_eq!(rule["status"], "yours");
+    assert_eq!(rule["source"], RULES);
+    assert_eq!(rule["edition"], "Office standard 2026");
+    assert_eq!(
+        rule["assumptions"]["others"][0],
+        "torsion is in the displacements"
+    );
+    let provisions = &result["gaps"][0]["provisions"];
+    let setback = named(provisions, "office_setback");
+    let width = setback["records"][0]["width"].as_f64().unwrap();
+    assert!((width - 2.0 * 0.005 * 9.0).abs() < 1.0e-15, "{width}");
+    let shown = text(&gap(&["--rules", RULES]).stdout);
+    assert!(shown.contains("office_setback"), "{shown}");
+    assert!(shown.contains("yours"), "{shown}");
+    let chosen = gap(&["--rules", RULES, "--provisions", "office_setback", "--json"]);
+    let chosen = json(&chosen);
+    assert_eq!(chosen["gaps"][0]["provisions"].as_array().unwrap().len(), 1);
+}
+
+/// The same rules in the case; wrong ones have their place there, in `gap` and in `check`.
+#[test]
+fn rules_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let file_name = file.to_str().unwrap();
+    let records = root().join("ground_motions").canonicalize().unwrap();
+    let case = std::fs::read_to_string(root().join(CASE)).unwrap();
+    let case = case.replace("../../ground_motions", records.to_str().unwrap());
+    let rules = std::fs::read_to_string(root().join(RULES)).unwrap();
+    let rules = rules
+        .replace("[[rule]]", "[[separation.rule]]")
+        .replace("[rule.", "[separation.rule.");
+    std::fs::write(&file, format!("{case}\n{rules}")).unwrap();
+    let output = pounding(&["gap", file_name, "--points", "0", "--code", "office_sum"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let wrong = format!("{case}\n{}", rules.replace("u_right", "u_rihgt"));
+    std::fs::write(&file, &wrong).unwrap();
+    let line = wrong.lines().position(|l| l.contains("u_rihgt")).unwrap() + 1;
+    for command in [&["check"][..], &["gap"]] {
+        let output = pounding(&[command, &[file_name]].concat());
+        let said = plain(&text(&output.stderr));
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        for part in [
+            &format!("case.toml:{line}:"),
+            "this name is not known, at `u_rihgt`",
+            "did you mean `u_right`?",
+        ] {
+            assert!(said.contains(part), "{command:?} {part}: {said}");
+        }
+    }
+}
+
+#[test]
+fn wrong_rules_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rules.toml");
+    let place = file.to_str().unwrap();
+    let rule = |name: &str, expression: &str| {
+        format!("[[rule]]\nname = {name:?}\nkind = \"between\"\nexpression = {expression:?}\n")
+    };
+    for (rules, says) in [
+        (
+            rule("mine", "u_left + 30"),
+            "rules.toml:4:15: rule \"mine\", expression: a length (m) and a pure number cannot be added",
+        ),
+        (
+            rule("nbcc_2015_between", "u_left"),
+            "is a provision or a code already",
+        ),
+        (
+            rule("eurocode_8", "u_left"),
+            "is a provision or a code already",
+        ),
+        (rule("a", "u_left").repeat(2), "two rules are called \"a\""),
+        (rule("a", "u_lef") + &rule("b", "u_righ"), "rules.toml:8:15"),
+        (
+            rule("a", "u_left").replace("kind", "king"),
+            "did you mean `kind`?",
+        ),
+        ("rule = 3".to_owned(), "a list of tables"),
+        (String::new(), "rule"),
+        ("[[rule]".to_owned(), "this is not TOML"),
+    ] {
+        std::fs::write(&file, &rules).unwrap();
+        let output = gap(&["--rules", place]);
+        let said = plain(&text(&output.stderr));
+        assert_eq!(output.status.code(), Some(2), "{rules}: {said}");
+        assert!(said.contains(says), "{rules}: {said}");
+    }
+    let output = gap(&["--rules", "nowhere.toml"]);
+    assert!(text(&output.stderr).contains("nowhere.toml"));
+    assert_eq!(output.status.code(), Some(2));
+    // A rule without a value is no answer, and says where.
+    std::fs::write(
+        &file,
+        rule("mine", "u_left / (storeys_left - storeys_right)"),
+    )
+    .unwrap();
+    let output = gap(&["--rules", place, "--code", "mine"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = plain(&text(&output.stdout));
+    assert!(said.contains("NO ANSWER"), "{said}");
+    assert!(
+        said.contains("this is zero, and divides, at `storeys_left - storeys_right`, character 11"),
+        "{said}"
+    );
+}
+
+/// The day decides between editions, is printed and stored; without one it is today.
+#[test]
+fn editions_by_date() {
+    let result = |more: &[&str]| json(&gap(&[more, &["--json"]].concat()));
+    for (arguments, code, date) in [
+        (
+            &["--code", "turkey", "--date", "2018-12-31"][..],
+            "tdy_2007",
+            Some("2018-12-31"),
+        ),
+        (
+            &["--code", "turkey", "--date", "2019-01-01"],
+            "tbdy_2018",
+            Some("2019-01-01"),
+        ),
+        (
+            &["--country", "Turkey", "--date", "2010-01-01"],
+            "tdy_2007",
+            Some("2010-01-01"),
+        ),
+        (
+            &["--set", "country=\"Italy\"", "--set", "date=\"2020-01-01\""],
+            "ntc_2018",
+            Some("2020-01-01"),
+        ),
+        (&["--code", "tdy_2007"], "tdy_2007", None),
+    ] {
+        let result = result(arguments);
+        assert_eq!(result["decided_by_code"], code, "{arguments:?}");
+        assert_eq!(result["date"].as_str(), date, "{arguments:?}");
+    }
+    let today = result(&["--code", "ntc"]);
+    assert_eq!(today["date"].as_str().map(str::len), Some(10));
+    let shown = text(&gap(&["--code", "turkey", "--date", "2018-12-31"]).stdout);
+    assert!(
+        shown.contains("the edition in force on 2018-12-31"),
+        "{shown}"
+    );
+    assert!(shown.contains("superseded by TBDY 2018"), "{shown}");
+    for (arguments, says) in [
+        (
+            &["--date", "31.12.2018", "--code", "ntc"][..],
+            "write year, month and day",
+        ),
+        (
+            &["--code", "ntc", "--date", "2000-01-01"],
+            "in force on 2000-01-01",
+        ),
+        (&["--country", "Itly"], "did you mean \"Italy\"?"),
+        (
+            &["--country", "United States", "--date", "2020-01-01"],
+            "several codes in force",
+        ),
+        (
+            &["--country", "Italy", "--code", "ntc"],
+            "cannot be used with",
+        ),
+        (
+            &["--set", "code=\"ntc\"", "--set", "country=\"Atlantis\""],
+            "no code of \"Atlantis\"",
+        ),
+        (
+            &["--code", "ntc_2018, damping=0.03"],
+            "unknown code \"ntc_2018, damping=0.03\"",
+        ),
+    ] {
+        let output = gap(arguments);
+        let said = plain(&text(&output.stderr));
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.contains(says), "{arguments:?}: {said}");
+        assert!(!said.contains("TOML"), "{arguments:?}: {said}");
+    }
+}
+
+/// A disputed rule shows both widths, judges no gap and gives no verdict: by hand, of the sum of
+/// peaks with I = 1, a third and two thirds.
+#[test]
+fn a_disputed_rule_decides_nothing() {
+    let set = ["--set", "importance=1"];
+    let output = gap(&[&set[..], &["--code", "nch_433", "--json"]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let result = json(&output);
+    let peak = |b: usize| {
+        let peaks = &result["records"][0]["isolated"][b]["displacement"];
+        peaks[2]["peak"].as_f64().unwrap()
+    };
+    let third = (peak(0) + peak(1)) / 3.0;
+    let code = &result["gaps"][0]["code"];
+    assert!(code["satisfied"].is_null());
+    for case in code["cases"].as_array().unwrap() {
+        assert!(case["required"].is_null() && case["satisfied"].is_null());
+        let readings = &case["levels"][2]["readings"];
+        for (reading, width) in [(0, third), (1, 2.0 * third)] {
+            let found = readings[reading]["width"].as_f64().unwrap();
+            assert!((found / width - 1.0).abs() < 1.0e-12, "{found} {width}");
+        }
+    }
+    let rule = named(&result["gaps"][0]["provisions"], "nch_433_between");
+    assert_eq!(rule["status"], "disputed");
+    assert!(rule["satisfied"].is_null());
+    assert!(rule["records"][0]["width"].is_null());
+    assert!(rule["records"][0]["levels"][2]["width"].is_null());
+    let shown = text(&gap(&[&set[..], &["--code", "nch_433"]].concat()).stdout);
+    assert!(
+        shown.contains("NO ANSWER") && shown.contains("none is chosen"),
+        "{shown}"
+    );
+    let shown = text(&gap(&set).stdout);
+    assert!(shown.contains("not judged: disputed"), "{shown}");
+}
+
+/// With a code its answer stands alone; all else is there with `--all`.
+#[test]
+fn other_tables_are_folded_beside_the_answer_of_a_code() {
+    const OTHERS: [&str; 3] = [
+        "widths by rule under",
+        "At the provided gaps",
+        "demand, the maximum approach",
+    ];
+    let arguments = ["--set", "same_owner=true", "--code", "asce_41"];
+    let folded = text(&gap(&arguments).stdout);
+    let all = text(&gap(&[&arguments[..], &["--all"]].concat()).stdout);
+    for table in OTHERS {
+        assert!(!folded.contains(table), "{table}: {folded}");
+        assert!(all.contains(table), "{table}: {all}");
+    }
+    assert!(
+        folded.contains("--all also shows demand by level"),
+        "{folded}"
+    );
+    assert!(all.contains("What rules take for granted"), "{all}");
+    assert!(
+        folded.contains("height: what it is measured from was not seen"),
+        "{folded}"
+    );
+}

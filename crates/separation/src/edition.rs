@@ -1,0 +1,155 @@
+//! Editions of codes: what they are called, where they hold, and from when to when.
+
+use std::fmt;
+use std::str::FromStr;
+
+use chrono::NaiveDate;
+
+use crate::error::SeparationError;
+
+/// A code in one edition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edition {
+    /// Code with its edition.
+    pub title: &'static str,
+    /// Country or city.
+    pub region: &'static str,
+    /// When it came into force, and how far that was checked; `None` where that is not known,
+    /// or for what is no code in force: a draft, a practice.
+    pub in_force: Option<InForce>,
+    /// The edition or code that took its place, if one is known.
+    pub superseded_by: Option<&'static str>,
+}
+
+/// From when to when an edition is in force. Dates are `2018-03-22`, or `2010` where only the year
+/// is known: then from the first of January on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InForce {
+    /// First day or year.
+    pub from: &'static str,
+    /// First day or year of what took its place; `None` while it is in force.
+    pub until: Option<&'static str>,
+    /// The text that has the dates; `None` where they are recalled.
+    pub source: Option<&'static str>,
+}
+
+impl InForce {
+    /// Recalled, not seen in a text.
+    pub(crate) const fn recalled(from: &'static str, until: Option<&'static str>) -> Option<Self> {
+        Some(Self {
+            from,
+            until,
+            source: None,
+        })
+    }
+
+    /// Whether the edition is in force on this day.
+    #[must_use]
+    pub fn on(&self, date: Date) -> bool {
+        // Years and days of ISO 8601 stand in the order of their characters.
+        let date = date.to_string();
+        self.from <= date.as_str() && self.until.is_none_or(|until| date.as_str() < until)
+    }
+
+    /// `from 2007-03-06 to 2019-01-01`, with how far the dates were checked.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        let until = self
+            .until
+            .map_or_else(String::new, |until| format!(" to {until}"));
+        match self.source {
+            Some(source) => format!("from {}{until} ({source})", self.from),
+            None => format!("from {}{until} (recalled, unverified)", self.from),
+        }
+    }
+}
+
+impl Edition {
+    /// Whether it is in force on this day, as far as its dates are known.
+    #[must_use]
+    pub fn is_in_force(&self, date: Date) -> bool {
+        self.in_force.is_some_and(|known| known.on(date))
+    }
+}
+
+/// A day of the Gregorian calendar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Date(NaiveDate);
+
+impl Date {
+    /// Today in universal time.
+    #[must_use]
+    pub fn today() -> Self {
+        Self(chrono::Utc::now().date_naive())
+    }
+}
+
+impl FromStr for Date {
+    type Err = SeparationError;
+    fn from_str(text: &str) -> Result<Self, SeparationError> {
+        let wrong = || SeparationError::NoDate {
+            text: text.to_owned(),
+        };
+        // The parser alone would take `2018-3-22`, and years of five digits.
+        let shape = text.len() == 10 && text.is_ascii();
+        let date = NaiveDate::parse_from_str(text, "%Y-%m-%d").map_err(|_| wrong())?;
+        if shape { Ok(Self(date)) } else { Err(wrong()) }
+    }
+}
+
+impl fmt::Display for Date {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0.format("%Y-%m-%d"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn an_edition_is_in_force_from_its_first_day_to_the_day_before_the_next() {
+        let old = InForce::recalled("2007-03-06", Some("2019-01-01")).unwrap();
+        let new = InForce::recalled("2019-01-01", None).unwrap();
+        let year = InForce::recalled("2010", Some("2017")).unwrap();
+        for (date, in_old, in_new, in_year) in [
+            ("2007-03-05", false, false, false),
+            ("2007-03-06", true, false, false),
+            ("2009-12-31", true, false, false),
+            ("2010-01-01", true, false, true),
+            ("2016-12-31", true, false, true),
+            ("2017-01-01", true, false, false),
+            ("2018-12-31", true, false, false),
+            ("2019-01-01", false, true, false),
+            ("2026-11-23", false, true, false),
+        ] {
+            let day: Date = date.parse().unwrap();
+            assert_eq!(
+                (old.on(day), new.on(day), year.on(day)),
+                (in_old, in_new, in_year),
+                "{date}"
+            );
+        }
+    }
+
+    #[test]
+    fn dates_are_years_months_days() {
+        assert_eq!(
+            "2024-02-29".parse::<Date>().unwrap().to_string(),
+            "2024-02-29"
+        );
+        for wrong in [
+            "2023-02-29",
+            "2024-2-29",
+            "29.2.2024",
+            "2024",
+            "",
+            "12024-01-01",
+            "today",
+        ] {
+            assert!(wrong.parse::<Date>().is_err(), "{wrong}");
+        }
+    }
+}

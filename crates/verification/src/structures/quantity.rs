@@ -14,7 +14,7 @@ const COLUMNS: [(&str, &str); 6] = [
     ("theirs", "theirs"),
     ("closed_form", "closed form"),
     ("ours", "ours"),
-    ("difference", "difference"),
+    ("difference", "relative difference"),
     ("tolerance", "tolerance"),
 ];
 
@@ -104,7 +104,9 @@ pub(super) fn as_printed(value: f64) -> Cell {
 /// Ten significant digits, without an exponent where that is short.
 pub(super) fn digits(value: f64) -> Cell {
     let magnitude = value.abs();
-    let shown = if value == 0.0 || !(1.0e-3..1.0e6).contains(&magnitude) {
+    let shown = if value.fract() == 0.0 && magnitude < 1.0e6 {
+        format!("{value:.0}")
+    } else if !(1.0e-3..1.0e6).contains(&magnitude) {
         format!("{value:.9e}")
     } else {
         // At most 12 decimals.

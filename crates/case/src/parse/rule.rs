@@ -79,6 +79,7 @@ struct TablesTable {
 #[serde(rename = "a table of points")]
 struct PointsTable {
     /// Pairs of a quantity and its value, the first ones rising
+    #[schemars(with = "Vec<Vec<Quantity>>")]
     points: Field<List<List<Quantity>>>,
     /// linear between the points, or steps: a value holds from its point to the next, the last
     /// one on for ever

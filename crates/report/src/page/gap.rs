@@ -137,16 +137,22 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 "The case states who owns the ground: {stated} decides."
             ));
         }
-        points.push(format!(
-            "The code takes {} ({}, {}).{}",
-            answer.quote(&at("code/statistic_rule")),
-            answer.quote(&at("code/statistic_clause")),
-            answer.quote(&at("code/statistic_status")),
-            match answer.at(&at("code/enough_records")).as_bool() {
-                Some(false) => " There are fewer records than it asks for: the widths are no answer by the code.",
-                _ => "",
-            },
-        ));
+        let rule = answer.quote(&at("code/statistic_rule"));
+        let rule = match answer.text(&at("code/statistic_clause")) {
+            "" => format!("Many records: {rule}."),
+            clause => format!(
+                "The code takes {rule} ({}, {}).",
+                escaped(clause),
+                answer.quote(&at("code/statistic_status")),
+            ),
+        };
+        let few = match answer.at(&at("code/enough_records")).as_bool() {
+            Some(false) => {
+                " There are fewer records than it asks for: the widths are no answer by the code."
+            }
+            _ => "",
+        };
+        points.push(format!("{rule}{few}"));
         let satisfied = answer.at(&at("code/satisfied")).as_bool();
         let contacts = answer.at(&at("records_in_contact")).as_u64();
         if satisfied == Some(true) && contacts.is_some_and(|count| count > 0) {
@@ -355,7 +361,8 @@ fn disputed(answer: Answer<'_>, of: &str) -> String {
     let mut lines = Vec::new();
     for (i, rule) in answer.list(of).iter().enumerate() {
         let readings = rule["records"][0]["levels"].as_array();
-        let readings = readings.and_then(|levels| levels.iter().find_map(|l| l["readings"].as_array()));
+        let readings =
+            readings.and_then(|levels| levels.iter().find_map(|l| l["readings"].as_array()));
         let count = readings.map_or(0, Vec::len);
         let widths: Vec<String> = (0..count)
             .map(|r| {

@@ -155,10 +155,11 @@ impl<'a> Source<'a> {
             }
             return Ok(());
         }
-        if line.bytes.len() > layout.per_line * layout.width {
+        let end = layout.margin + layout.per_line * layout.width;
+        if line.bytes.len() > end {
             return Err(self.error(
                 line.number,
-                layout.per_line * layout.width,
+                end,
                 format!(
                     "more than {} numbers of {} columns",
                     layout.per_line, layout.width
@@ -166,8 +167,17 @@ impl<'a> Source<'a> {
                 REMEDY_VALUE,
             ));
         }
-        for (i, field) in line.bytes.chunks(layout.width).enumerate() {
-            let column = i * layout.width;
+        let (margin, fields) = line.bytes.split_at(layout.margin.min(line.bytes.len()));
+        if !margin.trim_ascii().is_empty() {
+            return Err(self.error(
+                line.number,
+                0,
+                format!("the first {} columns must be blank", layout.margin),
+                REMEDY_VALUE,
+            ));
+        }
+        for (i, field) in fields.chunks(layout.width).enumerate() {
+            let column = layout.margin + i * layout.width;
             if field.len() < layout.width {
                 return Err(self.error(
                     line.number,

@@ -9,11 +9,13 @@ use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::time_column::{part_ties, tied_times};
 use crate::volume::{ChannelHeader, end_of_channel};
 
 const TEXT_LINES: usize = 13;
 const REALS: usize = 50;
-/// Five pairs per line: CDMG prints seven columns per number, USC eight.
+/// Five pairs per line: CDMG prints seven columns per number, USC eight, or seven after a
+/// blank one. The decimal points of the first line tell; this is for lines that do not.
 const PAIRS: [Layout; 2] = [Layout::new(10, 7), Layout::new(10, 8)];
 const EVEN: Layout = Layout::new(8, 9);
 
@@ -47,23 +49,28 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
 
 /// The count in the header: integer 33 where it is there, for 28 is an I5 field
 /// that new files overrun; held against the text.
-fn count(header: &ChannelHeader<'_>, warnings: &mut Vec<String>) -> Option<usize> {
+fn count(
+    header: &ChannelHeader<'_>,
+    warnings: &mut Vec<String>,
+) -> (Option<usize>, Vec<(usize, usize)>) {
     let stated = header
         .integers
         .count(33)
         .or_else(|| header.integers.count(28));
-    let text = header
-        .find("of points")
-        .and_then(|l| number::after(&l, "of points"))
-        .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e9).contains(&n.0))
-        .map(|n| n.0 as usize);
-    match (stated, text) {
-        (Some(a), Some(b)) if a != b => {
-            warnings.push(format!("the header says {a} samples, its text {b}"));
-        }
-        _ => {}
+    let text = header.find_line("of points").and_then(|(line, text)| {
+        let count = number::after(&text, "of points")?.0;
+        let whole = count.fract() == 0.0 && (1.0..1.0e9).contains(&count);
+        whole.then_some((line, count as usize))
+    });
+    if let (Some(a), Some((_, b))) = (stated, text)
+        && a != b
+    {
+        warnings.push(format!("the header says {a} samples, its text {b}"));
     }
-    stated.or(text)
+    (
+        stated.or(text.map(|(_, count)| count)),
+        text.into_iter().collect(),
+    )
 }
 
 /// Words before a unit, the surest first.
@@ -228,6 +235,7 @@ fn peak(header: &ChannelHeader<'_>) -> Option<DraftPeak> {
         time: number::after(rest, " at "),
         unit: Some(SeriesUnit::G),
         shift: 0.0,
+        line: None,
     })
 }
 
@@ -242,7 +250,7 @@ fn even(
     let text = label.lower();
     let layout = Layout::find(&text).unwrap_or(EVEN);
     let mut warnings = Vec::new();
-    let in_header = count(header, &mut warnings);
+    let (in_header, in_words) = count(header, &mut warnings);
     let in_label = number::first_in(&text)
         .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e9).contains(&n.0))
         .map(|n| n.0 as usize);
@@ -263,6 +271,7 @@ fn even(
         (label.number, label.number + 1, lines.number()),
     );
     draft.header_count = expected;
+    draft.other_counts = in_words;
     draft.warnings = warnings;
     state_step(&mut draft, source, header, place);
     Ok(draft)
@@ -275,14 +284,16 @@ fn pairs(
 ) -> Result<Draft, GroundMotionError> {
     let first = lines.number() + 1;
     let mut warnings = Vec::new();
-    let expected = count(header, &mut warnings);
-    let length = lines.peek().map_or(0, |l: Line<'_>| l.bytes.len());
+    let (expected, in_words) = count(header, &mut warnings);
+    let row: &[u8] = lines.peek().map_or(&[], |l: Line<'_>| l.bytes);
     // The first row tells the width: it is full unless the record is tiny.
-    let layout = match (length % PAIRS[0].width, length % PAIRS[1].width) {
-        (0, _) if length <= 70 => PAIRS[0],
+    let by_length = match (row.len() % PAIRS[0].width, row.len() % PAIRS[1].width) {
+        (0, _) if row.len() <= 70 => PAIRS[0],
         (_, 0) => PAIRS[1],
         _ => PAIRS[0],
     };
+    let layout = Layout::of_points(row).unwrap_or(by_length);
+    let decimals = row.rsplit(|b| *b == b'.').next().map_or(0, <[u8]>::len);
     let numbers = source.block(lines, layout, expected.map(|n| 2 * n), None)?;
     if !numbers.len().is_multiple_of(2) {
         return Err(source.error(
@@ -292,13 +303,19 @@ fn pairs(
             "the file is damaged or truncated: get it again",
         ));
     }
-    let times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
+    let mut times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
     let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
+    let digit = 10.0_f64.powi(-(decimals.min(9) as i32));
+    let tied = part_ties(&mut times, |_| digit);
+    if tied > 0 {
+        warnings.push(tied_times(tied));
+    }
     rate_of_pairs(header, &times, &mut warnings);
     let unit = unit(source, header, None, &mut warnings)?;
     let mut draft = Draft::new(samples, unit, (first, first, lines.number()));
     draft.times = Times::Each(times);
     draft.header_count = expected;
+    draft.other_counts = in_words;
     draft.warnings = warnings;
     Ok(draft)
 }

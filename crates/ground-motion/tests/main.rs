@@ -2,6 +2,7 @@
 
 mod agency_files;
 mod agency_measures;
+mod agency_more;
 mod column_headers;
 mod common;
 mod contradictory_headers;

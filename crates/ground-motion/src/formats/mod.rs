@@ -13,6 +13,7 @@ use crate::select;
 use crate::source::Source;
 
 mod asa;
+mod bhrc;
 mod caltech_volume_1;
 mod caltech_volume_2;
 mod cosmos;
@@ -26,6 +27,7 @@ mod jma_csv;
 mod k_net;
 mod midas_sgs;
 mod mini_seed_2;
+mod nsmn;
 mod peer_at2;
 mod plain_columns;
 mod pounding_csv;
@@ -41,6 +43,7 @@ static FORMATS: Registry<Format> = Registry::new(
         &k_net::FORMAT,
         &jma_csv::FORMAT,
         &dyna::FORMAT,
+        &nsmn::FORMAT,
         &cwa::FORMAT,
         &geo_net::FORMAT,
         &cosmos::FORMAT,
@@ -49,6 +52,7 @@ static FORMATS: Registry<Format> = Registry::new(
         &csmip_v1::FORMAT,
         &csmip_v2::FORMAT,
         &usgs_smc::FORMAT,
+        &bhrc::FORMAT,
         &asa::FORMAT,
         &isesd::FORMAT,
         &peer_at2::FORMAT,

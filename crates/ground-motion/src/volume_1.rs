@@ -105,6 +105,22 @@ fn unit_word(label: &str) -> Option<&str> {
     rest.split([')', '(', ',']).next().map(str::trim)
 }
 
+/// Real that holds the unit as a part of g, in volumes of the University of Southern California.
+const UNIT: usize = 5;
+
+/// The unit in numbers. CSMIP leaves the field to chance: it is read where the first line is that
+/// of a Volume I.
+fn unit_in_numbers(header: &ChannelHeader<'_>) -> Option<(usize, SeriesUnit)> {
+    let first = header.text.first()?.lower();
+    let unit = match header.reals.positive(UNIT) {
+        Some(0.1) => SeriesUnit::TENTH_G,
+        Some(1.0) => SeriesUnit::G,
+        _ => return None,
+    };
+    let volume_1 = first.contains("data of vol");
+    volume_1.then_some((header.reals.line_of(UNIT), unit))
+}
+
 /// The unit of the values, which header and line before the data may both state. The
 /// volume fixes none, and both are copied from one value by the agencies' programs: where
 /// they differ neither is certain, and the user must say.
@@ -117,6 +133,19 @@ fn unit(
     let line = header.find_line("units ");
     let in_header = line.and_then(|(line, text)| Some((line, unit_in(&text)?)));
     let in_label = label.and_then(|(_, text)| unit_in(text));
+    if let (Some((line, words)), Some((at, number))) = (in_header, unit_in_numbers(header))
+        && words != number
+    {
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "the unit is {} here, but {} in line {at}",
+                words.symbol, number.symbol
+            ),
+            "the header contradicts itself: get the record again",
+        ));
+    }
     let unknown = label.and_then(|(_, text)| unit_word(text));
     let (Some((line, above)), Some((at, _))) = (in_header, label) else {
         let stated = in_header.map(|u| u.1).or(in_label);

@@ -17,6 +17,7 @@ mod measures;
 mod point_source;
 mod processing;
 mod pulses;
+mod raw_records;
 mod readers;
 mod spectra;
 mod stated_durations;

@@ -104,7 +104,15 @@ impl Header {
             let line = source.expect(lines, "the names of the components")?;
             match line.text().split_once(':') {
                 Some((key, value)) => header.take(source, line, key, value.trim())?,
-                None => header.names = names(line),
+                None if line.is_text() || line.is_blank() => header.names = names(line),
+                None => {
+                    return Err(source.error(
+                        line.number,
+                        0,
+                        "numbers before a line such as N-S E-W U-D",
+                        REMEDY,
+                    ));
+                }
             }
         }
         Ok(header)
@@ -122,8 +130,8 @@ impl Header {
             .iter()
             .position(|b| *b == b':')
             .map_or(0, |n| n + 1);
-        let key = key.trim().to_ascii_uppercase();
-        match key.as_str() {
+        let upper = key.trim().to_ascii_uppercase();
+        match upper.as_str() {
             "PLACE" => value.clone_into(&mut self.place),
             "STATION ID" => value.clone_into(&mut self.station),
             "RECORD TIME" => value.clone_into(&mut self.start),
@@ -146,7 +154,7 @@ impl Header {
                 self.step = Some(if milli { 1.0e-3 * step } else { step });
             }
             k if k.contains("PGA") => {
-                let unit = k
+                let unit = key
                     .split_once('(')
                     .and_then(|(_, rest)| rest.split(')').next());
                 if let Some(unit) = unit {

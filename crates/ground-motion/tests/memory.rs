@@ -85,7 +85,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
             let _ = writeln!(text, "{:.3} 1", 0.012 * i as f64 + 0.001 * (i % 3) as f64);
             text
         }).into_bytes()),
-        ("at2", [b"a\nb\nUNITS OF G\nNPTS= 1572000, DT= .01\n".to_vec(), repeat(b"1 ")].concat()),
+        ("at2", [b"a\nb\nUNITS OF G\nNPTS= 1572864, DT= .01\n".to_vec(), repeat(b"1 ")].concat()),
         ("k-net", {
             let rest = repeat(b"1 ");
             let count = common::COUNT + rest.len() / 2;

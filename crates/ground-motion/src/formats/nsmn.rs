@@ -104,7 +104,9 @@ impl Header {
             let line = source.expect(lines, "the names of the components")?;
             match line.text().split_once(':') {
                 Some((key, value)) => header.take(source, line, key, value.trim())?,
-                None if line.is_text() || line.is_blank() => header.names = names(line),
+                None if line.is_blank() || line.bytes.iter().any(u8::is_ascii_alphabetic) => {
+                    header.names = names(line)
+                }
                 None => {
                     return Err(source.error(
                         line.number,

@@ -321,6 +321,7 @@ impl Draft {
                 )),
                 _ => Err(GroundMotionError::MissingSensitivity {
                     file: source.file.to_owned(),
+                    searched: String::new(),
                 }),
             },
             (DraftUnit::Unstated, Some(given)) => {

@@ -1,6 +1,7 @@
 //! A file on its way through a reader: places in it, and what the user said.
 
 use std::cell::{Cell, RefCell};
+use std::path::Path;
 
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
@@ -21,6 +22,8 @@ pub(crate) struct Source<'a> {
     pub file: &'a str,
     pub bytes: &'a [u8],
     pub options: &'a ReadOptions,
+    /// Where the file lies, if it was read from a path.
+    pub path: Option<&'a Path>,
     /// What holds for the whole file.
     warnings: RefCell<Vec<String>>,
     /// Series finished so far.
@@ -28,11 +31,17 @@ pub(crate) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    pub(crate) fn new(file: &'a str, bytes: &'a [u8], options: &'a ReadOptions) -> Self {
+    pub(crate) fn new(
+        file: &'a str,
+        bytes: &'a [u8],
+        options: &'a ReadOptions,
+        path: Option<&'a Path>,
+    ) -> Self {
         Self {
             file,
             bytes,
             options,
+            path,
             warnings: RefCell::default(),
             series: Cell::default(),
         }

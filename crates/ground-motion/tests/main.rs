@@ -21,5 +21,6 @@ mod raw_records;
 mod readers;
 mod spectra;
 mod stated_durations;
+mod station_xml;
 mod time_steps_and_scales;
 mod writers;

@@ -122,7 +122,7 @@ impl Format {
 /// line and column (byte for binary formats) and remedy.
 pub fn read_all(path: &Path, options: &ReadOptions) -> Result<Recording, GroundMotionError> {
     let (file, bytes) = load(path)?;
-    read_all_bytes(&file, &bytes, options)
+    every_series(&file, &bytes, options, Some(path))
 }
 
 /// Reads every series from bytes; `file` names them in messages.
@@ -134,7 +134,16 @@ pub fn read_all_bytes(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Recording, GroundMotionError> {
-    let source = Source::new(file, bytes, options);
+    every_series(file, bytes, options, None)
+}
+
+fn every_series(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+    path: Option<&Path>,
+) -> Result<Recording, GroundMotionError> {
+    let source = Source::new(file, bytes, options, path);
     let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
     let format =
         options
@@ -152,13 +161,22 @@ pub fn read_all_bytes(
             "check `format`, or get the record again",
         ));
     }
-    let sha256: String = Sha256::digest(bytes)
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect();
+    if options.response.is_some() && series.iter().all(|s| s.origin.response.is_none()) {
+        return Err(GroundMotionError::Unsupported {
+            file: file.to_owned(),
+            what: format!(
+                "a file of response is given, but records of format {} state their unit themselves",
+                format.name
+            ),
+            remedy: "do not give `response`: it is for miniSEED records",
+        });
+    }
+    let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
         s.origin.format = format.name;
-        s.origin.sha256.clone_from(&sha256);
+        let response = s.origin.response.as_ref();
+        let all = response.map_or(own.clone(), |r| own.clone().chain_update(&r.sha256));
+        s.origin.sha256 = all.finalize().iter().map(|b| format!("{b:02x}")).collect();
         s.origin.warnings.extend(source.warnings());
     }
     Ok(Recording { series })
@@ -171,7 +189,8 @@ pub fn read_all_bytes(
 /// and uneven samples without a step to resample to.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Accelerogram, GroundMotionError> {
     let (file, bytes) = load(path)?;
-    read_bytes(&file, &bytes, options)
+    let recording = every_series(&file, &bytes, options, Some(path))?;
+    select::excitation(&file, recording, options)
 }
 
 /// Reads the acceleration that the options choose from bytes; `file` names them

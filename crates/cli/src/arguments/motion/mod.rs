@@ -63,6 +63,9 @@ pub struct ReadArguments {
     /// Counts per m/s2 of the whole channel, for records in counts
     #[arg(long, allow_hyphen_values = true)]
     pub sensitivity: Option<String>,
+    /// StationXML with the sensitivities of a miniSEED record [default: one that lies beside it]
+    #[arg(long, value_name = "FILE")]
+    pub response: Option<InputPath>,
     /// The g of records in units of gravity [default: 9.80665 m/s^2]
     #[arg(long, allow_hyphen_values = true)]
     pub gravity: Option<String>,

@@ -49,7 +49,7 @@ pub(super) struct MotionTable {
     skip_columns: Optional<Count<0>>,
     /// The first value is at one time step, after a zero
     prepend_zero: Optional<bool>,
-    /// Accept fewer samples than the header says
+    /// Use samples that contradict the header's count, duration, step or peak, with a warning
     lenient: Optional<bool>,
     /// Counts per m/s2 of the whole channel, for records in counts
     sensitivity: Optional<Positive<Sensitivity>>,

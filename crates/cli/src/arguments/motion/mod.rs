@@ -57,7 +57,7 @@ pub struct ReadArguments {
     /// The first value is at one time step, after a zero
     #[arg(long)]
     pub prepend_zero: bool,
-    /// Accept fewer samples than the header says
+    /// Use samples that contradict the header's count, duration, step or peak, with a warning
     #[arg(long)]
     pub lenient: bool,
     /// Counts per m/s2 of the whole channel, for records in counts

@@ -89,6 +89,7 @@ impl Assembly {
 /// What the case says of models, methods or the record cannot be: with its place
 /// in the case file, or in the record.
 pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
+    let _span = tracing::info_span!("assemble").entered();
     let parts = Parts::of(case)?;
     let accelerogram = accelerogram(case)?;
     let Parts {

@@ -18,7 +18,7 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 37] = [
+const CALLS: [Call; 38] = [
     call("run case.toml", CASE),
     call("report result.h5", &["result.h5"]),
     call(
@@ -154,6 +154,7 @@ const CALLS: [Call; 37] = [
     ),
     call("hysteresis bilinear --cycles 1mm", &[]),
     call("models", &[]),
+    call("man", &[]),
 ];
 
 const CASE: &[&str] = &["case.toml", "record.csv", "target.csv", "step.csv"];

@@ -121,6 +121,7 @@ impl Format {
 /// A file that cannot be read, or whatever is wrong with its content, with file,
 /// line and column (byte for binary formats) and remedy.
 pub fn read_all(path: &Path, options: &ReadOptions) -> Result<Recording, GroundMotionError> {
+    let _span = tracing::info_span!("read_record", file = %path.display()).entered();
     let (file, bytes) = load(path)?;
     every_series(&file, &bytes, options, Some(path))
 }
@@ -178,6 +179,7 @@ fn every_series(
         let all = response.map_or(own.clone(), |r| own.clone().chain_update(&r.sha256));
         s.origin.sha256 = all.finalize().iter().map(|b| format!("{b:02x}")).collect();
         s.origin.warnings.extend(source.warnings());
+        tracing::debug!(format = format.name, series = %s.label(), samples = s.samples.len(), unit = %s.origin.unit, time_step = %s.origin.time_step, "read");
     }
     Ok(Recording { series })
 }
@@ -188,6 +190,7 @@ fn every_series(
 /// As [`read_all`]; also a velocity or displacement, a choice that is ambiguous,
 /// and uneven samples without a step to resample to.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Accelerogram, GroundMotionError> {
+    let _span = tracing::info_span!("read_record", file = %path.display()).entered();
     let (file, bytes) = load(path)?;
     let recording = every_series(&file, &bytes, options, Some(path))?;
     select::excitation(&file, recording, options)

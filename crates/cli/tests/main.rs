@@ -24,6 +24,7 @@ mod model_pages;
 mod motion;
 mod plausibility;
 mod report;
+mod screen;
 mod sizes;
 mod stiffness;
 mod structure_examples;

@@ -96,7 +96,7 @@ fn matches(source: &Source<'_>) -> bool {
     source
         .head()
         .take(15)
-        .any(|l| l.lower().contains("archivo estandar de aceleracion"))
+        .any(|l| plain(l).contains("ARCHIVO ESTANDAR DE ACELERACION"))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -304,6 +304,8 @@ impl Header {
         found: usize,
     ) -> (Option<f64>, Option<usize>) {
         let step = self.steps.number(k).map(|((step, _), _)| step);
+        let rate = || self.rates.number(k).map(|((rate, _), _)| rate);
+        let step = step.or_else(|| rate().filter(|rate| *rate > 0.0).map(|rate| 1.0 / rate));
         let factor = self.decimation.unwrap_or(1.0);
         let left = count.map(|n| n as f64 / factor);
         match left {
@@ -313,6 +315,24 @@ impl Header {
             _ => (step, count),
         }
     }
+}
+
+/// A line in capitals without accents, in UTF-8 or Latin-1: some files have them.
+fn plain(line: Line<'_>) -> String {
+    let text = std::str::from_utf8(line.bytes).map_or_else(|_| line.text(), str::to_owned);
+    let bare = |c: char| match c {
+        'Á' => 'A',
+        'É' => 'E',
+        'Í' => 'I',
+        'Ó' => 'O',
+        'Ú' | 'Ü' => 'U',
+        'Ñ' => 'N',
+        other => other,
+    };
+    text.chars()
+        .flat_map(char::to_uppercase)
+        .map(bare)
+        .collect()
 }
 
 /// Reads the header; `lines` are at the first row afterwards.
@@ -328,8 +348,7 @@ fn header<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Header, Grou
         }
         lines.next();
         header.take(line);
-        let lower = line.lower();
-        announced |= lower.trim_start().starts_with("datos de aceleracion");
+        announced |= plain(line).trim_start().starts_with("DATOS DE ACELERACION");
     }
     Err(source.error(
         lines.number().max(1),
@@ -352,19 +371,18 @@ fn is_row(line: Line<'_>) -> bool {
 
 impl Header {
     fn take(&mut self, line: Line<'_>) {
-        let text = line.text();
-        let upper = text.to_ascii_uppercase();
+        let (text, upper) = (line.text(), plain(line));
         self.incomplete |= upper.contains("REGISTRO INCOMPLETO");
-        let Some((key, value)) = text.split_once(':') else {
+        let (Some((key, _)), Some((_, value))) = (upper.split_once(':'), text.split_once(':'))
+        else {
             return;
         };
-        let key = key.trim().to_ascii_uppercase();
-        let value = value.trim();
+        let (key, value) = (key.trim(), value.trim());
         if value.is_empty() {
             return;
         }
         let first = if key.contains("C7-C12") { 6 } else { 0 };
-        let entries = match key.as_str() {
+        let entries = match key {
             // `ACEL. MAX., C1-C6, EN LA MUESTRA` is where they are.
             k if k.contains("EN LA MUESTRA") => return,
             k if k.starts_with("INTERVALO DE MUESTREO") => &mut self.steps,

@@ -96,7 +96,8 @@ fn channel<'a>(
         let whole = count.fract() == 0.0 && (1.0..1.0e9).contains(&count);
         whole.then_some((line.number, count as usize))
     });
-    let Some(count) = integers.count(COUNT).or(in_words.map(|(_, count)| count)) else {
+    let in_numbers = integers.count(COUNT);
+    let Some(count) = in_words.map(|(_, count)| count).or(in_numbers) else {
         return Err(source.error(
             integers.line_of(COUNT),
             0,
@@ -104,6 +105,9 @@ fn channel<'a>(
             "the header is damaged: get the record again",
         ));
     };
+    // Five columns keep the last five digits of a count.
+    let other = in_numbers.filter(|n| *n != count % 100_000);
+    let other_counts = other.map(|n| (integers.line_of(COUNT), n));
     let start = lines.number() + 1;
     let numbers = source.block(lines, DATA, Some(count), None)?;
     let places = (reals.line_of(LENGTH), start, lines.number());
@@ -118,7 +122,7 @@ fn channel<'a>(
         draft
     };
     draft.header_count = Some(count);
-    draft.other_counts = in_words.into_iter().collect();
+    draft.other_counts = other_counts.into_iter().collect();
     draft.header_durations = duration_in_words(&text)
         .into_iter()
         .chain(reals.positive(LENGTH).map(|seconds| StatedDuration {

@@ -72,12 +72,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     };
     let first = lines.number() + 1;
     let numbers = source.block(&mut lines, DATA, Some(count), None)?;
-    let uncorrected = text[0].bytes.starts_with(b"1");
+    let kind = text[0].bytes.first();
+    let corrected = matches!(kind, Some(b'2'..=b'4'));
     let rate = known(reals.positive(2)).filter(|rate| *rate < MOST_SAMPLES_A_SECOND);
     let places = (reals.line_of(2), first, lines.number());
     // Film is digitised at uneven times, printed before their values; uncorrected records
     // at even steps state the rate. Times are known by their order, whatever the header says.
-    let timed = uncorrected && (rate.is_none() || times_increase(&numbers, count));
+    let unrated = kind == Some(&b'1') && rate.is_none();
+    let timed = !corrected && (unrated || times_increase(&numbers, count));
     let mut draft = if timed {
         pairs(numbers, unit, places, count)
     } else {

@@ -203,6 +203,7 @@ fn read_options(case: &Case, motion: &GroundMotion) -> Result<ReadOptions, CaseE
         prepend_zero: motion.prepend_zero,
         lenient: motion.lenient,
         sensitivity: motion.sensitivity,
+        response: motion.response.as_ref().map(|r| case.resolve(&r.value)),
         gravity: motion.gravity,
         offset: motion.offset,
     })

@@ -2,16 +2,30 @@
 
 use std::path::PathBuf;
 
+use pounding_ground_motion::responses_beside;
+
 use crate::types::{Case, GroundMotion};
 
 impl Case {
     /// The files that a run of this case reads beside the case file itself: what each is, and
-    /// its path resolved against the folder of the case file. They are not looked for.
+    /// its path resolved against the folder of the case file. They are not looked for, but for
+    /// the metadata of stations that may lie beside the records.
     #[must_use]
     pub fn files(&self) -> Vec<(&'static str, PathBuf)> {
         let mut files = Vec::new();
         let mut add = |what, motion: &GroundMotion| {
-            files.push((what, self.resolve(&motion.file.value)));
+            let record = self.resolve(&motion.file.value);
+            let given = motion.response.as_ref().map(|r| self.resolve(&r.value));
+            let beside = || responses_beside(&record);
+            let responses = given.map_or_else(beside, |given| vec![given]);
+            files.push((what, record));
+            // Of the record itself its own hash tells; a further one is known by its files.
+            let role = if what == "record" {
+                "station's metadata"
+            } else {
+                what
+            };
+            files.extend(responses.into_iter().map(|path| (role, path)));
             let steps = motion.process.iter().filter_map(|step| step.value.target());
             let scale = motion.scale.as_ref();
             let targets = steps.chain(scale.and_then(|scale| scale.value.target()));

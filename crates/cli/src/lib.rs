@@ -4,6 +4,7 @@
 //! failed, 4 output could not be written, 5 interrupted by a signal.
 
 mod arguments;
+mod color;
 mod columns;
 mod commands;
 mod deal;
@@ -13,6 +14,7 @@ mod faults;
 mod files;
 mod heartbeat;
 mod interruption;
+mod logging;
 mod output;
 mod page;
 mod plan;
@@ -21,13 +23,17 @@ mod progress;
 mod separate;
 mod study;
 mod tables;
+mod version;
 
 use std::ffi::OsString;
 
 use clap::{CommandFactory, FromArgMatches};
+use pounding_files::FileUse;
 
 pub use arguments::PathKind;
 pub use failure::Failure;
+
+use version::Version;
 
 /// What commands read and answer, without printing: for the Python package, whose objects say
 /// the same.
@@ -51,8 +57,9 @@ pub fn command() -> clap::Command {
 /// returns the exit code.
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let command = command();
-    let matches = command.clone().try_get_matches_from(arguments);
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let command = color::apply(color::among(&given), command());
+    let matches = command.clone().try_get_matches_from(given);
     let read = matches.and_then(|m| Ok((arguments::Arguments::from_arg_matches(&m)?, m)));
     let (arguments, matches) = match read {
         Ok(read) => read,
@@ -66,10 +73,30 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let done = files
         .check()
         .map_err(Failure::from)
+        .and_then(|()| logging::begin(arguments.verbose, arguments.color))
         .and_then(|()| interruption::listen())
-        .and_then(|()| commands::dispatch(arguments.command, files));
+        .and_then(|()| answer(arguments, files));
     match done {
         Ok(()) => 0,
         Err(failure) => failure.report(),
+    }
+}
+
+/// The version, or what a command answers.
+fn answer(arguments: arguments::Arguments, files: FileUse) -> Result<(), Failure> {
+    if arguments.version {
+        let version = Version::of_this_program();
+        return if arguments.json {
+            output::print(&output::pretty(&version)?)
+        } else {
+            output::print(&format!("pounding {}", version.version))
+        };
+    }
+    match arguments.command {
+        Some(command) => commands::dispatch(command, files),
+        None => Err(Failure::input(
+            "no command is given",
+            Some("see `pounding --help` for the commands".to_owned()),
+        )),
     }
 }

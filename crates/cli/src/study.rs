@@ -190,6 +190,7 @@ fn show(progress: &Progress, now: &Stand) {
         }
     }
     // Rate and remaining time are those of this call.
+    tracing::debug!(made = now.made, of = now.total, failed = now.failed, "runs");
     progress.show(now.made, now.total - now.stored_before, &more);
 }
 

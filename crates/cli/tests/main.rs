@@ -25,6 +25,7 @@ mod motion;
 mod plausibility;
 mod provisions;
 mod report;
+mod screen;
 mod shown_commands;
 mod sizes;
 mod stiffness;

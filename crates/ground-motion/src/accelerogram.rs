@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::error::GroundMotionError;
+use crate::station_xml::ResponseFile;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
@@ -45,8 +46,11 @@ pub struct Origin {
     pub high_corner: Option<f64>,
     /// What the file says was done to the series before, a line each.
     pub history: Vec<String>,
-    /// SHA-256 of the file's bytes, hexadecimal.
+    /// SHA-256 of the file's bytes, hexadecimal; where another file gave the sensitivity, of
+    /// these bytes and the hexadecimal SHA-256 of the other file after them.
     pub sha256: String,
+    /// The file that gave the sensitivity.
+    pub response: Option<ResponseFile>,
     /// Line of the header that names its column, from 1, if it is one of several columns.
     pub header_line: Option<usize>,
     /// What the user should know.

@@ -26,6 +26,8 @@ pub(crate) struct DraftPeak {
     pub unit: Option<SeriesUnit>,
     /// Time that the header counts from, after the first sample (s).
     pub shift: f64,
+    /// Its line, from 1; `None`: that of the step.
+    pub line: Option<usize>,
 }
 
 /// A length of the record that a header states.
@@ -50,12 +52,33 @@ impl From<f64> for StatedDuration {
 pub(crate) enum DraftUnit {
     /// As the file states it; its symbol for display.
     Stated(SeriesUnit),
-    /// Counts, so many units of `unit` each, stated in the file.
-    Scaled(SeriesUnit, f64),
+    /// Values of an instrument, so many units of `unit` each.
+    Scaled {
+        /// What one value is a multiple of.
+        unit: SeriesUnit,
+        /// So many of them.
+        each: f64,
+        /// What the file holds: counts or volts.
+        of: &'static str,
+        /// Who states it.
+        by: String,
+    },
     /// Counts whose sensitivity is not in the file.
     Counts,
     /// Not stated: the user must.
     Unstated,
+}
+
+impl DraftUnit {
+    /// Counts of `each` units, as the file states.
+    pub(crate) fn counts_of(unit: SeriesUnit, each: f64) -> Self {
+        Self::Scaled {
+            unit,
+            each,
+            of: "counts",
+            by: "stated in the file".to_owned(),
+        }
+    }
 }
 
 /// What a reader found, in the units of the file.
@@ -66,6 +89,8 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
+    /// Other counts that the header states, with their lines.
+    pub other_counts: Vec<(usize, usize)>,
     /// Lengths of the record that the header states, in numbers or in words.
     pub header_durations: Vec<StatedDuration>,
     /// Two steps that the header states: line, what is wrong, remedy. A duration that
@@ -83,6 +108,9 @@ pub(crate) struct Draft {
     pub lines: (usize, usize, usize),
 }
 
+/// Values that a last row may hold beyond the count of the header: agencies fill it.
+const ROW: usize = 10;
+
 impl Draft {
     /// A draft with nothing but values: `lines` are those of the header, of the
     /// first and of the last value.
@@ -94,6 +122,7 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
+            other_counts: Vec::new(),
             header_durations: Vec::new(),
             step_conflict: None,
             peak: None,
@@ -156,7 +185,15 @@ impl Draft {
             let unit = peak.unit.map_or((symbol, factor), |u| {
                 (u.symbol, u.in_si(gravity(source.options.gravity)))
             });
-            check_peak(&mut series, &peak, unit, &mut self.warnings);
+            let compared = compare_peak(&mut series, &peak, unit, &mut self.warnings);
+            if let Err(message) = compared {
+                // Who says the unit has said that the header is wrong in it.
+                if !(source.options.lenient || source.options.unit.is_some()) {
+                    let line = peak.line.unwrap_or(self.lines.0);
+                    return Err(source.error(line, 0, message, PEAK_REMEDY));
+                }
+                self.warnings.push(message);
+            }
         }
         series.origin.warnings = self.warnings;
         Ok(series)
@@ -183,12 +220,37 @@ impl Draft {
                 "header says {expected} samples, one more found and used"
             ));
         } else if found > expected {
+            if found - expected > ROW && !source.options.lenient {
+                return Err(source.error(
+                    self.lines.1,
+                    0,
+                    format!("the header says {expected} samples, but {found} stand in the file"),
+                    "the count is wrong, or something else stands behind the series: get the record again, or set `lenient = true` to use as many as the header says",
+                ));
+            }
             self.warnings.push(format!(
                 "header says {expected} samples, {found} found; the surplus is not used"
             ));
             self.samples.truncate(expected);
             if let Times::Each(times) = &mut self.times {
                 times.truncate(expected);
+            }
+        }
+        for (line, other) in std::mem::take(&mut self.other_counts) {
+            if other.abs_diff(self.samples.len()) > ROW {
+                let message = format!(
+                    "the header says {other} samples here, but {} stand in the file",
+                    self.samples.len()
+                );
+                if !source.options.lenient {
+                    return Err(source.error(
+                        line,
+                        0,
+                        message,
+                        "the header contradicts itself: get the record again, or set `lenient = true` to use what is there",
+                    ));
+                }
+                self.warnings.push(format!("line {line}: {message}"));
             }
         }
         if self.samples.len() < 2 {
@@ -205,7 +267,7 @@ impl Draft {
     /// Values that often stand for "missing" but can be true are only named.
     fn missing(&mut self) {
         // Whole numbers are nothing special among counts.
-        if matches!(self.unit, DraftUnit::Counts | DraftUnit::Scaled(..)) {
+        if matches!(self.unit, DraftUnit::Counts | DraftUnit::Scaled { .. }) {
             return;
         }
         let stands_for = |a: &f64| [-999.0, -9999.0, -12345.0, -32768.0].contains(a);
@@ -233,7 +295,7 @@ impl Draft {
             given,
         };
         match (&self.unit, options.unit) {
-            (DraftUnit::Stated(unit) | DraftUnit::Scaled(unit, _), Some(given))
+            (DraftUnit::Stated(unit) | DraftUnit::Scaled { unit, .. }, Some(given))
                 if unit.quantity == Quantity::Acceleration && !unit.is(given) =>
             {
                 Err(contradiction(unit.symbol, given.symbol().to_owned()))
@@ -244,11 +306,11 @@ impl Draft {
                 unit.symbol,
                 format!("{} (stated in the file)", unit.symbol),
             )),
-            (DraftUnit::Scaled(unit, each), _) => Ok((
+            (DraftUnit::Scaled { unit, each, of, by }, _) => Ok((
                 unit.in_si(gravity) * each,
                 unit.quantity,
-                "counts",
-                format!("counts of {each:e} {} (stated in the file)", unit.symbol),
+                of,
+                format!("{of} of {each:e} {} ({by})", unit.symbol),
             )),
             (DraftUnit::Counts, _) => match options.sensitivity {
                 Some(s) if s.is_finite() && s != 0.0 => Ok((
@@ -259,6 +321,7 @@ impl Draft {
                 )),
                 _ => Err(GroundMotionError::MissingSensitivity {
                     file: source.file.to_owned(),
+                    searched: String::new(),
                 }),
             },
             (DraftUnit::Unstated, Some(given)) => {
@@ -414,16 +477,25 @@ pub(crate) fn gravity(given: Option<f64>) -> f64 {
         .unwrap_or(AccelerationUnit::StandardGravity.in_si())
 }
 
+/// Part of the header's peak by which that of the samples may differ: agencies print the
+/// peak of another stage of their processing, or of a raw record less an offset that the
+/// header does not state.
+const PEAK_TOLERANCE: f64 = 0.05;
+const PEAK_REMEDY: &str = "header and samples contradict one another: check the unit, get the record again, or set `lenient = true` to use the samples as they are";
+
 /// Holds the header's peak against the samples: magnitudes, for agencies print
 /// either sign, within the last printed digit; times within one step. Headers of
 /// raw records refer to samples with or without their mean. A sign that differs is kept
 /// with the header's peak.
-fn check_peak(
+///
+/// # Errors
+/// What is wrong with a peak that differs by more than [`PEAK_TOLERANCE`].
+fn compare_peak(
     series: &mut Series,
     peak: &DraftPeak,
     (unit, in_si): (&'static str, f64),
     warnings: &mut Vec<String>,
-) {
+) -> Result<(), String> {
     let value = peak.value.0 * in_si;
     // Either the header or the samples have fewer digits than the other.
     let tolerance = (peak.value.1 * in_si).abs() + 1.0e-4 * value.abs();
@@ -435,22 +507,22 @@ fn check_peak(
         opposite_sign: false,
     };
     series.header_peak = Some(stated);
-    let mean = if series.origin.processing == Processing::Raw {
-        series.mean()
-    } else {
+    let mean = if series.origin.processing == Processing::Corrected {
         0.0
+    } else {
+        series.mean()
+    };
+    let less = |offset: f64| {
+        let largest = |m: f64, a: &f64| m.max((a - offset).abs());
+        series.samples.iter().fold(0.0_f64, largest)
     };
     for offset in [0.0, mean] {
-        let found = series
-            .samples
-            .iter()
-            .fold(0.0_f64, |m, a| m.max((a - offset).abs()));
+        let found = less(offset);
         if (found - value.abs()).abs() > tolerance {
             continue;
         }
         let signed = |a: &f64| (a - offset) * value.signum() >= value.abs() - tolerance;
         stated.opposite_sign = !series.samples.iter().any(signed);
-        series.header_peak = Some(stated);
         if let Some((time, digit)) = peak.time {
             let step = match &series.sampling {
                 Sampling::Even { time_step } => *time_step,
@@ -470,14 +542,21 @@ fn check_peak(
                 ));
             }
         }
-        return;
+        series.header_peak = Some(stated);
+        return Ok(());
     }
-    let found = series.signed_peak();
-    warnings.push(format!(
-        "the header's peak is {value:.6} {}, that of the samples {:.6} {} at {:.3} s",
-        series.quantity.si_symbol(),
-        found.0,
-        series.quantity.si_symbol(),
-        found.1
-    ));
+    let (found, time) = series.signed_peak();
+    let decimals = ((4.0 - (value.abs() / in_si).log10().floor()).clamp(0.0, 9.0)) as usize;
+    let message = format!(
+        "the header's peak is {:.decimals$} {unit}, that of the samples {:.decimals$} {unit} at {time:.3} s",
+        peak.value.0,
+        found / in_si,
+    );
+    let differs = |offset: f64| (less(offset) - value.abs()).abs() > PEAK_TOLERANCE * value.abs();
+    // A zero is a field that was not filled in.
+    if value != 0.0 && [0.0, mean].into_iter().all(differs) {
+        return Err(message);
+    }
+    warnings.push(message);
+    Ok(())
 }

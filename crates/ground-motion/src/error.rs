@@ -143,10 +143,12 @@ pub enum GroundMotionError {
         largest: f64,
     },
     /// Counts without the instrument's sensitivity.
-    #[error("{file}: the record is in counts and does not state how many make 1 m/s2")]
+    #[error("{file}: the record is in counts and does not state how many make 1 m/s2{searched}")]
     MissingSensitivity {
         /// File.
         file: String,
+        /// Where it was looked for, and why it was not found; empty if nowhere.
+        searched: String,
     },
     /// A file of a known kind that holds no time series to use.
     #[error("{file}: {what}")]
@@ -268,7 +270,7 @@ impl GroundMotionError {
                 "give `time_step` (at most {mean:.6} s) to have the record resampled to even steps by linear interpolation"
             ),
             Self::MissingSensitivity { .. } => {
-                "give `sensitivity` in counts per m/s2: InstrumentSensitivity in the station's StationXML, for input units M/S**2".to_owned()
+                "give the station's StationXML, `response = \"FILE\"` in [ground_motion] of a case, `--response FILE` with `pounding motion`; or `sensitivity` in counts per m/s2".to_owned()
             }
             Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
             Self::Unit { .. } => "use g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),

@@ -10,12 +10,38 @@ pub(crate) struct Layout {
     pub per_line: usize,
     /// Columns a number.
     pub width: usize,
+    /// Blank columns before the first number of a line.
+    pub margin: usize,
 }
 
 impl Layout {
     /// A layout that is known to be sensible.
     pub(crate) const fn new(per_line: usize, width: usize) -> Self {
-        Self { per_line, width }
+        Self {
+            per_line,
+            width,
+            margin: 0,
+        }
+    }
+
+    /// The layout of a line of numbers that all print as many decimals, from where their
+    /// decimal points stand: `1X,10F7.3`, `10F8.3`; `None` where the points are not even.
+    pub(crate) fn of_points(line: &[u8]) -> Option<Self> {
+        let points: Vec<usize> = (0..line.len()).filter(|i| line[*i] == b'.').collect();
+        let (first, last) = (*points.first()?, *points.last()?);
+        let width = *points.get(1)? - first;
+        let even = points.windows(2).all(|p| p[1] - p[0] == width);
+        let decimals = line.len() - 1 - last;
+        let margin = (first + 1 + decimals).checked_sub(width)?;
+        let plain = line[last + 1..].iter().all(u8::is_ascii_digit);
+        let blank = line[..margin].iter().all(|b| *b == b' ');
+        let per_line = points.len();
+        let fits = decimals + 1 < width && margin + per_line * width <= WIDEST_LINE;
+        (even && plain && blank && fits).then_some(Self {
+            per_line,
+            width,
+            margin,
+        })
     }
 
     /// Parses `8F10.5`, `(10I8)`, `(1E15.6)`, `8(1PE10.4E1)`; `None` for anything
@@ -35,7 +61,7 @@ impl Layout {
         rest = rest.get(1..)?;
         let width = leading_number(&mut rest)?;
         (width >= 3 && (1..=WIDEST_LINE).contains(&per_line) && per_line * width <= WIDEST_LINE)
-            .then_some(Self { per_line, width })
+            .then_some(Self::new(per_line, width))
     }
 
     /// The last format in parentheses in a line of text.
@@ -58,6 +84,34 @@ fn leading_number(rest: &mut &str) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn layouts_from_decimal_points() {
+        for (line, per_line, width, margin) in [
+            ("    .000  -.066   .009  -.042", 4, 7, 1),
+            ("   .000  -.066   .009  -.042", 4, 7, 0),
+            ("    .000   -.066    .009   -.042", 4, 8, 0),
+            ("  12.000-100.066", 2, 8, 0),
+        ] {
+            let expected = Layout {
+                per_line,
+                width,
+                margin,
+            };
+            assert_eq!(Layout::of_points(line.as_bytes()), Some(expected), "{line}");
+        }
+        // Two widths in turn: not one layout.
+        for line in [
+            "   .000   -.066   .009   -.042",
+            "",
+            "1 2 3",
+            "   .000",
+            "1.0E+0 2.0E+0",
+            "x   .000   .001",
+        ] {
+            assert_eq!(Layout::of_points(line.as_bytes()), None, "{line}");
+        }
+    }
 
     #[test]
     fn formats_that_agencies_print() {

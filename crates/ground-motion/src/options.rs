@@ -1,5 +1,7 @@
 //! What the user says about a record.
 
+use std::path::PathBuf;
+
 use serde::Deserialize;
 
 use crate::formats::Format;
@@ -50,6 +52,9 @@ pub struct ReadOptions {
     pub lenient: bool,
     /// Counts per m/s2, the sensitivity of the whole channel, for records in counts.
     pub sensitivity: Option<f64>,
+    /// StationXML that gives the sensitivities of a miniSEED record; `None`: one that lies
+    /// beside the record, if there is one.
+    pub response: Option<PathBuf>,
     /// The g (m/s2) in units of gravity; `None`: 9.80665.
     pub gravity: Option<f64>,
     /// What becomes of the mean.

@@ -120,7 +120,7 @@ fn choose(
 }
 
 /// Series of this name; else of this azimuth or code at the start of the name;
-/// else of this channel.
+/// else of this channel; else of this word in the name, as the azimuth of `L 50 deg`.
 fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
     let wanted = wanted.trim();
     let full = |s: &Series| s.component.eq_ignore_ascii_case(wanted);
@@ -131,7 +131,12 @@ fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
             .is_some_and(|w| w.eq_ignore_ascii_case(wanted))
     };
     let channel = |s: &Series| wanted.parse() == Ok(s.channel);
-    let tests: [&dyn Fn(&Series) -> bool; 3] = [&full, &first, &channel];
+    let word = |s: &Series| {
+        s.component
+            .split_whitespace()
+            .any(|w| w.eq_ignore_ascii_case(wanted))
+    };
+    let tests: [&dyn Fn(&Series) -> bool; 4] = [&full, &first, &channel, &word];
     let Some(test) = tests.into_iter().find(|t| possible.iter().any(t)) else {
         return Vec::new();
     };

@@ -1,6 +1,7 @@
 //! A file on its way through a reader: places in it, and what the user said.
 
 use std::cell::{Cell, RefCell};
+use std::path::Path;
 
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
@@ -21,6 +22,8 @@ pub(crate) struct Source<'a> {
     pub file: &'a str,
     pub bytes: &'a [u8],
     pub options: &'a ReadOptions,
+    /// Where the file lies, if it was read from a path.
+    pub path: Option<&'a Path>,
     /// What holds for the whole file.
     warnings: RefCell<Vec<String>>,
     /// Series finished so far.
@@ -28,11 +31,17 @@ pub(crate) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    pub(crate) fn new(file: &'a str, bytes: &'a [u8], options: &'a ReadOptions) -> Self {
+    pub(crate) fn new(
+        file: &'a str,
+        bytes: &'a [u8],
+        options: &'a ReadOptions,
+        path: Option<&'a Path>,
+    ) -> Self {
         Self {
             file,
             bytes,
             options,
+            path,
             warnings: RefCell::default(),
             series: Cell::default(),
         }
@@ -155,10 +164,11 @@ impl<'a> Source<'a> {
             }
             return Ok(());
         }
-        if line.bytes.len() > layout.per_line * layout.width {
+        let end = layout.margin + layout.per_line * layout.width;
+        if line.bytes.len() > end {
             return Err(self.error(
                 line.number,
-                layout.per_line * layout.width,
+                end,
                 format!(
                     "more than {} numbers of {} columns",
                     layout.per_line, layout.width
@@ -166,8 +176,17 @@ impl<'a> Source<'a> {
                 REMEDY_VALUE,
             ));
         }
-        for (i, field) in line.bytes.chunks(layout.width).enumerate() {
-            let column = i * layout.width;
+        let (margin, fields) = line.bytes.split_at(layout.margin.min(line.bytes.len()));
+        if !margin.trim_ascii().is_empty() {
+            return Err(self.error(
+                line.number,
+                0,
+                format!("the first {} columns must be blank", layout.margin),
+                REMEDY_VALUE,
+            ));
+        }
+        for (i, field) in fields.chunks(layout.width).enumerate() {
+            let column = layout.margin + i * layout.width;
             if field.len() < layout.width {
                 return Err(self.error(
                     line.number,

@@ -12,6 +12,22 @@ use crate::text::{Line, Lines};
 const INTEGERS: Layout = Layout::new(16, 5);
 const REALS: Layout = Layout::new(8, 10);
 
+/// Some volumes of the University of Southern California print 20 integers a line.
+const NARROW_INTEGERS: Layout = Layout::new(20, 4);
+
+/// The layout of the hundred integers, which their number of lines tells: seven of 16, or
+/// five of 20. The reals after them have decimal points.
+fn integer_layout(lines: &Lines<'_>) -> Layout {
+    let whole =
+        |line: &Line<'_>| !line.is_blank() && !line.is_text() && !line.bytes.contains(&b'.');
+    let rows = lines.clone().take(8).take_while(whole).count();
+    if rows == 100 / NARROW_INTEGERS.per_line {
+        NARROW_INTEGERS
+    } else {
+        INTEGERS
+    }
+}
+
 /// The header of one channel.
 pub(crate) struct ChannelHeader<'a> {
     pub text: Vec<Line<'a>>,
@@ -42,7 +58,7 @@ impl<'a> ChannelHeader<'a> {
         }
         Ok(Some(Self {
             text: head,
-            integers: source.header_numbers(lines, INTEGERS, 100)?,
+            integers: source.header_numbers(lines, integer_layout(lines), 100)?,
             reals: source.header_numbers(lines, REALS, reals)?,
         }))
     }
@@ -79,9 +95,9 @@ impl<'a> ChannelHeader<'a> {
             let name = lower
                 .find("comp")
                 .and_then(|at| line.get(at + 4..))
-                .and_then(|rest| rest.split_whitespace().find(|w| !w.starts_with("ONENT")))
-                .unwrap_or(&line);
-            return (None, name.to_owned());
+                .and_then(compass_word)
+                .unwrap_or(line);
+            return (None, name);
         };
         let channel = number::first_in(before)
             .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e4).contains(&n.0))
@@ -139,6 +155,19 @@ impl<'a> ChannelHeader<'a> {
                 Some(l.get(at..)?.trim().to_owned())
             })
             .unwrap_or_default()
+    }
+}
+
+/// The first word, `ONENT` of `COMPONENT` aside; `S 58 W` is one.
+fn compass_word(text: &str) -> Option<String> {
+    let mut words = text.split_whitespace().filter(|w| !w.starts_with("ONENT"));
+    let first = words.next()?;
+    let rest: Vec<&str> = words.take(2).collect();
+    match (first, &rest[..]) {
+        ("N" | "S", [angle, side @ ("E" | "W")]) if angle.parse::<f64>().is_ok() => {
+            Some(format!("{first}{angle}{side}"))
+        }
+        _ => Some(first.to_owned()),
     }
 }
 
@@ -227,5 +256,6 @@ pub(crate) fn peak_line(header: &ChannelHeader<'_>, quantity: Quantity) -> Optio
         time: number::after(&line, " at "),
         unit: None,
         shift: 0.0,
+        line: None,
     })
 }

@@ -9,11 +9,13 @@ use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::time_column::{part_ties, tied_times};
 use crate::volume::{ChannelHeader, end_of_channel};
 
 const TEXT_LINES: usize = 13;
 const REALS: usize = 50;
-/// Five pairs per line: CDMG prints seven columns per number, USC eight.
+/// Five pairs per line: CDMG prints seven columns per number, USC eight, or seven after a
+/// blank one. The decimal points of the first line tell; this is for lines that do not.
 const PAIRS: [Layout; 2] = [Layout::new(10, 7), Layout::new(10, 8)];
 const EVEN: Layout = Layout::new(8, 9);
 
@@ -47,23 +49,28 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
 
 /// The count in the header: integer 33 where it is there, for 28 is an I5 field
 /// that new files overrun; held against the text.
-fn count(header: &ChannelHeader<'_>, warnings: &mut Vec<String>) -> Option<usize> {
+fn count(
+    header: &ChannelHeader<'_>,
+    warnings: &mut Vec<String>,
+) -> (Option<usize>, Vec<(usize, usize)>) {
     let stated = header
         .integers
         .count(33)
         .or_else(|| header.integers.count(28));
-    let text = header
-        .find("of points")
-        .and_then(|l| number::after(&l, "of points"))
-        .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e9).contains(&n.0))
-        .map(|n| n.0 as usize);
-    match (stated, text) {
-        (Some(a), Some(b)) if a != b => {
-            warnings.push(format!("the header says {a} samples, its text {b}"));
-        }
-        _ => {}
+    let text = header.find_line("of points").and_then(|(line, text)| {
+        let count = number::after(&text, "of points")?.0;
+        let whole = count.fract() == 0.0 && (1.0..1.0e9).contains(&count);
+        whole.then_some((line, count as usize))
+    });
+    if let (Some(a), Some((_, b))) = (stated, text)
+        && a != b
+    {
+        warnings.push(format!("the header says {a} samples, its text {b}"));
     }
-    stated.or(text)
+    (
+        stated.or(text.map(|(_, count)| count)),
+        text.into_iter().collect(),
+    )
 }
 
 /// Words before a unit, the surest first.
@@ -98,6 +105,22 @@ fn unit_word(label: &str) -> Option<&str> {
     rest.split([')', '(', ',']).next().map(str::trim)
 }
 
+/// Real that holds the unit as a part of g, in volumes of the University of Southern California.
+const UNIT: usize = 5;
+
+/// The unit in numbers. CSMIP leaves the field to chance: it is read where the first line is that
+/// of a Volume I.
+fn unit_in_numbers(header: &ChannelHeader<'_>) -> Option<(usize, SeriesUnit)> {
+    let first = header.text.first()?.lower();
+    let unit = match header.reals.positive(UNIT) {
+        Some(0.1) => SeriesUnit::TENTH_G,
+        Some(1.0) => SeriesUnit::G,
+        _ => return None,
+    };
+    let volume_1 = first.contains("data of vol");
+    volume_1.then_some((header.reals.line_of(UNIT), unit))
+}
+
 /// The unit of the values, which header and line before the data may both state. The
 /// volume fixes none, and both are copied from one value by the agencies' programs: where
 /// they differ neither is certain, and the user must say.
@@ -110,6 +133,19 @@ fn unit(
     let line = header.find_line("units ");
     let in_header = line.and_then(|(line, text)| Some((line, unit_in(&text)?)));
     let in_label = label.and_then(|(_, text)| unit_in(text));
+    if let (Some((line, words)), Some((at, number))) = (in_header, unit_in_numbers(header))
+        && words != number
+    {
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "the unit is {} here, but {} in line {at}",
+                words.symbol, number.symbol
+            ),
+            "the header contradicts itself: get the record again",
+        ));
+    }
     let unknown = label.and_then(|(_, text)| unit_word(text));
     let (Some((line, above)), Some((at, _))) = (in_header, label) else {
         let stated = in_header.map(|u| u.1).or(in_label);
@@ -228,6 +264,7 @@ fn peak(header: &ChannelHeader<'_>) -> Option<DraftPeak> {
         time: number::after(rest, " at "),
         unit: Some(SeriesUnit::G),
         shift: 0.0,
+        line: None,
     })
 }
 
@@ -242,7 +279,7 @@ fn even(
     let text = label.lower();
     let layout = Layout::find(&text).unwrap_or(EVEN);
     let mut warnings = Vec::new();
-    let in_header = count(header, &mut warnings);
+    let (in_header, in_words) = count(header, &mut warnings);
     let in_label = number::first_in(&text)
         .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e9).contains(&n.0))
         .map(|n| n.0 as usize);
@@ -263,6 +300,7 @@ fn even(
         (label.number, label.number + 1, lines.number()),
     );
     draft.header_count = expected;
+    draft.other_counts = in_words;
     draft.warnings = warnings;
     state_step(&mut draft, source, header, place);
     Ok(draft)
@@ -275,14 +313,16 @@ fn pairs(
 ) -> Result<Draft, GroundMotionError> {
     let first = lines.number() + 1;
     let mut warnings = Vec::new();
-    let expected = count(header, &mut warnings);
-    let length = lines.peek().map_or(0, |l: Line<'_>| l.bytes.len());
+    let (expected, in_words) = count(header, &mut warnings);
+    let row: &[u8] = lines.peek().map_or(&[], |l: Line<'_>| l.bytes);
     // The first row tells the width: it is full unless the record is tiny.
-    let layout = match (length % PAIRS[0].width, length % PAIRS[1].width) {
-        (0, _) if length <= 70 => PAIRS[0],
+    let by_length = match (row.len() % PAIRS[0].width, row.len() % PAIRS[1].width) {
+        (0, _) if row.len() <= 70 => PAIRS[0],
         (_, 0) => PAIRS[1],
         _ => PAIRS[0],
     };
+    let layout = Layout::of_points(row).unwrap_or(by_length);
+    let decimals = row.rsplit(|b| *b == b'.').next().map_or(0, <[u8]>::len);
     let numbers = source.block(lines, layout, expected.map(|n| 2 * n), None)?;
     if !numbers.len().is_multiple_of(2) {
         return Err(source.error(
@@ -292,13 +332,19 @@ fn pairs(
             "the file is damaged or truncated: get it again",
         ));
     }
-    let times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
+    let mut times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
     let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
+    let digit = 10.0_f64.powi(-(decimals.min(9) as i32));
+    let tied = part_ties(&mut times, |_| digit);
+    if tied > 0 {
+        warnings.push(tied_times(tied));
+    }
     rate_of_pairs(header, &times, &mut warnings);
     let unit = unit(source, header, None, &mut warnings)?;
     let mut draft = Draft::new(samples, unit, (first, first, lines.number()));
     draft.times = Times::Each(times);
     draft.header_count = expected;
+    draft.other_counts = in_words;
     draft.warnings = warnings;
     Ok(draft)
 }

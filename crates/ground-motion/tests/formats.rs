@@ -207,8 +207,16 @@ fn other_peaks_and_units_are_reported() {
     let text = String::from_utf8(fixture.bytes.clone()).unwrap();
     let line = text.lines().find(|l| l.starts_with("PGA_")).unwrap();
     let wrong = text.replace(line, "PGA_CM/S^2: 99.000");
-    let recording = read_all_bytes("file", wrong.as_bytes(), &fixture.options).unwrap();
-    assert!(recording.series[0].origin.warnings[0].contains("the header's peak is 0.990000 m/s2"));
+    let error = read_all_bytes("file", wrong.as_bytes(), &fixture.options).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("the header's peak is 99.000 cm/s2"),
+        "{error}"
+    );
+    let zero = text.replace(line, "PGA_CM/S^2: 0");
+    let recording = read_all_bytes("file", zero.as_bytes(), &fixture.options).unwrap();
+    assert!(recording.series[0].origin.warnings[0].contains("the header's peak is 0"));
     let late = text.replace("TIME_PGA_S: 0", "TIME_PGA_S: 7");
     let recording = read_all_bytes("file", late.as_bytes(), &fixture.options).unwrap();
     assert!(recording.series[0].origin.warnings[0].contains("the header puts the peak at 7"));
@@ -277,14 +285,34 @@ fn filters_and_peaks_in_headers_of_peer() {
             "TITLE\nEVENT, STATION\nACCELERATION TIME SERIES IN UNITS OF G  PGA= {pga} HP=0.2 Hz LP=12.5 Hz\nNPTS=  3, DT= .0050 SEC\n .1 -.3 .2\n"
         )
     };
-    let read = |pga| read_all_bytes("file", text(pga).as_bytes(), &ReadOptions::default()).unwrap();
-    let series = &read("0.300").series[0];
+    let read = |pga, options: &ReadOptions| read_all_bytes("file", text(pga).as_bytes(), options);
+    let series = &read("0.300", &ReadOptions::default()).unwrap().series[0];
     assert_eq!(
         (series.origin.low_corner, series.origin.high_corner),
         (Some(0.2), Some(12.5))
     );
     assert!(series.origin.warnings.is_empty());
-    assert_eq!(read("0.400").series[0].origin.warnings.len(), 1);
+    // Another stage of the processing, and another record.
+    let near = read("0.310", &ReadOptions::default()).unwrap();
+    assert_eq!(near.series[0].origin.warnings.len(), 1);
+    let error = read("0.400", &ReadOptions::default()).unwrap_err();
+    let said = error.to_string();
+    assert!(
+        said.contains("0.40000 g") && said.contains("-0.30000 g"),
+        "{said}"
+    );
+    assert!(error.help().unwrap().contains("lenient"));
+    let lenient = ReadOptions {
+        lenient: true,
+        ..ReadOptions::default()
+    };
+    assert_eq!(
+        read("0.400", &lenient).unwrap().series[0]
+            .origin
+            .warnings
+            .len(),
+        1
+    );
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod agency_files;
 mod agency_measures;
+mod agency_more;
 mod column_headers;
 mod common;
 mod contradictory_headers;
@@ -16,8 +17,10 @@ mod measures;
 mod point_source;
 mod processing;
 mod pulses;
+mod raw_records;
 mod readers;
 mod spectra;
 mod stated_durations;
+mod station_xml;
 mod time_steps_and_scales;
 mod writers;

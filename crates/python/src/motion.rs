@@ -55,7 +55,7 @@ impl Motion {
 
     /// A record of a file, with what its headers do not say.
     #[staticmethod]
-    #[pyo3(signature = (path, format=None, component=None, unit=None, time_step=None, quantity=None, skip_lines=0, skip_columns=0, layout=None, sensitivity=None, lenient=false))]
+    #[pyo3(signature = (path, format=None, component=None, unit=None, time_step=None, quantity=None, skip_lines=0, skip_columns=0, layout=None, sensitivity=None, lenient=false, response=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn read(
         py: Python<'_>,
@@ -70,6 +70,7 @@ impl Motion {
         layout: Option<String>,
         sensitivity: Option<f64>,
         lenient: bool,
+        response: Option<PathBuf>,
     ) -> Result<Self, Problem> {
         let unknown = |name: &str| {
             let help = "acceleration, velocity or displacement".to_owned();
@@ -92,6 +93,7 @@ impl Motion {
             layout,
             sensitivity,
             lenient,
+            response,
             ..ReadOptions::default()
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;

@@ -19,6 +19,7 @@ pub fn assemble_with_record(
     case: &Case,
     accelerogram: &Accelerogram,
 ) -> Result<Assembly, AssemblyError> {
+    let _span = tracing::debug_span!("assemble_with_record").entered();
     let Parts {
         buildings,
         models,

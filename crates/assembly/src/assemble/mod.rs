@@ -98,6 +98,7 @@ pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
 /// # Errors
 /// As [`assemble`].
 pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, AssemblyError> {
+    let _span = tracing::info_span!("assemble").entered();
     let parts = Parts::of(case)?;
     let accelerogram = accelerogram(case, files)?;
     let Parts {

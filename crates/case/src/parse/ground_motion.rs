@@ -49,10 +49,13 @@ pub(super) struct MotionTable {
     skip_columns: Optional<Count<0>>,
     /// The first value is at one time step, after a zero
     prepend_zero: Optional<bool>,
-    /// Accept fewer samples than the header says
+    /// Use samples that contradict the header's count, duration, step or peak, with a warning
     lenient: Optional<bool>,
     /// Counts per m/s2 of the whole channel, for records in counts
     sensitivity: Optional<Positive<Sensitivity>>,
+    /// StationXML with the sensitivities of a miniSEED record, relative to the folder of the case
+    /// file; by default one that lies beside the record
+    response: Optional<FilePath>,
     /// The g (m/s2) of records in units of gravity, by default 9.80665
     gravity: Optional<Positive<Acceleration>>,
     /// What becomes of the mean: automatic (taken off raw records, kept in corrected ones),
@@ -232,6 +235,7 @@ impl MotionTable {
             prepend_zero: flag(self.prepend_zero),
             lenient: flag(self.lenient),
             sensitivity: self.sensitivity.number(),
+            response: self.response.located().map(Located::from),
             gravity: self.gravity.number(),
             offset: self.offset.value().unwrap_or_default(),
             process: self

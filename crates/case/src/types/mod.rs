@@ -453,6 +453,8 @@ pub struct GroundMotion {
     pub lenient: bool,
     /// Counts per m/s2 of a record in counts.
     pub sensitivity: Option<f64>,
+    /// StationXML with the sensitivities of a record in counts.
+    pub response: Option<Located<PathBuf>>,
     /// The g (m/s2) that units of gravity stand for.
     pub gravity: Option<f64>,
     /// What becomes of the mean.

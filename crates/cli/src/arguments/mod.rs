@@ -12,7 +12,7 @@ mod quantities;
 mod study;
 mod verification;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use figure::figure_file;
@@ -36,11 +36,41 @@ pub use verification::*;
 /// the ground motion. Begin with `pounding check CASE`, which prints what was understood;
 /// then `pounding run CASE` for the time history, or `pounding gap CASE` for the gap.
 #[derive(Debug, Parser)]
-#[command(name = "pounding", version, arg_required_else_help = true)]
+#[command(name = "pounding", arg_required_else_help = true)]
 pub struct Arguments {
+    /// Print the version; with --json commit, target, features and HDF5 library as well
+    #[arg(short = 'V', long)]
+    pub version: bool,
+    /// With --version: print one JSON object
+    #[arg(long, requires = "version")]
+    pub json: bool,
+    /// Say on standard error what is done and how long it takes; -vv also what is found
+    #[arg(short, long, global = true, action = ArgAction::Count, help_heading = "Screen")]
+    pub verbose: u8,
+    /// Colour; auto asks the terminal and NO_COLOR
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value = "auto",
+        value_name = "WHEN",
+        help_heading = "Screen"
+    )]
+    pub color: ColorChoice,
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
+}
+
+/// When there is colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ColorChoice {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Everywhere
+    Always,
+    /// Nowhere
+    Never,
 }
 
 /// A command.
@@ -109,6 +139,12 @@ pub enum Command {
         /// Which file
         #[arg(default_value = "case")]
         file: SchemaOf,
+    },
+    /// Write the manual pages of the program and of its commands
+    Man {
+        /// Folder in which the pages are written
+        #[arg(long, value_name = "FOLDER")]
+        pages: OutputFolder,
     },
     /// Print shell completions
     Completions {

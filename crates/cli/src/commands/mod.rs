@@ -7,6 +7,7 @@ pub mod gap;
 mod hysteresis;
 pub mod ida;
 mod impact;
+mod man;
 mod merge;
 pub mod models;
 mod motion;
@@ -70,6 +71,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             SchemaOf::Study => pounding_study::study_schema(),
             SchemaOf::Hazard => pounding_study::hazard_schema(),
         })?),
+        Command::Man { pages } => man::man(&pages),
         Command::Completions { shell } => {
             let mut bytes = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "pounding", &mut bytes);

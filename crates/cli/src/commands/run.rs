@@ -57,12 +57,14 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     let mut recorders: Vec<&mut dyn Recorder> = Vec::new();
     recorders.extend(writer.as_mut().map(|w| w as &mut dyn Recorder));
     recorders.extend(picture.as_mut().map(|p| p as &mut dyn Recorder));
+    let span = tracing::info_span!("integrate").entered();
     let outcomes = integrate_both(&assembly, &mut recorders, &progress);
     let (outcome, isolated) = outcomes.map_err(|error| {
         let written = writer.as_ref().and_then(|w| w.responses.failure());
         written.map_or_else(|| failed(error), Failure::from)
     })?;
-    drop(progress);
+    drop((progress, span));
+    let span = tracing::info_span!("write").entered();
     let wall_time = started.elapsed().as_secs_f64();
     let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
     // What the buildings do without their neighbours is for comparison: where it has no end,
@@ -87,6 +89,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
         plot::write_drawn(path, picture.responses.picture(), &arguments.figure)?;
     }
+    drop(span);
     if arguments.json {
         let summary = Summary::of(&assembly.system, (&outcome, &isolated), &warnings);
         return print(&pretty(&summary)?);

@@ -53,6 +53,35 @@ gaps = ["20 mm"]
 hazard = "hazard.csv"
 "#;
 
+/// Metadata of the station that recorded `counts.mseed`: 1000 counts per m/s2.
+const STATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1">
+ <Network code="XX"><Station code="NONE">
+  <Channel code="HNE" locationCode="" startDate="2000-01-01T00:00:00"><SampleRate>50</SampleRate>
+   <Response><InstrumentSensitivity><Value>1000</Value><Frequency>1</Frequency>
+    <InputUnits><Name>M/S**2</Name></InputUnits><OutputUnits><Name>counts</Name></OutputUnits>
+   </InstrumentSensitivity></Response>
+  </Channel>
+ </Station></Network>
+</FDSNStationXML>
+"#;
+
+/// One record of miniSEED, 112 whole numbers at 50 Hz.
+fn counts() -> Vec<u8> {
+    let mut bytes = b"000001D NONE   HNEXX".to_vec();
+    let header: [u16; 6] = [2001, 1, 0, 0, 0, 112];
+    bytes.extend(header.iter().flat_map(|n| n.to_be_bytes()));
+    bytes.extend([0, 50, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 64, 0, 48]);
+    // Blockette 1000: integers of four bytes, the high one first, in 512 bytes.
+    bytes.extend([3, 232, 0, 0, 3, 1, 9, 0]);
+    bytes.resize(64, 0);
+    for i in 0..112 {
+        let count = (3000.0 * (0.14 * f64::from(i)).sin()) as i32;
+        bytes.extend(count.to_be_bytes());
+    }
+    bytes
+}
+
 /// The folder.
 pub struct Fixture {
     folder: TempDir,
@@ -112,6 +141,8 @@ impl Fixture {
         for (name, text) in files {
             std::fs::write(fixture.path(name), text).unwrap();
         }
+        std::fs::write(fixture.path("counts.mseed"), counts()).unwrap();
+        std::fs::write(fixture.path("station.xml"), STATION).unwrap();
         std::fs::create_dir(fixture.path("inside")).unwrap();
         fixture
     }

@@ -18,7 +18,7 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 34] = [
+const CALLS: [Call; 41] = [
     call("run case.toml", CASE),
     call("report result.h5", &["result.h5"]),
     call(
@@ -97,6 +97,31 @@ const CALLS: [Call; 34] = [
         &["record.csv", "target.csv"],
     ),
     call(
+        "motion info counts.mseed --response station.xml",
+        &["counts.mseed", "station.xml"],
+    ),
+    call(
+        "motion spectrum counts.mseed --response station.xml",
+        &["counts.mseed", "station.xml"],
+    ),
+    // Found beside the record, without being named.
+    call(
+        "motion convert counts.mseed",
+        &["counts.mseed", "station.xml"],
+    ),
+    call(
+        "motion convert counts.mseed --response station.xml",
+        &["counts.mseed", "station.xml"],
+    ),
+    call(
+        "motion process counts.mseed --response station.xml --scale target=target.csv,from=0.2s,to=0.5s",
+        &["counts.mseed", "station.xml", "target.csv"],
+    ),
+    call(
+        "motion match counts.mseed --response station.xml --target target.csv --from 0.2s --to 0.5s --tolerance 90%",
+        &["counts.mseed", "station.xml", "target.csv"],
+    ),
+    call(
         "motion match record.csv --target target.csv --from 0.2s --to 0.5s --tolerance 90%",
         &["record.csv", "target.csv"],
     ),
@@ -147,6 +172,7 @@ const CALLS: [Call; 34] = [
     ),
     call("hysteresis bilinear --cycles 1mm", &[]),
     call("models", &[]),
+    call("man", &[]),
 ];
 
 const CASE: &[&str] = &["case.toml", "record.csv", "target.csv", "step.csv"];

@@ -41,7 +41,7 @@ fn signs_of_peaks_are_compared() {
     // A magnitude that differs is reported with both signs.
     let (shown, _) = header_of(&folder, "98");
     assert!(
-        shown.contains("peak is 0.980000 m/s2, that of the samples -0.992500 m/s2"),
+        shown.contains("peak is 98.000 cm/s2, that of the samples -99.250 cm/s2"),
         "{shown}"
     );
 }

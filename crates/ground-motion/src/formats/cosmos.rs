@@ -1,4 +1,5 @@
-//! COSMOS 1.20: blocks that announce their count and their Fortran format.
+//! COSMOS 1.20: blocks that announce their count and their Fortran format; raw counts and
+//! volts by the sensitivities of recorder and sensor in the header.
 
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
@@ -18,7 +19,7 @@ const REMEDY: &str = "the header is not that of COSMOS 1.20: get the record agai
 
 pub(super) static FORMAT: Format = Format {
     name: "cosmos",
-    title: "COSMOS 1.20: V1c and V2c",
+    title: "COSMOS 1.20: V0c, V1c and V2c",
     source: "Consortium of Organizations for Strong-Motion Observation Systems",
     recognised_by: "(Format v in the first line",
     matches,
@@ -74,14 +75,14 @@ fn channel(
     let data = announcement.lower();
     let (expected, layout) = announced(source, announcement)?;
     let samples = source.block(lines, layout, Some(expected), None)?;
-    let unit = unit(source, announcement, &data, &integers)?;
+    let unit = unit(source, announcement, &data, (&integers, &reals))?;
     let mut draft = Draft::new(
         samples,
         unit,
         (reals.first, announcement.number + 1, lines.number()),
     );
     draft.header_count = Some(expected);
-    draft.times = Times::Step(reals.positive(62).map(|ms| ms / 1000.0));
+    draft.times = Times::Step(step(source, &integers, &reals)?);
     draft.processing = match integers.get(1) {
         Some(2.0) => Processing::Corrected,
         Some(s) if s < 2.0 => Processing::Raw,
@@ -104,9 +105,97 @@ fn channel(
         time: reals.get(65).map(|t| (t, 1.0e-3)),
         unit: None,
         shift: 0.0,
+        line: None,
     });
     durations(&mut draft, &text, &reals, announcement);
     Ok(draft)
+}
+
+/// Reals that hold the step of the series in this file (ms) and that of the raw record (s).
+const STEP: usize = 62;
+const RAW_STEP: usize = 34;
+
+/// The step (s): in a file of raw values both steps are that of the series.
+fn step(
+    source: &Source<'_>,
+    integers: &HeaderNumbers,
+    reals: &HeaderNumbers,
+) -> Result<Option<f64>, GroundMotionError> {
+    let own = reals.positive(STEP).map(|ms| ms / 1000.0);
+    let raw = reals
+        .positive(RAW_STEP)
+        .filter(|_| integers.get(1) == Some(0.0));
+    if let (Some(own), Some(raw)) = (own, raw)
+        && (own - raw).abs() > 1.0e-3 * own
+        && !source.options.lenient
+    {
+        return Err(source.error(
+            reals.line_of(STEP),
+            0,
+            format!(
+                "the step of the raw values is {own} s here, but {raw} s in line {}",
+                reals.line_of(RAW_STEP)
+            ),
+            "the header contradicts itself: get the record again, or set `lenient = true` to use the first",
+        ));
+    }
+    Ok(own.or(raw))
+}
+
+/// Reals that hold the recorder's volts a count (in millionths), the sensor's volts per unit of
+/// motion, and the gain between them.
+const MICROVOLTS_A_COUNT: usize = 22;
+const SENSITIVITY: usize = 42;
+const GAIN: usize = 47;
+
+/// Raw counts or volts, by what the header says of recorder and sensor: the sensor's
+/// sensitivity is in volts per g, per cm/s or per cm, as the quantity is.
+fn instrument(
+    source: &Source<'_>,
+    line: Line<'_>,
+    quantity: Quantity,
+    (of, volts): (&'static str, Option<f64>),
+    reals: &HeaderNumbers,
+) -> Result<DraftUnit, GroundMotionError> {
+    if source.options.sensitivity.is_some() && volts.is_none() {
+        // The user knows better.
+        return Ok(DraftUnit::Counts);
+    }
+    let nonzero = |index: usize| reals.get(index).filter(|v| *v != 0.0 && v.is_finite());
+    let volts = volts.or_else(|| nonzero(MICROVOLTS_A_COUNT).map(|v| v * 1.0e-6));
+    let (Some(volts), Some(sensitivity)) = (volts, nonzero(SENSITIVITY)) else {
+        let missing = if volts.is_none() {
+            format!("how many volts a count is (real {MICROVOLTS_A_COUNT})")
+        } else {
+            format!("the sensitivity of the sensor (real {SENSITIVITY})")
+        };
+        return Err(source.error(
+            line.number,
+            0,
+            format!("the values are {of}, and the header does not give {missing}"),
+            "give `sensitivity` in counts per m/s2, or use the V1 file of the same record",
+        ));
+    };
+    if reals.get(GAIN) == Some(0.0) {
+        return Err(source.error(
+            reals.line_of(GAIN),
+            0,
+            format!("the gain (real {GAIN}) is zero"),
+            "give `sensitivity` in counts per m/s2, or use the V1 file of the same record",
+        ));
+    }
+    let gain = nonzero(GAIN).unwrap_or(1.0);
+    let unit = match quantity {
+        Quantity::Acceleration => SeriesUnit::G,
+        Quantity::Velocity => SeriesUnit::CM_S,
+        Quantity::Displacement => SeriesUnit::CM,
+    };
+    Ok(DraftUnit::Scaled {
+        unit,
+        each: volts / sensitivity / gain,
+        of,
+        by: "by the recorder and the sensor in the header".to_owned(),
+    })
 }
 
 /// Reals that hold the length (s) of the raw record and of the series in this file.
@@ -207,7 +296,7 @@ fn unit(
     source: &Source<'_>,
     line: Line<'_>,
     lower: &str,
-    integers: &HeaderNumbers,
+    (integers, reals): (&HeaderNumbers, &HeaderNumbers),
 ) -> Result<DraftUnit, GroundMotionError> {
     if integers.get(1).is_some_and(|stage| stage >= 3.0) {
         return Err(GroundMotionError::Unsupported {
@@ -220,7 +309,45 @@ fn unit(
         .split_once("units=")
         .and_then(|(_, rest)| number::after(rest, "("))
         .map(|n| n.0);
-    let code = printed.or_else(|| integers.get(3));
+    let in_header = integers.get(3);
+    if let (Some(printed), Some(code)) = (printed, in_header)
+        && printed != code
+        && [printed, code].iter().any(|c| INSTRUMENT_CODES.contains(c))
+    {
+        return Err(source.error(
+            line.number,
+            0,
+            format!(
+                "the unit code is {printed} here, but {code} in line {}",
+                integers.line_of(3)
+            ),
+            "the header contradicts itself: get the record again",
+        ));
+    }
+    let code = printed.or(in_header);
+    let said = match integers.get(2) {
+        Some(1.0) => Some(Quantity::Acceleration),
+        Some(2.0) => Some(Quantity::Velocity),
+        Some(3.0 | 4.0) => Some(Quantity::Displacement),
+        Some(other) if code.is_some_and(|c| INSTRUMENT_CODES.contains(&c)) => {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: format!("physical parameter {other} is not one of translation"),
+                remedy: "use the file of a channel that records acceleration",
+            });
+        }
+        _ => None,
+    };
+    let quantity = said.or_else(|| sensor(lower, integers));
+    let values = |of, volts| match quantity {
+        Some(quantity) => instrument(source, line, quantity, (of, volts), reals),
+        None => Err(source.error(
+            line.number,
+            0,
+            format!("the values are {of}, and neither integer 2 nor this line says of what"),
+            REMEDY,
+        )),
+    };
     let unit = match code {
         Some(2.0) => SeriesUnit::G,
         Some(4.0 | 10.0) => SeriesUnit::CM_S2,
@@ -231,7 +358,9 @@ fn unit(
         Some(9.0) => SeriesUnit::IN,
         Some(11.0) => SeriesUnit::MILLI_G,
         Some(12.0) => SeriesUnit::MICRO_G,
-        Some(50.0) => return Ok(DraftUnit::Counts),
+        Some(50.0) => return values("counts", None),
+        Some(51.0) => return values("V", Some(1.0)),
+        Some(52.0) => return values("mV", Some(1.0e-3)),
         Some(other) => {
             return Err(source.error(
                 line.number,
@@ -242,12 +371,6 @@ fn unit(
         }
         None => return Ok(DraftUnit::Unstated),
     };
-    let said = match integers.get(2) {
-        Some(1.0) => Some(Quantity::Acceleration),
-        Some(2.0) => Some(Quantity::Velocity),
-        Some(3.0 | 4.0) => Some(Quantity::Displacement),
-        _ => None,
-    };
     match said {
         Some(quantity) if quantity != unit.quantity => Err(source.error(
             line.number,
@@ -257,6 +380,27 @@ fn unit(
         )),
         _ => Ok(DraftUnit::Stated(unit)),
     }
+}
+
+/// Unit codes of values that an instrument gives: counts, volts, millivolts.
+const INSTRUMENT_CODES: [f64; 3] = [50.0, 51.0, 52.0];
+
+/// What a raw record is of, where integer 2 does not say: the words of the line before the data,
+/// else the kind of the sensor, of which 1 to 999 feel acceleration and 1001 to 1999 velocity.
+fn sensor(lower: &str, integers: &HeaderNumbers) -> Option<Quantity> {
+    let words = [
+        ("accel", Quantity::Acceleration),
+        ("veloc", Quantity::Velocity),
+        ("displ", Quantity::Displacement),
+    ];
+    let in_words = words.into_iter().find(|(word, _)| lower.contains(word));
+    in_words
+        .map(|(_, quantity)| quantity)
+        .or_else(|| match integers.get(52)? {
+            kind if (1.0..1000.0).contains(&kind) => Some(Quantity::Acceleration),
+            kind if (1001.0..2000.0).contains(&kind) => Some(Quantity::Velocity),
+            _ => None,
+        })
 }
 
 /// Azimuth of integer 54, or the words of the header's line `Sta Chan`.

@@ -85,6 +85,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         time: header.peak_time,
         unit: None,
         shift: 0.0,
+        line: None,
     });
     if header.late {
         draft

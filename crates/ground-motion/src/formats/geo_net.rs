@@ -137,7 +137,7 @@ fn raw_unit(source: &Source<'_>, header: &Header<'_>) -> Result<DraftUnit, Groun
     let unit = words.next().and_then(SeriesUnit::parse);
     match (each, unit) {
         (Some(1.0), Some(unit)) => Ok(DraftUnit::Stated(unit)),
-        (Some(each), Some(unit)) if each > 0.0 => Ok(DraftUnit::Scaled(unit, each)),
+        (Some(each), Some(unit)) if each > 0.0 => Ok(DraftUnit::counts_of(unit, each)),
         _ => Err(source.error(
             line.number,
             0,
@@ -201,6 +201,7 @@ fn block(
             time: number::after(&l, " at "),
             unit: None,
             shift: pad,
+            line: None,
         })
     });
     let eleven = header.text[10].lower();

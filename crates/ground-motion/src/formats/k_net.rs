@@ -114,7 +114,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let mut draft = Draft::new(
         samples,
-        DraftUnit::Scaled(SeriesUnit::CM_S2, scale),
+        DraftUnit::counts_of(SeriesUnit::CM_S2, scale),
         (end, end + 1, lines.number()),
     );
     draft.component = direction(&header.direction);
@@ -129,6 +129,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         time: None,
         unit: Some(SeriesUnit::CM_S2),
         shift: 0.0,
+        line: None,
     });
     draft.processing = Processing::Raw;
     draft.title = format!("{}; earthquake of {}", header.station, header.origin_time);

@@ -13,6 +13,7 @@ use crate::select;
 use crate::source::Source;
 
 mod asa;
+mod bhrc;
 mod caltech_volume_1;
 mod caltech_volume_2;
 mod cosmos;
@@ -26,6 +27,7 @@ mod jma_csv;
 mod k_net;
 mod midas_sgs;
 mod mini_seed_2;
+mod nsmn;
 mod peer_at2;
 mod plain_columns;
 mod pounding_csv;
@@ -41,6 +43,7 @@ static FORMATS: Registry<Format> = Registry::new(
         &k_net::FORMAT,
         &jma_csv::FORMAT,
         &dyna::FORMAT,
+        &nsmn::FORMAT,
         &cwa::FORMAT,
         &geo_net::FORMAT,
         &cosmos::FORMAT,
@@ -49,6 +52,7 @@ static FORMATS: Registry<Format> = Registry::new(
         &csmip_v1::FORMAT,
         &csmip_v2::FORMAT,
         &usgs_smc::FORMAT,
+        &bhrc::FORMAT,
         &asa::FORMAT,
         &isesd::FORMAT,
         &peer_at2::FORMAT,
@@ -117,8 +121,9 @@ impl Format {
 /// A file that cannot be read, or whatever is wrong with its content, with file,
 /// line and column (byte for binary formats) and remedy.
 pub fn read_all(path: &Path, options: &ReadOptions) -> Result<Recording, GroundMotionError> {
+    let _span = tracing::info_span!("read_record", file = %path.display()).entered();
     let (file, bytes) = load(path)?;
-    read_all_bytes(&file, &bytes, options)
+    every_series(&file, &bytes, options, Some(path))
 }
 
 /// Reads every series from bytes; `file` names them in messages.
@@ -130,7 +135,16 @@ pub fn read_all_bytes(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Recording, GroundMotionError> {
-    let source = Source::new(file, bytes, options);
+    every_series(file, bytes, options, None)
+}
+
+fn every_series(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+    path: Option<&Path>,
+) -> Result<Recording, GroundMotionError> {
+    let source = Source::new(file, bytes, options, path);
     let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
     let format =
         options
@@ -148,14 +162,24 @@ pub fn read_all_bytes(
             "check `format`, or get the record again",
         ));
     }
-    let sha256: String = Sha256::digest(bytes)
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect();
+    if options.response.is_some() && series.iter().all(|s| s.origin.response.is_none()) {
+        return Err(GroundMotionError::Unsupported {
+            file: file.to_owned(),
+            what: format!(
+                "a file of response is given, but records of format {} state their unit themselves",
+                format.name
+            ),
+            remedy: "do not give `response`: it is for miniSEED records",
+        });
+    }
+    let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
         s.origin.format = format.name;
-        s.origin.sha256.clone_from(&sha256);
+        let response = s.origin.response.as_ref();
+        let all = response.map_or(own.clone(), |r| own.clone().chain_update(&r.sha256));
+        s.origin.sha256 = all.finalize().iter().map(|b| format!("{b:02x}")).collect();
         s.origin.warnings.extend(source.warnings());
+        tracing::debug!(format = format.name, series = %s.label(), samples = s.samples.len(), unit = %s.origin.unit, time_step = %s.origin.time_step, "read");
     }
     Ok(Recording { series })
 }
@@ -166,8 +190,10 @@ pub fn read_all_bytes(
 /// As [`read_all`]; also a velocity or displacement, a choice that is ambiguous,
 /// and uneven samples without a step to resample to.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Accelerogram, GroundMotionError> {
+    let _span = tracing::info_span!("read_record", file = %path.display()).entered();
     let (file, bytes) = load(path)?;
-    read_bytes(&file, &bytes, options)
+    let recording = every_series(&file, &bytes, options, Some(path))?;
+    select::excitation(&file, recording, options)
 }
 
 /// Reads the acceleration that the options choose from bytes; `file` names them

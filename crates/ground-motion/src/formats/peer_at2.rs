@@ -184,5 +184,6 @@ fn peak(unit: &DraftUnit, text: &str) -> Option<DraftPeak> {
         time: None,
         unit: None,
         shift: 0.0,
+        line: None,
     })
 }

@@ -189,5 +189,6 @@ fn fill(words: &Words<'_>, draft: &mut Draft) {
         time: None,
         unit: None,
         shift: 0.0,
+        line: None,
     });
 }

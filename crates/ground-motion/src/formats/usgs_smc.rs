@@ -1,17 +1,23 @@
 //! SMC of the United States Geological Survey: eleven lines of text, 48 integers,
-//! 50 reals, comments, then values of ten columns that touch.
+//! 50 reals, comments, then values of ten columns that touch; uncorrected records at even
+//! steps, or, where the header has no rate, as pairs of time and value.
 
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
-use crate::source::Source;
+use crate::source::{HeaderNumbers, Source};
 use crate::text::Line;
+use crate::time_column::{part_ties, tied_times};
 
 const TEXT_LINES: usize = 11;
+/// Rates from which a header's rate is nonsense, as some are.
+const MOST_SAMPLES_A_SECOND: f64 = 1.0e5;
+/// Numbers among which times that increase are no chance.
+const FEW_NUMBERS: usize = 20;
 const INTEGERS: Layout = Layout::new(8, 10);
 const REALS: Layout = Layout::new(5, 15);
 const DATA: Layout = Layout::new(8, 10);
@@ -66,22 +72,33 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     };
     let first = lines.number() + 1;
     let numbers = source.block(&mut lines, DATA, Some(count), None)?;
-    let pairs = text[0].bytes.starts_with(b"1");
-    let lines = (reals.first, first, lines.number());
-    let mut draft = if pairs {
-        // Integer 17 counts numbers, two per sample.
-        let times = numbers.chunks_exact(2).map(|p| p[0]).collect();
-        let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
-        let mut draft = Draft::new(samples, unit, lines);
-        draft.times = Times::Each(times);
-        draft.header_count = Some(count / 2);
-        draft
+    let kind = text[0].bytes.first();
+    let corrected = matches!(kind, Some(b'2'..=b'4'));
+    let rate = known(reals.positive(2)).filter(|rate| *rate < MOST_SAMPLES_A_SECOND);
+    let places = (reals.line_of(2), first, lines.number());
+    // Film is digitised at uneven times, printed before their values; uncorrected records
+    // at even steps state the rate. Times are known by their order, whatever the header says.
+    let unrated = kind == Some(&b'1') && rate.is_none();
+    let timed = !corrected && (unrated || times_increase(&numbers, count));
+    let mut draft = if timed {
+        pairs(numbers, unit, places, count)
     } else {
-        let mut draft = Draft::new(numbers, unit, lines);
-        draft.times = Times::Step(known(reals.positive(2)).map(|rate| 1.0 / rate));
+        let mut draft = Draft::new(numbers, unit, places);
+        draft.times = Times::Step(rate.map(|rate| 1.0 / rate));
         draft.header_count = Some(count);
         draft
     };
+    if let (true, Some(rate), Times::Each(_)) = (timed, rate, &draft.times) {
+        draft.warnings.push(format!(
+            "the header says {} samples/s, but every value has its time in the file, which is used",
+            bound(rate)
+        ));
+    }
+    if integers.get(18) == Some(1.0) {
+        draft.warnings.push(
+            "the agency marks the record as one with a problem: read its comments".to_owned(),
+        );
+    }
     draft.processing = match text[0].bytes.first() {
         Some(b'1') => Processing::Raw,
         Some(b'2'..=b'4') => Processing::Corrected,
@@ -89,12 +106,57 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     };
     draft.component = component(text[5], integers.get(13), integers.get(14));
     draft.title = format!("{}; {}", text[3].text().trim(), text[5].columns(0, 40));
+    draft.start_time = start_time(&integers);
     draft.corners.0 = known(reals.positive(33));
     draft.peak = peak(known(reals.get(29)), known(reals.get(30)), false)
         .into_iter()
         .chain(peak(known(reals.get(31)), known(reals.get(32)), true))
         .max_by(|a, b| a.value.0.abs().total_cmp(&b.value.0.abs()));
     Ok(vec![draft.finish(source)?])
+}
+
+/// Pairs of time and value; integer 17, `count`, counts numbers, two per sample.
+fn pairs(numbers: Vec<f64>, unit: DraftUnit, places: (usize, usize, usize), count: usize) -> Draft {
+    let mut times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
+    let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
+    // Behind the count a last row may hold anything.
+    let used = times.len().min(count / 2);
+    let tied = part_ties(&mut times[..used], digit);
+    let mut draft = Draft::new(samples, unit, places);
+    draft.times = Times::Each(times);
+    draft.header_count = Some(count / 2);
+    if tied > 0 {
+        draft.warnings.push(tied_times(tied));
+    }
+    draft
+}
+
+/// One unit of the last of the five digits that a time is printed with.
+fn digit(time: f64) -> f64 {
+    let exponent = if time > 0.0 {
+        time.log10().floor()
+    } else {
+        0.0
+    };
+    10.0_f64.powf(exponent - 4.0)
+}
+
+/// Whether every other number is a time: they go forward from the start to the end, as no
+/// ground motion does.
+fn times_increase(numbers: &[f64], count: usize) -> bool {
+    let used = &numbers[..numbers.len().min(count)];
+    let mut times = used.iter().step_by(2);
+    let Some(first) = times.next() else {
+        return false;
+    };
+    let mut last = *first;
+    for time in times {
+        if *time < last {
+            return false;
+        }
+        last = *time;
+    }
+    used.len() >= FEW_NUMBERS && last > *first && *first >= 0.0
 }
 
 /// The value unless it is the 1.7E+38 that stands for unknown.
@@ -132,6 +194,21 @@ fn component(line: Line<'_>, vertical: Option<f64>, azimuth: Option<f64>) -> Str
     })
 }
 
+/// Year, day of the year and time of day of the first sample, where the header has them all.
+fn start_time(integers: &HeaderNumbers) -> String {
+    let whole = |index| integers.get(index).filter(|n| *n >= 0.0);
+    let (Some(year), Some(day), Some(hour), Some(minute)) = (
+        integers.positive(2),
+        integers.positive(3),
+        whole(4),
+        whole(5),
+    ) else {
+        return String::new();
+    };
+    let second = whole(6).unwrap_or(0.0) + whole(7).unwrap_or(0.0) * 1.0e-3;
+    format!("{year} day {day} {hour:02}:{minute:02}:{second:06.3}")
+}
+
 fn peak(time: Option<f64>, value: Option<f64>, negative: bool) -> Option<DraftPeak> {
     let value = value.filter(|v| (*v < 0.0) == negative)?;
     Some(DraftPeak {
@@ -140,5 +217,6 @@ fn peak(time: Option<f64>, value: Option<f64>, negative: bool) -> Option<DraftPe
         time: time.map(|t| (t, 1.0e-4)),
         unit: None,
         shift: 0.0,
+        line: None,
     })
 }

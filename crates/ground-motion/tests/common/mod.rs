@@ -2,6 +2,7 @@
 //! be read from it.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod agencies;
 pub mod binary;
 pub mod japan;
 pub mod networks;
@@ -26,6 +27,7 @@ pub struct Truth {
 }
 
 /// A file with what must be read from it.
+#[derive(Clone)]
 pub struct Fixture {
     pub name: &'static str,
     pub format: &'static str,
@@ -151,13 +153,15 @@ pub fn fixtures(format: &'static str, offset: i64) -> Vec<Fixture> {
         "dyna" => text::dyna(written),
         "cwa" => japan::cwa(),
         "geo_net" => networks::geo_net(written),
-        "cosmos" => networks::cosmos(written),
-        "caltech_volume_1" => volumes::caltech_1(written),
+        "cosmos" => [networks::cosmos(written), agencies::cosmos_raw(written)].concat(),
+        "caltech_volume_1" => [volumes::caltech_1(written), agencies::usc(written)].concat(),
         "caltech_volume_2" => volumes::caltech_2(written),
         "csmip_v1" => volumes::csmip_1(written),
         "csmip_v2" => volumes::csmip_2(written),
-        "usgs_smc" => volumes::smc(written),
-        "asa" => text::asa(written),
+        "usgs_smc" => [volumes::smc(written), agencies::smc_raw(written)].concat(),
+        "bhrc" => agencies::bhrc(written),
+        "nsmn" => agencies::nsmn(written),
+        "asa" => [text::asa(written), agencies::asa(written)].concat(),
         "isesd" => text::isesd(written),
         "peer_at2" => text::peer(written),
         "midas_sgs" => text::midas(),

@@ -25,7 +25,7 @@ pub fn fixture(
 }
 
 /// Pairs of time and value at steps that vary by a fifth.
-fn pairs(values: &[f64], width: usize, decimals: usize) -> (String, Vec<f64>, Vec<f64>) {
+pub fn pairs(values: &[f64], width: usize, decimals: usize) -> (String, Vec<f64>, Vec<f64>) {
     let flat: Vec<f64> = values
         .iter()
         .enumerate()
@@ -40,7 +40,7 @@ fn pairs(values: &[f64], width: usize, decimals: usize) -> (String, Vec<f64>, Ve
     )
 }
 
-fn volume_1_text(first: &str, component: &str, written: i64, units: &str) -> String {
+pub fn volume_1_text(first: &str, component: &str, written: i64, units: &str) -> String {
     format!(
         "{first}\nMADE UP EARTHQUAKE\nJANUARY 1, 2000 00:00 PST\n00000-S0000-00000.00               TRIGGER TIME: 01/01/00, 08:00:00.0 UTC\nSTATION NO. 00000   34.000N, 118.000W     SMA-1  S/N 0000\nNOWHERE\n{component}\nMADE UP EARTHQUAKE     JANUARY 1, 2000 00:00 PST\nHYPOCENTER: NONE\nINSTR PERIOD =  .0400 SEC,  DAMPING =  .600,  SENSITIVITY = 1.80 CM/G.\nNO. OF POINTS = {written:>6}  RECORD LENGTH =   .110 SEC\n{units}\nRMS ACCEL OF COMPLETE RECORD =  .021 G.\n"
     )
@@ -278,7 +278,7 @@ pub fn csmip_2(written: i64) -> Vec<Fixture> {
 }
 
 /// `1PE10.4E1`: an exponent of one digit, no room before a minus.
-fn one_digit_exponents(values: &[f64]) -> (String, Vec<f64>) {
+pub fn one_digit_exponents(values: &[f64]) -> (String, Vec<f64>) {
     let mut text = String::new();
     let mut printed = Vec::new();
     for row in values.chunks(8) {

@@ -161,7 +161,7 @@ def read_motion(path: str | os.PathLike[str], *, name: str | None = None, **opti
     **options
         What the file does not say: ``format``, ``component``, ``unit``, ``time_step`` (s),
         ``quantity``, ``skip_lines``, ``skip_columns``, ``layout``, ``sensitivity``,
-        ``lenient``, as the keys of ``[ground_motion]`` in a case file.
+        ``lenient``, ``response``, as the keys of ``[ground_motion]`` in a case file.
 
     Raises
     ------

@@ -228,6 +228,7 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
         prepend_zero: false,
         lenient: false,
         sensitivity: None,
+        response: None,
         gravity: None,
         offset: Offset::default(),
         // What the case does to its own record it does to all.

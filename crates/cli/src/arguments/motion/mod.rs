@@ -57,12 +57,15 @@ pub struct ReadArguments {
     /// The first value is at one time step, after a zero
     #[arg(long)]
     pub prepend_zero: bool,
-    /// Accept fewer samples than the header says
+    /// Use samples that contradict the header's count, duration, step or peak, with a warning
     #[arg(long)]
     pub lenient: bool,
     /// Counts per m/s2 of the whole channel, for records in counts
     #[arg(long, allow_hyphen_values = true)]
     pub sensitivity: Option<String>,
+    /// StationXML with the sensitivities of a miniSEED record [default: one that lies beside it]
+    #[arg(long, value_name = "FILE")]
+    pub response: Option<InputPath>,
     /// The g of records in units of gravity [default: 9.80665 m/s^2]
     #[arg(long, allow_hyphen_values = true)]
     pub gravity: Option<String>,

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::measures::IntensityMeasures;
 use pounding_ground_motion::{
-    Accelerogram, HeaderPeak, Origin, Peak, Processing, Sampling, Series,
+    Accelerogram, HeaderPeak, Origin, Peak, Processing, ResponseFile, Sampling, Series,
 };
 use serde::Serialize;
 
@@ -41,6 +41,21 @@ fn header(file: &ShownFile) -> String {
         "{}\nformat {}, SHA-256 {}",
         file.file, first.format, first.sha256
     );
+    let mut responses: Vec<&ResponseFile> = Vec::new();
+    for response in file
+        .series
+        .iter()
+        .filter_map(|s| s.series.origin.response.as_ref())
+    {
+        if !responses.contains(&response) {
+            responses.push(response);
+            let _ = writeln!(
+                text,
+                "sensitivity by {}, SHA-256 {}; that of the record is of both",
+                response.file, response.sha256
+            );
+        }
+    }
     let mut reported: Vec<String> = Vec::new();
     for one in &file.series {
         let origin = &one.series.origin;

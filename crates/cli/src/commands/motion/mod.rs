@@ -16,13 +16,18 @@ mod synth;
 mod words;
 mod writing;
 
-use pounding_files::FileUse;
+use std::path::PathBuf;
 
-use crate::arguments::MotionCommand;
+use pounding_files::FileUse;
+use pounding_ground_motion::responses_beside;
+
+use crate::arguments::{InputPath, MotionCommand, ReadArguments};
 use crate::failure::Failure;
+use crate::files::reads_too;
 
 /// Carries a command on motions out.
-pub fn motion(command: &MotionCommand, files: FileUse) -> Result<(), Failure> {
+pub fn motion(command: &MotionCommand, mut files: FileUse) -> Result<(), Failure> {
+    reads_too(&mut files, metadata(command))?;
     match command {
         MotionCommand::Info(arguments) => info::info(arguments),
         MotionCommand::Spectrum(arguments) => spectrum::spectrum(arguments),
@@ -31,4 +36,23 @@ pub fn motion(command: &MotionCommand, files: FileUse) -> Result<(), Failure> {
         MotionCommand::Synth(arguments) => synth::synth(arguments),
         MotionCommand::Match(arguments) => matching::matching(arguments),
     }
+}
+
+/// The metadata of stations that lie beside the records, which are read where none is named.
+fn metadata(command: &MotionCommand) -> Vec<(&'static str, PathBuf)> {
+    let (read, records): (&ReadArguments, Vec<&InputPath>) = match command {
+        MotionCommand::Info(a) => (&a.read, a.files.iter().collect()),
+        MotionCommand::Spectrum(a) => (&a.read, a.file.iter().chain(&a.second_file).collect()),
+        MotionCommand::Convert(a) => (&a.read, vec![&a.file]),
+        MotionCommand::Process(a) => (&a.read, vec![&a.file]),
+        MotionCommand::Match(a) => (&a.read, vec![&a.file]),
+        MotionCommand::Synth(_) => return Vec::new(),
+    };
+    if read.response.is_some() {
+        return Vec::new();
+    }
+    let beside = records
+        .into_iter()
+        .flat_map(|record| responses_beside(record));
+    beside.map(|path| ("station's metadata", path)).collect()
 }

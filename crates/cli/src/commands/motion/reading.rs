@@ -46,6 +46,7 @@ pub fn options(arguments: &ReadArguments, unless: Offset) -> Result<ReadOptions,
         prepend_zero: arguments.prepend_zero,
         lenient: arguments.lenient,
         sensitivity: positive(&arguments.sensitivity, "sensitivity", SENSITIVITY)?,
+        response: arguments.response.as_ref().map(|p| p.to_path_buf()),
         gravity: positive(&arguments.gravity, "gravity", Dimension::ACCELERATION)?,
         offset: match arguments.offset {
             None => unless,

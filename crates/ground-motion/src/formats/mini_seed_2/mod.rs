@@ -1,6 +1,6 @@
 //! miniSEED 2 (FDSN SEED manual, version 2.4, chapter 8 and appendix B): records of
 //! integers, floats, Steim-1 or Steim-2. Counts: the sensitivity is in the
-//! station's metadata, not in the file.
+//! station's metadata, not in the file; StationXML beside it, or named by the user, gives it.
 
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
@@ -8,6 +8,7 @@ use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::recording::Series;
 use crate::source::Source;
+use crate::station_xml::{ResponseFile, Responses, Sensitivity};
 
 mod record;
 mod steim;
@@ -39,11 +40,16 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     // The file's order among equal times, for messages.
     records.sort_by_key(|r| (r.name, r.start, r.at));
+    let responses = responses(source, &records)?;
     let mut series = Vec::new();
     let mut velocity = None;
     for channel in records.chunk_by(|a, b| a.name == b.name) {
         let name = channel[0].label();
-        if channel[0].is_velocity() {
+        let known = match &responses {
+            Some(responses) => responses.of(source.file, &channel[0].channel_name())?,
+            None => Err(String::new()),
+        };
+        if known.is_err() && channel[0].is_velocity() {
             source.warn(&format!(
                 "channel {name} records velocity and was passed over"
             ));
@@ -52,7 +58,28 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         }
         let mut draft = draft(source, channel)?;
         draft.channel = series.len() + 1;
-        series.push(draft.finish(source)?);
+        let mut response = None;
+        match known {
+            Ok(known) => {
+                draft.unit = unit(&known);
+                draft.warnings.extend(known.warnings);
+                response = Some(ResponseFile {
+                    file: known.file,
+                    sha256: known.sha256,
+                });
+            }
+            Err(reason) if responses.is_some() => {
+                return Err(GroundMotionError::MissingSensitivity {
+                    file: source.file.to_owned(),
+                    searched: format!(": {reason}"),
+                });
+            }
+            // The user gives the sensitivity.
+            Err(_) => {}
+        }
+        let mut finished = draft.finish(source)?;
+        finished.origin.response = response;
+        series.push(finished);
     }
     if series.is_empty() && velocity.is_some() {
         return Err(GroundMotionError::NotAcceleration {
@@ -61,6 +88,44 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         });
     }
     Ok(series)
+}
+
+/// Where the sensitivities of the channels stand; `None` where the user gives one number.
+fn responses(
+    source: &Source<'_>,
+    records: &[Record],
+) -> Result<Option<Responses>, GroundMotionError> {
+    let given = source.options.response.as_deref();
+    if source.options.sensitivity.is_some() {
+        if given.is_some() {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: "both a sensitivity and a file of response are given".to_owned(),
+                remedy: "give one of `sensitivity` and `response`",
+            });
+        }
+        return Ok(None);
+    }
+    let mut stations: Vec<String> = records.iter().map(|r| r.channel_name().station).collect();
+    stations.dedup();
+    Responses::find(given, source.path, &stations).map(Some)
+}
+
+/// Counts by the sensitivity of StationXML, which holds at one frequency: accelerometers are
+/// taken to be flat, as with a sensitivity that the user gives.
+fn unit(known: &Sensitivity) -> DraftUnit {
+    let frequency = known
+        .frequency
+        .map_or(String::new(), |f| format!(" at {f} Hz"));
+    DraftUnit::Scaled {
+        unit: known.unit,
+        each: 1.0 / known.value,
+        of: "counts",
+        by: format!(
+            "{} per {}{frequency} by {}",
+            known.value, known.unit.symbol, known.file
+        ),
+    }
 }
 
 /// One channel from its records in the order of time.

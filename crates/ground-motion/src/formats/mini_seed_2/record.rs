@@ -5,6 +5,7 @@ use std::fmt;
 use super::steim;
 use crate::error::GroundMotionError;
 use crate::source::Source;
+use crate::station_xml::ChannelName;
 use crate::text::latin_1;
 
 const HEADER: usize = 48;
@@ -169,6 +170,20 @@ impl Record {
             part(5, 7),
             part(7, 10)
         )
+    }
+
+    /// The channel and its start as the station's metadata name them.
+    pub(super) fn channel_name(&self) -> ChannelName {
+        let part = |from: usize, to: usize| latin_1(&self.name[from..to]).trim().to_owned();
+        ChannelName {
+            network: part(10, 12),
+            station: part(0, 5),
+            location: part(5, 7),
+            channel: part(7, 10),
+            start: self.start,
+            start_text: self.start_text.to_string(),
+            rate: self.rate,
+        }
     }
 
     pub(super) fn channel(&self) -> String {

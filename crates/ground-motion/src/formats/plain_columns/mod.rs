@@ -154,7 +154,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         return Err(error);
     }
     let bytes = decimal::with_points(source, header.as_ref())?;
-    let pointed = Source::new(source.file, &bytes, source.options);
+    let pointed = Source::new(source.file, &bytes, source.options, source.path);
     let series = match (numbers(&pointed, header.as_ref()), faulty) {
         // Unit and step may well be there: why they were not understood is the reason.
         (

@@ -1,0 +1,226 @@
+//! National Strong-Motion Network of Turkey, the layout of 2017: lines `KEY : value`, a line
+//! that names the columns, then a column for each component.
+
+use crate::accelerogram::Processing;
+use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, Times};
+use crate::error::GroundMotionError;
+use crate::formats::Format;
+use crate::number;
+use crate::quantity::SeriesUnit;
+use crate::recording::Series;
+use crate::source::Source;
+use crate::text::{Line, Lines};
+
+const REMEDY: &str =
+    "the header is not that of the national network of Turkey: get the record again";
+/// Lines that a header may have; 18 in the files seen.
+const HEADER_LINES: usize = 100;
+/// Components that a file may have.
+const MOST_COLUMNS: usize = 12;
+
+/// What the header says.
+#[derive(Default)]
+struct Header {
+    place: String,
+    station: String,
+    start: String,
+    count: Option<usize>,
+    step: Option<f64>,
+    unit: Option<SeriesUnit>,
+    /// Peak of each component by its name, with the line.
+    peaks: Vec<(String, Printed, usize)>,
+    names: Vec<String>,
+}
+
+pub(super) static FORMAT: Format = Format {
+    name: "nsmn",
+    title: "National Strong-Motion Network of Turkey, 2017",
+    source: "Disaster and Emergency Management Authority (AFAD), Turkey",
+    recognised_by: "a first line that starts with STRONG GROUND MOTION RECORDS OF TURK",
+    matches,
+    read,
+};
+
+fn matches(source: &Source<'_>) -> bool {
+    source
+        .first_line()
+        .trim_start()
+        .starts_with("strong ground motion records of turk")
+}
+
+fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let mut lines = source.lines();
+    let header = Header::read(source, &mut lines)?;
+    let end = lines.number();
+    let count = header.names.len();
+    let room = lines.remaining() / (2 * count) + 1;
+    let room = room.min(header.count.unwrap_or(0));
+    let mut columns: Vec<Vec<f64>> = (0..count).map(|_| Vec::with_capacity(room)).collect();
+    for line in lines.by_ref().filter(|l| !l.is_blank()) {
+        let mut fields = line.fields();
+        for column in &mut columns {
+            let (at, field) = fields.next().ok_or_else(|| {
+                source.error(
+                    line.number,
+                    line.bytes.len(),
+                    format!("fewer than {count} numbers, one for each component"),
+                    "the file is damaged or truncated: get it again",
+                )
+            })?;
+            column.push(source.number(line, at, field)?);
+        }
+        if let Some((at, _)) = fields.next() {
+            return Err(source.error(
+                line.number,
+                at,
+                format!("more than {count} numbers, one for each component"),
+                REMEDY,
+            ));
+        }
+    }
+    let mut series = Vec::new();
+    for (k, samples) in columns.into_iter().enumerate() {
+        let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
+        header.fill(k, &mut draft);
+        series.push(draft.finish(source)?);
+    }
+    Ok(series)
+}
+
+impl Header {
+    /// Reads up to the line that names the columns.
+    fn read<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Self, GroundMotionError> {
+        let mut header = Self::default();
+        while header.names.is_empty() {
+            if lines.number() >= HEADER_LINES {
+                return Err(source.error(
+                    lines.number(),
+                    0,
+                    format!("no line such as N-S E-W U-D in the first {HEADER_LINES}"),
+                    REMEDY,
+                ));
+            }
+            let line = source.expect(lines, "the names of the components")?;
+            match line.text().split_once(':') {
+                Some((key, value)) => header.take(source, line, key, value.trim())?,
+                None if line.is_blank() || line.bytes.iter().any(u8::is_ascii_alphabetic) => {
+                    header.names = names(line)
+                }
+                None => {
+                    return Err(source.error(
+                        line.number,
+                        0,
+                        "numbers before a line such as N-S E-W U-D",
+                        REMEDY,
+                    ));
+                }
+            }
+        }
+        Ok(header)
+    }
+
+    fn take(
+        &mut self,
+        source: &Source<'_>,
+        line: Line<'_>,
+        key: &str,
+        value: &str,
+    ) -> Result<(), GroundMotionError> {
+        let at = line
+            .bytes
+            .iter()
+            .position(|b| *b == b':')
+            .map_or(0, |n| n + 1);
+        let upper = key.trim().to_ascii_uppercase();
+        match upper.as_str() {
+            "PLACE" => value.clone_into(&mut self.place),
+            "STATION ID" => value.clone_into(&mut self.station),
+            "RECORD TIME" => value.clone_into(&mut self.start),
+            "NUMBER OF DATA" => {
+                self.count = Some(value.parse().map_err(|_| {
+                    source.error(
+                        line.number,
+                        at,
+                        format!(
+                            "\"{}\" is not a number of samples",
+                            number::shown(value.as_bytes())
+                        ),
+                        REMEDY,
+                    )
+                })?);
+            }
+            k if k.starts_with("SAMPLING INTERVAL") => {
+                let step = source.number(line, at, value.as_bytes())?;
+                let milli = k.contains("(MS") || k.contains("MSEC");
+                self.step = Some(if milli { 1.0e-3 * step } else { step });
+            }
+            k if k.contains("PGA") => {
+                let unit = key
+                    .split_once('(')
+                    .and_then(|(_, rest)| rest.split(')').next());
+                if let Some(unit) = unit {
+                    self.unit = Some(SeriesUnit::parse(unit).ok_or_else(|| {
+                        source.error(
+                            line.number,
+                            0,
+                            format!(
+                                "\"{}\" is not a unit of acceleration",
+                                number::shown(unit.as_bytes())
+                            ),
+                            REMEDY,
+                        )
+                    })?);
+                }
+                // `(N-S) 13.2 (E-W) 12.1 (U-D) 9.8`
+                for part in value.split('(').skip(1) {
+                    if let Some((name, rest)) = part.split_once(')')
+                        && let Some(peak) = number::first_in(rest)
+                    {
+                        self.peaks.push((name.trim().to_owned(), peak, line.number));
+                    }
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn fill(&self, k: usize, draft: &mut Draft) {
+        let name = &self.names[k];
+        draft.component.clone_from(name);
+        draft.channel = k + 1;
+        draft.times = Times::Step(self.step);
+        draft.header_count = self.count;
+        draft.processing = Processing::Raw;
+        draft.title = format!("{}; {}", self.place, self.station);
+        draft.start_time.clone_from(&self.start);
+        let peak = self
+            .peaks
+            .iter()
+            .find(|(of, ..)| of.eq_ignore_ascii_case(name));
+        draft.peak = peak.map(|(_, value, line)| DraftPeak {
+            value: *value,
+            time: None,
+            unit: self.unit,
+            shift: 0.0,
+            line: Some(*line),
+        });
+    }
+}
+
+/// Names of columns: words of letters that say a direction, such as `N-S`, `E-W` and `U-D`.
+fn names(line: Line<'_>) -> Vec<String> {
+    let direction = |word: &str| {
+        let plain: String = word.chars().filter(|c| c.is_ascii_alphabetic()).collect();
+        let plain = plain.to_ascii_uppercase();
+        ["NS", "EW", "UD", "N", "E", "U", "Z", "V", "SN", "WE", "DU"].contains(&plain.as_str())
+    };
+    let text = line.text();
+    let words: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
+    if words.len() <= MOST_COLUMNS && words.iter().all(|w| direction(w)) {
+        words
+    } else {
+        Vec::new()
+    }
+}

@@ -1,0 +1,524 @@
+//! StationXML (Federation of Digital Seismograph Networks, versions 1.0 to 1.2): the sensitivity
+//! of a channel, with the unit of the ground motion that it counts.
+
+use std::path::{Path, PathBuf};
+
+use roxmltree::{Document, Node, ParsingOptions};
+use sha2::{Digest, Sha256};
+
+use crate::error::GroundMotionError;
+use crate::quantity::SeriesUnit;
+
+/// Largest file that is read (bytes), and elements and texts that it may have: a network's
+/// stations with all their stages take some ten million bytes.
+const MOST_BYTES: u64 = 64 << 20;
+const MOST_NODES: u32 = 4_000_000;
+/// Bytes in which the root element must stand, and files of a folder that are looked into.
+const HEAD: usize = 4096;
+const MOST_FILES: usize = 256;
+/// Part by which the stages' gains may differ from the whole sensitivity.
+const GAIN_TOLERANCE: f64 = 0.05;
+
+/// A channel as its record names it.
+pub(crate) struct ChannelName {
+    pub network: String,
+    pub station: String,
+    pub location: String,
+    pub channel: String,
+    /// Time of the first sample (us after the year 1900).
+    pub start: i64,
+    /// The same for messages.
+    pub start_text: String,
+    /// Samples per second.
+    pub rate: f64,
+}
+
+impl ChannelName {
+    fn label(&self) -> String {
+        format!(
+            "{}.{}.{}.{}",
+            self.network, self.station, self.location, self.channel
+        )
+    }
+}
+
+/// What a file says of a channel.
+#[derive(Debug, Clone)]
+pub(crate) struct Sensitivity {
+    /// Counts per `unit`.
+    pub value: f64,
+    pub unit: SeriesUnit,
+    /// Frequency (Hz) for which it holds.
+    pub frequency: Option<f64>,
+    /// Name of the file, and SHA-256 of its bytes.
+    pub file: String,
+    pub sha256: String,
+    pub warnings: Vec<String>,
+}
+
+/// A file that gives the sensitivity of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseFile {
+    /// Its path as given, or as found beside the record.
+    pub file: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+}
+
+/// Where to look for the sensitivities of a record.
+pub(crate) enum Responses {
+    /// The file that the user names.
+    Given(StationFile),
+    /// What lies beside the record, and why others there were passed over.
+    Beside(Vec<StationFile>, Vec<String>),
+}
+
+/// A StationXML file that was read.
+pub(crate) struct StationFile {
+    file: String,
+    sha256: String,
+    text: String,
+}
+
+/// The files of a folder that may be StationXML: what ends in `.xml` and has its root element.
+///
+/// A record whose header does not state its sensitivity is held against these; whoever writes
+/// files must not write over them.
+#[must_use]
+pub fn responses_beside(record: &Path) -> Vec<PathBuf> {
+    let folder = match record.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return Vec::new();
+    };
+    let mut names: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(PathBuf::from(entry.ok()?.file_name())))
+        .filter(|name| {
+            name.extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("xml"))
+        })
+        .collect();
+    names.sort();
+    names
+        .into_iter()
+        .take(MOST_FILES)
+        .map(|name| record.with_file_name(name))
+        .filter(|path| is_station_xml(path))
+        .collect()
+}
+
+fn is_station_xml(path: &Path) -> bool {
+    use std::io::Read;
+    let regular = std::fs::metadata(path).is_ok_and(|found| found.is_file());
+    let Some(file) = regular.then(|| std::fs::File::open(path).ok()).flatten() else {
+        return false;
+    };
+    let mut head = Vec::with_capacity(HEAD);
+    let read = file.take(HEAD as u64).read_to_end(&mut head);
+    read.is_ok() && holds_root(&head)
+}
+
+fn holds_root(bytes: &[u8]) -> bool {
+    let root = b"FDSNStationXML";
+    let head = &bytes[..bytes.len().min(HEAD)];
+    head.windows(root.len()).any(|w| w == root)
+}
+
+impl Responses {
+    /// The file that the user names, else those beside the record of which the names hold a
+    /// station, or all where none does.
+    ///
+    /// # Errors
+    /// A named file that cannot be read or is no StationXML.
+    pub(crate) fn find(
+        given: Option<&Path>,
+        record: Option<&Path>,
+        stations: &[String],
+    ) -> Result<Self, GroundMotionError> {
+        if let Some(path) = given {
+            return StationFile::read(path).map(Self::Given);
+        }
+        let beside = record.map_or(Vec::new(), responses_beside);
+        let of_station = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let name = name.to_ascii_lowercase();
+            stations
+                .iter()
+                .any(|s| name.contains(&s.to_ascii_lowercase()))
+        };
+        let named: Vec<PathBuf> = beside.iter().filter(|p| of_station(p)).cloned().collect();
+        let chosen = if named.is_empty() { beside } else { named };
+        let (mut files, mut wrong) = (Vec::new(), Vec::new());
+        for path in chosen {
+            match StationFile::read(&path) {
+                Ok(file) => files.push(file),
+                Err(error) => wrong.push(error.to_string()),
+            }
+        }
+        Ok(Self::Beside(files, wrong))
+    }
+
+    /// The sensitivity of a channel. `Err` of the inner result says why there is none.
+    ///
+    /// # Errors
+    /// Files that contradict one another, and all that is wrong with a file that the user names.
+    pub(crate) fn of(
+        &self,
+        record: &str,
+        name: &ChannelName,
+    ) -> Result<Result<Sensitivity, String>, GroundMotionError> {
+        let (files, wrong) = match self {
+            Self::Given(file) => return Ok(Ok(file.sensitivity(name)?)),
+            Self::Beside(files, wrong) => (files, wrong),
+        };
+        let mut found: Option<Sensitivity> = None;
+        let mut reasons = wrong.clone();
+        for file in files {
+            match (file.sensitivity(name), &found) {
+                (Err(error), _) => reasons.push(error.to_string()),
+                (Ok(other), Some(first))
+                    if other.value != first.value || other.unit != first.unit =>
+                {
+                    return Err(GroundMotionError::Unsupported {
+                        file: record.to_owned(),
+                        what: format!(
+                            "the sensitivity of {} is {} per {} in {}, but {} per {} in {}",
+                            name.label(),
+                            first.value,
+                            first.unit.symbol,
+                            first.file,
+                            other.value,
+                            other.unit.symbol,
+                            other.file
+                        ),
+                        remedy: "name the one that is right: `response` in [ground_motion] of a case, `--response FILE` with `pounding motion`",
+                    });
+                }
+                (Ok(first), None) => found = Some(first),
+                (Ok(_), Some(_)) => {}
+            }
+        }
+        Ok(found.ok_or_else(|| match reasons.is_empty() {
+            true => "no StationXML lies beside it".to_owned(),
+            false => reasons.join("; "),
+        }))
+    }
+}
+
+impl StationFile {
+    fn read(path: &Path) -> Result<Self, GroundMotionError> {
+        let file = path.display().to_string();
+        crate::formats::regular(path, &file)?;
+        let refused = |what: String| GroundMotionError::Unsupported {
+            file: file.clone(),
+            what,
+            remedy: "give the station's StationXML, as a data centre's station service sends it at level=channel or level=response",
+        };
+        let length = std::fs::metadata(path).map_or(0, |m| m.len());
+        if length > MOST_BYTES {
+            return Err(refused(format!(
+                "{length} bytes are more than any station's metadata"
+            )));
+        }
+        let bytes = std::fs::read(path).map_err(|source| GroundMotionError::Io {
+            file: file.clone(),
+            source,
+        })?;
+        if !holds_root(&bytes) {
+            return Err(refused(
+                "this is no StationXML: the element FDSNStationXML is missing".to_owned(),
+            ));
+        }
+        let sha256 = Sha256::digest(&bytes)
+            .iter()
+            .map(|b| format!("{b:02x}"))
+            .collect();
+        // Names alone may hold other letters than those of ASCII.
+        let text = String::from_utf8(bytes)
+            .unwrap_or_else(|e| e.into_bytes().iter().map(|b| char::from(*b)).collect());
+        let text = match text.strip_prefix('\u{feff}') {
+            Some(rest) => rest.to_owned(),
+            None => text,
+        };
+        Ok(Self { file, sha256, text })
+    }
+
+    fn refused(&self, line: usize, message: String, remedy: &str) -> GroundMotionError {
+        GroundMotionError::Parse {
+            file: self.file.clone(),
+            line,
+            column: 1,
+            message,
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// The sensitivity of a channel at the time of its first sample.
+    fn sensitivity(&self, name: &ChannelName) -> Result<Sensitivity, GroundMotionError> {
+        let options = ParsingOptions {
+            allow_dtd: false,
+            nodes_limit: MOST_NODES,
+        };
+        let document = Document::parse_with_options(&self.text, options).map_err(|e| {
+            let line = e.pos().row as usize;
+            self.refused(line, format!("this is no XML: {e}"), "get the file again")
+        })?;
+        let epochs = self.epochs(&document, name);
+        let line = |node: &Node<'_, '_>| document.text_pos_at(node.range().start).row as usize;
+        let now: Vec<Node<'_, '_>> = epochs
+            .iter()
+            .copied()
+            .filter(|n| covers(n, name.start))
+            .collect();
+        let Some(channel) = now.first() else {
+            let what = if epochs.is_empty() {
+                format!("there is no channel {}", name.label())
+            } else {
+                format!(
+                    "no epoch of channel {} covers {}",
+                    name.label(),
+                    name.start_text
+                )
+            };
+            return Err(self.refused(
+                epochs.first().map_or(1, line),
+                what,
+                "give the StationXML of the record's station and time, or `sensitivity`",
+            ));
+        };
+        if let Some(other) = now.get(1) {
+            return Err(self.refused(
+                line(other),
+                format!(
+                    "a second epoch of channel {} covers {}",
+                    name.label(),
+                    name.start_text
+                ),
+                "take the epoch out that is wrong, or give `sensitivity`",
+            ));
+        }
+        let at = line(channel);
+        let remedy = "give `sensitivity` in counts per m/s2";
+        let whole = descendant(channel, "InstrumentSensitivity").ok_or_else(|| {
+            let message = format!("channel {} has no InstrumentSensitivity", name.label());
+            self.refused(
+                at,
+                message,
+                "ask for the station at level=response, or give `sensitivity` in counts per m/s2",
+            )
+        })?;
+        let at = line(&whole);
+        let value = number(&whole, "Value");
+        let value = value
+            .filter(|v| v.is_finite() && *v != 0.0)
+            .ok_or_else(|| {
+                let message = format!(
+                    "the sensitivity of {} is no number above zero",
+                    name.label()
+                );
+                self.refused(at, message, remedy)
+            })?;
+        let unit_of = |element| {
+            let units = child(&whole, element)?;
+            child(&units, "Name")?.text().map(|t| t.trim().to_owned())
+        };
+        let input = unit_of("InputUnits").unwrap_or_default();
+        let output = unit_of("OutputUnits").unwrap_or_default();
+        let unit = SeriesUnit::parse(&input).ok_or_else(|| {
+            let message = format!(
+                "channel {} records \"{input}\", which is no acceleration, velocity or displacement",
+                name.label()
+            );
+            self.refused(at, message, "use a channel that records the motion of the ground, or give `sensitivity`")
+        })?;
+        if !output.to_ascii_lowercase().starts_with("count") {
+            let message = format!(
+                "the sensitivity of {} gives \"{output}\", not counts",
+                name.label()
+            );
+            return Err(self.refused(at, message, remedy));
+        }
+        let frequency = number(&whole, "Frequency").filter(|f| f.is_finite() && *f >= 0.0);
+        Ok(Sensitivity {
+            value,
+            unit,
+            frequency,
+            file: self.file.clone(),
+            sha256: self.sha256.clone(),
+            warnings: self.doubts(channel, name, value, frequency),
+        })
+    }
+
+    /// What else the file says that does not agree with the record or with itself.
+    fn doubts(
+        &self,
+        channel: &Node<'_, '_>,
+        name: &ChannelName,
+        value: f64,
+        frequency: Option<f64>,
+    ) -> Vec<String> {
+        let mut doubts = Vec::new();
+        let gains = stage_gains(channel);
+        let product: f64 = gains.iter().product();
+        if !gains.is_empty() && !((product / value).abs() - 1.0).abs().le(&GAIN_TOLERANCE) {
+            doubts.push(format!(
+                "{}: the sensitivity of {} is {value}, the gains of its stages make {product}",
+                self.file,
+                name.label()
+            ));
+        }
+        let rate = number(channel, "SampleRate").filter(|rate| *rate > 0.0);
+        if let Some(rate) = rate.filter(|rate| (rate / name.rate - 1.0).abs() > 0.01) {
+            doubts.push(format!(
+                "{}: channel {} has {rate} samples/s, the record {}",
+                self.file,
+                name.label(),
+                name.rate
+            ));
+        }
+        if let Some(frequency) = frequency.filter(|f| *f > 0.5 * name.rate) {
+            doubts.push(format!(
+                "{}: the sensitivity holds at {frequency} Hz, beyond half the {} samples/s of the record",
+                self.file, name.rate
+            ));
+        }
+        doubts
+    }
+
+    /// The elements of a channel, one for each of its epochs.
+    fn epochs<'d>(&self, document: &'d Document<'_>, name: &ChannelName) -> Vec<Node<'d, 'd>> {
+        let is = |node: &Node<'_, '_>, attribute: &str, code: &str| {
+            node.attribute(attribute).unwrap_or_default().trim() == code
+        };
+        let location = |node: &Node<'_, '_>| {
+            let code = node.attribute("locationCode").unwrap_or_default().trim();
+            let plain = |code: &str| code.trim_matches('-').to_owned();
+            plain(code) == plain(&name.location)
+        };
+        let element =
+            |node: &Node<'_, '_>, tag: &str| node.is_element() && node.tag_name().name() == tag;
+        // A record may leave out its network.
+        let networks = document.root_element().children().filter(|n| {
+            element(n, "Network") && (name.network.is_empty() || is(n, "code", &name.network))
+        });
+        let stations = networks
+            .flat_map(|n| n.children())
+            .filter(|n| element(n, "Station") && is(n, "code", &name.station));
+        stations
+            .flat_map(|n| n.children())
+            .filter(|n| element(n, "Channel") && is(n, "code", &name.channel) && location(n))
+            .collect()
+    }
+}
+
+/// Gains of the stages, if they all hold at one frequency; a digital stage's may hold at zero.
+fn stage_gains(channel: &Node<'_, '_>) -> Vec<f64> {
+    let Some(response) = child(channel, "Response") else {
+        return Vec::new();
+    };
+    let stages = response
+        .children()
+        .filter(|n| n.tag_name().name() == "Stage");
+    let gains = stages.filter_map(|stage| child(&stage, "StageGain"));
+    let pairs: Option<Vec<(f64, f64)>> = gains
+        .map(|gain| {
+            Some((
+                number(&gain, "Value")?,
+                number(&gain, "Frequency").unwrap_or(0.0),
+            ))
+        })
+        .collect();
+    let pairs = pairs.unwrap_or_default();
+    let mut held: Vec<f64> = pairs.iter().map(|p| p.1).filter(|f| *f > 0.0).collect();
+    held.dedup();
+    if held.len() > 1 {
+        return Vec::new();
+    }
+    pairs.into_iter().map(|p| p.0).collect()
+}
+
+fn child<'a, 'd>(node: &Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>> {
+    node.children()
+        .find(|n| n.is_element() && n.tag_name().name() == tag)
+}
+
+/// `Response/TAG`.
+fn descendant<'a, 'd>(channel: &Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>> {
+    child(&child(channel, "Response")?, tag)
+}
+
+fn number(node: &Node<'_, '_>, tag: &str) -> Option<f64> {
+    child(node, tag)?.text()?.trim().parse().ok()
+}
+
+/// Whether the epoch of a channel covers a time: its end is the first moment that it does not.
+fn covers(channel: &Node<'_, '_>, time: i64) -> bool {
+    let bound = |attribute| channel.attribute(attribute).and_then(microseconds);
+    bound("startDate").is_none_or(|start| start <= time)
+        && bound("endDate").is_none_or(|end| time < end)
+}
+
+/// `2019-07-06T03:19:53.0000Z` in microseconds after the year 1900.
+fn microseconds(text: &str) -> Option<i64> {
+    let (date, time) = text
+        .trim()
+        .split_once('T')
+        .unwrap_or((text.trim(), "00:00:00"));
+    let mut parts = date.split('-');
+    let mut next = || parts.next()?.parse::<i64>().ok();
+    let (year, month, day) = (next()?, next()?, next()?);
+    if !((1..=9999).contains(&year) && (1..=12).contains(&month) && (1..=31).contains(&day)) {
+        return None;
+    }
+    let (clock, offset) = match time.find(['Z', '+', '-']) {
+        Some(at) => (&time[..at], time[at..].trim_start_matches('Z')),
+        None => (time, ""),
+    };
+    let mut parts = clock.split(':');
+    let hour: i64 = parts.next()?.parse().ok()?;
+    let minute: i64 = parts.next().unwrap_or("0").parse().ok()?;
+    let second: f64 = parts.next().unwrap_or("0").parse().ok()?;
+    if !((0..=24).contains(&hour) && (0..60).contains(&minute) && (0.0..61.0).contains(&second)) {
+        return None;
+    }
+    let ahead = match offset.split_once(':') {
+        Some((hours, minutes)) => {
+            let sign = if hours.starts_with('-') { -1 } else { 1 };
+            hours.parse::<i64>().ok()? * 60 + sign * minutes.parse::<i64>().ok()?
+        }
+        None => 0,
+    };
+    let minutes = days_after_1900(year, month, day) * 1440 + hour * 60 + minute - ahead;
+    Some(minutes * 60_000_000 + (second * 1.0e6).round() as i64)
+}
+
+/// Days from 1 January 1900 to a date of the Gregorian calendar.
+fn days_after_1900(year: i64, month: i64, day: i64) -> i64 {
+    let leap = year % 4 == 0 && year % 100 != 0 || year % 400 == 0;
+    let before = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
+    let of_year = before[(month - 1) as usize] + i64::from(leap && month > 2) + day - 1;
+    let past = year - 1;
+    365 * (year - 1900) + past / 4 - past / 100 + past / 400 - 460 + of_year
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the Unix epoch, 25567 days after 1 January 1900, and the leap day of 2000.
+    #[test]
+    fn times_of_epochs() {
+        let day = 86_400_000_000;
+        assert_eq!(microseconds("1900-01-01"), Some(0));
+        assert_eq!(microseconds("1970-01-01T00:00:00"), Some(25_567 * day));
+        let leap = microseconds("2000-03-01T00:00:00.5Z").unwrap_or_default();
+        assert_eq!(leap, (25_567 + 11_017) * day + 500_000);
+        assert_eq!(microseconds("2000-03-01T09:00:00.500+09:00"), Some(leap));
+        assert_eq!(microseconds("2000-02-29T19:00:00.5-05:00"), Some(leap));
+        for text in ["", "2000", "2000-13-01", "2000-01-01T99:00:00", "x-y-z"] {
+            assert_eq!(microseconds(text), None, "{text}");
+        }
+    }
+}

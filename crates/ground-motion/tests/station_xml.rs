@@ -1,0 +1,408 @@
+//! The sensitivity of miniSEED records by StationXML, named or beside the record: by hand, counts
+//! over counts per unit. What the metadata do not say, or say twice, is refused with its reason.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+use crate::common::binary::{Seed, record};
+use pounding_ground_motion::{
+    GroundMotionError, Quantity, ReadOptions, read, read_all, read_all_bytes, responses_beside,
+};
+
+const COUNTS: [i32; 5] = [100, -250, 400, 0, -50];
+
+fn seed(channel: &'static [u8; 3]) -> Vec<u8> {
+    record(&Seed {
+        channel,
+        encoding: 3,
+        big: true,
+        start: 5000,
+        count: 5,
+        data: COUNTS.iter().flat_map(|c| c.to_be_bytes()).collect(),
+    })
+}
+
+/// One epoch of a channel.
+struct Epoch<'a> {
+    channel: &'a str,
+    attributes: &'a str,
+    value: &'a str,
+    input: &'a str,
+    output: &'a str,
+    /// What else stands in the channel, and in its response.
+    more: (&'a str, &'a str),
+}
+
+const HNE: Epoch<'static> = Epoch {
+    channel: "HNE",
+    attributes: r#"locationCode="  " startDate="1999-01-01T00:00:00.0000" endDate="2001-01-01T00:00:00Z""#,
+    value: "2.5E+05",
+    input: "M/S**2",
+    output: "COUNTS",
+    more: ("<SampleRate>100</SampleRate>", ""),
+};
+
+fn station(epochs: &[Epoch<'_>]) -> String {
+    let channels: String = epochs
+        .iter()
+        .map(|e| {
+            format!(
+                "<Channel code=\"{}\" {}>\n{}<Response><InstrumentSensitivity><Value>{}</Value><Frequency>1.0</Frequency><InputUnits><Name>{}</Name></InputUnits><OutputUnits><Name>{}</Name></OutputUnits></InstrumentSensitivity>{}</Response></Channel>\n",
+                e.channel, e.attributes, e.more.0, e.value, e.input, e.output, e.more.1
+            )
+        })
+        .collect();
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<FDSNStationXML xmlns=\"http://www.fdsn.org/xml/station/1\" schemaVersion=\"1.1\">\n<Source>made up</Source>\n<Network code=\"YY\"/><Network code=\"XX\">\n<Station code=\"OTHER\"/><Station code=\"XXXXX\">\n<Site><Name>Nowhere, \u{160}umava</Name></Site>\n{channels}</Station></Network></FDSNStationXML>\n"
+    )
+}
+
+fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}
+
+fn with(response: &Path) -> ReadOptions {
+    ReadOptions {
+        response: Some(response.to_owned()),
+        ..ReadOptions::default()
+    }
+}
+
+/// The error of a record whose metadata are these, in full.
+fn refused(metadata: impl AsRef<[u8]>) -> String {
+    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let response = write(elsewhere.path(), "station.xml", metadata);
+    let error = read_all(&record, &with(&response)).unwrap_err();
+    let shown = format!("{error}; {}", error.help().unwrap());
+    assert!(shown.contains("station.xml"), "{shown}");
+    shown
+}
+
+#[test]
+fn named_and_beside_the_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let error = read(&record, &ReadOptions::default()).unwrap_err();
+    assert!(
+        error.to_string().contains("no StationXML lies beside it"),
+        "{error}"
+    );
+    assert!(error.help().unwrap().contains("--response"));
+    let elsewhere = tempfile::tempdir().unwrap();
+    let named = write(elsewhere.path(), "metadata.xml", station(&[HNE]));
+    let by_name = read_all(&record, &with(&named)).unwrap();
+    // Of the folder, what is no StationXML is passed over.
+    write(folder.path(), "another.xml", "<a/>");
+    let beside = write(folder.path(), "XX.XXXXX.xml", station(&[HNE]));
+    assert_eq!(responses_beside(&record), std::slice::from_ref(&beside));
+    let found = read_all(&record, &ReadOptions::default()).unwrap();
+    for (recording, file) in [(&by_name, &named), (&found, &beside)] {
+        let series = &recording.series[0];
+        assert_eq!(series.quantity, Quantity::Acceleration);
+        for (a, count) in series.samples.iter().zip(COUNTS) {
+            assert_eq!(*a, f64::from(count) * (1.0 / 2.5e5));
+        }
+        let origin = &series.origin;
+        assert_eq!(origin.warnings, Vec::<String>::new());
+        let unit = format!("250000 per m/s2 at 1 Hz by {}", file.display());
+        assert!(origin.unit.contains(&unit), "{}", origin.unit);
+        assert_eq!(
+            origin.response.as_ref().unwrap().file,
+            file.display().to_string()
+        );
+    }
+    // The same numbers as with the sensitivity itself; the hash tells that another file is in it.
+    let given = ReadOptions {
+        sensitivity: Some(2.5e5),
+        ..ReadOptions::default()
+    };
+    let by_number = read_all(&record, &given).unwrap();
+    assert_eq!(by_number.series[0].samples, found.series[0].samples);
+    assert_ne!(
+        by_number.series[0].origin.sha256,
+        found.series[0].origin.sha256
+    );
+    assert_eq!(
+        by_name.series[0].origin.sha256,
+        found.series[0].origin.sha256
+    );
+    write(
+        folder.path(),
+        "XX.XXXXX.xml",
+        station(&[HNE]).replace("made up", "changed"),
+    );
+    let other = read_all(&record, &ReadOptions::default()).unwrap();
+    assert_ne!(other.series[0].origin.sha256, found.series[0].origin.sha256);
+    // From bytes, which lie nowhere.
+    assert!(matches!(
+        read_all_bytes("file", &seed(b"HNE"), &ReadOptions::default()),
+        Err(GroundMotionError::MissingSensitivity { .. })
+    ));
+}
+
+/// Metadata that give other numbers are no choice of ours; those of other stations are none.
+#[test]
+fn several_files_beside_the_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    write(
+        folder.path(),
+        "a.xml",
+        station(&[HNE]).replace("XXXXX", "ZZZZZ"),
+    );
+    let error = read(&record, &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("a.xml") && error.contains("no channel XX.XXXXX..HNE"),
+        "{error}"
+    );
+    write(folder.path(), "b.xml", station(&[HNE]));
+    read(&record, &ReadOptions::default()).unwrap();
+    // The same in two files is one number.
+    write(folder.path(), "c.xml", station(&[HNE]));
+    read(&record, &ReadOptions::default()).unwrap();
+    write(
+        folder.path(),
+        "d.xml",
+        station(&[Epoch {
+            value: "300000",
+            ..HNE
+        }]),
+    );
+    let error = read(&record, &ReadOptions::default()).unwrap_err();
+    let shown = error.to_string();
+    assert!(
+        shown.contains("250000 per m/s2") && shown.contains("300000 per m/s2"),
+        "{shown}"
+    );
+    assert!(error.help().unwrap().contains("--response"));
+    // A file with the name of the station goes before the others.
+    write(folder.path(), "xx.xxxxx.xml", station(&[HNE]));
+    read(&record, &ReadOptions::default()).unwrap();
+}
+
+#[test]
+fn velocity_and_other_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let velocity = Epoch {
+        channel: "HHE",
+        input: "m/s",
+        value: "1e9",
+        ..HNE
+    };
+    let both = [seed(b"HHE"), seed(b"HNE")].concat();
+    let record = write(folder.path(), "record.mseed", both);
+    let response = write(folder.path(), "station.xml", station(&[HNE, velocity]));
+    let recording = read_all(&record, &with(&response)).unwrap();
+    let found: Vec<_> = recording
+        .series
+        .iter()
+        .map(|s| (s.quantity, s.samples[0]))
+        .collect();
+    let expected = [
+        (Quantity::Velocity, 100.0 * (1.0 / 1e9)),
+        (Quantity::Acceleration, 100.0 * (1.0 / 2.5e5)),
+    ];
+    assert_eq!(found, expected);
+    // A velocity is never taken for an acceleration.
+    let chosen = read(&record, &with(&response)).unwrap();
+    assert_eq!(chosen.origin().unwrap().component, "HNE");
+    let alone = write(folder.path(), "velocity.mseed", seed(b"HHE"));
+    assert!(matches!(
+        read(&alone, &with(&response)),
+        Err(GroundMotionError::NotAcceleration {
+            quantity: "velocity",
+            ..
+        })
+    ));
+    // What the metadata say goes before what the code of the channel suggests.
+    let strange = write(
+        folder.path(),
+        "strange.xml",
+        station(&[Epoch {
+            input: "M/S",
+            ..HNE
+        }]),
+    );
+    let record = write(folder.path(), "one.mseed", seed(b"HNE"));
+    let recording = read_all(&record, &with(&strange)).unwrap();
+    assert_eq!(recording.series[0].quantity, Quantity::Velocity);
+    for (input, factor) in [
+        ("m/s^2", 1.0),
+        ("m/(s**2)", 1.0),
+        ("cm/s**2", 0.01),
+        ("nm/s**2", 1e-9),
+    ] {
+        let file = write(
+            folder.path(),
+            "unit.xml",
+            station(&[Epoch { input, ..HNE }]),
+        );
+        let read = read_all(&record, &with(&file)).unwrap();
+        let expected = 100.0 / 2.5e5 * factor;
+        assert!(
+            (read.series[0].samples[0] / expected - 1.0).abs() < 1e-12,
+            "{input}"
+        );
+    }
+    let pressure = refused(station(&[Epoch { input: "PA", ..HNE }]));
+    assert!(pressure.contains("records \"PA\""), "{pressure}");
+    let volts = refused(station(&[Epoch { output: "V", ..HNE }]));
+    assert!(volts.contains("gives \"V\", not counts"), "{volts}");
+}
+
+#[test]
+fn epochs() {
+    let before = r#"startDate="1990-01-01T00:00:00" endDate="2000-01-01T00:00:00""#;
+    let after = r#"startDate="2000-01-01T00:00:00" endDate="2599-12-31T23:59:59""#;
+    let first = Epoch {
+        attributes: before,
+        value: "1",
+        ..HNE
+    };
+    let second = || Epoch {
+        attributes: after,
+        value: "4",
+        ..HNE
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let file = write(folder.path(), "station.xml", station(&[first, second()]));
+    // The record starts half a second after the change.
+    assert_eq!(
+        read_all(&record, &with(&file)).unwrap().series[0].samples[0],
+        25.0
+    );
+    let gone = refused(station(&[Epoch {
+        attributes: before,
+        ..HNE
+    }]));
+    assert!(
+        gone.contains("no epoch of channel XX.XXXXX..HNE covers 2000 day 1"),
+        "{gone}"
+    );
+    let twice = refused(station(&[second(), second()]));
+    assert!(twice.contains("a second epoch"), "{twice}");
+    let other = refused(station(&[Epoch {
+        attributes: r#"locationCode="10""#,
+        ..HNE
+    }]));
+    assert!(other.contains("no channel XX.XXXXX..HNE"), "{other}");
+}
+
+/// Statements that contradict one another are named with both numbers.
+#[test]
+fn doubts() {
+    let stage = |gain: &str| {
+        format!(
+            "<Stage number=\"1\"><StageGain><Value>{gain}</Value><Frequency>1</Frequency></StageGain></Stage><Stage number=\"2\"><StageGain><Value>1000</Value><Frequency>0</Frequency></StageGain></Stage>"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for (gain, rate, words) in [
+        ("250", "100", &[][..]),
+        ("25", "100", &["250000", "25000"][..]),
+        ("250", "200", &["200 samples/s", "100"][..]),
+    ] {
+        let stages = stage(gain);
+        let rate = format!("<SampleRate>{rate}</SampleRate>");
+        let epoch = Epoch {
+            more: (&rate, &stages),
+            ..HNE
+        };
+        let file = write(folder.path(), "station.xml", station(&[epoch]));
+        let recording = read_all(&record, &with(&file)).unwrap();
+        let warnings = &recording.series[0].origin.warnings;
+        assert_eq!(
+            warnings.len(),
+            usize::from(!words.is_empty()),
+            "{warnings:?}"
+        );
+        assert!(
+            words.iter().all(|w| warnings[0].contains(w)),
+            "{warnings:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for value in ["0", "many", ""] {
+        let shown = refused(station(&[Epoch { value, ..HNE }]));
+        assert!(shown.contains("no number above zero"), "{shown}");
+    }
+    let none = refused(station(&[HNE]).replace("InstrumentSensitivity", "InstrumentPolynomial"));
+    assert!(none.contains("has no InstrumentSensitivity"), "{none}");
+    let xml = refused("<a/>");
+    assert!(xml.contains("no StationXML"), "{xml}");
+    assert!(matches!(
+        read(&record, &with(&folder.path().join("none.xml"))),
+        Err(GroundMotionError::Io { .. })
+    ));
+    let file = write(folder.path(), "station.xml", station(&[HNE]));
+    let both = ReadOptions {
+        sensitivity: Some(1.0),
+        ..with(&file)
+    };
+    let error = read(&record, &both).unwrap_err().to_string();
+    assert!(error.contains("both a sensitivity and a file"), "{error}");
+    // A record that states its unit needs none.
+    let table = write(
+        folder.path(),
+        "plain.at2",
+        "a\nb\nUNITS OF G\nNPTS= 3, DT= .01\n.1 .2 .3\n",
+    );
+    let error = read(&table, &with(&file)).unwrap_err().to_string();
+    assert!(
+        error.contains("peer_at2 state their unit themselves"),
+        "{error}"
+    );
+}
+
+/// Metadata cut off anywhere, noise, elements without end: an error, soon, in little memory.
+#[test]
+fn damaged_metadata() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let whole = station(&[HNE]).into_bytes();
+    for at in 0..whole.len() - 1 {
+        let file = write(folder.path(), "cut.xml", &whole[..at]);
+        assert!(read_all(&record, &with(&file)).is_err(), "cut at {at}");
+    }
+    let head = &whole[..180];
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let noise = std::iter::repeat_with(|| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state as u8
+    });
+    let ten = 10 << 20;
+    for (what, tail) in [
+        ("noise", noise.take(ten).collect()),
+        ("deep", b"<a>".repeat(ten / 3)),
+        ("many", b"<a/>".repeat(ten / 4)),
+        (
+            "document type",
+            b"<!DOCTYPE a [<!ENTITY b \"b\">]>".to_vec(),
+        ),
+    ] {
+        let file = write(folder.path(), "noise.xml", [head, &tail].concat());
+        let error = read_all(&record, &with(&file)).unwrap_err().to_string();
+        assert!(error.contains("noise.xml"), "{what}: {error}");
+    }
+    // Names in another encoding than the file says.
+    let latin = station(&[HNE]).replace('\u{160}', "S").into_bytes();
+    let at = latin.windows(5).position(|w| w == b"umava").unwrap();
+    let mut latin = latin;
+    latin[at] = 0xfc;
+    let file = write(folder.path(), "latin.xml", latin);
+    read_all(&record, &with(&file)).unwrap();
+}

@@ -1,8 +1,9 @@
 //! The record of a case: read, processed and scaled as the case says.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumSource};
+use pounding_case::{Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource};
 use pounding_ground_motion::processing::{ProcessingStep, Scale, process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
@@ -45,14 +46,13 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
 
 fn read(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyError> {
     let options = read_options(case, motion)?;
-    let file = case.resolve(&motion.file.value);
-    let mut record = pounding_ground_motion::read(&file, &options)?;
+    let mut record = read_file(case, &motion.file.value, &options)?;
     if let Some(rotation) = &motion.rotation {
         let second = ReadOptions {
             component: Some(rotation.second_component.value.clone()),
             ..options
         };
-        let other = pounding_ground_motion::read(&file, &second)?;
+        let other = read_file(case, &motion.file.value, &second)?;
         let span = rotation.second_component.span.clone();
         record = rotate(&record, &other, rotation.angle)
             .map_err(|e| case.error(span, e.to_string(), e.help()))?
@@ -64,6 +64,23 @@ fn read(case: &Case, motion: &GroundMotion) -> Result<Accelerogram, AssemblyErro
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
     Ok(record)
+}
+
+/// Reads a record that the case names.
+fn read_file(
+    case: &Case,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Accelerogram, GroundMotionError> {
+    let file = case.resolve(path);
+    let Some(given) = case.given(path) else {
+        return pounding_ground_motion::read(&file, options);
+    };
+    let file = file.display().to_string();
+    match given {
+        Ok(bytes) => pounding_ground_motion::read_bytes(&file, bytes, options),
+        Err(source) => Err(GroundMotionError::Io { file, source }),
+    }
 }
 
 /// Applies the scale of a case to a record.
@@ -137,9 +154,36 @@ fn target(case: &Case, spectrum: &SpectrumSource) -> Result<TargetSpectrum, Case
         SpectrumSource::File(spectrum) => spectrum.file.span.clone(),
         SpectrumSource::Code(code) => code.span.clone(),
     };
-    read_target(spectrum, |path| case.resolve(path))
-        .map_err(|e| case.error(place(), e.to_string(), e.help()))
+    let made = match (spectrum, case.given_files.as_ref()) {
+        (SpectrumSource::File(spectrum), Some(given)) => {
+            given_target(case, given, &spectrum.file.value, spectrum.damping)
+        }
+        _ => read_target(spectrum, |path| case.resolve(path)),
+    };
+    made.map_err(|e| case.error(place(), e.to_string(), e.help()))
 }
+
+/// The spectrum in a file that was given with the case.
+fn given_target(
+    case: &Case,
+    given: &GivenFiles,
+    path: &Path,
+    damping: f64,
+) -> Result<TargetSpectrum, GroundMotionError> {
+    let file = case.resolve(path).display().to_string();
+    // As a file on a disk is read.
+    let unreadable = |source| GroundMotionError::Io {
+        file: file.clone(),
+        source,
+    };
+    let bytes = given.read(path).map_err(unreadable)?;
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, NOT_TEXT)))?;
+    TargetSpectrum::parse(&file, text, damping)
+}
+
+/// What the standard library says of a file that is no text.
+const NOT_TEXT: &str = "stream did not contain valid UTF-8";
 
 /// Makes or reads the spectrum that a scale or a step of a case names. `resolve` finds its
 /// file.

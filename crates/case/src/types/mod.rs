@@ -13,6 +13,7 @@ use pounding_ground_motion::spectra::design::CodeSpectrum;
 use serde::Deserialize;
 
 use crate::error::CaseError;
+use crate::files::GivenFiles;
 use crate::units::Quantity;
 
 pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
@@ -51,6 +52,8 @@ pub struct Case {
     pub source: String,
     /// Name of the file in messages, and the base of relative paths.
     pub file: PathBuf,
+    /// The files that it names, where they do not lie on a disk.
+    pub given_files: Option<GivenFiles>,
 }
 
 /// A case in which something is wrong, as far as it could be read, for whoever wants to say

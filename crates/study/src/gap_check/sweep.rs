@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{System, run};
+use pounding_time_history::{BuildingOutcome, RunOptions, System, run};
 
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
@@ -200,7 +200,9 @@ pub(crate) fn sweep(
     let count = widths.len() * records.len();
     let mut runs = in_parallel(count, threads, progress, |number| {
         let (i, r) = (number / records.len(), number % records.len());
-        one(&records[r], &demands[r], widths[i], gap)
+        let assembly = &records[r].assembly;
+        let system = (&assembly.system, &assembly.options);
+        at_width(system, &demands[r].isolated, widths[i], gap)
     })
     .into_iter();
     let by_width = widths.iter();
@@ -220,19 +222,24 @@ fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
     1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value))
 }
 
-fn one(
-    record: &CaseUnderRecord,
-    demand: &RecordDemand,
+/// The run of a system at one width (m) of all its gaps, or of the one of this number;
+/// `isolated` are the peaks of its buildings without contact.
+///
+/// # Errors
+/// Why it failed, in words.
+pub fn at_width(
+    (system, options): (&System, &RunOptions),
+    isolated: &[BuildingOutcome],
     width: f64,
     gap: Option<usize>,
 ) -> Result<SweepRun, String> {
-    let system = rebuilt(&record.assembly.system, |index, level| {
+    let system = rebuilt(system, |index, level| {
         let varies = gap.is_none_or(|g| g == index);
         let width = if varies { width } else { level.width };
         (width, Arc::clone(&level.model))
     });
     let system = system.map_err(|e| e.to_string())?;
-    let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
+    let outcome = run(&system, options, &mut [], &mut |_| {});
     let outcome = outcome.map_err(|e| e.to_string())?;
     let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
     let forces = levels()
@@ -241,7 +248,7 @@ fn one(
     let jumps = levels().any(|l| l.impacts > 0 && l.peak_force.value.is_nan());
     let peak_force = forces.fold(0.0, f64::max);
     Ok(SweepRun {
-        amplification: amplification(&outcome.buildings, &demand.isolated),
+        amplification: amplification(&outcome.buildings, isolated),
         impacts: levels().map(|l| l.impacts).sum(),
         peak_force: if jumps && peak_force == 0.0 {
             f64::NAN

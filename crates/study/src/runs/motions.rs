@@ -6,9 +6,9 @@ use pounding_assembly::read_record;
 use pounding_ground_motion::Accelerogram;
 use sha2::{Digest, Sha256};
 
-use crate::case_text::hexadecimal;
 use crate::error::StudyError;
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target};
+use pounding_files::checksum::hexadecimal;
 
 /// A motion as it was read.
 #[derive(Debug, Clone)]

@@ -655,11 +655,14 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
             "it is larger than 16 MB, which no {what} is"
         )));
     }
-    encoded(&name, bytes)
+    decoded(&name, bytes)
 }
 
-/// Bytes as text.
-fn encoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
+/// Bytes as text; `name` is that of their file in messages.
+///
+/// # Errors
+/// What is no text, or not in UTF-8, with the place of the first byte that is not.
+pub fn decoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
     let at = |end: usize, message: String, help: &str| {
         let before = String::from_utf8_lossy(&bytes[..end]);
         CaseError::new(

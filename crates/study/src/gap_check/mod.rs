@@ -26,12 +26,12 @@ pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
-pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width};
+pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, widest};
 
 pub(crate) use demand::levels;
+pub use systems::rebuilt;
 #[cfg(feature = "results")]
 pub(crate) use {demand::closes, parallel::in_parallel};
-pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::NamedPeak;

@@ -193,10 +193,7 @@ pub(crate) fn sweep(
             });
         }
     };
-    let from = asked.from.unwrap_or(to / asked.points as f64);
-    let steps = (asked.points - 1) as f64;
-    let width = |i: usize| from + (to - from) * i as f64 / steps;
-    let widths: Vec<f64> = (0..asked.points).map(width).collect();
+    let widths = even_widths(asked.from, to, asked.points);
     let count = widths.len() * records.len();
     let mut runs = in_parallel(count, threads, progress, |number| {
         let (i, r) = (number / records.len(), number % records.len());
@@ -214,8 +211,19 @@ pub(crate) fn sweep(
     })
 }
 
-/// A little more than the maximum demand (m).
-fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
+/// So many widths (m), two or more, at even steps to the last one; from one step on, so that the
+/// next below were zero, if the first is not given.
+#[must_use]
+pub fn even_widths(from: Option<f64>, to: f64, points: usize) -> Vec<f64> {
+    let from = from.unwrap_or(to / points as f64);
+    let steps = points.saturating_sub(1) as f64;
+    let width = |i: usize| from + (to - from) * i as f64 / steps;
+    (0..points).map(width).collect()
+}
+
+/// A little more than the maximum demand of the gaps that vary (m): the last width of a sweep.
+#[must_use]
+pub fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
     let peaks = varied.flat_map(|(_, levels)| levels);

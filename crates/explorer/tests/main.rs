@@ -1,0 +1,2 @@
+//! Requests and their answers, without a browser.
+#![allow(clippy::unwrap_used)]

@@ -1,6 +1,7 @@
 //! Arguments of all commands.
 
 mod compare;
+mod explore;
 mod gap;
 mod hysteresis;
 mod impact;
@@ -16,6 +17,7 @@ use clap_complete::Shell;
 use quantities::figure_file;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
+pub use explore::ExploreArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
@@ -52,6 +54,8 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Write one HTML page that computes the case: gaps, models, masses and the motion are moved in it
+    Explore(ExploreArguments),
     /// Write one HTML page of a result: the answer, tables, figures, buildings in motion
     Report {
         /// Result file of `run`, `sweep` or `merge` (HDF5)

@@ -3,6 +3,7 @@
 mod calibrate;
 pub mod check;
 pub mod compare;
+mod explore;
 pub mod gap;
 mod hysteresis;
 pub mod ida;
@@ -49,6 +50,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::sweep(&arguments, files),
         Command::Merge(arguments) => sweep::merge(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments, files),
+        Command::Explore(arguments) => explore::explore(&arguments, files),
         Command::Report {
             result,
             output,

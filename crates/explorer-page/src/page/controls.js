@@ -11,8 +11,8 @@ const controlsOf = (state, documentation, actions) => {
     const display = clean(x / control.factor);
     return control.unit ? `${display} ${control.unit}` : clean(x);
   };
-  // The SI value of a word that `word` has made.
-  const value = (control, given) => (typeof given === "string" ? parseFloat(given) * control.factor : given);
+  // A number as a field has room for it.
+  const written = (x) => (x !== 0 && (Math.abs(x) >= 1e6 || Math.abs(x) < 1e-4) ? x.toExponential() : String(x));
 
   // A slider between two values (SI), with the value that it stands at.
   const slider = (control, [low, high], now, labels) => {
@@ -36,7 +36,7 @@ const controlsOf = (state, documentation, actions) => {
     const note = `${id}-note`;
     const field = html("input", { id, type: "number", step: "any", "aria-describedby": note });
     const show = (x) => {
-      field.value = x === null || !Number.isFinite(x) ? "" : String(clean(x / control.factor));
+      field.value = x === null || !Number.isFinite(x) ? "" : written(clean(x / control.factor));
     };
     show(control.value);
     const ends = control.slider && [control.slider[0], Math.max(control.slider[1], widened.get(control.path) || 0)];
@@ -79,7 +79,7 @@ const controlsOf = (state, documentation, actions) => {
   };
 
   // The unit that stands behind the range of a parameter.
-  const unitOf = (control) => control.allowed.replace(/^[[(][^\])]*[\])]/, "").trim();
+  const unitOf = (control) => (/^[[(][^\])]*[\])](.*)$/.exec(control.allowed) || ["", ""])[1].trim();
 
   const line = (control, id) =>
     html("p", { class: "note", id }, control.explanation ? `${control.explanation} ` : "", more(documentation, control.page));
@@ -189,6 +189,5 @@ const controlsOf = (state, documentation, actions) => {
     },
     // Lets the slider of a width reach what the gap demands.
     reach: (path, high) => fields.has(path) && fields.get(path)(high),
-    value,
   };
 };

@@ -19,8 +19,13 @@
   let dragging = false;
   const records = new Set();
 
-  const told = (faults) => {
-    const blocks = faults.slice(0, 20).map((fault) =>
+  // What is wrong with the run that is looked at, and with what the reader asked for before. A run
+  // that succeeds says nothing of the second.
+  const wrong = { run: [], asked: [] };
+  const told = (faults, of = "asked") => {
+    wrong[of] = faults;
+    const all = [...wrong.asked, ...wrong.run];
+    const blocks = all.slice(0, 20).map((fault) =>
       html(
         "div",
         { class: "fault" },
@@ -47,10 +52,10 @@
       const answer = await solver.live.ask({ do: "run", changes, frames: dragging ? FEW : MANY });
       if (answer.faults) {
         // What is wrong with a state that is no longer wanted helps nobody.
-        if (!wanted) told(answer.faults);
+        if (!wanted) told(answer.faults, "run");
         continue;
       }
-      told([]);
+      told([], "run");
       run = answer;
       results.show(run);
       motion.show(run);
@@ -119,6 +124,7 @@
       told(answer.faults);
       return false;
     }
+    told([]);
     models = answer.models;
     controls.show(answer.controls);
     const gaps = answer.controls.filter((c) => c.kind === "model").map((c) => c.group);
@@ -162,17 +168,18 @@
   };
   // What stands behind the sign # of the address.
   const restore = async (hash) => {
-    if (hash.length < 2) {
-      state.clear();
-    } else {
+    let refused = null;
+    state.clear();
+    if (hash.length > 1) {
       try {
         const own = state.read(hash.slice(1));
         if (own) await open(own.name, encoder.encode(own.text), true);
       } catch (error) {
-        told([{ message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" }]);
+        refused = { message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" };
       }
     }
     await refresh();
+    if (refused) told([refused]);
   };
 
   try {
@@ -214,6 +221,7 @@
     },
   }).prepare();
   part("reset").addEventListener("click", async () => {
+    told([]);
     if (opened.own) await open(data.name, encoder.encode(data.case), false);
     part("notes").textContent = "";
     state.reset();

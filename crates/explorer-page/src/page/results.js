@@ -27,7 +27,7 @@ const resultsOf = (documentation) => {
     const input = run.summary.energy.input ?? NaN;
     const dissipated = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
     return [
-      ["amplification", "Amplification", shown(amplified), "the largest displacement of a storey over that of the run without contact", GAP_CHECK],
+      ["amplification", "Amplification", shown(amplified), "the largest ratio of a displacement to that of the run without contact; below are all ratios", GAP_CHECK],
       ["dissipated", "Energy in contacts", `${shown(1e-3 * dissipated)} kJ`, "energy that contacts dissipated", RESULT],
     ];
   };

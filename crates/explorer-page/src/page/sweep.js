@@ -79,7 +79,10 @@ const sweepOf = (state, background, actions) => {
       drawn.push(svg("text", { x: across(1e-3 * x), y: bottom + 16, "text-anchor": "middle" }, String(x)));
     }
     drawn.push(svg("text", { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }, "width of the gap (mm)"));
-    marks.forEach(([x, , kind]) => drawn.push(svg("path", { class: `mark ${kind}`, d: `M${across(x)} ${top}V${bottom}` })));
+    marks.forEach(([x, name, kind]) => {
+      const line = svg("path", { class: `mark ${kind}`, d: `M${across(x)} ${top}V${bottom}` });
+      drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shown(1e3 * x)} mm`), line));
+    });
     lines.forEach(({ columns, values }, i) => {
       let path = "";
       let pen = "M";
@@ -100,6 +103,11 @@ const sweepOf = (state, background, actions) => {
     picture.setAttribute("aria-label", `${title} over widths of the gap up to ${shown(1e3 * far)} mm, ${lines.length} models`);
     const legend = lines.map(({ name }, i) => html("li", {}, html("span", { class: `key curve-${i % 6}` }), name));
     legend.push(html("li", {}, html("span", { class: "key now" }), `provided, ${shown(1e3 * provided)} mm`));
+    if (marks.length) {
+      for (const [kind, text] of [["demand", "demand of this record"], ["code", "by codes"], ["rule", "by combination rules"]]) {
+        legend.push(html("li", {}, html("span", { class: `key ${kind}` }), text));
+      }
+    }
     part("legend").replaceChildren(...legend);
     part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";
     picture.dataset.done = String(done[0]);
@@ -131,13 +139,19 @@ const sweepOf = (state, background, actions) => {
         html("thead", {}, html("tr", {}, html("th", { scope: "col" }, "width by"), html("th", { scope: "col" }, "mm"), html("th", { scope: "col", class: "words" }, "how"))),
         html("tbody", {}, ...rows),
       );
+    const open = [...part("widths").querySelectorAll("details")].map((details) => details.open);
     part("widths").replaceChildren(
-      table([
-        row("this record", gap.demand, "maximum approach of the buildings without contact", "demand"),
-        ...known.map(code),
-        ...gap.combinations.map((rule) => row(rule.name, rule.width, "combination of the peak displacements", "rule")),
-      ]),
-      html("details", {}, html("summary", {}, `${others.length} provisions give no width`), table(others.map(code))),
+      html(
+        "details",
+        { open: open[0] },
+        html("summary", {}, `Widths by ${known.length} provisions of codes and ${gap.combinations.length} rules: the dashed lines`),
+        table([
+          row("this record", gap.demand, "maximum approach of the buildings without contact", "demand"),
+          ...known.map(code),
+          ...gap.combinations.map((rule) => row(rule.name, rule.width, "combination of the peak displacements", "rule")),
+        ]),
+      ),
+      html("details", { open: open[1] }, html("summary", {}, `${others.length} provisions give no width`), table(others.map(code))),
     );
   };
 

@@ -108,7 +108,7 @@ impl Explorer {
     }
 
     fn open(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
-        limits::text(bytes.len())?;
+        limits::text(bytes)?;
         let source = decoded(name, bytes.to_vec()).map_err(|e| Refused::of_case(e, ""))?;
         let before = (
             std::mem::replace(&mut self.name, name.to_owned()),
@@ -134,7 +134,7 @@ impl Explorer {
     /// The text of the case with these changes.
     pub(crate) fn text(&self, changed: &[Changed]) -> Result<String, Refused> {
         let text = edited(&self.source, &changes(changed)?)?;
-        limits::text(text.len())?;
+        limits::text(text.as_bytes())?;
         Ok(text)
     }
 

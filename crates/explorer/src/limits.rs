@@ -8,8 +8,10 @@ use crate::fault::Refused;
 
 /// Longest request (bytes): records of agencies have a few megabytes.
 pub const LONGEST_REQUEST: usize = 64 << 20;
-/// Longest text of a case (bytes).
-pub const LONGEST_CASE: usize = 1 << 20;
+/// Longest text of a case (bytes): matrices of many floors are files of their own.
+pub const LONGEST_CASE: usize = 1 << 18;
+/// Most keys of a case, and most tables and lists: each may be wrong, and say so with its place.
+pub const MOST_ENTRIES: usize = 5_000;
 /// Most bytes of all files together.
 pub const MOST_BYTES: usize = 128 << 20;
 /// Most floors of all buildings.
@@ -35,11 +37,18 @@ fn refuse(found: impl std::fmt::Display, most: impl std::fmt::Display, what: &st
 }
 
 /// Refuses a text that no one wrote.
-pub(crate) fn text(bytes: usize) -> Result<(), Refused> {
-    match bytes > LONGEST_CASE {
-        true => Err(refuse(bytes, LONGEST_CASE, "bytes of a case")),
-        false => Ok(()),
+pub(crate) fn text(bytes: &[u8]) -> Result<(), Refused> {
+    if bytes.len() > LONGEST_CASE {
+        return Err(refuse(bytes.len(), LONGEST_CASE, "bytes of a case"));
     }
+    let count = |signs: &[u8]| bytes.iter().filter(|byte| signs.contains(byte)).count();
+    for (signs, what) in [(&b"="[..], "keys"), (&b"[{"[..], "tables and lists")] {
+        let found = count(signs);
+        if found > MOST_ENTRIES {
+            return Err(refuse(found, MOST_ENTRIES, what));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a case whose matrices would be too large, before they are made.

@@ -1,6 +1,7 @@
 //! What is computed for each kind of request.
 
 pub(crate) mod calibrate;
+mod deadline;
 pub(crate) mod run;
 pub(crate) mod sweep;
 pub(crate) mod widths;

@@ -4,47 +4,15 @@ use pounding_elevation::{Neighbour, Row, RowGap, Scene};
 use pounding_study::gap_check::amplification;
 use pounding_time_history::{
     ContactLevel, Energy, GridRecorder, History, Impact, Outcome, Peak, Recorder,
-    RelativeDisplacement, Sample, SampleSink, Summary, System, TimeHistoryError, run,
+    RelativeDisplacement, Summary, System, TimeHistoryError, run,
 };
 use serde_json::{Value, json};
 
+use super::deadline::Deadline;
 use crate::answer::Answer;
-use crate::clock;
 use crate::explorer::Prepared;
 use crate::fault::Refused;
-use crate::limits::{MOST_NUMBERS, PATIENCE};
-
-/// How often a run without responses looks at the clock (s of the motion).
-const LOOK: f64 = 0.25;
-
-/// Takes responses until the time is up.
-struct Responses {
-    history: Option<History>,
-    until: f64,
-}
-
-impl SampleSink for Responses {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        if clock::now() > self.until {
-            let seconds = PATIENCE * 1.0e-3;
-            return Err(TimeHistoryError::Recorder(format!(
-                "the run takes more than {seconds} s; run the case with `pounding run`"
-            )));
-        }
-        if let Some(history) = &mut self.history {
-            history.push(sample);
-        }
-        Ok(())
-    }
-}
-
-fn recorder(
-    step: f64,
-    history: Option<History>,
-) -> Result<GridRecorder<Responses>, TimeHistoryError> {
-    let until = clock::now() + PATIENCE;
-    GridRecorder::into_sink(step, Responses { history, until })
-}
+use crate::limits::MOST_NUMBERS;
 
 /// Runs a case; at most so many times of its motion are in the answer.
 pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refused> {
@@ -52,12 +20,15 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     let (system, options) = (&assembly.system, &assembly.options);
     let duration = options.duration.unwrap_or(system.record_duration());
     let frames = frames.min(MOST_NUMBERS / (system.floors() + 2 * system.levels().len() + 9));
-    let step = match frames {
-        0 | 1 => LOOK,
-        _ => assembly.output_step.max(duration / (frames - 1) as f64),
+    let step = || assembly.output_step.max(duration / (frames - 1) as f64);
+    let mut responses = match frames {
+        0 | 1 => None,
+        _ => Some(GridRecorder::new(step())?),
     };
-    let mut responses = recorder(step, (frames > 1).then(History::default))?;
-    let outcome = run(system, options, &mut [&mut responses], &mut |_| {})?;
+    let mut deadline = Deadline::from_now();
+    let mut recorders: Vec<&mut dyn Recorder> = vec![&mut deadline];
+    recorders.extend(responses.as_mut().map(|r| r as &mut dyn Recorder));
+    let outcome = run(system, options, &mut recorders, &mut |_| {})?;
     let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
     let mut demand = RelativeDisplacement::of_levels(system);
     let isolated = isolated(prepared, &mut demand).unwrap_or_else(|error| {
@@ -75,8 +46,8 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     answer.say("case", case.source.as_str());
     answer.say("excitation", json!(assembly.excitation()));
     impacts(&mut answer, system, &outcome.impacts);
-    if let Some(history) = responses.responses.history {
-        motion(&mut answer, &history);
+    if let Some(recorder) = responses {
+        motion(&mut answer, &recorder.responses);
     }
     Ok(answer)
 }
@@ -130,8 +101,8 @@ fn isolated(
 ) -> Result<Outcome, TimeHistoryError> {
     let (system, options) = (&prepared.assembly.system, &prepared.assembly.options);
     let integrate = |system: &System, demand: Option<&mut RelativeDisplacement>| {
-        let mut looking = recorder(LOOK, None)?;
-        let mut recorders: Vec<&mut dyn Recorder> = vec![&mut looking];
+        let mut deadline = Deadline::from_now();
+        let mut recorders: Vec<&mut dyn Recorder> = vec![&mut deadline];
         recorders.extend(demand.map(|demand| demand as &mut dyn Recorder));
         run(system, options, &mut recorders, &mut |_| {})
     };

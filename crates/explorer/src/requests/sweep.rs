@@ -5,11 +5,11 @@ use pounding_study::gap_check::{GapSweep, SweepRun, at_width};
 use pounding_time_history::{BuildingOutcome, isolated_demand};
 use serde_json::json;
 
+use super::deadline::Deadline;
 use crate::answer::Answer;
-use crate::clock;
 use crate::explorer::Explorer;
 use crate::fault::Refused;
-use crate::limits::{MOST_WIDTHS, PATIENCE};
+use crate::limits::MOST_WIDTHS;
 use crate::request::Changed;
 
 /// A case of which several widths were asked, one request after another.
@@ -48,13 +48,14 @@ pub(crate) fn answer(
     };
     let swept = explorer.swept.insert(swept);
     let system = (&swept.assembly.system, &swept.assembly.options);
-    let until = clock::now() + PATIENCE;
+    let mut deadline = Deadline::from_now();
     let mut runs = Vec::new();
     for width in widths {
-        if !runs.is_empty() && clock::now() > until {
+        if !runs.is_empty() && deadline.is_over() {
             break;
         }
-        runs.push(at_width(system, &swept.isolated, *width, gap));
+        let run = (*width, gap);
+        runs.push(at_width(system, &swept.isolated, run, &mut [&mut deadline]));
     }
     Ok(of_runs(&widths[..runs.len()], &runs, swept.isolated.len()))
 }

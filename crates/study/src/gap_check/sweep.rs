@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{BuildingOutcome, RunOptions, System, run};
+use pounding_time_history::{BuildingOutcome, Recorder, RunOptions, System, run};
 
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
@@ -199,7 +199,7 @@ pub(crate) fn sweep(
         let (i, r) = (number / records.len(), number % records.len());
         let assembly = &records[r].assembly;
         let system = (&assembly.system, &assembly.options);
-        at_width(system, &demands[r].isolated, widths[i], gap)
+        at_width(system, &demands[r].isolated, (widths[i], gap), &mut [])
     })
     .into_iter();
     let by_width = widths.iter();
@@ -231,15 +231,15 @@ pub fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
 }
 
 /// The run of a system at one width (m) of all its gaps, or of the one of this number;
-/// `isolated` are the peaks of its buildings without contact.
+/// `isolated` are the peaks of its buildings without contact. Recorders see it, and may end it.
 ///
 /// # Errors
 /// Why it failed, in words.
 pub fn at_width(
     (system, options): (&System, &RunOptions),
     isolated: &[BuildingOutcome],
-    width: f64,
-    gap: Option<usize>,
+    (width, gap): (f64, Option<usize>),
+    recorders: &mut [&mut dyn Recorder],
 ) -> Result<SweepRun, String> {
     let system = rebuilt(system, |index, level| {
         let varies = gap.is_none_or(|g| g == index);
@@ -247,7 +247,7 @@ pub fn at_width(
         (width, Arc::clone(&level.model))
     });
     let system = system.map_err(|e| e.to_string())?;
-    let outcome = run(&system, options, &mut [], &mut |_| {});
+    let outcome = run(&system, options, recorders, &mut |_| {});
     let outcome = outcome.map_err(|e| e.to_string())?;
     let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
     let forces = levels()

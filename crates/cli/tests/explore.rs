@@ -265,6 +265,9 @@ fn widths_are_those_of_gap() {
     );
 }
 
+/// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
+const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
+
 /// A file of K-NET, made here: a sine of 2 Hz for 10 s.
 fn k_net() -> String {
     let mut text = String::new();
@@ -306,7 +309,7 @@ fn files_of_the_reader() {
     let record = k_net();
     let use_it = |name: &str| json!({ "do": "run", "frames": 0, "changes": [{ "record": [["file", name]] }] });
     let broken_record = record.replace("/6182761", "/none");
-    let broken_case = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
+    let broken_case = BROKEN_CASE;
     let requests = of_the_pair(vec![
         json!({ "do": "file", "name": "dropped.NS", "$text": record }),
         use_it("dropped.NS"),
@@ -413,6 +416,40 @@ fn hostile_cases_are_answered() {
     }
     // A fine output step costs nothing here, and a width is no matter of taste.
     assert!(accepted.len() <= 4, "{accepted:?}");
+}
+
+/// The page in browsers: `tests/python/open_explorer.py` moves it from 20 mm to 118 mm, drops files
+/// on it, runs the case that it gives away, and looks at it wide, narrow and dark.
+#[test]
+fn page_in_browsers() {
+    let named = ["POUNDING_PYTHON", "POUNDING_CHROMIUM"].map(std::env::var_os);
+    let [Some(python), Some(_)] = named else {
+        eprintln!(
+            "skipped: POUNDING_PYTHON or POUNDING_CHROMIUM names no program, no page was opened"
+        );
+        return;
+    };
+    if !has_module() {
+        return;
+    }
+    let bench = Bench::with(BROKEN_CASE);
+    bench.write("dropped.NS", &k_net());
+    let page = bench.folder().join("page.html");
+    let case = root().join("examples/three_storey_pair/case.toml");
+    text(
+        "explore",
+        &format!("{} -o {}", case.display(), page.display()),
+    );
+    let output = Command::new(python)
+        .arg(root().join("tests/python/open_explorer.py"))
+        .arg(page)
+        .arg(env!("CARGO_BIN_EXE_pounding"))
+        .args(["dropped.NS", "case.toml"].map(|name| bench.folder().join(name)))
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    eprintln!("{}", String::from_utf8_lossy(&output.stdout));
 }
 
 /// The page of a case: whole, small, and without an address in it.

@@ -97,7 +97,7 @@ def drops(page, pounding, record, broken):
     until(page, "document.querySelectorAll('.fault').length > 0")
     refused = subprocess.run([pounding, "run", broken, "--no-output"], capture_output=True, text=True, env={**os.environ, "NO_COLOR": "1"})
     folder = str(pathlib.Path(broken).parent) + "/"
-    said = words(refused.stderr).replace(folder, "")
+    said = words(words(refused.stderr).replace(folder, ""))
     # A page has no system that says why a file is missing.
     said = said.replace("No such file or directory (os error 2)", "this file was not given")
     for text in page.value("[...document.querySelectorAll('.fault')].map((f) => f.querySelector('p').textContent)"):

@@ -242,6 +242,8 @@ fn libraries_can_be_packaged() {
         let published = package["publish"].is_null();
         let of_the_repository = [
             "pounding-cli",
+            "pounding-explorer",
+            "pounding-explorer-page",
             "pounding-python",
             "verification",
             "benchmarks",

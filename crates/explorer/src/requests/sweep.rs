@@ -46,6 +46,10 @@ pub(crate) fn answer(
             }
         }
     };
+    let gaps = swept.assembly.system.gaps().len();
+    if let Some(gap) = gap.filter(|gap| *gap >= gaps) {
+        return Err(Refused::new(format!("the case has no gap {gap}"), None));
+    }
     let swept = explorer.swept.insert(swept);
     let system = (&swept.assembly.system, &swept.assembly.options);
     let mut deadline = Deadline::from_now();

@@ -1,2 +1,0 @@
-//! Requests and their answers, without a browser.
-#![allow(clippy::unwrap_used)]

@@ -107,7 +107,7 @@ def drops(page, pounding, record, broken):
     name = pathlib.Path(record).name
     drop(page, record)
     until(page, f"document.querySelector('[data-part=excitation]').textContent.includes({json.dumps(name)})")
-    assert told(page) == "", told(page)
+    until(page, "document.querySelector('[data-part=faults]').textContent === ''")
     page.value("document.querySelector('[data-part=reset]').click()")
     until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
 

@@ -12,7 +12,9 @@ use crate::explorer::Prepared;
 
 /// Where keys of the case file are explained.
 const CASE_FILE: &str = "reference/case-file.md";
-/// Ends of a slider of a quantity without a range, as parts of its value.
+/// Widest range of a parameter that a slider has as it is.
+const WIDEST: f64 = 10.0;
+/// Ends of a slider of a quantity without such a range, as parts of its value.
 const AROUND: f64 = 30.0;
 
 /// One thing that can be moved.
@@ -160,10 +162,9 @@ fn of_parameter(
     let given = given.find(|p| p.key.value == parameter.name);
     let given = given.map(|p| p.value.value.value);
     let value = given.or(parameter.default);
-    let ([low, high], bounded) = (
-        [parameter.minimum.0, parameter.maximum.0],
-        parameter.minimum.0.is_finite() && parameter.maximum.0.is_finite(),
-    );
+    let [low, high] = [parameter.minimum.0, parameter.maximum.0];
+    // A range that is there to catch mistakes is too wide for a slider.
+    let bounded = high - low <= WIDEST;
     let slider = match value {
         _ if bounded => {
             // Ends that are not allowed themselves are left out.

@@ -54,7 +54,7 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Write one HTML page that computes the case: gaps, models, masses and the motion are moved in it
+    /// Write one HTML page that computes: gaps, models, masses and the motion move in it
     Explore(ExploreArguments),
     /// Write one HTML page of a result: the answer, tables, figures, buildings in motion
     Report {

@@ -132,18 +132,18 @@ def moves(page, file):
             instant = frames[int(part * len(frames))]
             row = int(numpy.flatnonzero(times == instant)[0])
             change(page, "time", repr(float(instant)), "input")
-            for body in data["bodies"]:
+            for number, body in enumerate(data["scene"]["bodies"]):
                 if body["building"] is None:
                     continue
-                path = page.value(f"document.querySelector('[data-body=\"{body['number']}\"]').getAttribute('d')")
+                path = page.value(f"document.querySelector('[data-body=\"{number}\"]').getAttribute('d')")
                 count = len(body["elevation"]) + 1
                 points = re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", path)[:count]
                 across = numpy.array([float(x) for x, _ in points])
-                heights = [data["height"] - float(y) for _, y in points]
+                heights = [data["scene"]["height"] - float(y) for _, y in points]
                 rest = body["left"] + magnification * body["offset"]
                 moved = (across - rest) / magnification
                 truth = file[f"building/{body['title']}/displacement"][row]
-                _, quantum = packed(body["displacement"])
+                _, quantum = packed(data["displacements"][number])
                 most = quantum + 2e-6 / magnification
                 assert numpy.abs(moved[1:] - truth).max() <= most, (body["title"], instant)
                 assert moved[0] == 0 or abs(moved[0]) < most

@@ -232,9 +232,11 @@ fn the_solver_needs_no_files() {
 }
 
 /// Packages of the repository that are no libraries.
-const NOT_PUBLISHED: [&str; 5] = [
+const NOT_PUBLISHED: [&str; 7] = [
     "pounding-book",
     "pounding-cli",
+    "pounding-explorer",
+    "pounding-explorer-page",
     "pounding-python",
     "verification",
     "benchmarks",

@@ -1,9 +1,10 @@
 //! The record of a case: read, processed and scaled as the case says.
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use pounding_case::{Case, CaseError, GroundMotion, Located, SpectrumSource};
+use pounding_case::{Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource};
 use pounding_ground_motion::processing::{ProcessingStep, Scale, process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
@@ -54,15 +55,25 @@ pub fn read_record(case: &Case) -> Result<Accelerogram, AssemblyError> {
 pub struct RecordFiles(Mutex<Vec<(PathBuf, ReadOptions, Accelerogram)>>);
 
 impl RecordFiles {
-    /// The record of a file, which is read if it was not yet.
-    fn read(&self, file: PathBuf, options: &ReadOptions) -> Result<Accelerogram, AssemblyError> {
+    /// The record of a file that a case names, which is read if it was not yet.
+    fn read(
+        &self,
+        case: &Case,
+        path: &Path,
+        options: &ReadOptions,
+    ) -> Result<Accelerogram, AssemblyError> {
+        // Files that were given with a case are those of that case alone.
+        if case.given(path).is_some() {
+            return Ok(read_file(case, path, options)?);
+        }
+        let file = case.resolve(path);
         // Who panicked while reading left what was read before.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let same = known.iter().find(|(f, o, _)| *f == file && o == options);
         if let Some((_, _, record)) = same {
             return Ok(record.clone());
         }
-        let record = pounding_ground_motion::read(&file, options)?;
+        let record = read_file(case, path, options)?;
         known.push((file, options.clone(), record.clone()));
         Ok(record)
     }
@@ -74,14 +85,13 @@ fn read(
     files: &RecordFiles,
 ) -> Result<Accelerogram, AssemblyError> {
     let options = read_options(case, motion)?;
-    let file = case.resolve(&motion.file.value);
-    let mut record = files.read(file.clone(), &options)?;
+    let mut record = files.read(case, &motion.file.value, &options)?;
     if let Some(rotation) = &motion.rotation {
         let second = ReadOptions {
             component: Some(rotation.second_component.value.clone()),
             ..options
         };
-        let other = files.read(file, &second)?;
+        let other = files.read(case, &motion.file.value, &second)?;
         let span = rotation.second_component.span.clone();
         record = rotate(&record, &other, rotation.angle)
             .map_err(|e| case.error(span, e.to_string(), e.help()))?
@@ -93,6 +103,23 @@ fn read(
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
     Ok(record)
+}
+
+/// Reads a record that the case names.
+fn read_file(
+    case: &Case,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Accelerogram, GroundMotionError> {
+    let file = case.resolve(path);
+    let Some(given) = case.given(path) else {
+        return pounding_ground_motion::read(&file, options);
+    };
+    let file = file.display().to_string();
+    match given {
+        Ok(bytes) => pounding_ground_motion::read_bytes(&file, bytes, options),
+        Err(source) => Err(GroundMotionError::Io { file, source }),
+    }
 }
 
 /// Applies the scale of a case to a record.
@@ -166,9 +193,36 @@ fn target(case: &Case, spectrum: &SpectrumSource) -> Result<TargetSpectrum, Case
         SpectrumSource::File(spectrum) => spectrum.file.span.clone(),
         SpectrumSource::Code(code) => code.span.clone(),
     };
-    read_target(spectrum, |path| case.resolve(path))
-        .map_err(|e| case.error(place(), e.to_string(), e.help()))
+    let made = match (spectrum, case.given_files.as_ref()) {
+        (SpectrumSource::File(spectrum), Some(given)) => {
+            given_target(case, given, &spectrum.file.value, spectrum.damping)
+        }
+        _ => read_target(spectrum, |path| case.resolve(path)),
+    };
+    made.map_err(|e| case.error(place(), e.to_string(), e.help()))
 }
+
+/// The spectrum in a file that was given with the case.
+fn given_target(
+    case: &Case,
+    given: &GivenFiles,
+    path: &Path,
+    damping: f64,
+) -> Result<TargetSpectrum, GroundMotionError> {
+    let file = case.resolve(path).display().to_string();
+    // As a file on a disk is read.
+    let unreadable = |source| GroundMotionError::Io {
+        file: file.clone(),
+        source,
+    };
+    let bytes = given.read(path).map_err(unreadable)?;
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, NOT_TEXT)))?;
+    TargetSpectrum::parse(&file, text, damping)
+}
+
+/// What the standard library says of a file that is no text.
+const NOT_TEXT: &str = "stream did not contain valid UTF-8";
 
 /// Makes or reads the spectrum that a scale or a step of a case names. `resolve` finds its
 /// file.

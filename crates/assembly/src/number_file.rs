@@ -1,6 +1,9 @@
 //! Files of plain numbers: matrices of buildings, histories of forces.
 
+use std::io::Read;
 use std::path::Path;
+
+use pounding_case::Case;
 
 /// What a CSV file of numbers holds, for messages and limits.
 pub(crate) struct NumberFile {
@@ -14,36 +17,48 @@ pub(crate) struct NumberFile {
     pub most: (usize, &'static str),
 }
 
+const PATH: &str = "name the file relative to the folder of the case file";
+
 /// What is wrong, and what to do.
 type Refused = (String, String);
 
 impl NumberFile {
-    /// The numbers, row by row; lines that begin with `#` and empty ones are left out.
+    /// The numbers in a file that a case names, row by row; lines that begin with `#` and empty
+    /// ones are left out.
     ///
     /// # Errors
     /// A file that cannot be read, what is no number, too many rows or columns.
-    pub(crate) fn read(&self, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
-        const PATH: &str = "name the file relative to the folder of the case file";
-        let unreadable = |why: &dyn std::fmt::Display| {
-            let message = format!("cannot read the {}: {why}", self.what);
-            (message, PATH.to_owned())
-        };
+    pub(crate) fn read(&self, case: &Case, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
+        let unreadable = |why: &dyn std::fmt::Display| self.unreadable(why);
+        match case.given(path) {
+            Some(bytes) => self.rows(bytes.map_err(|e| unreadable(&e))?),
+            None => self.read_disk(&case.resolve(path)),
+        }
+    }
+
+    fn unreadable(&self, why: &dyn std::fmt::Display) -> Refused {
+        let message = format!("cannot read the {}: {why}", self.what);
+        (message, PATH.to_owned())
+    }
+
+    fn read_disk(&self, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
+        let unreadable = |why: &dyn std::fmt::Display| self.unreadable(why);
         // A device or a pipe may never end.
         match std::fs::metadata(path) {
             Ok(found) if found.is_dir() => return Err(unreadable(&"this is a folder")),
             Ok(found) if !found.is_file() => return Err(unreadable(&"this is no regular file")),
             _ => {}
         }
-        let reader = csv::ReaderBuilder::new()
+        self.rows(std::fs::File::open(path).map_err(|e| unreadable(&e))?)
+    }
+
+    fn rows(&self, source: impl Read) -> Result<Vec<Vec<f64>>, Refused> {
+        let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
-            .from_path(path);
-        let mut reader = reader.map_err(|e| match e.kind() {
-            csv::ErrorKind::Io(e) => unreadable(e),
-            _ => (e.to_string(), PATH.to_owned()),
-        })?;
+            .from_reader(source);
         let correct = || format!("write {}", self.rows);
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for (place, record) in reader.records().enumerate() {

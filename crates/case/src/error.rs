@@ -77,7 +77,10 @@ impl CaseError {
         errors.sort_by_key(|e| e.span.start);
         let mut distinct: Vec<Self> = Vec::new();
         for error in errors {
-            if !distinct.contains(&error) {
+            // Those that are the same stand at one place.
+            let here = |other: &&Self| other.span.start == error.span.start;
+            let mut before = distinct.iter().rev().take_while(here);
+            if !before.any(|other| *other == error) {
                 distinct.push(error);
             }
         }

@@ -11,6 +11,7 @@ mod compare;
 mod documents;
 mod examples;
 mod excitation;
+mod explore;
 mod files;
 mod foundations;
 mod gap;

@@ -10,7 +10,7 @@ use pounding_assembly::{
     Assembly, AssemblyError, assemble_with_record, read_record, regap, scale_record,
 };
 use pounding_case::{
-    Analysis, Building, Case, CaseError, Damping, Draft, Located, Parameter, Quantity,
+    Analysis, Building, Case, CaseError, Damping, Draft, GivenFiles, Located, Parameter, Quantity,
 };
 use pounding_gap_element::registry;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
@@ -54,10 +54,31 @@ pub fn read_case(path: &Path, own_record: bool) -> Result<Case, FaultyCase> {
 /// # Errors
 /// As [`read_case`].
 pub fn parse_case(source: &str, path: &Path, own_record: bool) -> Result<Case, CaseError> {
-    let case = Case::parse_or_draft(source, path).map_err(|refusal| {
-        let more = refusal.draft.map(|draft| later(&draft, own_record));
+    parse_case_of(source, path, own_record, None)
+}
+
+/// The same of a text with the files that it names.
+///
+/// # Errors
+/// As [`read_case`].
+pub fn parse_case_with(source: &str, path: &Path, files: &GivenFiles) -> Result<Case, CaseError> {
+    parse_case_of(source, path, true, Some(files))
+}
+
+fn parse_case_of(
+    source: &str,
+    path: &Path,
+    own_record: bool,
+    files: Option<&GivenFiles>,
+) -> Result<Case, CaseError> {
+    let mut case = Case::parse_or_draft(source, path).map_err(|refusal| {
+        let more = refusal.draft.map(|mut draft| {
+            draft.case.given_files = files.cloned();
+            later(&draft, own_record)
+        });
         joined(refusal.error, more.unwrap_or_default())
     })?;
+    case.given_files = files.cloned();
     // Only the gap check needs these words, but a case in which they are wrong is wrong
     // everywhere.
     match CaseError::of_all(unknown_words(&case)) {
@@ -252,7 +273,8 @@ fn record(draft: &Draft) -> Vec<CaseError> {
     let file = &case.ground_motion.file;
     let path = case.resolve(&file.value);
     // What is neither missing nor a file, such as a pipe, gives its text once.
-    let readable = std::fs::metadata(&path).map_or(true, |m| m.is_file());
+    let on_disk = case.given_files.is_none();
+    let readable = !on_disk || std::fs::metadata(&path).map_or(true, |m| m.is_file());
     if file.value.as_os_str().is_empty() || !readable {
         return Vec::new();
     }

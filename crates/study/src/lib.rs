@@ -5,23 +5,42 @@
 //! [`Design`] that samples them. [`sweep()`] makes its runs on all cores, stores finished
 //! ones so that an interruption loses at most the chunk in flight, and writes one HDF5
 //! file whose contents depend on the study only.
+//!
+//! Without the feature `results`, which needs HDF5, there are gap checks, calibrated models,
+//! edited cases and what is wrong with them: all that reads and writes no file.
 
-pub mod comparison;
+pub mod calibration;
+pub mod edited;
 pub mod faults;
 pub mod gap_check;
 
+// Studies replace and identify more than a single case.
+#[cfg_attr(not(feature = "results"), allow(dead_code, unused_imports))]
 mod case_text;
 mod dealt;
-mod design;
-mod error;
 mod fractiles;
+
+#[cfg(feature = "results")]
+pub mod comparison;
+#[cfg(feature = "results")]
+mod design;
+#[cfg(feature = "results")]
+mod error;
+#[cfg(feature = "results")]
 mod ida;
+#[cfg(feature = "results")]
 mod merge;
+#[cfg(feature = "results")]
 mod parts;
+#[cfg(feature = "results")]
 mod runs;
+#[cfg(feature = "results")]
 mod shown;
+#[cfg(feature = "results")]
 mod study_file;
+#[cfg(feature = "results")]
 mod sweep;
+#[cfg(feature = "results")]
 mod table;
 
 /// What this program was built of and for, as far as the results of runs may depend on it:
@@ -33,19 +52,30 @@ mod table;
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
 pub use dealt::Deal;
+
+#[cfg(feature = "results")]
 pub use design::{Design, MOST_DIMENSIONS};
+#[cfg(feature = "results")]
 pub use error::StudyError;
+#[cfg(feature = "results")]
 pub use ida::*;
+#[cfg(feature = "results")]
 pub use merge::{MergeReport, merge};
+#[cfg(feature = "results")]
 pub use pounding_results::study::{
     Coordinate, Description, MergeOptions, Part, ResultReader, StudyFileError, Survey, ranges,
     survey,
 };
+#[cfg(feature = "results")]
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
+#[cfg(feature = "results")]
 pub use shown::case_of_run;
+#[cfg(feature = "results")]
 pub use study_file::{
     DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
     Variable, hazard_schema, study_schema,
 };
+#[cfg(feature = "results")]
 pub use sweep::{Progress, Shard, SweepOptions, SweepReport, parts_folder, sweep, writable};
+#[cfg(feature = "results")]
 pub use table::RunTable;

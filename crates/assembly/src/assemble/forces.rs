@@ -113,7 +113,7 @@ fn read(
         let message = format!("{}: {message}", file.value.display());
         case.error(file.span.clone(), message, Some(help))
     };
-    let rows = layout.read(&case.resolve(&file.value));
+    let rows = layout.read(case, &file.value);
     let rows = rows.map_err(|(message, help)| refused(message, help))?;
     if rows.is_empty() {
         let help = format!("write {}", layout.rows);

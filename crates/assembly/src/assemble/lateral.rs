@@ -69,7 +69,7 @@ fn rows(
         header: false,
         most: (MAXIMUM_STOREYS, "the most floors of a building"),
     };
-    let rows = layout.read(&case.resolve(&file.value));
+    let rows = layout.read(case, &file.value);
     let rows = rows.map_err(|(message, help)| refused(message, &help))?;
     let floors = building.mass.len();
     if rows.len() != floors {

@@ -129,6 +129,7 @@ impl CaseFile {
                 separation: separation.unwrap_or_default(),
                 source: reader.source.to_owned(),
                 file: file.to_owned(),
+                given_files: None,
             },
             incomplete: reader.errors.all_incomplete(),
             motion_is_known,

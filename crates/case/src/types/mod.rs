@@ -14,6 +14,7 @@ use pounding_ground_motion::spectra::design::CodeSpectrum;
 use serde::Deserialize;
 
 use crate::error::CaseError;
+use crate::files::GivenFiles;
 use crate::units::Quantity;
 
 pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
@@ -53,6 +54,8 @@ pub struct Case {
     pub source: String,
     /// Name of the file in messages, and the base of relative paths.
     pub file: PathBuf,
+    /// The files that it names, where they do not lie on a disk.
+    pub given_files: Option<GivenFiles>,
 }
 
 /// A case in which something is wrong, as far as it could be read, for whoever wants to say
@@ -673,11 +676,14 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
             "it is larger than 16 MB, which no {what} is"
         )));
     }
-    encoded(&name, bytes)
+    decoded(&name, bytes)
 }
 
-/// Bytes as text.
-fn encoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
+/// Bytes as text; `name` is that of their file in messages.
+///
+/// # Errors
+/// What is no text, or not in UTF-8, with the place of the first byte that is not.
+pub fn decoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
     let at = |end: usize, message: String, help: &str| {
         let before = String::from_utf8_lossy(&bytes[..end]);
         CaseError::new(

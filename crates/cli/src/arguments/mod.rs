@@ -2,6 +2,7 @@
 
 mod compare;
 mod deal;
+mod explore;
 mod figure;
 mod gap;
 mod hysteresis;
@@ -19,6 +20,7 @@ use figure::figure_file;
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use deal::DealArguments;
+pub use explore::ExploreArguments;
 pub use figure::FigureArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
@@ -86,6 +88,8 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Write one HTML page that computes: gaps, models, masses and the motion move in it
+    Explore(ExploreArguments),
     /// Write one HTML page of a result: the answer, tables, figures, buildings in motion
     Report {
         /// Result file of `run`, `sweep` or `merge` (HDF5)

@@ -3,6 +3,7 @@
 mod calibrate;
 pub mod check;
 pub mod compare;
+mod explore;
 pub mod gap;
 mod hysteresis;
 pub mod ida;
@@ -53,6 +54,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Merge(arguments) => merge::merge(&arguments),
         Command::Status(arguments) => status::status(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments, files),
+        Command::Explore(arguments) => explore::explore(&arguments, files),
         Command::Report {
             result,
             output,

@@ -18,8 +18,19 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 41] = [
+const CALLS: [Call; 43] = [
     call("run case.toml", CASE),
+    call("explore case.toml", CASE),
+    call(
+        "explore case.toml --records second.csv",
+        &[
+            "case.toml",
+            "record.csv",
+            "second.csv",
+            "target.csv",
+            "step.csv",
+        ],
+    ),
     call("report result.h5", &["result.h5"]),
     call(
         "report ida.h5 --study study.toml",

@@ -11,15 +11,18 @@ const POLICY: &str = "default-src &#39;none&#39;; style-src &#39;unsafe-inline&#
 const LONG: usize = 1_500_000;
 
 /// What runs in a page, with the data that it shows.
-pub(super) struct Script<'a> {
+pub struct Script {
     /// JavaScript, ours.
-    pub source: &'a str,
+    pub source: String,
     /// What it reads.
     pub data: serde_json::Value,
+    /// What the browser may do beside running it: words that follow those of `script-src` in the
+    /// policy of the page, with further directives behind them.
+    pub may: &'static str,
 }
 
 /// A page.
-pub(super) struct Document<'a> {
+pub struct Document<'a> {
     /// Title, in the tab and above all.
     pub title: &'a str,
     /// What is below the title, part by part.
@@ -27,12 +30,15 @@ pub(super) struct Document<'a> {
     /// All the rest, as HTML.
     pub body: &'a str,
     /// What makes it move.
-    pub script: Option<Script<'a>>,
+    pub script: Option<Script>,
+    /// Style beside that of all pages.
+    pub style: &'a str,
 }
 
 impl Document<'_> {
     /// The whole file.
-    pub(super) fn html(&self) -> String {
+    #[must_use]
+    pub fn html(&self) -> String {
         let title = match self.title.is_empty() {
             true => "Untitled",
             false => self.title,
@@ -44,6 +50,8 @@ impl Document<'_> {
             false => "",
         };
         let origin: Vec<String> = self.origin.iter().map(|part| escaped(part)).collect();
+        let style = self.style;
+        let may = self.script.as_ref().map_or("", |script| script.may);
         let script = self.script.as_ref().map(|script| {
             format!(
                 "<script type=\"application/json\" id=\"data\">{}</script>\n<script>\n{}</script>\n",
@@ -53,10 +61,10 @@ impl Document<'_> {
         });
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}{may}\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta name=\"color-scheme\" content=\"light dark\">\n\
-             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+             <title>{title}</title>\n<style>\n{STYLE}{style}</style>\n</head>\n<body>\n\
              <header>\n<h1>{title}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
              <main{long}>\n{}</main>\n{}</body>\n</html>\n",
             origin.join(" &middot; "),

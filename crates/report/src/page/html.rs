@@ -5,7 +5,8 @@ pub(super) const JUMPS: &str =
     "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
 
 /// A text with what HTML would take for its own written otherwise.
-pub(super) fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -15,7 +15,9 @@ mod sweep;
 mod table;
 
 pub use comparison::comparison;
+pub use document::{Document, Script};
 pub use gap::gap;
+pub use html::escaped;
 pub use ida::ida;
 pub use motion::motion;
 pub use run::page as run;

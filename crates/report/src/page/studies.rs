@@ -46,6 +46,7 @@ impl Inputs {
             origin: &self.origin,
             body: &body,
             script: None,
+            style: "",
         };
         document.html()
     }

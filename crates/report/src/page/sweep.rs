@@ -93,6 +93,7 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
         origin: &origin,
         body: &body,
         script: None,
+        style: "",
     };
     Ok(document.html())
 }

@@ -557,9 +557,12 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
     let owned = source.clone();
     let parser = std::thread::Builder::new().stack_size(STACK);
     let parse = move || Parser::default().parse_with_source_info(&owned);
-    let running = parser.spawn(parse);
-    let answer = running.ok().and_then(|thread| thread.join().ok());
-    let Some(answer) = answer else {
+    let running = parser.spawn(parse).map_err(|e| {
+        let message = format!("there is no thread to read the expression: {e}");
+        let help = "rules of your own are for `pounding gap`; a page that computes does not read them";
+        text.error(0..0, message, help)
+    })?;
+    let Ok(answer) = running.join() else {
         return Err(text.error(0..0, "this cannot be read as an expression", "simplify it"));
     };
     let (tree, places) = answer.map_err(|errors| unreadable(text, &errors))?;

@@ -12,5 +12,4 @@ mod variant;
 pub(crate) use edits::{Edit, Entry, Lost, apply, building_names, entry, with_model, with_motion};
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;
-pub(crate) use pounding_files::checksum::hexadecimal;
 pub(crate) use variant::Variant;

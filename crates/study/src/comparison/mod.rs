@@ -1,27 +1,25 @@
 //! Is the answer sensitive to the impact model? Every model on every record, calibrated
 //! alike, with the spread between models beside that between records.
 
-mod calibration;
 mod conclusions;
 mod differences;
 mod quantities;
 mod spread;
-mod stiffness;
 
-pub use calibration::{CalibratedModel, ReferenceCollision, RestitutionRule};
 pub use conclusions::{Conclusion, Holds, Judgement};
 pub use differences::{LevelDifference, StoreyDifference};
 pub use quantities::{Quantity, QuantityKind};
 pub use spread::{Ranking, Spread};
-pub use stiffness::StiffnessRule;
+
+pub use crate::calibration::{CalibratedModel, ReferenceCollision, RestitutionRule, StiffnessRule};
 
 use std::sync::Arc;
 
 use pounding_case::Case;
-use pounding_gap_element::{ImpactModel, ModelDescriptor, registry};
-use pounding_hysteresis::help_among_gaps;
+use pounding_gap_element::{ImpactModel, ModelDescriptor};
 use pounding_time_history::{BuildingOutcome, Peak, StoreyPeaks, System, run};
 
+use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, amplification,
@@ -201,7 +199,8 @@ pub fn compare_dealt(
     let total = records.len() + descriptors.len() * records.len();
     let tell = |done, _| progress(done, total);
     let own = demands(records, options.threads, &tell)?;
-    let references = references(case, records, &own, options)?;
+    let wanted = (options.restitution, options.approach_velocity);
+    let references = references(case, &records[0].assembly.system, &own, wanted)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
     let mut models: Vec<ComparedModel> =
         in_parallel(descriptors.len(), options.threads, &|_, _| {}, |i| {
@@ -209,7 +208,7 @@ pub fn compare_dealt(
             ComparedModel {
                 descriptor: descriptors[i],
                 calibrated: gaps
-                    .map(|reference| calibration::calibrated(descriptors[i], reference, rules))
+                    .map(|reference| calibrated(descriptors[i], reference, rules))
                     .collect(),
                 records: Vec::new(),
             }
@@ -348,94 +347,6 @@ fn ratio(with: f64, isolated: f64) -> f64 {
     } else {
         with / isolated
     }
-}
-
-fn descriptors(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
-    if names.is_empty() {
-        return Ok(registry::descriptors().to_vec());
-    }
-    let mut descriptors: Vec<&'static ModelDescriptor> = Vec::new();
-    for name in names {
-        let descriptor = registry::find(name).map_err(|e| CheckError::UnknownModel {
-            name: name.clone(),
-            help: help_among_gaps(name).or(e.help()).unwrap_or_default(),
-        })?;
-        // A model and its alias are one.
-        if !descriptors.iter().any(|c| c.name == descriptor.name) {
-            descriptors.push(descriptor);
-        }
-    }
-    Ok(descriptors)
-}
-
-/// The collision of each gap that its models are calibrated in: the fastest one that the
-/// gap's own law meets.
-fn references(
-    case: &Case,
-    records: &[CaseUnderRecord],
-    own: &[RecordDemand],
-    options: &ComparisonOptions,
-) -> Result<Vec<ReferenceCollision>, CheckError> {
-    if let Some(e) = options.restitution
-        && !(e > 0.0 && e <= 1.0)
-    {
-        return Err(CheckError::Option {
-            option: "restitution",
-            value: e,
-            reason: "it is greater than 0 and at most 1",
-        });
-    }
-    let system = &records[0].assembly.system;
-    let mut with = Vec::new();
-    for record in own {
-        let (_, gaps) = record.pounding.as_ref().map_err(|e| CheckError::OwnLaw {
-            record: record.name.clone(),
-            diagnosis: e.clone(),
-        })?;
-        with.push(gaps);
-    }
-    let fastest = |gap: usize| {
-        let levels = with
-            .iter()
-            .flat_map(|gaps| gaps[gap].levels.iter().enumerate());
-        levels.fold((0, 0.0_f64), |best, (l, level)| {
-            let velocity = level.approach_velocity_max;
-            if velocity > best.1 {
-                (l, velocity)
-            } else {
-                best
-            }
-        })
-    };
-    let over_all = (0..system.gaps().len()).fold(0.0_f64, |m, g| m.max(fastest(g).1));
-    let mut references = Vec::new();
-    for (index, gap) in system.gaps().iter().enumerate() {
-        let (level, velocity) = fastest(index);
-        let velocity = if velocity > 0.0 { velocity } else { over_all };
-        let velocity = options.approach_velocity.unwrap_or(velocity);
-        if !(velocity.is_finite() && velocity > 0.0) {
-            return Err(CheckError::Calibration {
-                reason: "the buildings touch under no record, so that no collision is known"
-                    .to_owned(),
-                help: "give --approach-velocity, or a narrower gap",
-            });
-        }
-        let place = &system.levels()[gap.first_level + level];
-        let (stiffness, exponent) = calibration::own_law(case, index)?;
-        let mut reference = ReferenceCollision {
-            approach_velocity: velocity,
-            effective_mass: place.effective_mass,
-            stiffness,
-            exponent,
-            restitution: f64::NAN,
-        };
-        reference.restitution = match options.restitution {
-            Some(e) => e,
-            None => calibration::own_restitution(case, index, place.model.as_ref(), &reference)?,
-        };
-        references.push(reference);
-    }
-    Ok(references)
 }
 
 fn isolated(quantities: &[Quantity], isolated: &[BuildingOutcome]) -> Vec<f64> {

@@ -155,7 +155,9 @@ fn ratio(with: Peak, isolated: Peak) -> f64 {
     }
 }
 
-pub(crate) fn amplification(
+/// Peaks with pounding over those without, of each building and storey.
+#[must_use]
+pub fn amplification(
     with: &[BuildingOutcome],
     isolated: &[BuildingOutcome],
 ) -> Vec<Vec<Amplification>> {
@@ -175,7 +177,10 @@ pub(crate) fn amplification(
 }
 
 /// All records, on so many threads.
-pub(crate) fn demands(
+///
+/// # Errors
+/// Isolated buildings that cannot be integrated.
+pub fn demands(
     records: &[CaseUnderRecord],
     threads: usize,
     progress: Progress<'_>,

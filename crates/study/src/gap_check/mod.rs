@@ -16,7 +16,9 @@ mod systems;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
-pub use demand::{Amplification, AmplifiedQuantity, GapLevel, RecordDemand};
+pub use demand::{
+    Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
+};
 pub use error::CheckError;
 pub use parallel::Progress;
 pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
@@ -24,11 +26,13 @@ pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
-pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth};
+pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, widest};
 
-pub(crate) use demand::{amplification, closes, demands, levels};
+#[cfg(feature = "results")]
+pub(crate) use demand::closes;
+pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
-pub(crate) use systems::rebuilt;
+pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::NamedPeak;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{System, run};
+use pounding_time_history::{BuildingOutcome, Recorder, RunOptions, System, run};
 
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
@@ -221,14 +221,13 @@ pub(crate) fn sweep(
             });
         }
     };
-    let from = asked.from.unwrap_or(to / asked.points as f64);
-    let steps = (asked.points - 1) as f64;
-    let width = |i: usize| from + (to - from) * i as f64 / steps;
-    let widths: Vec<f64> = (0..asked.points).map(width).collect();
+    let widths = even_widths(asked.from, to, asked.points);
     let count = widths.len() * records.len();
     let make = |number: usize| {
         let (i, r) = (number / records.len(), number % records.len());
-        one(&records[r], &demands[r], widths[i], gap)
+        let assembly = &records[r].assembly;
+        let system = (&assembly.system, &assembly.options);
+        at_width(system, &demands[r].isolated, (widths[i], gap), &mut [])
     };
     let on = (shared.threads, shared.progress);
     let runs = shared.deal.runs(shared.identity, count, on, make)?;
@@ -242,27 +241,43 @@ pub(crate) fn sweep(
     })
 }
 
-/// A little more than the maximum demand (m).
-fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
+/// So many widths (m), two or more, at even steps to the last one; from one step on, so that the
+/// next below were zero, if the first is not given.
+#[must_use]
+pub fn even_widths(from: Option<f64>, to: f64, points: usize) -> Vec<f64> {
+    let from = from.unwrap_or(to / points as f64);
+    let steps = points.saturating_sub(1) as f64;
+    let width = |i: usize| from + (to - from) * i as f64 / steps;
+    (0..points).map(width).collect()
+}
+
+/// A little more than the maximum demand of the gaps that vary (m): the last width of a sweep.
+#[must_use]
+pub fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
     let peaks = varied.flat_map(|(_, levels)| levels);
     1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value))
 }
 
-fn one(
-    record: &CaseUnderRecord,
-    demand: &RecordDemand,
-    width: f64,
-    gap: Option<usize>,
+/// The run of a system at one width (m) of all its gaps, or of the one of this number;
+/// `isolated` are the peaks of its buildings without contact. Recorders see it, and may end it.
+///
+/// # Errors
+/// Why it failed, in words.
+pub fn at_width(
+    (system, options): (&System, &RunOptions),
+    isolated: &[BuildingOutcome],
+    (width, gap): (f64, Option<usize>),
+    recorders: &mut [&mut dyn Recorder],
 ) -> Result<SweepRun, String> {
-    let system = rebuilt(&record.assembly.system, |index, level| {
+    let system = rebuilt(system, |index, level| {
         let varies = gap.is_none_or(|g| g == index);
         let width = if varies { width } else { level.width };
         (width, Arc::clone(&level.model))
     });
     let system = system.map_err(|e| e.to_string())?;
-    let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
+    let outcome = run(&system, options, recorders, &mut |_| {});
     let outcome = outcome.map_err(|e| e.to_string())?;
     let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
     let forces = levels()
@@ -271,7 +286,7 @@ fn one(
     let jumps = levels().any(|l| l.impacts > 0 && l.peak_force.value.is_nan());
     let peak_force = forces.fold(0.0, f64::max);
     Ok(SweepRun {
-        amplification: amplification(&outcome.buildings, &demand.isolated),
+        amplification: amplification(&outcome.buildings, isolated),
         impacts: levels().map(|l| l.impacts).sum(),
         peak_force: if jumps && peak_force == 0.0 {
             f64::NAN

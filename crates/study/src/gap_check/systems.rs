@@ -8,7 +8,10 @@ use pounding_time_history::{ContactLevel, System, TimeHistoryError};
 /// The same buildings and links under the same motion, with another width (m) and model at every
 /// contact level: `change` is given the gap and the level. What the isolated buildings
 /// determine is shared with `system`.
-pub(crate) fn rebuilt(
+///
+/// # Errors
+/// A gap that the system does not take.
+pub fn rebuilt(
     system: &System,
     change: impl Fn(usize, &ContactLevel) -> (f64, Arc<dyn ImpactModel>),
 ) -> Result<System, TimeHistoryError> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use crate::case_text::hexadecimal;
 use crate::runs::{Ending, ID, Row};
+use pounding_files::checksum::hexadecimal;
 
 /// Bytes of the hash at the end.
 const HASH: usize = 32;

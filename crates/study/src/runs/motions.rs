@@ -9,9 +9,9 @@ use pounding_ground_motion::Accelerogram;
 use sha2::{Digest, Sha256};
 
 use super::shared_records::{self, SharedRecords};
-use crate::case_text::hexadecimal;
 use crate::error::StudyError;
 use crate::study_file::{IntensityMeasure, RecordKind, RecordSource, Study, Target};
+use pounding_files::checksum::hexadecimal;
 
 /// A motion of a study.
 #[derive(Debug, Clone)]

@@ -18,9 +18,10 @@ use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
-use crate::case_text::{Edit, Lines, Variant, apply, canonical, hexadecimal};
+use crate::case_text::{Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
+use pounding_files::checksum::hexadecimal;
 
 /// Buildings and motions kept for runs to come.
 const KEPT: usize = 64;

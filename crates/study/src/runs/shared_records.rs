@@ -12,7 +12,8 @@ use sha2::{Digest, Sha256};
 
 use super::motions::Motion;
 use super::runner::named_files;
-use crate::case_text::{canonical, hexadecimal};
+use crate::case_text::canonical;
+use pounding_files::checksum::hexadecimal;
 use crate::error::StudyError;
 use crate::study_file::{RecordKind, RecordSource, Study};
 

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use pounding_files::PartFile;
 use pounding_results::study::{Axis, Description, Row, Value};
 
-use crate::case_text::hexadecimal;
 use crate::error::StudyError;
 use parquet_table::{Cell, ParquetTable};
+use pounding_files::checksum::hexadecimal;
 
 /// Writes a table beside its place; `finish` puts it there. It is Parquet if its name ends
 /// in `.parquet`, else CSV.

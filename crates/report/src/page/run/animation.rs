@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use pounding_catalogue::numbers::significant;
+use pounding_elevation::{Body, MAGNIFICATIONS, SCRIPT, Scene};
 use serde_json::{Value, json};
 
 use super::packed::{Kind, packed};
-use super::scene::{Body, MAGNIFICATIONS, Scene};
+use super::row::row as row_of;
 use super::series;
 use crate::page::document::Script;
 use crate::page::html::escaped;
@@ -21,8 +22,8 @@ const SPEEDS: [&str; 7] = ["0.01", "0.02", "0.05", "0.1", "0.25", "0.5", "1"];
 
 /// The section of the moving buildings, and what moves them; nothing for a result without
 /// times.
-pub(in crate::page) fn animation(result: &RunResult) -> Option<(String, Script<'static>)> {
-    let scene = Scene::of(result);
+pub(in crate::page) fn animation(result: &RunResult) -> Option<(String, Script)> {
+    let scene = Scene::of(&row_of(result));
     if result.time.len() < 2 || result.buildings.is_empty() {
         return None;
     }
@@ -36,8 +37,13 @@ pub(in crate::page) fn animation(result: &RunResult) -> Option<(String, Script<'
          <figcaption>{hint}</figcaption></figure>\n{}</section>\n",
         controls(result, magnification)
     );
-    let source = include_str!("run.js");
-    Some((section, Script { source, data }))
+    let source = format!("{SCRIPT}{}", include_str!("run.js"));
+    let script = Script {
+        source,
+        data,
+        may: "",
+    };
+    Some((section, script))
 }
 
 /// The output time that the still picture shows: the hardest impact, or the largest
@@ -251,32 +257,15 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
     let shown = shown_contacts(result, scene);
     let (frames, kind) = frames(result, row);
     let times: Vec<f64> = frames.iter().map(|k| result.time[*k]).collect();
-    let body = |(number, body): (usize, &Body)| {
-        let displacement = body.building.map(|b| {
+    let displacement = |body: &Body| {
+        body.building.map(|b| {
             let rows = frames.iter().flat_map(|k| floors(&result.buildings[b], *k));
             packed(&rows.collect::<Vec<f64>>(), kind)
-        });
-        json!({
-            "number": number,
-            "title": body.name,
-            "building": body.building,
-            "left": body.left,
-            "width": body.width,
-            "offset": body.offset,
-            "elevation": body.elevation,
-            "displacement": displacement,
         })
     };
-    let contact = |c: &usize| {
-        let contact = &scene.contacts[*c];
-        let (gap, level) = contact.place;
-        json!({
-            "name": name(result, gap, level),
-            "left": contact.between[0],
-            "right": contact.between[1],
-            "elevations": contact.elevations,
-            "ahead": contact.ahead,
-        })
+    let named = |c: &usize| {
+        let (gap, level) = scene.contacts[*c].place;
+        (*c, name(result, gap, level))
     };
     let place_of =
         &|place: (usize, usize)| shown.iter().position(|c| scene.contacts[*c].place == place);
@@ -297,15 +286,10 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
         "contact": hardest,
         "step": result.time[1] - result.time[0],
         "window": WINDOW,
-        "height": scene.height,
-        "width": scene.width,
-        "offsets": scene.offsets,
-        "reach": scene.reach,
-        "margin": scene.margin(),
+        "scene": scene.json(shown.iter().map(named)),
         "magnification": magnification,
         "frames": packed(&times, Kind::Float64),
-        "bodies": scene.bodies.iter().enumerate().map(body).collect::<Vec<Value>>(),
-        "contacts": shown.iter().map(contact).collect::<Vec<Value>>(),
+        "displacements": scene.bodies.iter().map(displacement).collect::<Vec<_>>(),
         "impacts": {
             "contact": impacts.iter().map(|(contact, _)| *contact).collect::<Vec<usize>>(),
             "closes": column(|i| i.t_close, Kind::Float64),

@@ -3,7 +3,7 @@
 mod animation;
 mod figures;
 mod packed;
-mod scene;
+mod row;
 mod series;
 mod tables;
 mod words;
@@ -64,6 +64,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         origin: &origin,
         body: &body,
         script,
+        style: "",
     };
     Ok(document.html())
 }

@@ -20,30 +20,13 @@
     return known.get(name);
   };
   const shown = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(4))) : "–");
-  // The place of the last entry that is not greater; 0 before all of them.
-  const place = (sorted, x) => {
-    let low = 0;
-    let high = sorted.length;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (sorted[middle] <= x) low = middle;
-      else high = middle;
-    }
-    return low;
-  };
-
   const frames = numbers(data.frames);
-  const bodies = data.bodies.map((body) => ({
+  const picture = part("elevation");
+  const scene = elevation(data.scene, picture);
+  const { contacts, place } = scene;
+  const bodies = scene.bodies.map((body, i) => ({
     ...body,
-    displacement: body.displacement ? numbers(body.displacement) : null,
-    element: document.querySelector(`[data-body="${body.number}"]`),
-    name: document.querySelector(`[data-name="${body.number}"]`),
-    now: new Float64Array(body.elevation.length + 1),
-  }));
-  const contacts = data.contacts.map((contact, i) => ({
-    ...contact,
-    element: document.querySelector(`[data-contact="${i}"]`),
-    edge: document.querySelector(`[data-edge="${i}"]`),
+    displacement: data.displacements[i] ? numbers(data.displacements[i]) : null,
   }));
   const columns = Object.fromEntries(
     ["closes", "opens", "force", "impulse"].map((name) => [name, numbers(data.impacts[name])]),
@@ -56,21 +39,10 @@
     force: columns.force[i],
     impulse: columns.impulse[i],
   }));
-  const picture = part("elevation");
   const [start, end] = [frames[0], frames[frames.length - 1]];
   let time = data.time;
   let magnification = data.magnification;
   let playing = false;
-
-  // Where the side of a body is that faces a level, in the picture.
-  const side = (body, elevation, right) => {
-    const rest = body.left + (right ? body.width : 0) + magnification * body.offset;
-    if (!body.displacement) return rest;
-    const z = [0, ...body.elevation];
-    const k = Math.min(place(z, elevation), z.length - 2);
-    const share = Math.min(1, Math.max(0, (elevation - z[k]) / (z[k + 1] - z[k] || 1)));
-    return rest + magnification * (body.now[k] + share * (body.now[k + 1] - body.now[k]));
-  };
 
   const draw = () => {
     const k = place(frames, time);
@@ -79,7 +51,6 @@
     const share = step > 0 ? Math.min(1, Math.max(0, (time - frames[k]) / step)) : 0;
     for (const body of bodies) {
       const storeys = body.elevation.length;
-      const rest = body.left + magnification * body.offset;
       if (body.displacement) {
         for (let i = 0; i < storeys; i++) {
           const before = body.displacement[k * storeys + i];
@@ -87,19 +58,6 @@
           body.now[i + 1] = share === 0 ? before : before + share * (after - before);
         }
       }
-      const points = [0, ...body.elevation].map((z, i) => [
-        (rest + magnification * body.now[i]).toFixed(6),
-        (data.height - z).toFixed(4),
-      ]);
-      const up = points.map(([x, y]) => `${x} ${y}`).join(" L");
-      const down = points
-        .slice()
-        .reverse()
-        .map(([x, y]) => `${(Number(x) + body.width).toFixed(6)} ${y}`)
-        .join(" L");
-      const floors = points.slice(1).map(([x, y]) => `M${x} ${y}h${body.width}`);
-      body.element.setAttribute("d", `M${up} L${down}Z${floors.join("")}`);
-      body.name.setAttribute("x", rest + body.width / 2);
     }
     // While it plays a contact stays in sight for a sixth of a second.
     const lasting = playing ? Number(part("speed").value) / 6 : 0;
@@ -109,24 +67,7 @@
       if (impact.closes > time) break;
       if (time <= Math.max(impact.opens, impact.closes + lasting)) closed.add(impact.contact);
     }
-    contacts.forEach((contact, i) => {
-      const left = side(bodies[contact.left], contact.elevations[0], true);
-      const right = side(bodies[contact.right], contact.elevations[1], false);
-      const [zl, zr] = contact.elevations.map((z) => data.height - z);
-      const nearer = right - magnification * contact.ahead;
-      contact.element.setAttribute("cx", (left + nearer) / 2);
-      contact.element.setAttribute("cy", (zl + zr) / 2);
-      contact.element.classList.toggle("closed", closed.has(i));
-      contact.edge.setAttribute("d", contact.ahead > 0 ? `M${right} ${zr}H${nearer}` : "");
-    });
-    const reach = magnification * data.reach;
-    const gaps = magnification * data.offsets;
-    picture.setAttribute(
-      "viewBox",
-      `${-data.margin - reach} ${-data.margin} ${data.width + gaps + 2 * (data.margin + reach)} ` +
-        `${data.height + 3 * data.margin}`,
-    );
-    part("ground").setAttribute("d", `M${-data.margin - reach} ${data.height}h${data.width + gaps + 2 * (data.margin + reach)}`);
+    scene.draw(magnification, closed);
     picture.dataset.time = String(time);
     part("time").value = String(time);
     part("time").setAttribute("aria-valuetext", `${time.toFixed(3)} s`);

@@ -1,16 +1,52 @@
-//! The buildings in elevation: where they stand, and what holds them apart.
+//! The buildings in elevation: where they stand in a picture, what holds them apart, and the
+//! script that moves them.
 
-use crate::result::{GapResult, RunResult};
+use serde_json::{Value, json};
 
-/// Word for a rigid wall in the result file.
-const WALL: &str = "wall";
+/// Word for a rigid wall.
+pub const WALL: &str = "wall";
+/// JavaScript that moves the buildings of a [`Scene`]: the function `elevation`, which takes
+/// what [`Scene::json`] gives.
+pub const SCRIPT: &str = include_str!("elevation.js");
 /// Magnifications that a reader can choose.
-pub(super) const MAGNIFICATIONS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
+pub const MAGNIFICATIONS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
+
+/// What stands on one side of a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Neighbour {
+    /// A building of the row, from zero.
+    Building(usize),
+    /// A rigid wall.
+    Wall,
+    /// Nobody knows.
+    Unknown,
+}
+
+/// A gap of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowGap {
+    /// What stands on both sides.
+    pub between: [Neighbour; 2],
+    /// Elevations of the left and the right floor (m; NaN for a wall) and width at rest (m) of
+    /// every level.
+    pub levels: Vec<([f64; 2], f64)>,
+}
+
+/// Buildings in a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Names and elevations of floors (m), from the left.
+    pub buildings: Vec<(String, Vec<f64>)>,
+    /// What is between them.
+    pub gaps: Vec<RowGap>,
+    /// Largest displacement (m).
+    pub reach: f64,
+}
 
 /// A building or a wall. At a magnification `m` its left side is at `left + m * offset`, and
 /// each floor further by `m` times its displacement (m).
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Body {
+pub struct Body {
     /// Name.
     pub name: String,
     /// Place among the buildings; `None` for a wall.
@@ -27,7 +63,7 @@ pub(super) struct Body {
 
 /// A level at which two bodies can touch.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Contact {
+pub struct Contact {
     /// Gap and level.
     pub place: (usize, usize),
     /// Bodies.
@@ -40,7 +76,7 @@ pub(super) struct Contact {
 
 /// All of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Scene {
+pub struct Scene {
     /// From left to right.
     pub bodies: Vec<Body>,
     /// Of all gaps.
@@ -56,14 +92,15 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// The buildings of a result in the order of the case, with the walls beside them.
-    pub(super) fn of(result: &RunResult) -> Self {
-        let sides = |gap: &GapResult| sides(result, gap);
-        let walls: Vec<[Option<Option<usize>>; 2]> = result.gaps.iter().map(sides).collect();
-        let top = |i: usize| result.buildings[i].elevation.last().copied().unwrap_or(0.0);
-        let all = 0..result.buildings.len();
+    /// The buildings of a row in their order, with the walls beside them.
+    #[must_use]
+    pub fn of(row: &Row) -> Self {
+        use Neighbour::{Building, Wall};
+        let walls: Vec<[Neighbour; 2]> = row.gaps.iter().map(|gap| gap.between).collect();
+        let top = |i: usize| row.buildings[i].1.last().copied().unwrap_or(0.0);
+        let all = 0..row.buildings.len();
         let height = all.clone().map(top).fold(1.0, f64::max);
-        let count = result.buildings.len().max(1) as f64;
+        let count = row.buildings.len().max(1) as f64;
         let width = (2.0 * height / count).clamp(0.12 * height, 0.5 * height);
         let mut scene = Self {
             bodies: Vec::new(),
@@ -71,14 +108,14 @@ impl Scene {
             height,
             width: 0.0,
             offsets: 0.0,
-            reach: reach(result),
+            reach: row.reach,
         };
-        let mut body_of = vec![[usize::MAX; 2]; result.gaps.len()];
+        let mut body_of = vec![[usize::MAX; 2]; row.gaps.len()];
         for building in all {
             let here = |side: usize| {
                 let walls = walls.iter().enumerate();
                 let beside = walls.filter(move |(_, sides)| {
-                    sides[1 - side] == Some(Some(building)) && sides[side] == Some(None)
+                    sides[1 - side] == Building(building) && sides[side] == Wall
                 });
                 beside.map(|(gap, _)| gap).collect::<Vec<_>>()
             };
@@ -86,30 +123,30 @@ impl Scene {
             if !left_walls.is_empty() {
                 let wall = scene.add(WALL, None, 0.25 * width, vec![top(building)]);
                 left_walls.iter().for_each(|g| body_of[*g][0] = wall);
-                scene.offsets += widest(result, &left_walls);
+                scene.offsets += widest(row, &left_walls);
             }
             let before = walls.iter().enumerate().filter(|(_, sides)| {
-                sides[1] == Some(Some(building)) && matches!(sides[0], Some(Some(_)))
+                sides[1] == Building(building) && matches!(sides[0], Building(_))
             });
             let before: Vec<usize> = before.map(|(gap, _)| gap).collect();
             if !before.is_empty() {
-                scene.offsets += widest(result, &before);
+                scene.offsets += widest(row, &before);
             } else if !scene.bodies.is_empty() && left_walls.is_empty() {
                 // Nothing says how far these are apart.
                 scene.width += 0.3 * width;
             }
-            let elevation = result.buildings[building].elevation.clone();
-            let name = &result.buildings[building].name;
+            let (name, elevation) = &row.buildings[building];
+            let elevation = elevation.clone();
             let number = scene.add(name, Some(building), width, elevation);
             for (gap, sides) in walls.iter().enumerate() {
                 for side in 0..2 {
-                    if sides[side] == Some(Some(building)) {
+                    if sides[side] == Building(building) {
                         body_of[gap][side] = number;
                     }
                 }
             }
             if !right_walls.is_empty() {
-                scene.offsets += widest(result, &right_walls);
+                scene.offsets += widest(row, &right_walls);
                 let wall = scene.add(WALL, None, 0.25 * width, vec![top(building)]);
                 right_walls.iter().for_each(|g| body_of[*g][1] = wall);
             }
@@ -118,16 +155,16 @@ impl Scene {
             if between.contains(&usize::MAX) {
                 continue;
             }
-            let most = widest(result, &[gap]);
-            for (level, place) in result.gaps[gap].levels.iter().enumerate() {
-                let [left, right] = place.elevations;
+            let most = widest(row, &[gap]);
+            for (level, ([left, right], width)) in row.gaps[gap].levels.iter().enumerate() {
+                let (left, right) = (*left, *right);
                 // A wall is met where the floor is.
                 let or = |z: f64, other: f64| if z.is_finite() { z } else { other };
                 scene.contacts.push(Contact {
                     place: (gap, level),
                     between,
                     elevations: [or(left, right), or(right, left)],
-                    ahead: most - result.gaps[gap].width[level],
+                    ahead: most - width,
                 });
             }
         }
@@ -153,8 +190,44 @@ impl Scene {
         self.bodies.len() - 1
     }
 
+    /// What the script reads, with these contacts alone, under these names.
+    #[must_use]
+    pub fn json(&self, contacts: impl Iterator<Item = (usize, String)>) -> Value {
+        let body = |body: &Body| {
+            json!({
+                "title": body.name,
+                "building": body.building,
+                "left": body.left,
+                "width": body.width,
+                "offset": body.offset,
+                "elevation": body.elevation,
+            })
+        };
+        let contact = |(place, name): (usize, String)| {
+            let contact = &self.contacts[place];
+            json!({
+                "name": name,
+                "left": contact.between[0],
+                "right": contact.between[1],
+                "elevations": contact.elevations,
+                "ahead": contact.ahead,
+            })
+        };
+        json!({
+            "height": self.height,
+            "width": self.width,
+            "offsets": self.offsets,
+            "reach": self.reach,
+            "margin": self.margin(),
+            "magnification": self.magnification(),
+            "bodies": self.bodies.iter().map(body).collect::<Vec<Value>>(),
+            "contacts": contacts.map(contact).collect::<Vec<Value>>(),
+        })
+    }
+
     /// The greatest magnification at which the picture still looks like buildings.
-    pub(super) fn magnification(&self) -> f64 {
+    #[must_use]
+    pub fn magnification(&self) -> f64 {
         let narrowest = self.bodies.iter().filter(|b| b.building.is_some());
         let narrowest = narrowest.map(|b| b.width).fold(f64::INFINITY, f64::min);
         let bodies = self.bodies.len().max(1) as f64;
@@ -165,44 +238,15 @@ impl Scene {
     }
 
     /// What is left free around the picture (m).
-    pub(super) fn margin(&self) -> f64 {
+    #[must_use]
+    pub fn margin(&self) -> f64 {
         0.06 * self.height
     }
 }
 
-/// What stands on both sides of a gap: a building, or `Some(None)` for a wall; `None` where
-/// the text does not say.
-fn sides(result: &RunResult, gap: &GapResult) -> [Option<Option<usize>>; 2] {
-    let body = |name: &str| {
-        let building = result.buildings.iter().position(|b| b.name == name);
-        match building {
-            Some(building) => Some(Some(building)),
-            None => (name == WALL).then_some(None),
-        }
-    };
-    // A name may hold the same sign.
-    let parts = gap.between.match_indices(" | ").map(|(at, sign)| {
-        [
-            body(&gap.between[..at]),
-            body(&gap.between[at + sign.len()..]),
-        ]
-    });
-    let mut parts = parts.filter(|sides| sides.iter().all(Option::is_some));
-    parts.next().unwrap_or([None, None])
-}
-
 /// The width of the widest level of some gaps (m).
-fn widest(result: &RunResult, gaps: &[usize]) -> f64 {
-    let widths = gaps.iter().flat_map(|g| &result.gaps[*g].width);
-    widths
-        .copied()
-        .filter(|w| w.is_finite())
-        .fold(0.0, f64::max)
-}
-
-/// Largest displacement of all (m).
-fn reach(result: &RunResult) -> f64 {
-    let values = result.buildings.iter().flat_map(|b| &b.displacement.values);
-    let values = values.copied().filter(|u| u.is_finite());
-    values.fold(0.0, |m: f64, u| m.max(u.abs()))
+fn widest(row: &Row, gaps: &[usize]) -> f64 {
+    let levels = gaps.iter().flat_map(|g| &row.gaps[*g].levels);
+    let widths = levels.map(|(_, width)| *width);
+    widths.filter(|w| w.is_finite()).fold(0.0, f64::max)
 }

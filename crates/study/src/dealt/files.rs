@@ -1,120 +1,47 @@
-//! Runs of a gap check or of a comparison that several processes share.
-//!
-//! The demands of the records, which decide what all other runs are, are computed by each of them;
-//! the other runs, many for each record, are dealt out one by one and stored in a file a shard.
+//! The files of shards.
 
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
+use pounding_files::checksum::hexadecimal;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use super::{Made, Numbers, Stored};
 use crate::BUILD;
-use crate::case_text::hexadecimal;
 use crate::gap_check::{CaseUnderRecord, CheckError, Progress, in_parallel};
 use crate::sweep::Shard;
 
-/// Who makes the runs of a check.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum Deal {
-    /// This process makes all of them.
-    #[default]
-    All,
-    /// It makes those of a shard and stores them in a file; the answer of the check has no
-    /// meaning then.
-    Part {
-        /// Which shard.
-        shard: Shard,
-        /// The file; one that holds the same shard of the same check is left as it is.
-        file: PathBuf,
-    },
-    /// They were made by others, who stored them in these files.
-    Merged {
-        /// The files of all shards, in any order.
-        files: Vec<PathBuf>,
-    },
-}
-
-/// A run that is stored as numbers.
-pub(crate) trait Stored: Sized + Send {
-    /// Adds its numbers.
-    fn to_numbers(&self, numbers: &mut Vec<f64>);
-    /// Takes them back; `None` if they are not those of a run.
-    fn from_numbers(numbers: &mut Numbers<'_>) -> Option<Self>;
-}
-
-/// Numbers that are taken one after another.
-pub(crate) struct Numbers<'n>(&'n [f64]);
-
-impl Numbers<'_> {
-    /// The next number.
-    pub(crate) fn take(&mut self) -> Option<f64> {
-        let (first, rest) = self.0.split_first()?;
-        self.0 = rest;
-        Some(*first)
-    }
-
-    /// The next number, as one of things that are left.
-    pub(crate) fn count(&mut self) -> Option<usize> {
-        let count = self.take()?;
-        (count >= 0.0 && count <= self.0.len() as f64 && count.fract() == 0.0)
-            .then_some(count as usize)
-    }
-
-    /// As many things as the next number says.
-    pub(crate) fn list<T>(
-        &mut self,
-        mut one: impl FnMut(&mut Self) -> Option<T>,
-    ) -> Option<Vec<T>> {
-        (0..self.count()?).map(|_| one(self)).collect()
-    }
-}
-
-/// What a run is, or why it failed.
-type Made<T> = Result<T, String>;
-
-impl Deal {
-    /// The runs from zero to `count - 1`, made by `make` here or taken from those who made them.
-    ///
-    /// # Errors
-    /// [`CheckError::Shards`] for files that are not all shards of this check.
-    pub(crate) fn runs<T: Stored>(
-        &self,
-        identity: impl FnOnce() -> String,
-        count: usize,
-        (threads, progress): (usize, Progress<'_>),
-        make: impl Fn(usize) -> Made<T> + Sync,
-    ) -> Result<Vec<Made<T>>, CheckError> {
-        match self {
-            Self::All => Ok(in_parallel(count, threads, progress, make)),
-            Self::Part { shard, file } => {
-                let identity = identity();
-                let mine: Vec<usize> = (shard.index - 1..count).step_by(shard.count).collect();
-                let failed = |e: Error| refused(file, &e.to_string());
-                let standing = Content::read(file, &identity);
-                if standing.is_err() || standing.is_ok_and(|found| found.shard != *shard) {
-                    // Anything else in its place is not ours to replace.
-                    if file.exists() {
-                        return Err(refused(
-                            file,
-                            "it is not this shard of this check: move it away",
-                        ));
-                    }
-                    let made = in_parallel(mine.len(), threads, progress, |i| make(mine[i]));
-                    let content = Content::of(*shard, count, &mine, &made).encode(&identity);
-                    pounding_files::write(file, &content).map_err(failed)?;
-                }
-                let elsewhere = |_| Err("it is made by another shard".to_owned());
-                Ok((0..count).map(elsewhere).collect())
-            }
-            Self::Merged { files } => merged(files, &identity(), count),
+/// Makes the runs of a shard and stores them in its file, unless they stand there.
+pub(super) fn part<T: Stored>(
+    (shard, file): (Shard, &Path),
+    identity: &str,
+    count: usize,
+    (threads, progress): (usize, Progress<'_>),
+    make: impl Fn(usize) -> Made<T> + Sync,
+) -> Result<Vec<Made<T>>, CheckError> {
+    let mine: Vec<usize> = (shard.index - 1..count).step_by(shard.count).collect();
+    let failed = |e: Error| refused(file, &e.to_string());
+    let standing = Content::read(file, identity);
+    if standing.is_err() || standing.is_ok_and(|found| found.shard != shard) {
+        // Anything else in its place is not ours to replace.
+        if file.exists() {
+            return Err(refused(
+                file,
+                "it is not this shard of this check: move it away",
+            ));
         }
+        let made = in_parallel(mine.len(), threads, progress, |i| make(mine[i]));
+        let content = Content::of(shard, count, &mine, &made).encode(identity);
+        pounding_files::write(file, &content).map_err(failed)?;
     }
+    let elsewhere = |_| Err("it is made by another shard".to_owned());
+    Ok((0..count).map(elsewhere).collect())
 }
 
 /// Puts the runs of all shards together.
-fn merged<T: Stored>(
+pub(super) fn merged<T: Stored>(
     files: &[PathBuf],
     identity: &str,
     count: usize,
@@ -288,6 +215,7 @@ impl Content {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use super::super::Deal;
     use super::*;
 
     /// A run of a few numbers.

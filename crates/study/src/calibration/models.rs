@@ -135,7 +135,10 @@ pub(super) fn own_restitution(
 }
 
 /// Calibrates a model for one gap.
-pub(super) fn calibrated(
+///
+/// # Errors
+/// Why it cannot be, in words.
+pub fn calibrated(
     descriptor: &'static ModelDescriptor,
     reference: &ReferenceCollision,
     rules: (StiffnessRule, RestitutionRule),

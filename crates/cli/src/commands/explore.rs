@@ -1,0 +1,86 @@
+//! `pounding explore`: the page that computes.
+
+use std::path::Path;
+
+use pounding_case::Case;
+use pounding_explorer_page::{ExplorerPageError, Inputs, page};
+use pounding_files::FileUse;
+use pounding_ground_motion::read_all_bytes;
+
+use crate::arguments::ExploreArguments;
+use crate::failure::Failure;
+use crate::faults::{assembled, read_case};
+use crate::files::{have_a_place, name_left_over, reads_too, record_files};
+use crate::output::print;
+use crate::plot;
+
+/// Writes the page of a case that can be run, says where.
+pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), Failure> {
+    let path: &Path = &arguments.case;
+    let case = read_case(path, true)?;
+    let output = match &arguments.output {
+        Some(output) => output.to_path_buf(),
+        None => {
+            let beside = path.with_extension("html");
+            files.writes("--output", &beside);
+            name_left_over(&beside);
+            beside
+        }
+    };
+    reads_too(&mut files, case.files())?;
+    let records = record_files(&arguments.records);
+    let records = records.map_err(|e| Failure::input(e.to_string(), e.help()))?;
+    reads_too(&mut files, records.iter().map(|r| ("record", r.clone())))?;
+    // What cannot be run has no page.
+    assembled(&case)?;
+    have_a_place([Some(output.as_path())])?;
+    let mut held = named_files(&case)?;
+    for record in &records {
+        let name = record.file_name().unwrap_or_default().to_string_lossy();
+        let bytes = bytes_of(record)?;
+        read_all_bytes(&record.display().to_string(), &bytes, &Default::default())?;
+        held.push((name.into_owned(), bytes));
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let documentation = arguments.documentation.as_deref();
+    let documentation = documentation.map(|address| format!("{}/", address.trim_end_matches('/')));
+    let made = page(&Inputs {
+        title: &case.title,
+        name: &name,
+        case: &case.source,
+        files: &held,
+        documentation: documentation.as_deref(),
+    });
+    let made = made.map_err(|error| match error {
+        ExplorerPageError::NoModule { .. } => Failure::computation(
+            error.to_string(),
+            Some("docs/how-to/explore-in-the-browser.md says what the build needs".to_owned()),
+        ),
+        error => Failure::computation(error.to_string(), None),
+    })?;
+    plot::write(&output, &made)?;
+    print(&format!(
+        "{:.1} MB: page written to {}",
+        made.len() as f64 * 1.0e-6,
+        output.display()
+    ))
+}
+
+/// The files that the case names, by the names that it gives them.
+fn named_files(case: &Case) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let mut held: Vec<(String, Vec<u8>)> = Vec::new();
+    for (_, path) in case.named_files() {
+        let name = path.display().to_string();
+        if !held.iter().any(|(known, _)| *known == name) {
+            held.push((name, bytes_of(&case.resolve(path))?));
+        }
+    }
+    Ok(held)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|e| {
+        let message = format!("cannot read {}: {e}", path.display());
+        Failure::input(message, Some("check the path".to_owned()))
+    })
+}

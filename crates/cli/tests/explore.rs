@@ -1,0 +1,517 @@
+//! The page that computes, and the solver in it, against the command line.
+//!
+//! What the solver answers is asked for natively, and under Node from the module that pages hold:
+//! `POUNDING_NODE` names the program, or it is looked for as `node`. Without it, or in a build
+//! without the module, tests of the module say that they were skipped.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pounding_explorer::Explorer;
+use serde_json::{Map, Value, json};
+
+use crate::support::{Bench, run, text};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Most that a page may weigh (bytes).
+const MOST: u64 = 4_000_000;
+const RECORD: &str = "../../ground_motions/el_centro_1940_ns.csv";
+
+/// Whether this program has the module.
+fn has_module() -> bool {
+    let module = pounding_explorer_page::module();
+    if let Err(reason) = &module {
+        eprintln!("skipped: {reason}");
+    }
+    module.is_ok()
+}
+
+/// The bytes that belong to a request.
+fn bytes_of(request: &Value) -> Vec<u8> {
+    match (&request["$bytes"], &request["$text"]) {
+        (Value::String(path), _) => std::fs::read(path).unwrap(),
+        (_, Value::String(text)) => text.as_bytes().to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+/// The answers of the solver, as it is compiled for this machine.
+fn natively(requests: &[Value]) -> Vec<Value> {
+    let mut explorer = Explorer::default();
+    let answer = |request: &Value| {
+        let mut plain = request.as_object().unwrap().clone();
+        plain.retain(|key, _| !key.starts_with('$'));
+        let json = Value::Object(plain).to_string();
+        let mut asked = (json.len() as u32).to_le_bytes().to_vec();
+        asked.extend(json.as_bytes());
+        asked.extend(bytes_of(request));
+        read(&explorer.answer(&asked))
+    };
+    requests.iter().map(answer).collect()
+}
+
+/// An answer from its bytes, its columns as lists.
+fn read(bytes: &[u8]) -> Value {
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    let mut answer: Value = serde_json::from_slice(&bytes[8..8 + word(0)]).unwrap();
+    let numbers: Vec<f64> = bytes[word(4)..]
+        .chunks_exact(8)
+        .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+        .collect();
+    let columns: Map<String, Value> = answer["columns"].as_object().unwrap().clone();
+    let column = |(name, place): (String, Value)| {
+        let [first, count] = [0, 1].map(|i| place[i].as_u64().unwrap() as usize);
+        (name, json!(numbers[first..first + count]))
+    };
+    answer["columns"] = columns.into_iter().map(column).collect();
+    answer
+}
+
+/// The answers of the module under Node; `None` where there is none.
+fn under_node(requests: &[Value]) -> Option<Vec<Value>> {
+    if !has_module() {
+        return None;
+    }
+    let node = std::env::var_os("POUNDING_NODE").unwrap_or_else(|| "node".into());
+    let folder = tempfile::tempdir().unwrap();
+    let (module, list) = (
+        folder.path().join("m.wasm.gz"),
+        folder.path().join("r.json"),
+    );
+    std::fs::write(&module, pounding_explorer_page::module().unwrap()).unwrap();
+    std::fs::write(&list, serde_json::to_vec(requests).unwrap()).unwrap();
+    let output = Command::new(node)
+        .arg(root().join("tests/javascript/ask.js"))
+        .arg(root().join("crates/explorer-page/src/module.js"))
+        .args([module, list])
+        .output();
+    let Ok(output) = output else {
+        eprintln!("skipped: no Node, the module was not asked");
+        return None;
+    };
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    Some(serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// The requests that open the README's pair, and these.
+fn of_the_pair(requests: Vec<Value>) -> Vec<Value> {
+    let file = root().join("ground_motions/el_centro_1940_ns.csv");
+    let case = root().join("examples/three_storey_pair/case.toml");
+    let open = [
+        json!({ "do": "file", "name": RECORD, "$bytes": file }),
+        json!({ "do": "open", "name": "case.toml", "$bytes": case }),
+    ];
+    open.into_iter().chain(requests).collect()
+}
+
+/// Largest difference of two objects, relative to the larger number, or for parts of the energy
+/// balance, which is one sum, to the energy that the ground put in; the place of it. What only
+/// counts steps, and what is left of the balance, is round-off.
+fn difference(one: &Value, other: &Value, place: &str, input: f64) -> (f64, String) {
+    let round_off = ["/statistics", "/energy/residual", "/energy/residual_ratio"];
+    let largest = |all: &mut dyn Iterator<Item = (f64, String)>| {
+        all.fold((0.0, String::new()), |a, b| if b.0 > a.0 { b } else { a })
+    };
+    match (one, other) {
+        _ if round_off.contains(&place) => (0.0, String::new()),
+        (Value::Object(a), Value::Object(b)) => {
+            assert!(a.keys().eq(b.keys()), "{place}");
+            let all = a.iter().zip(b.values());
+            largest(&mut all.map(|((k, x), y)| difference(x, y, &format!("{place}/{k}"), input)))
+        }
+        (Value::Array(a), Value::Array(b)) => {
+            assert_eq!(a.len(), b.len(), "{place}");
+            let all = a.iter().zip(b).enumerate();
+            largest(&mut all.map(|(i, (x, y))| difference(x, y, &format!("{place}/{i}"), input)))
+        }
+        (Value::Number(a), Value::Number(b)) => {
+            let [a, b] = [a, b].map(|x| x.as_f64().unwrap());
+            let of = match place.starts_with("/energy/") {
+                true => input,
+                false => a.abs().max(b.abs()),
+            };
+            let apart = if a == b { 0.0 } else { (a - b).abs() / of };
+            (apart, place.to_owned())
+        }
+        _ => {
+            assert_eq!(one, other, "{place}");
+            (0.0, String::new())
+        }
+    }
+}
+
+/// Settings of the README's pair: gaps, masses, stiffnesses, scales, and laws of every kind.
+fn settings() -> Vec<Value> {
+    let entry = |path: &str, value: Value| json!([{ "path": path, "value": value }]);
+    let model = |name: &str, more: Value| {
+        let mut keys = vec![json!(["model", name])];
+        keys.extend(more.as_array().unwrap().clone());
+        json!([{ "gap": "gap.0", "keys": keys }])
+    };
+    vec![
+        json!([]),
+        entry("gap.0.width", json!("118 mm")),
+        entry("gap.0.width", json!("60 mm")),
+        entry("gap.0.width", json!("5 mm")),
+        entry("ground_motion.scale", json!(1.5)),
+        entry("building.0.mass", json!(["30 t", "25 t", "20 t"])),
+        entry("building.1.stiffness", json!([1.0e9, 1.0e9, "1000 MN/m"])),
+        json!([
+            { "path": "gap.0.stiffness", "value": 1.0e9 },
+            { "path": "gap.0.damping_ratio", "value": 0.2 },
+        ]),
+        model("linear_elastic", json!([["stiffness", 9.35e7]])),
+        model(
+            "anagnostopoulos_2004",
+            json!([["stiffness", 9.35e7], ["restitution", 0.65]]),
+        ),
+        model("stereomechanical", json!([["restitution", 0.65]])),
+        model(
+            "exact_hunt_crossley",
+            json!([["stiffness", 2.75e9], ["restitution", 0.65]]),
+        ),
+    ]
+}
+
+/// `pounding run --json` of the case that the page would give away.
+fn told(case: &Value) -> Value {
+    let motions = root().join("ground_motions").display().to_string();
+    let bench = Bench::with(
+        &case
+            .as_str()
+            .unwrap()
+            .replace("../../ground_motions", &motions),
+    );
+    bench.json("run case.toml --no-output")
+}
+
+/// The same as the command line: to the last bit natively, and to 1e-9 in the module, whose powers
+/// come from another library of functions.
+#[test]
+fn settings_are_those_of_run() {
+    let settings = settings();
+    let runs = settings
+        .iter()
+        .map(|changes| json!({ "do": "run", "changes": changes, "frames": 50 }));
+    let requests = of_the_pair(runs.collect());
+    let ours = natively(&requests);
+    let module = under_node(&requests);
+    let mut impacts = Vec::new();
+    for (number, changes) in settings.iter().enumerate() {
+        let answer = &ours[number + 2];
+        assert!(
+            answer["faults"].is_null(),
+            "{changes}: {}",
+            answer["faults"]
+        );
+        let run = told(&answer["case"]);
+        assert_eq!(answer["summary"], run, "{changes}");
+        let levels = run["gaps"][0]["levels"].as_array().unwrap();
+        let count: u64 = levels.iter().map(|l| l["impacts"].as_u64().unwrap()).sum();
+        impacts.push(count);
+        let closes = answer["columns"]["impact_t_close"].as_array().unwrap();
+        assert_eq!(closes.len() as u64, count);
+        if let Some(module) = &module {
+            let input = run["energy"]["input"].as_f64().unwrap();
+            let (apart, place) = difference(&module[number + 2]["summary"], &run, "", input);
+            eprintln!("{changes}: {count} impacts, {apart:.1e} apart {place}");
+            assert!(apart <= 1.0e-9, "{changes}: {apart} {place}");
+            assert_eq!(module[number + 2]["case"], answer["case"]);
+        }
+    }
+    // The README: 45 impacts at 20 mm, none at 118 mm, where the demand is 117.2 mm.
+    assert_eq!(impacts[..2], [45, 0]);
+    let demand = ours[3]["demand"][0][2]["peak"].as_f64().unwrap();
+    assert_eq!(format!("{:.1}", 1e3 * demand), "117.2");
+}
+
+/// Widths by demand, codes and rules are those of `pounding gap`, runs of a sweep too, and other
+/// models are calibrated as by `compare`.
+#[test]
+fn widths_are_those_of_gap() {
+    let requests = of_the_pair(vec![
+        json!({ "do": "widths", "changes": [] }),
+        json!({ "do": "sweep", "changes": [], "gap": 0, "widths": [0.03, 0.06] }),
+        json!({ "do": "calibrate", "changes": [], "gap": 0, "model": "anagnostopoulos_2004" }),
+    ]);
+    let answers = natively(&requests);
+    let case = root().join("examples/three_storey_pair/case.toml");
+    let case = case.display();
+    let gap = run(
+        "gap",
+        &format!("{case} --from 30mm --to 60mm --points 2 --json"),
+    );
+    let gap: Value = serde_json::from_slice(&gap.stdout).unwrap();
+    let [ours, theirs] = [&answers[2]["gaps"][0], &gap["gaps"][0]];
+    assert_eq!(ours["demand"], theirs["demand"][0]);
+    let widest = |levels: &Value| -> Option<f64> {
+        let levels = levels.as_array().into_iter().flatten();
+        let widths = levels.filter_map(|l| l.as_f64().or(l["width"].as_f64()));
+        widths.reduce(f64::max)
+    };
+    let provisions = theirs["provisions"].as_array().unwrap();
+    let codes = ours["codes"].as_array().unwrap();
+    assert_eq!(codes.len(), provisions.len());
+    let mut known = 0;
+    for (code, provision) in codes.iter().zip(provisions) {
+        assert_eq!(code["name"], provision["name"]);
+        assert_eq!(
+            code["width"].as_f64(),
+            widest(&provision["records"][0]["levels"]),
+            "{provision}"
+        );
+        known += usize::from(code["width"].is_f64());
+    }
+    assert!(known > 15, "{known}");
+    for (rule, theirs) in (ours["combinations"].as_array().unwrap().iter())
+        .zip(theirs["combinations"].as_array().unwrap())
+    {
+        assert_eq!(rule["name"], theirs["rule"]);
+        assert_eq!(rule["width"].as_f64(), widest(&theirs["width"][0]));
+    }
+    for (i, run) in gap["sweep"]["runs"].as_array().unwrap().iter().enumerate() {
+        let columns = &answers[3]["columns"];
+        let run = &run[0];
+        assert_eq!(columns["impacts"][i].as_f64(), run["impacts"].as_f64());
+        assert_eq!(columns["peak_force"][i], run["peak_force"]);
+        assert_eq!(columns["impact_energy"][i], run["impact_energy"]);
+        let light = run["amplification"][0].as_array().unwrap().iter();
+        let light = light.filter_map(|s| s["displacement"].as_f64());
+        assert_eq!(
+            columns["displacement_0"][i].as_f64(),
+            light.reduce(f64::max)
+        );
+    }
+    let compare = text(
+        "compare",
+        &format!("{case} --models anagnostopoulos_2004 --json"),
+    );
+    let compare: Value = serde_json::from_str(&compare).unwrap();
+    let parameters = &compare["models"][0]["gaps"][0]["parameters"];
+    for key in &answers[4]["keys"].as_array().unwrap()[1..] {
+        let theirs = parameters[key[0].as_str().unwrap()].as_f64().unwrap();
+        // Five digits are written.
+        assert!(
+            (key[1].as_f64().unwrap() / theirs - 1.0).abs() < 5e-5,
+            "{key} {parameters}"
+        );
+    }
+}
+
+/// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
+const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
+
+/// A file of K-NET, made here: a sine of 2 Hz for 10 s.
+fn k_net() -> String {
+    let mut text = String::new();
+    let values: Vec<f64> = (0..1000)
+        .map(|i| 2.0e5 * (0.125_663_706 * f64::from(i)).sin())
+        .collect();
+    for (name, value) in [
+        ("Origin Time", "2000/01/01 00:00:00"),
+        ("Lat.", "40.0"),
+        ("Long.", "140.0"),
+        ("Depth. (km)", "10"),
+        ("Mag.", "6.0"),
+        ("Station Code", "XXX001"),
+        ("Station Lat.", "40.1"),
+        ("Station Long.", "140.1"),
+        ("Station Height(m)", "5"),
+        ("Record Time", "2000/01/01 00:00:20"),
+        ("Sampling Freq(Hz)", "100Hz"),
+        ("Duration Time(s)", "10.00"),
+        ("Dir.", "N-S"),
+        ("Scale Factor", "3920(gal)/6182761"),
+        ("Max. Acc. (gal)", "126.804"),
+        ("Last Correction", "2000/01/01 00:00:00"),
+        ("Memo.", ""),
+    ] {
+        text.push_str(&format!("{name:<18}{value}\n"));
+    }
+    for row in values.chunks(8) {
+        let row: Vec<String> = row.iter().map(|x| format!("{x:8.0}")).collect();
+        text.push_str(&format!("{}\n", row.join(" ")));
+    }
+    text
+}
+
+/// A record that is dropped is run as the command line runs it; what is refused is refused with
+/// the same words.
+#[test]
+fn files_of_the_reader() {
+    let record = k_net();
+    let use_it = |name: &str| json!({ "do": "run", "frames": 0, "changes": [{ "record": [["file", name]] }] });
+    let broken_record = record.replace("/6182761", "/none");
+    let broken_case = BROKEN_CASE;
+    let requests = of_the_pair(vec![
+        json!({ "do": "file", "name": "dropped.NS", "$text": record }),
+        use_it("dropped.NS"),
+        json!({ "do": "file", "name": "broken.NS", "$text": broken_record }),
+        use_it("broken.NS"),
+        json!({ "do": "open", "name": "case.toml", "$text": broken_case }),
+        json!({ "do": "open", "name": "case.toml", "$text": "not a case" }),
+        json!({ "do": "run", "changes": [], "frames": 0 }),
+    ]);
+    let answers = natively(&requests);
+    if let Some(module) = under_node(&requests) {
+        for (ours, theirs) in answers.iter().zip(&module) {
+            assert_eq!(ours["faults"], theirs["faults"]);
+        }
+    }
+    let bench = Bench::with("");
+    bench.write("dropped.NS", &record);
+    bench.write("broken.NS", &broken_record);
+    bench.write("case.toml", answers[3]["case"].as_str().unwrap());
+    assert_eq!(
+        answers[3]["summary"],
+        bench.json("run case.toml --no-output")
+    );
+    let refused = |answer: &Value, case: &str, at_least: usize| {
+        bench.write("case.toml", case);
+        let output = bench.output("run case.toml --no-output");
+        assert_eq!(output.status.code(), Some(2));
+        let plain = |text: &str| {
+            let words: Vec<&str> = text.split_whitespace().collect();
+            words.join(" ")
+        };
+        let told = String::from_utf8_lossy(&output.stderr).replace('│', " ");
+        let told = plain(&told);
+        let faults = answer["faults"].as_array().unwrap();
+        assert!(faults.len() >= at_least, "{faults:?}");
+        for fault in faults {
+            for word in ["message", "help"] {
+                let Some(word) = fault[word].as_str() else {
+                    continue;
+                };
+                // A file is missing in other words on a disk.
+                let word = plain(word).replace(
+                    "this file was not given",
+                    "No such file or directory (os error 2)",
+                );
+                assert!(told.contains(&word), "{word}\n{told}");
+            }
+        }
+        // And nothing else was said.
+        assert_eq!(faults.len(), told.matches('×').count(), "{told}");
+    };
+    let edited = answers[3]["case"].as_str().unwrap();
+    let with_broken = edited.replace("dropped.NS", "broken.NS");
+    refused(&answers[5], &with_broken, 1);
+    refused(&answers[6], broken_case, 4);
+    refused(&answers[7], "not a case", 1);
+    // What was open stays open.
+    assert_eq!(answers[8]["summary"]["gaps"][0]["levels"][2]["impacts"], 26);
+}
+
+/// What nobody meant is answered, and soon: no case makes the module ask for memory or time
+/// without end.
+#[test]
+fn hostile_cases_are_answered() {
+    let case =
+        std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml")).unwrap();
+    let hostile = [
+        case.replacen("storeys = 3", "storeys = 1000000000", 1),
+        case.replacen("storeys = 3", "storeys = 4000", 1),
+        case.replacen("duration = \"31 s\"", "duration = \"1e12 s\"", 1),
+        case.replacen("output_step = \"0.01 s\"", "output_step = \"1e-12 s\"", 1),
+        case.replacen("stiffness = \"3.46 MN/m\"", "stiffness = 1e300", 1),
+        case.replacen("mass = \"25 t\"", "mass = 1e-300", 1),
+        case.replacen(
+            "[analysis]",
+            "process = [{ resample = \"1e-12 s\" }]\n[analysis]",
+            1,
+        ),
+        "a = ".repeat(100_000),
+        "[".repeat(100_000),
+        "[[building]]\n".repeat(50_000),
+        "\u{0}".repeat(1000),
+    ];
+    let open = |text: &String| json!({ "do": "open", "name": "case.toml", "$text": text });
+    let mut requests = of_the_pair(hostile.iter().map(open).collect());
+    requests.push(json!({ "do": "run", "changes": [{ "path": "gap.0.width", "value": "118 mm" }], "frames": 1_000_000_000_u64 }));
+    requests.push(
+        json!({ "do": "run", "changes": [{ "path": "gap.7.width", "value": 1 }], "frames": 0 }),
+    );
+    requests.push(json!({ "do": "sweep", "changes": [], "gap": 3, "widths": [-1, 0, 1e300] }));
+    requests.push(json!({ "do": "calibrate", "changes": [], "gap": 5, "model": "hertz_1882" }));
+    requests.push(json!({ "do": "nothing" }));
+    let answers = under_node(&requests).unwrap_or_else(|| natively(&requests));
+    let refused = |answer: &Value| {
+        let faults = answer["faults"].as_array();
+        faults.is_some_and(|faults| !faults[0]["message"].as_str().unwrap().is_empty())
+    };
+    let accepted: Vec<usize> = (2..answers.len())
+        .filter(|i| !refused(&answers[*i]))
+        .collect();
+    for i in &accepted {
+        let shown: String = requests[*i].to_string().chars().take(90).collect();
+        eprintln!("accepted: {shown}");
+    }
+    // A fine output step costs nothing here, and of frames there are as many as have a place.
+    assert_eq!(accepted, [5, 2 + hostile.len()]);
+}
+
+/// The page in browsers: `tests/python/open_explorer.py` moves it from 20 mm to 118 mm, drops files
+/// on it, runs the case that it gives away, and looks at it wide, narrow and dark.
+#[test]
+fn page_in_browsers() {
+    let named = ["POUNDING_PYTHON", "POUNDING_CHROMIUM"].map(std::env::var_os);
+    let [Some(python), Some(_)] = named else {
+        eprintln!(
+            "skipped: POUNDING_PYTHON or POUNDING_CHROMIUM names no program, no page was opened"
+        );
+        return;
+    };
+    if !has_module() {
+        return;
+    }
+    let bench = Bench::with(BROKEN_CASE);
+    bench.write("dropped.NS", &k_net());
+    let page = bench.folder().join("page.html");
+    let case = root().join("examples/three_storey_pair/case.toml");
+    text(
+        "explore",
+        &format!("{} -o {}", case.display(), page.display()),
+    );
+    let output = Command::new(python)
+        .arg(root().join("tests/python/open_explorer.py"))
+        .arg(page)
+        .arg(env!("CARGO_BIN_EXE_pounding"))
+        .args(["dropped.NS", "case.toml"].map(|name| bench.folder().join(name)))
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    eprintln!("{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// The page of a case: whole, small, and without an address in it.
+#[test]
+fn page_is_whole() {
+    let bench = Bench::with(
+        &std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"))
+            .unwrap()
+            .replace("../../ground_motions", "MOTIONS"),
+    );
+    let output = bench.output("explore case.toml -o page.html");
+    let told = String::from_utf8_lossy(&output.stderr);
+    if !has_module() {
+        assert_eq!(output.status.code(), Some(3), "{told}");
+        assert!(told.contains("holds no solver for pages"), "{told}");
+        return;
+    }
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    let page = bench.folder().join("page.html");
+    assert!(page.metadata().unwrap().len() < MOST);
+    let page = bench.read("page.html");
+    assert!(!page.contains("https://") && !page.contains("/root/") && !page.contains(".cargo"));
+    bench.text("explore case.toml");
+    assert!(bench.folder().join("case.html").is_file());
+    bench.write("case.toml", "title = 1\n");
+    bench.refused("explore case.toml", &["`title` must be a text"]);
+}

@@ -1,0 +1,193 @@
+"use strict";
+// Controls, as the module names them. A value that is moved goes into the state as the case file
+// would say it: with the unit in which it is shown, or as a number in SI.
+const controlsOf = (state, documentation, actions) => {
+  const { html, shown, clean, more, part } = elements;
+  // Ends of sliders that were widened to what a gap demands, by their paths (SI).
+  const widened = new Map();
+  let fields = new Map();
+
+  const word = (control, x) => {
+    const display = clean(x / control.factor);
+    return control.unit ? `${display} ${control.unit}` : clean(x);
+  };
+  // A number as a field has room for it.
+  const written = (x) => (x !== 0 && (Math.abs(x) >= 1e6 || Math.abs(x) < 1e-4) ? x.toExponential() : String(x));
+
+  // A slider between two values (SI), with the value that it stands at.
+  const slider = (control, [low, high], now, labels) => {
+    const { factor, logarithmic } = control;
+    const ends = logarithmic ? [0, 1000] : [clean(low / factor), clean(high / factor)];
+    const step = logarithmic ? 1 : 10 ** Math.floor(Math.log10((ends[1] - ends[0]) / 200));
+    const input = html("input", { type: "range", min: ends[0], max: ends[1], step, ...labels });
+    const to = (x) => (logarithmic ? (1000 * Math.log(x / low)) / Math.log(high / low) : x / factor);
+    const from = () =>
+      logarithmic ? Number((low * (high / low) ** (Number(input.value) / 1000)).toPrecision(3)) : Number(input.value) * factor;
+    const stand = (x) => {
+      if (Number.isFinite(x)) input.value = String(to(x));
+      input.setAttribute("aria-valuetext", `${shown(x / factor, 6)} ${control.unit}`.trim());
+    };
+    stand(now);
+    return { input, from, stand };
+  };
+
+  const number = (control) => {
+    const id = `control-${control.path}`;
+    const note = `${id}-note`;
+    const field = html("input", { id, type: "number", step: "any", "aria-describedby": note });
+    const show = (x) => {
+      field.value = x === null || !Number.isFinite(x) ? "" : written(clean(x / control.factor));
+    };
+    show(control.value);
+    const ends = control.slider && [control.slider[0], Math.max(control.slider[1], widened.get(control.path) || 0)];
+    const moved = ends && slider(control, ends, control.value === null ? NaN : control.value, {
+      "aria-label": `${control.group}, ${control.label}`,
+      "aria-describedby": note,
+      "data-control": control.path,
+    });
+    field.addEventListener("change", () => {
+      // An empty field leaves out what the case leaves out.
+      const x = field.value === "" ? null : Number(field.value) * control.factor;
+      if (moved && x !== null) moved.stand(x);
+      state.set(control.path, x === null ? null : word(control, x));
+    });
+    if (moved) {
+      moved.input.addEventListener("input", () => {
+        const x = moved.from();
+        show(x);
+        moved.input.setAttribute("aria-valuetext", `${shown(x / control.factor, 6)} ${control.unit}`.trim());
+        actions.dragged();
+        state.set(control.path, word(control, x));
+      });
+      moved.input.addEventListener("change", actions.released);
+    }
+    fields.set(control.path, (high) => {
+      if (!moved || control.logarithmic || Number(moved.input.max) >= high / control.factor) return;
+      widened.set(control.path, high);
+      const at = field.value;
+      moved.input.max = String(clean(high / control.factor));
+      moved.input.value = at;
+    });
+    return html(
+      "div",
+      { class: "control" },
+      html("label", { for: id }, control.label.replaceAll("_", " ")),
+      html("span", { class: "value" }, field, html("span", { class: "unit" }, control.unit || unitOf(control))),
+      moved ? moved.input : null,
+      line(control, note),
+    );
+  };
+
+  // The unit that stands behind the range of a parameter.
+  const unitOf = (control) => (/^[[(][^\])]*[\])](.*)$/.exec(control.allowed) || ["", ""])[1].trim();
+
+  const line = (control, id) =>
+    html("p", { class: "note", id }, control.explanation ? `${control.explanation} ` : "", more(documentation, control.page));
+
+  // A value for every storey: one slider for all, and a field for each.
+  const list = (control) => {
+    const id = `control-${control.path}`;
+    const note = `${id}-note`;
+    const base = control.value.slice();
+    const values = base.slice();
+    const inputs = values.map((x, i) => {
+      const field = html("input", { id: `${id}-${i}`, type: "number", step: "any", min: 0 });
+      field.value = String(clean(x / control.factor));
+      field.addEventListener("change", () => {
+        values[i] = Number(field.value) * control.factor;
+        base[i] = values[i];
+        tell();
+      });
+      return field;
+    });
+    const tell = () => state.set(control.path, values.map((x) => word(control, x)));
+    const all = slider({ factor: 1, logarithmic: true, unit: "times" }, control.slider, 1, {
+      id,
+      "aria-describedby": note,
+      "data-control": control.path,
+    });
+    const factor = html("output", { for: id }, "1");
+    all.input.addEventListener("input", () => {
+      const times = all.from();
+      factor.textContent = shown(times, 3);
+      all.input.setAttribute("aria-valuetext", `${shown(times, 3)} times`);
+      base.forEach((x, i) => {
+        values[i] = Number((x * times).toPrecision(6));
+        inputs[i].value = String(clean(values[i] / control.factor));
+      });
+      actions.dragged();
+      tell();
+    });
+    all.input.addEventListener("change", actions.released);
+    const storeys = inputs.map((field, i) =>
+      html("label", { class: "storey" }, `storey ${i + 1} `, field, html("span", { class: "unit" }, control.unit)),
+    );
+    return html(
+      "div",
+      { class: "control" },
+      html("label", { for: id }, `${control.label}, all storeys times`),
+      html("span", { class: "value" }, factor),
+      all.input,
+      html("details", {}, html("summary", {}, `${control.label} of each storey (${control.unit})`), ...storeys),
+      line(control, note),
+    );
+  };
+
+  const choice = (control, options, chosen) => {
+    const id = `control-${control.path}-${control.kind}`;
+    const note = `${id}-note`;
+    const select = html("select", { id, "aria-describedby": note, "data-control": control.path });
+    for (const [name, text] of options) select.append(new Option(text, name, false, name === control.value));
+    select.addEventListener("change", () => chosen(select.value));
+    return html(
+      "div",
+      { class: "control" },
+      html("label", { for: id }, control.kind === "record" ? "record" : control.label),
+      select,
+      line(control, note),
+    );
+  };
+
+  const made = {
+    number,
+    list,
+    model: (control) => {
+      const options = actions.models().map((model) => [model.name, model.recommended ? `${model.name} (recommended)` : model.name]);
+      const chosen = actions.models().find((model) => model.name === control.value);
+      const element = choice(control, options, (name) => actions.chooseModel(control.path, name));
+      if (chosen) element.append(about(chosen));
+      return element;
+    },
+    record: (control) => {
+      const names = new Set([control.value, ...actions.records()]);
+      return choice(control, [...names].map((name) => [name, name.split("/").pop()]), actions.chooseRecord);
+    },
+  };
+
+  // What the descriptor of a model says of it.
+  const about = (model) =>
+    html(
+      "details",
+      {},
+      html("summary", {}, `About ${model.name}`),
+      html("p", {}, model.title),
+      html("p", {}, html("code", {}, model.formula)),
+      html("p", { class: "note" }, `${model.citation}; ${model.verification}`),
+      model.traps.length ? html("ul", { class: "note" }, ...model.traps.map((trap) => html("li", {}, trap))) : null,
+    );
+
+  return {
+    show: (controls) => {
+      fields = new Map();
+      const groups = new Map();
+      for (const control of controls) {
+        if (!groups.has(control.group)) groups.set(control.group, []);
+        groups.get(control.group).push(made[control.kind](control));
+      }
+      const sets = [...groups].map(([name, inside]) => html("fieldset", {}, html("legend", {}, name), ...inside));
+      part("controls").replaceChildren(...sets);
+    },
+    // Lets the slider of a width reach what the gap demands.
+    reach: (path, high) => fields.has(path) && fields.get(path)(high),
+  };
+};

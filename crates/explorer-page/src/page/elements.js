@@ -1,0 +1,55 @@
+"use strict";
+// Elements and numbers of the page.
+const elements = (() => {
+  const known = new Map();
+  const part = (name) => {
+    if (!known.has(name)) known.set(name, document.querySelector(`[data-part="${name}"]`));
+    return known.get(name);
+  };
+  const space = "http://www.w3.org/2000/svg";
+  const fill = (element, attributes, children) => {
+    for (const [key, value] of Object.entries(attributes)) {
+      if (value !== undefined && value !== null && value !== false) {
+        element.setAttribute(key, value === true ? "" : value);
+      }
+    }
+    element.append(...children.filter((child) => child !== null && child !== undefined));
+    return element;
+  };
+  // Texts stay texts: nothing in the page is made from HTML.
+  const html = (name, attributes = {}, ...children) => fill(document.createElement(name), attributes, children);
+  const svg = (name, attributes = {}, ...children) => fill(document.createElementNS(space, name), attributes, children);
+  const shown = (x, digits = 4) => {
+    if (!Number.isFinite(x)) return "–";
+    const size = Math.abs(x);
+    const rounded = Number(x.toPrecision(digits));
+    if (size !== 0 && (size < 1e-3 || size >= 1e6)) return x.toExponential(digits - 1).replace("e+", "e");
+    return String(rounded);
+  };
+  // A number without the noise of a change of units.
+  const clean = (x) => Number(x.toPrecision(12));
+  // At most this many even steps between two values.
+  const ticks = (low, high, count) => {
+    const rough = (high - low) / count || 1;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * (1 - 1e-9));
+    const out = [];
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high * (1 + 1e-12); i++) out.push(clean(i * step));
+    return out;
+  };
+  // Where the documentation says more: a link, or the name of the page where nobody said where
+  // the documentation is.
+  const more = (documentation, page) =>
+    documentation
+      ? html("a", { href: documentation + page, target: "_blank", rel: "noopener" }, "more")
+      : html("span", { class: "source" }, `docs/${page}`);
+  const save = (name, type, contents) => {
+    const address = URL.createObjectURL(new Blob([contents], { type }));
+    const link = html("a", { href: address, download: name });
+    document.body.append(link);
+    link.click();
+    link.remove();
+    setTimeout(() => URL.revokeObjectURL(address), 60000);
+  };
+  return { part, html, svg, shown, clean, ticks, more, save };
+})();

@@ -1,0 +1,256 @@
+"use strict";
+// The page: one state, one run that is looked at, a sweep behind it.
+(async () => {
+  const { part, html, save } = elements;
+  const data = JSON.parse(document.getElementById("data").textContent);
+  // Times of the motion while something is moved, and at rest.
+  const [FEW, MANY] = [400, 3000];
+  // After this pause (ms) of the reader the sweep begins again.
+  const PAUSE = 250;
+  const encoder = new TextEncoder();
+
+  let solver = null;
+  let models = [];
+  // The case that is open: its name and text, whether the reader brought it, and how many were open
+  // before.
+  let opened = { name: data.name, text: data.case, own: false, number: 0 };
+  let base = null;
+  let run = null;
+  let dragging = false;
+  const records = new Set();
+
+  // What is wrong with the run that is looked at, and with what the reader asked for before. A run
+  // that succeeds says nothing of the second.
+  const wrong = { run: [], asked: [] };
+  const told = (faults, of = "asked") => {
+    wrong[of] = faults;
+    const all = [...wrong.asked, ...wrong.run];
+    const blocks = all.slice(0, 20).map((fault) =>
+      html(
+        "div",
+        { class: "fault" },
+        html("p", {}, fault.message),
+        fault.line ? html("pre", {}, fault.line) : null,
+        fault.help ? html("p", { class: "note" }, `help: ${fault.help}`) : null,
+      ),
+    );
+    part("faults").replaceChildren(...blocks);
+    part("faults").hidden = !blocks.length;
+  };
+
+  // Runs: of all states that come while one is computed, the last is next.
+  let wanted = false;
+  let busy = false;
+  let timer = 0;
+  const update = async () => {
+    wanted = true;
+    if (busy || !solver) return;
+    busy = true;
+    while (wanted) {
+      wanted = false;
+      const changes = state.changes();
+      const answer = await solver.live.ask({ do: "run", changes, frames: dragging ? FEW : MANY });
+      if (answer.faults) {
+        // What is wrong with a state that is no longer wanted helps nobody.
+        if (!wanted) told(answer.faults, "run");
+        continue;
+      }
+      told([], "run");
+      run = answer;
+      results.show(run);
+      motion.show(run);
+      part("milliseconds").textContent = `${run.milliseconds.toFixed(0)} ms`;
+      document.documentElement.dataset.runs = String(Number(document.documentElement.dataset.runs || 0) + 1);
+      sweep.draw();
+      if (!wanted && !dragging) part("status").textContent = results.words(run);
+    }
+    busy = false;
+  };
+  const later = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      sweep.begin();
+      const text = state.text(opened.own ? { name: opened.name, text: opened.text } : null);
+      written = `#${text}`;
+      history.replaceState(null, "", written);
+    }, PAUSE);
+  };
+  let written = location.hash;
+  const state = stateOf(() => {
+    update();
+    later();
+  });
+
+  const controls = controlsOf(state, data.documentation, {
+    dragged: () => {
+      dragging = true;
+    },
+    released: () => {
+      dragging = false;
+      update();
+    },
+    models: () => models,
+    records: () => records,
+    chooseModel: async (path, model) => {
+      const gap = Number(path.split(".")[1]);
+      const answer = await solver.live.ask({ do: "calibrate", changes: state.changes(), gap, model });
+      if (answer.faults) {
+        told(answer.faults);
+        return;
+      }
+      part("notes").textContent = answer.notes.join("; ");
+      state.model(path, answer.keys);
+      await describe();
+    },
+    chooseRecord: async (name) => {
+      const own = base.files.find(([what]) => what === "record");
+      await useRecord(own && own[1] === name ? null : name);
+    },
+  });
+  const results = resultsOf(data.documentation);
+  const modelOf = (gap) => {
+    const path = `gap.${gap}`;
+    const changed = state.get().models[path];
+    if (changed) return changed.find(([key]) => key === "model")[1];
+    const control = base && base.controls.find((c) => c.path === path && c.kind === "model");
+    return control ? control.value : "";
+  };
+  let sweep = null;
+
+  // The controls of the state, with their values.
+  const describe = async () => {
+    const answer = await solver.live.ask({ do: "controls", changes: state.changes() });
+    if (answer.faults) {
+      told(answer.faults);
+      return false;
+    }
+    told([]);
+    models = answer.models;
+    controls.show(answer.controls);
+    const gaps = answer.controls.filter((c) => c.kind === "model").map((c) => c.group);
+    sweep.choices(models, gaps);
+    return true;
+  };
+
+  const useRecord = async (name) => {
+    const before = state.get().record;
+    state.record(name === null ? null : [["file", name]]);
+    if (await describe()) return;
+    state.record(before);
+    // The faults of the record are told, not those of the run before it.
+    await describeQuietly();
+  };
+  const describeQuietly = async () => {
+    const answer = await solver.live.ask({ do: "controls", changes: state.changes() });
+    if (!answer.faults) controls.show(answer.controls);
+  };
+
+  const open = async (name, bytes, own) => {
+    const answer = await solver.open(name, bytes);
+    if (answer.faults) {
+      told(answer.faults);
+      return false;
+    }
+    const text = answer.case;
+    opened = { name, text, own, number: opened.number + 1 };
+    base = answer;
+    for (const [what, path] of answer.files) if (what === "record") records.add(path);
+    document.title = answer.title || name;
+    document.querySelector("h1").textContent = answer.title || name;
+    return true;
+  };
+
+  const refresh = async () => {
+    if (await describe()) {
+      update();
+      later();
+    }
+  };
+  // What stands behind the sign # of the address.
+  const restore = async (hash) => {
+    let refused = null;
+    state.clear();
+    if (hash.length > 1) {
+      try {
+        const own = state.read(hash.slice(1));
+        if (own) await open(own.name, encoder.encode(own.text), true);
+      } catch (error) {
+        refused = { message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" };
+      }
+    }
+    await refresh();
+    if (refused) told([refused]);
+  };
+
+  try {
+    solver = await workers(data);
+  } catch (error) {
+    told([{ message: `the solver cannot start here: ${error.message}`, help: "open the page in a current browser", line: "" }]);
+    return;
+  }
+  sweep = sweepOf(state, solver.background, {
+    provided: (gap) => {
+      if (!run || !run.summary.gaps[gap]) return NaN;
+      return Math.min(...run.summary.gaps[gap].levels.map((level) => level.width));
+    },
+    model: modelOf,
+    opened: () => opened.number,
+    demanded: (gaps) =>
+      gaps.forEach((gap, i) => controls.reach(`gap.${i}.width`, Math.ceil(130 * gap.demand) / 100)),
+  });
+  sweep.prepare();
+  motion.begin();
+  for (const file of data.files) {
+    await solver.file(file.name, await solver.unpacked(file.data));
+    records.add(file.name);
+  }
+  filesOf({
+    openCase: async (name, bytes) => {
+      if (!(await open(name, bytes, true))) return;
+      state.clear();
+      await refresh();
+    },
+    openRecord: async (name, bytes, use) => {
+      const answer = await solver.file(name, bytes);
+      if (answer.faults) {
+        told(answer.faults);
+        return;
+      }
+      records.add(name);
+      if (use) await useRecord(name);
+    },
+  }).prepare();
+  part("reset").addEventListener("click", async () => {
+    told([]);
+    if (opened.own) await open(data.name, encoder.encode(data.case), false);
+    part("notes").textContent = "";
+    state.reset();
+    await describe();
+  });
+  part("share").addEventListener("click", async () => {
+    const own = [...records].filter((name) => !data.files.some((file) => file.name === name));
+    const used = (state.get().record || []).some(([key, value]) => key === "file" && own.includes(value));
+    const text = state.text(opened.own ? { name: opened.name, text: opened.text } : null);
+    const address = `${location.href.split("#")[0]}#${text}`;
+    history.replaceState(null, "", `#${text}`);
+    let copied = "copy it from the address bar";
+    try {
+      await navigator.clipboard.writeText(address);
+      copied = "it is in the clipboard";
+    } catch {
+      // Nobody has to let a page write there.
+    }
+    part("status").textContent = `The address of the page holds this state: ${copied}.${used ? " The record that you dropped is not in it: give it along." : ""}`;
+  });
+  part("case").addEventListener("click", () => run && save(opened.name, "text/plain", run.case));
+  part("peaks-csv").addEventListener("click", () => run && save("peaks.csv", "text/csv", results.csv(run)));
+  addEventListener("hashchange", () => {
+    if (location.hash !== written) restore(location.hash);
+  });
+  if (await open(data.name, encoder.encode(data.case), false)) {
+    for (const element of document.querySelectorAll(".live")) element.hidden = false;
+    part("loading").hidden = true;
+    await restore(location.hash);
+  }
+  document.documentElement.dataset.ready = "true";
+})();

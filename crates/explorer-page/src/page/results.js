@@ -1,0 +1,138 @@
+"use strict";
+// The answer of the run: in numbers, storey by storey, and its impacts over time.
+const resultsOf = (documentation) => {
+  const { part, html, svg, shown, ticks, more } = elements;
+  const GAP_CHECK = "reference/gap-check.md";
+  const RESULT = "reference/result-file.md";
+  const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
+
+  // The numbers of a gap, each with what it is.
+  const numbersOf = (run, index) => {
+    const gap = run.summary.gaps[index];
+    const levels = gap.levels;
+    const demand = most(run.demand[index].map((peak) => peak.peak));
+    const width = Math.min(...levels.map((level) => level.width));
+    const force = most(levels.map((level) => level.peak_force.peak ?? NaN));
+    const impacts = levels.reduce((sum, level) => sum + level.impacts, 0);
+    return [
+      ["demand", "Gap demand", `${shown(1e3 * demand)} mm`, "the width that the buildings without contact would just not close", GAP_CHECK],
+      ["width", "Provided width", `${shown(1e3 * width)} mm`, "the width of the gap at rest, at its narrowest level", "reference/case-file.md"],
+      ["impacts", "Impacts", String(impacts), "how often floors came into contact, at all levels", RESULT],
+      ["force", "Peak contact force", force > 0 ? `${shown(1e-3 * force)} kN` : impacts ? "none: velocities jump" : "none", "the largest force of all impacts", RESULT],
+    ];
+  };
+  const whole = (run) => {
+    const all = run.amplification.flat();
+    const amplified = most(all.map((storey) => storey.displacement ?? NaN));
+    const input = run.summary.energy.input ?? NaN;
+    const dissipated = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
+    return [
+      ["amplification", "Amplification", shown(amplified), "the largest ratio of a displacement to that of the run without contact; below are all ratios", GAP_CHECK],
+      ["dissipated", "Energy in contacts", `${shown(1e-3 * dissipated)} kJ`, "energy that contacts dissipated", RESULT],
+    ];
+  };
+  const card = ([name, title, text, what, page], gap) =>
+    html(
+      "div",
+      { class: "number" },
+      html("dt", {}, title),
+      html("dd", { "data-result": name, "data-gap": gap }, text),
+      html("dd", { class: "note" }, `${what} `, more(documentation, page)),
+    );
+
+  const QUANTITIES = [
+    ["displacement", "displacement", "mm", 1e3],
+    ["storey_shear", "storey shear", "kN", 1e-3],
+    ["acceleration_absolute", "acceleration", "g", 1 / 9.80665],
+  ];
+  const storeys = (run) => {
+    const head = html(
+      "thead",
+      {},
+      html(
+        "tr",
+        {},
+        html("th", { scope: "col" }, "storey"),
+        ...QUANTITIES.map(([, title, unit]) => html("th", { scope: "colgroup", colspan: 3 }, `${title} (${unit})`)),
+      ),
+      html(
+        "tr",
+        {},
+        html("th", { scope: "col" }, ""),
+        ...QUANTITIES.flatMap(() => ["with", "without", "ratio"].map((word) => html("th", { scope: "col" }, word))),
+      ),
+    );
+    const rows = run.summary.buildings.flatMap((building, b) =>
+      building.storeys.map((with_, s) =>
+        html(
+          "tr",
+          {},
+          html("th", { scope: "row" }, `${building.name} ${s + 1}`),
+          ...QUANTITIES.flatMap(([key, , , factor]) => {
+            const without = building.isolated[s];
+            const ratio = run.amplification[b][s][key];
+            const cell = html("td", { "data-amplification": key, class: ratio > 1.005 ? "more" : ratio < 0.995 ? "less" : null }, shown(ratio ?? NaN, 3));
+            return [html("td", {}, shown(factor * (with_[key].peak ?? NaN))), html("td", {}, shown(factor * (without[key].peak ?? NaN))), cell];
+          }),
+        ),
+      ),
+    );
+    return html("table", {}, head, html("tbody", {}, ...rows));
+  };
+
+  // Impacts as lines over time, as high as their force, or their impulse where velocities jump.
+  const impacts = (run) => {
+    const picture = part("impacts");
+    const { impact_t_close: closes, impact_peak_force: forces, impact_impulse: impulses, time } = run.columns;
+    const jumps = forces.some((force) => Number.isNaN(force));
+    const values = jumps ? impulses : forces;
+    const [width, height] = [picture.clientWidth || 640, 200];
+    const [left, right, top, bottom] = [64, 12, 16, height - 34];
+    const end = time[time.length - 1] || 1;
+    const high = 1e-3 * most([...values]) || 1;
+    const across = (t) => left + (t / end) * (width - left - right);
+    const up = (y) => bottom - (y / high) * (bottom - top);
+    const marks = [
+      ...ticks(0, high, 3).map((y) => [svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }), svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y))]).flat(),
+      ...ticks(0, end, Math.max(2, Math.floor(width / 110))).map((t) => svg("text", { x: across(t), y: bottom + 16, "text-anchor": "middle" }, String(t))),
+      svg("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, `time (s); lines are impacts, their height the ${jumps ? "impulse (kN s)" : "peak force (kN)"}`),
+    ];
+    let path = "";
+    closes.forEach((t, i) => {
+      path += `M${across(t).toFixed(1)} ${bottom}V${up(1e-3 * values[i]).toFixed(1)}`;
+    });
+    picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    picture.replaceChildren(...marks, svg("path", { class: "force", d: path }));
+    picture.setAttribute("aria-label", `${closes.length} impacts over ${shown(end)} s, the largest ${shown(high)} ${jumps ? "kN s" : "kN"}`);
+  };
+
+  return {
+    show: (run) => {
+      const gaps = run.summary.gaps.map((gap, i) => {
+        const cards = numbersOf(run, i).map((number) => card(number, i));
+        return html("div", {}, run.summary.gaps.length > 1 ? html("h3", {}, `Gap ${gap.name}`) : null, html("dl", { class: "numbers" }, ...cards));
+      });
+      part("numbers").replaceChildren(...gaps, html("dl", { class: "numbers" }, ...whole(run).map((number) => card(number))));
+      part("storeys").replaceChildren(storeys(run));
+      part("warnings").replaceChildren(...run.summary.warnings.map((text) => html("p", { class: "warning" }, `Warning: ${text}`)));
+      part("excitation").textContent = run.excitation.join("; ");
+      impacts(run);
+    },
+    words: (run) =>
+      run.summary.gaps
+        .map((gap, i) => `${gap.name}: ${numbersOf(run, i).map(([, title, text]) => `${title.toLowerCase()} ${text}`).join(", ")}`)
+        .join("; "),
+    // Peaks of the run as a table of comma-separated values, in SI.
+    csv: (run) => {
+      const quote = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+      const lines = [["building", "storey", ...QUANTITIES.flatMap(([key]) => [key, `${key}_isolated`, `${key}_amplification`])].join(",")];
+      run.summary.buildings.forEach((building, b) =>
+        building.storeys.forEach((with_, s) => {
+          const cells = QUANTITIES.flatMap(([key]) => [with_[key].peak, building.isolated[s][key].peak, run.amplification[b][s][key]]);
+          lines.push([quote(building.name), s + 1, ...cells.map((x) => x ?? "")].join(","));
+        }),
+      );
+      return `${lines.join("\n")}\n`;
+    },
+  };
+};

@@ -1,0 +1,81 @@
+"use strict";
+// What was changed of the case: values of entries, models with their keys, the record. It is all
+// that an address holds, and all that `changes` of a request say.
+const stateOf = (changed) => {
+  const empty = () => ({ entries: {}, models: {}, record: null, overlays: [], quantity: "impacts", gap: 0 });
+  let now = empty();
+  const isRecord = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
+  const isWord = (x) =>
+    typeof x === "string" || (typeof x === "number" && Number.isFinite(x)) || (Array.isArray(x) && x.every(isWord));
+  const areKeys = (x) =>
+    Array.isArray(x) && x.every((pair) => Array.isArray(pair) && pair.length === 2 && typeof pair[0] === "string" && isWord(pair[1]));
+
+  const changesOf = ({ entries, models, record }) => [
+    ...(record ? [{ record }] : []),
+    ...Object.entries(models).map(([gap, keys]) => ({ gap, keys })),
+    ...Object.entries(entries).map(([path, value]) => ({ path, value })),
+  ];
+  return {
+    get: () => now,
+    changes: () => changesOf(now),
+    // All that the runs of a sweep of a gap have in common, with another model of the gap or its
+    // own.
+    changesOfSweep: (gap, keys) => {
+      const path = `gap.${gap}`;
+      const entries = { ...now.entries };
+      delete entries[`${path}.width`];
+      const models = { ...now.models };
+      if (keys) {
+        models[path] = keys;
+        for (const key of Object.keys(entries)) if (key.startsWith(`${path}.`)) delete entries[key];
+      }
+      return changesOf({ entries, models, record: now.record });
+    },
+    set: (path, value) => {
+      if (value === null) delete now.entries[path];
+      else now.entries[path] = value;
+      changed();
+    },
+    // Another model of a gap: what was said of the parameters of the last one goes with it.
+    model: (path, keys) => {
+      for (const key of Object.keys(now.entries)) {
+        if (key.startsWith(`${path}.`) && key !== `${path}.width`) delete now.entries[key];
+      }
+      now.models[path] = keys;
+      changed();
+    },
+    record: (keys) => {
+      now.record = keys;
+      changed();
+    },
+    look: (part) => {
+      Object.assign(now, part);
+      changed();
+    },
+    reset: () => {
+      now = { ...empty(), overlays: now.overlays, quantity: now.quantity };
+      changed();
+    },
+    clear: () => {
+      now = empty();
+    },
+    // The state as a text that an address can hold, with a case of the reader's own.
+    text: (own) => encodeURIComponent(JSON.stringify(own ? { ...now, case: own } : now)),
+    // Takes a text back; a case of somebody's own is returned, if there is one. Throws what is
+    // wrong with it.
+    read: (text) => {
+      const given = JSON.parse(decodeURIComponent(text));
+      if (!isRecord(given)) throw new Error("it is no object");
+      const next = empty();
+      if (isRecord(given.entries) && Object.values(given.entries).every(isWord)) next.entries = given.entries;
+      if (isRecord(given.models) && Object.values(given.models).every(areKeys)) next.models = given.models;
+      if (areKeys(given.record)) next.record = given.record;
+      if (Array.isArray(given.overlays)) next.overlays = given.overlays.filter((x) => typeof x === "string").slice(0, 8);
+      if (typeof given.quantity === "string") next.quantity = given.quantity;
+      if (Number.isInteger(given.gap) && given.gap >= 0) next.gap = given.gap;
+      now = next;
+      const own = given.case;
+      return isRecord(own) && typeof own.name === "string" && typeof own.text === "string" ? own : null;
+    },
+  };
+};

@@ -1,0 +1,267 @@
+"use strict";
+// What pounding does at many widths, in the background: a curve for the law of the gap, and one
+// for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
+// it comes.
+const sweepOf = (state, background, actions) => {
+  const { part, html, svg, shown, ticks, save } = elements;
+  const QUANTITIES = {
+    impacts: ["impacts", 1, (columns) => columns.impacts],
+    peak_force: ["peak contact force (kN)", 1e-3, (columns) => columns.peak_force],
+    amplification: [
+      "amplification of the displacement (-)",
+      1,
+      (columns) => {
+        const buildings = Object.keys(columns).filter((name) => name.startsWith("displacement_"));
+        return columns.width.map((_, i) => Math.max(...buildings.map((name) => columns[name][i])));
+      },
+    ],
+    impact_energy: ["energy dissipated in contacts (kJ)", 1e-3, (columns) => columns.impact_energy],
+  };
+  // Widths of one request: few enough to be stopped soon.
+  const AT_ONCE = 10;
+  let job = 0;
+  let asked = null;
+  let widths = null;
+  // Curves by the name of their model, and the case that they are of.
+  let curves = new Map();
+  let done = [0, 0];
+
+  const join = (columns, more) => {
+    const out = {};
+    for (const name of Object.keys(more)) out[name] = columns ? Float64Array.of(...columns[name], ...more[name]) : more[name];
+    return out;
+  };
+  // Every so many widths first, then those between: the whole range is seen early.
+  const order = (count) => {
+    const out = [];
+    const seen = new Set();
+    for (let step = 16; step >= 1; step /= 2) {
+      for (let i = 0; i < count; i += step) {
+        if (!seen.has(i)) out.push(i);
+        seen.add(i);
+      }
+    }
+    return out;
+  };
+  const sorted = (columns) => {
+    const places = [...columns.width.keys()].sort((a, b) => columns.width[a] - columns.width[b]);
+    return Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, Float64Array.from(places, (i) => values[i])]));
+  };
+
+  const draw = () => {
+    const { quantity, gap } = state.get();
+    const [title, factor, of] = QUANTITIES[quantity] || QUANTITIES.impacts;
+    const picture = part("sweep");
+    const [width, height] = [picture.clientWidth || 640, 380];
+    const [left, right, top, bottom] = [64, 14, 24, height - 40];
+    const provided = actions.provided(gap);
+    const marks = widths ? marksOf(widths.gaps[gap]) : [];
+    let far = Math.max(provided || 0, ...marks.map(([x]) => x));
+    let high = 0;
+    const lines = [...curves].map(([name, columns]) => {
+      const values = of(columns);
+      far = Math.max(far, columns.width[columns.width.length - 1] || 0);
+      values.forEach((y) => {
+        if (factor * y > high) high = factor * y;
+      });
+      return { name, columns, values };
+    });
+    far = far || 0.1;
+    high = high || 1;
+    const across = (x) => left + (x / far) * (width - left - right);
+    const up = (y) => bottom - (y / high) * (bottom - top);
+    const drawn = [svg("text", { x: left, y: 14 }, title)];
+    for (const y of ticks(0, high, 5)) {
+      drawn.push(svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }));
+      drawn.push(svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y)));
+    }
+    for (const x of ticks(0, 1e3 * far, Math.max(3, Math.floor(width / 90)))) {
+      drawn.push(svg("text", { x: across(1e-3 * x), y: bottom + 16, "text-anchor": "middle" }, String(x)));
+    }
+    drawn.push(svg("text", { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }, "width of the gap (mm)"));
+    marks.forEach(([x, name, kind]) => {
+      const line = svg("path", { class: `mark ${kind}`, d: `M${across(x)} ${top}V${bottom}` });
+      drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shown(1e3 * x)} mm`), line));
+    });
+    lines.forEach(({ columns, values }, i) => {
+      let path = "";
+      let pen = "M";
+      values.forEach((y, k) => {
+        if (!Number.isFinite(y)) pen = "M";
+        else {
+          path += `${pen}${across(columns.width[k]).toFixed(1)} ${up(factor * y).toFixed(1)}`;
+          pen = "L";
+        }
+      });
+      drawn.push(svg("path", { class: `curve curve-${i % 6}`, d: path }));
+    });
+    if (Number.isFinite(provided)) {
+      drawn.push(svg("path", { class: "now", d: `M${across(provided)} ${top}V${bottom}` }));
+    }
+    picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    picture.replaceChildren(...drawn);
+    picture.setAttribute("aria-label", `${title} over widths of the gap up to ${shown(1e3 * far)} mm, ${lines.length} models`);
+    const legend = lines.map(({ name }, i) => html("li", {}, html("span", { class: `key curve-${i % 6}` }), name));
+    legend.push(html("li", {}, html("span", { class: "key now" }), `provided, ${shown(1e3 * provided)} mm`));
+    if (marks.length) {
+      for (const [kind, text] of [["demand", "demand of this record"], ["code", "by codes"], ["rule", "by combination rules"]]) {
+        legend.push(html("li", {}, html("span", { class: `key ${kind}` }), text));
+      }
+    }
+    part("legend").replaceChildren(...legend);
+    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";
+    picture.dataset.done = String(done[0]);
+    picture.dataset.all = String(done[1]);
+  };
+
+  // What stands at the axis: demand and widths by codes and rules.
+  const marksOf = (gap) => {
+    if (!gap) return [];
+    const codes = gap.codes.filter((code) => code.width !== null).map((code) => [code.width, code.name, "code"]);
+    const rules = gap.combinations.map((rule) => [rule.width, rule.name, "rule"]);
+    return [[gap.demand, "demand of this record", "demand"], ...codes, ...rules];
+  };
+  const listed = () => {
+    const gap = widths && widths.gaps[state.get().gap];
+    if (!gap) {
+      part("widths").replaceChildren();
+      return;
+    }
+    const row = (name, width, note, kind) =>
+      html("tr", {}, html("th", { scope: "row" }, html("span", { class: `key ${kind}` }), name), html("td", {}, width === null ? "–" : shown(1e3 * width)), html("td", { class: "words" }, note || ""));
+    const code = (c) => row(`${c.edition}${c.clause ? `, ${c.clause}` : ""}`, c.width, c.caution || c.refusal || c.formula, "code");
+    const known = gap.codes.filter((c) => c.width !== null);
+    const others = gap.codes.filter((c) => c.width === null);
+    const table = (rows) =>
+      html(
+        "table",
+        {},
+        html("thead", {}, html("tr", {}, html("th", { scope: "col" }, "width by"), html("th", { scope: "col" }, "mm"), html("th", { scope: "col", class: "words" }, "how"))),
+        html("tbody", {}, ...rows),
+      );
+    const open = [...part("widths").querySelectorAll("details")].map((details) => details.open);
+    part("widths").replaceChildren(
+      html(
+        "details",
+        { open: open[0] },
+        html("summary", {}, `Widths by ${known.length} provisions of codes and ${gap.combinations.length} rules: the dashed lines`),
+        table([
+          row("this record", gap.demand, "maximum approach of the buildings without contact", "demand"),
+          ...known.map(code),
+          ...gap.combinations.map((rule) => row(rule.name, rule.width, "combination of the peak displacements", "rule")),
+        ]),
+      ),
+      html("details", { open: open[1] }, html("summary", {}, `${others.length} provisions give no width`), table(others.map(code))),
+    );
+  };
+
+  // Begins again where anything but the width of the gap was changed.
+  const begin = async () => {
+    const { gap, overlays } = state.get();
+    const wanted = JSON.stringify([state.changesOfSweep(gap), gap, overlays, actions.opened()]);
+    draw();
+    if (wanted === asked) return;
+    asked = wanted;
+    const mine = ++job;
+    const stopped = () => mine !== job;
+    const told = (answer) => {
+      if (answer.faults && !stopped()) part("progress").textContent = answer.faults[0].message;
+      return answer.faults || stopped();
+    };
+    done = [0, 0];
+    const answer = await background.ask({ do: "widths", changes: state.changes() });
+    if (stopped()) return;
+    curves = new Map();
+    widths = answer.faults ? null : answer;
+    listed();
+    draw();
+    if (told(answer)) return;
+    const all = answer.columns[`sweep_${gap}`] || new Float64Array();
+    actions.demanded(answer.gaps);
+    const laws = [[null, actions.model(gap)], ...overlays.filter((name) => name !== actions.model(gap)).map((name) => [name, name])];
+    done = [0, laws.length * all.length];
+    for (const [model, name] of laws) {
+      let keys = null;
+      if (model) {
+        const calibrated = await background.ask({ do: "calibrate", changes: state.changes(), gap, model });
+        if (told(calibrated)) return;
+        keys = calibrated.keys;
+      }
+      const changes = state.changesOfSweep(gap, keys);
+      const places = order(all.length);
+      for (let first = 0; first < places.length; ) {
+        const some = places.slice(first, first + AT_ONCE).map((i) => all[i]);
+        const runs = await background.ask({ do: "sweep", changes, gap, widths: some });
+        if (told(runs)) return;
+        first += runs.columns.width.length;
+        done[0] += runs.columns.width.length;
+        curves.set(name, sorted(join(curves.get(name), runs.columns)));
+        draw();
+      }
+    }
+    draw();
+  };
+
+  const png = () => {
+    const picture = part("sweep").cloneNode(true);
+    const shownOne = part("sweep");
+    const [width, height] = shownOne.getAttribute("viewBox").split(" ").slice(2).map(Number);
+    // The styles of the page are not in a picture of its own.
+    const from = shownOne.querySelectorAll("*");
+    picture.querySelectorAll("*").forEach((element, i) => {
+      const style = getComputedStyle(from[i]);
+      for (const name of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"]) {
+        element.style.setProperty(name, style.getPropertyValue(name));
+      }
+    });
+    picture.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+    picture.setAttribute("width", width);
+    picture.setAttribute("height", height);
+    const image = new Image();
+    image.onload = () => {
+      const canvas = html("canvas", { width: 2 * width, height: 2 * height });
+      const context = canvas.getContext("2d");
+      context.fillStyle = getComputedStyle(document.body).backgroundColor;
+      context.fillRect(0, 0, canvas.width, canvas.height);
+      context.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => save("sweep.png", "image/png", blob));
+    };
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(picture))}`;
+  };
+  const csv = () => {
+    const lines = [];
+    for (const [name, columns] of curves) {
+      const names = Object.keys(columns);
+      if (!lines.length) lines.push(["model", ...names].join(","));
+      columns.width.forEach((_, i) => lines.push([name, ...names.map((n) => (Number.isFinite(columns[n][i]) ? columns[n][i] : ""))].join(",")));
+    }
+    return `${lines.join("\n")}\n`;
+  };
+
+  const prepare = () => {
+    for (const [name, [title]] of Object.entries(QUANTITIES)) part("quantity").append(new Option(title, name));
+    part("quantity").addEventListener("change", (event) => state.look({ quantity: event.target.value }));
+    part("gap").addEventListener("change", (event) => state.look({ gap: Number(event.target.value) }));
+    part("png").addEventListener("click", png);
+    part("sweep-csv").addEventListener("click", () => save("sweep.csv", "text/csv", csv()));
+    addEventListener("resize", draw);
+  };
+  // The models that can be drawn beside the gap's own, and the gaps.
+  const choices = (models, gaps) => {
+    const { overlays, quantity, gap } = state.get();
+    const boxes = models.map((model) => {
+      const box = html("input", { type: "checkbox", value: model.name });
+      box.checked = overlays.includes(model.name);
+      box.addEventListener("change", () => {
+        const others = state.get().overlays.filter((name) => name !== model.name);
+        state.look({ overlays: box.checked ? [...others, model.name] : others });
+      });
+      return html("label", { title: model.title }, box, model.name);
+    });
+    part("overlays").replaceChildren(...boxes);
+    part("quantity").value = QUANTITIES[quantity] ? quantity : "impacts";
+    part("gap").replaceChildren(...gaps.map((name, i) => new Option(name, String(i), false, i === gap)));
+    part("gap").closest("label").hidden = gaps.length < 2;
+  };
+  return { prepare, choices, begin, draw };
+};

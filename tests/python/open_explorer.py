@@ -1,0 +1,185 @@
+"""Opens the page that computes, moves it, and compares it with what the command line says.
+
+python open_explorer.py PAGE.html POUNDING RECORD BROKEN_CASE [--pictures FOLDER]
+
+PAGE is that of the README's pair; RECORD and BROKEN_CASE are dropped on it. Chromium is named by POUNDING_CHROMIUM;
+where POUNDING_FIREFOX names Firefox, that opens the page too (over its debugging protocol, WebDriver BiDi).
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+from chromium import Chromium
+
+WIDTH = "document.querySelector('input[type=range][data-control=\"gap.0.width\"]')"
+DATA = "document.documentElement.dataset"
+
+
+def until(page, expression, seconds=120):
+    """Waits until an expression is true."""
+    end = time.monotonic() + seconds
+    while not page.value(expression):
+        assert time.monotonic() < end, expression
+        time.sleep(0.1)
+
+
+def result(page, name):
+    return page.value(f"document.querySelector('[data-result=\"{name}\"]').textContent")
+
+
+def told(page):
+    return page.value("document.querySelector('[data-part=faults]').textContent")
+
+
+def opened(page):
+    until(page, f"{DATA}.ready === 'true' && Number({DATA}.runs) > 0")
+    assert told(page) == "", told(page)
+    # The slider reaches what the gap demands as soon as that is known.
+    until(page, f"Number({WIDTH}.max) > 118")
+
+
+def moves(page):
+    """A drag from 20 mm to 118 mm: how many frames and runs a second, and where it ends."""
+    assert (result(page, "impacts"), result(page, "demand")) == ("45", "117.2 mm")
+    page.value("document.querySelector('[data-part=play]').click()")
+    runs = int(page.value(f"{DATA}.runs"))
+    took = page.value(
+        "(async () => { const slider = " + WIDTH + "; const started = performance.now();"
+        "for (let width = 20; width <= 118; width++) {"
+        " slider.value = String(width); slider.dispatchEvent(new Event('input', { bubbles: true }));"
+        " await new Promise((next) => requestAnimationFrame(next)); }"
+        "slider.dispatchEvent(new Event('change', { bubbles: true }));"
+        "return (performance.now() - started) / 1000; })()"
+    )
+    until(page, "document.querySelector('[data-result=width]').textContent === '118 mm'")
+    runs = int(page.value(f"{DATA}.runs")) - runs
+    assert (result(page, "impacts"), result(page, "demand")) == ("0", "117.2 mm")
+    return f"a drag: {99 / took:.0f} frames and {runs / took:.0f} runs a second"
+
+
+def repeats(page, pounding, folder):
+    """The case file that the page gives away is run to the same numbers."""
+    page.value("(() => { window.given = null; const made = URL.createObjectURL.bind(URL); URL.createObjectURL = (blob) => { blob.text().then((t) => { window.given = t; }); return made(blob); }; })()")
+    page.value("document.querySelector('[data-part=case]').click()")
+    until(page, "window.given !== null")
+    case = page.value("window.given")
+    motions = pathlib.Path(__file__).resolve().parents[2] / "ground_motions"
+    path = pathlib.Path(folder) / "given.toml"
+    path.write_text(case.replace("../../ground_motions", str(motions)))
+    told_ = subprocess.run([pounding, "run", path, "--no-output", "--json"], capture_output=True, text=True, check=True)
+    levels = json.loads(told_.stdout)["gaps"][0]["levels"]
+    assert str(sum(level["impacts"] for level in levels)) == result(page, "impacts")
+    assert f"{1e3 * levels[0]['width']:g} mm" == result(page, "width"), levels[0]["width"]
+
+
+def drop(page, *paths):
+    files = [[pathlib.Path(path).name, pathlib.Path(path).read_text()] for path in paths]
+    page.value(
+        "(() => { const data = new DataTransfer(); for (const [name, text] of "
+        + json.dumps(files)
+        + ") data.items.add(new File([text], name));"
+        "dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true })); })()"
+    )
+
+
+def words(text):
+    return " ".join(text.replace("│", " ").split())
+
+
+def drops(page, pounding, record, broken):
+    """A record is run, a broken case is refused as on the command line, and the rest stays."""
+    drop(page, broken)
+    until(page, "document.querySelectorAll('.fault').length > 0")
+    refused = subprocess.run([pounding, "run", broken, "--no-output"], capture_output=True, text=True, env={**os.environ, "NO_COLOR": "1"})
+    folder = str(pathlib.Path(broken).parent) + "/"
+    said = words(words(refused.stderr).replace(folder, ""))
+    # A page has no system that says why a file is missing.
+    said = said.replace("No such file or directory (os error 2)", "this file was not given")
+    for text in page.value("[...document.querySelectorAll('.fault')].map((f) => f.querySelector('p').textContent)"):
+        assert words(text) in said, (text, said)
+    # And no other word.
+    assert refused.stderr.count("×") == page.value("document.querySelectorAll('.fault').length")
+    name = pathlib.Path(record).name
+    drop(page, record)
+    until(page, f"document.querySelector('[data-part=excitation]').textContent.includes({json.dumps(name)})")
+    until(page, "document.querySelector('[data-part=faults]').textContent === ''")
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
+def named(page):
+    """Every control has a name for those who do not see it."""
+    nameless = page.value(
+        "[...document.querySelectorAll('input, select, button, svg[role]')].filter((e) => e.offsetParent !== null || e.tagName === 'svg')"
+        ".filter((e) => !(e.labels && e.labels.length) && !e.getAttribute('aria-label') && !e.textContent.trim()).map((e) => e.outerHTML.slice(0, 200))"
+    )
+    assert not nameless, nameless
+
+
+def in_chromium(arguments, pictures):
+    page_file, pounding, record, broken = arguments
+    url = pathlib.Path(page_file).resolve().as_uri()
+    with Chromium(os.environ["POUNDING_CHROMIUM"]) as browser, tempfile.TemporaryDirectory() as folder:
+        page = browser.open(url)
+        page.wide(1280)
+        opened(page)
+        drag = moves(page)
+        repeats(page, pounding, folder)
+        drops(page, pounding, record, broken)
+        named(page)
+        started = time.monotonic()
+        until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)
+        sweep = time.monotonic() - started
+        for width, dark in ((1280, False), (400, False), (1280, True)):
+            page.wide(width, dark=dark, touch=width < 500)
+            across = page.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+            assert across <= 0, (width, across)
+            if pictures:
+                time.sleep(0.5)
+                page.picture(f"{pictures}/explorer-{width}{'-dark' if dark else ''}.png")
+        # An address holds the state.
+        state = page.value("location.hash")
+        shared = browser.open(url + "#" + "%7B%22entries%22%3A%7B%22gap.0.width%22%3A%22118%20mm%22%7D%7D")
+        opened_with = f"{DATA}.ready === 'true' && document.querySelector('[data-result=width]')?.textContent === '118 mm'"
+        until(shared, opened_with)
+        garbage = browser.open(url + "#%7Bnothing")
+        until(garbage, f"{DATA}.ready === 'true' && document.querySelectorAll('.fault').length === 1")
+        for one in (page, shared, garbage):
+            foreign = [r for r in one.requests if not r.startswith((url, "blob:", "data:"))]
+            assert not foreign, foreign
+            assert not one.complaints, one.complaints
+        size = pathlib.Path(page_file).stat().st_size
+        print(f"Chromium: {size / 1e6:.2f} MB, {drag}, the rest of the sweep in {sweep:.1f} s, state {len(state)} characters")
+
+
+def in_firefox(page_file):
+    from firefox import Firefox
+
+    url = pathlib.Path(page_file).resolve().as_uri()
+    with Firefox(os.environ["POUNDING_FIREFOX"]) as browser:
+        page = browser.open(url)
+        opened(page)
+        drag = moves(page)
+        assert all(r.startswith((url, "blob:", "data:")) for r in page.requests), page.requests
+        assert not page.complaints, page.complaints
+        print(f"Firefox: {drag}")
+
+
+def main(arguments):
+    pictures = None
+    if "--pictures" in arguments:
+        at = arguments.index("--pictures")
+        pictures = arguments[at + 1]
+        del arguments[at : at + 2]
+    in_chromium(arguments, pictures)
+    if os.environ.get("POUNDING_FIREFOX"):
+        in_firefox(arguments[0])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -221,8 +221,8 @@ fn wrong_ones_are_refused_with_their_place() {
         (&brackets[4900..5110], NONE, 49, "nest in one another"),
         (&signs, NONE, 17, "characters are too many"),
         (&signs[..1999], NONE, 17, "this is no expression"),
-        (&chain, NONE, 17, "more than 100 operations nest"),
-        (&choices, NONE, 397, "nest in one another"),
+        (&chain, NONE, 709, "more than 100 operations nest"),
+        (&choices, NONE, 405, "nest in one another"),
         ("d0", &deep, 0, "more than 100 operations nest"),
     ] {
         let error = compiled(&file("between", expression, more)).unwrap_err();

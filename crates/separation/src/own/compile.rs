@@ -599,6 +599,10 @@ fn unreadable(text: &Text<'_>, errors: &ParseErrors) -> CaseError {
     if message.contains("'<EOF>'") && at.is_empty() {
         return text.error(at, "it ends too early", "complete it");
     }
+    // The parser's own words for a part that it could not complete.
+    if message.starts_with("No `") {
+        return text.error(at, "this is no expression", help);
+    }
     text.error(at, message, help)
 }
 

@@ -14,7 +14,7 @@ fn main() {
     println!("cargo::rustc-env=POUNDING_TARGET={target}");
     println!("cargo::rerun-if-changed=build.rs");
     // The log of HEAD grows with every commit, checkout and reset.
-    for file in ["HEAD", "logs/HEAD", "index"] {
+    for file in ["HEAD", "logs/HEAD"] {
         if let Some(path) = git(&["rev-parse", "--git-path", file]) {
             println!("cargo::rerun-if-changed={path}");
         }
@@ -25,7 +25,4 @@ fn main() {
         return;
     };
     println!("cargo::rustc-env=POUNDING_COMMIT={commit}");
-    let changed = git(&["status", "--porcelain", "--untracked-files=no"]);
-    let changed = changed.is_some_and(|files| !files.is_empty());
-    println!("cargo::rustc-env=POUNDING_CHANGED={}", u8::from(changed));
 }

@@ -13,19 +13,16 @@ fn main() {
     let target = std::env::var("TARGET").unwrap_or_else(|_| "unknown".to_owned());
     println!("cargo::rustc-env=POUNDING_TARGET={target}");
     println!("cargo::rerun-if-changed=build.rs");
+    // The log of HEAD grows with every commit, checkout and reset.
+    for file in ["HEAD", "logs/HEAD"] {
+        if let Some(path) = git(&["rev-parse", "--git-path", file]) {
+            println!("cargo::rerun-if-changed={path}");
+        }
+    }
     // A source archive that lies in somebody else's repository is not a commit of ours.
     let ours = git(&["ls-files", "--error-unmatch", "build.rs"]).is_some();
     let Some(commit) = git(&["rev-parse", "HEAD"]).filter(|_| ours) else {
         return;
     };
     println!("cargo::rustc-env=POUNDING_COMMIT={commit}");
-    let changed = git(&["status", "--porcelain", "--untracked-files=no"]);
-    let changed = changed.is_some_and(|files| !files.is_empty());
-    println!("cargo::rustc-env=POUNDING_CHANGED={}", u8::from(changed));
-    // The log of HEAD grows with every commit, checkout and reset.
-    for file in ["HEAD", "logs/HEAD", "index"] {
-        if let Some(path) = git(&["rev-parse", "--git-path", file]) {
-            println!("cargo::rerun-if-changed={path}");
-        }
-    }
 }

@@ -9,8 +9,6 @@ pub struct Version {
     pub version: &'static str,
     /// Commit from which it was built; none where it was built outside of a repository.
     pub commit: Option<&'static str>,
-    /// Whether files that are under version control had been changed; none without a commit.
-    pub changed: Option<bool>,
     /// Machine for which it was built.
     pub target: &'static str,
     /// Features of the build beside the usual ones.
@@ -23,12 +21,10 @@ impl Version {
     /// That of this program.
     pub fn of_this_program() -> Self {
         let (major, minor, release) = hdf5::library_version();
-        let commit = option_env!("POUNDING_COMMIT");
         let features = [("static", cfg!(feature = "static"))];
         Self {
             version: env!("CARGO_PKG_VERSION"),
-            commit,
-            changed: commit.map(|_| option_env!("POUNDING_CHANGED") == Some("1")),
+            commit: option_env!("POUNDING_COMMIT"),
             target: env!("POUNDING_TARGET"),
             features: features
                 .into_iter()

@@ -3,6 +3,7 @@
 mod columns;
 mod excitation;
 mod forces;
+mod given_files;
 mod lateral;
 mod plan;
 mod warnings;

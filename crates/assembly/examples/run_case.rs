@@ -5,7 +5,7 @@ use std::error::Error;
 use std::io::Write as _;
 use std::path::Path;
 
-use pounding_assembly::{assemble};
+use pounding_assembly::assemble;
 use pounding_case::Case;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -25,7 +25,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         assembly.system.without_gaps()
     };
     let outcome = pounding_time_history::run(&system, &options, &mut [], &mut |_| {})?;
-    let impacts: usize = outcome.gaps.iter().flat_map(|g| &g.levels).map(|l| l.impacts).sum();
+    let impacts: usize = outcome
+        .gaps
+        .iter()
+        .flat_map(|g| &g.levels)
+        .map(|l| l.impacts)
+        .sum();
     writeln!(std::io::stdout(), "{impacts} {}", outcome.statistics.steps)?;
     Ok(())
 }

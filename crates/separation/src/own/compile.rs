@@ -559,7 +559,8 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
     let parse = move || Parser::default().parse_with_source_info(&owned);
     let running = parser.spawn(parse).map_err(|e| {
         let message = format!("there is no thread to read the expression: {e}");
-        let help = "rules of your own are for `pounding gap`; a page that computes does not read them";
+        let help =
+            "rules of your own are for `pounding gap`; a page that computes does not read them";
         text.error(0..0, message, help)
     })?;
     let Ok(answer) = running.join() else {

@@ -13,9 +13,9 @@ use sha2::{Digest, Sha256};
 use super::motions::Motion;
 use super::runner::named_files;
 use crate::case_text::canonical;
-use pounding_files::checksum::hexadecimal;
 use crate::error::StudyError;
 use crate::study_file::{RecordKind, RecordSource, Study};
+use pounding_files::checksum::hexadecimal;
 
 /// The folder of the copies in that of the shards.
 const FOLDER: &str = "records";

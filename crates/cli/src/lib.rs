@@ -40,6 +40,7 @@ use version::Version;
 pub mod answers {
     pub use crate::commands::check::Understood;
     pub use crate::commands::compare::numbers::Compared;
+    pub use crate::commands::gap::asked::{Asked as AskedOfGaps, overridden};
     pub use crate::commands::gap::numbers::Check;
     pub use crate::commands::ida::numbers::Analysis;
     pub use crate::commands::models::descriptor::Described as DescribedModel;

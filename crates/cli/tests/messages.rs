@@ -691,7 +691,7 @@ fn one_is_singular() {
         "of 1 record",
         "1 model, calibrated alike",
         "1 run in sweep.h5",
-        "1 run, stored",
+        "1 run in 1 shard",
     ] {
         assert!(all.contains(said), "{said}: {all}");
     }

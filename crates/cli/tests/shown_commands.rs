@@ -88,6 +88,21 @@ fn block<'p>(page: &'p str, language: &str) -> &'p str {
     after.split_once("```").unwrap().0
 }
 
+/// What the page on clusters takes for granted: a study, a case and a suite.
+fn large_study(at: &Path) {
+    let case = std::fs::read_to_string(at.join("examples/three_storey_pair/case.toml")).unwrap();
+    std::fs::write(at.join("case.toml"), case.replace("../../", "")).unwrap();
+    let study = "case = \"case.toml\"\n\n[output]\nchunk = 1\n\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"300 mm\"]\n";
+    std::fs::write(at.join("study.toml"), study).unwrap();
+    copy(&at.join("ground_motions"), &at.join("suite"));
+}
+
+/// What other processes do there.
+const SHARDS: &str = "set -e
+pounding sweep study.toml --plan=shell --shards 2 --into study.shards -o study.h5 > shell.sh
+bash shell.sh
+for i in 1 2 3 4 5 6 7 8; do pounding gap case.toml --records suite/ --shard $i/8 --into parts; done";
+
 /// Every command that stands on a page ends with an answer: exit code 0, or 1 where the answer
 /// is no. Of long studies a part is run, as their own tests run the whole.
 #[test]
@@ -124,18 +139,31 @@ fn commands_of_pages_run() {
             "time_s,deformation_mm\n0,0\n0.5,10\n1,-10\n",
         )
         .unwrap();
-        for command in commands(&text) {
-            let part = match command.starts_with("pounding sweep ") {
-                true => command.replacen("pounding sweep ", "pounding sweep --shard 1/50 ", 1),
-                false => command.clone(),
-            };
-            let output = Command::new("bash")
-                .args(["-c", &part])
+        let run = |command: &str| {
+            Command::new("bash")
+                .args(["-c", command])
                 .current_dir(&at)
                 .env("PATH", &path)
                 .env("NO_COLOR", "1")
                 .output()
-                .unwrap();
+                .unwrap()
+        };
+        if shown.ends_with("run-on-a-cluster.md") {
+            large_study(&at);
+            let made = run(SHARDS);
+            assert!(
+                made.status.success(),
+                "{}",
+                String::from_utf8_lossy(&made.stderr)
+            );
+        }
+        for command in commands(&text) {
+            let whole = command.starts_with("pounding sweep ") && !command.contains("--plan");
+            let part = match whole {
+                true => command.replacen("pounding sweep ", "pounding sweep --shard 1/50 ", 1),
+                false => command.clone(),
+            };
+            let output = run(&part);
             checked += 1;
             if !matches!(output.status.code(), Some(0 | 1)) {
                 let said = String::from_utf8_lossy(&output.stderr);

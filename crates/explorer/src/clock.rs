@@ -25,5 +25,5 @@ pub(crate) fn today() -> Option<Date> {
     #[cfg(target_arch = "wasm32")]
     return Date::of_day((now() / 86.4e6).floor() as i32);
     #[cfg(not(target_arch = "wasm32"))]
-    return Some(Date::today());
+    return Date::today();
 }

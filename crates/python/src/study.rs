@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use pounding_assembly::{assemble_with_record, scale_record};
-use pounding_case::Separation;
 use pounding_cli::Failure;
-use pounding_cli::answers::{Analysis, Check, Compared, Finished, of_check};
+use pounding_cli::answers::{
+    Analysis, AskedOfGaps, Check, Compared, Finished, of_check, overridden,
+};
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_ground_motion::Accelerogram;
@@ -155,13 +156,16 @@ fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Reco
 
 /// Checks the gaps of a case: what `pounding gap --json` prints.
 #[pyfunction]
-#[pyo3(signature = (case, motions, code, probability, confidence, points, threads, progress=None))]
+#[pyo3(signature = (case, motions, code, country, date, rules, probability, confidence, points, threads, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn gap_check_json(
     py: Python<'_>,
     case: &Bound<'_, PyCase>,
     motions: Vec<(String, Bound<'_, PyAny>)>,
     code: Option<&str>,
+    country: Option<&str>,
+    date: Option<&str>,
+    rules: Option<PathBuf>,
     probability: f64,
     confidence: f64,
     points: usize,
@@ -169,13 +173,14 @@ fn gap_check_json(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let (case, motions) = (case.get(), records(motions)?);
-    let mut separation = case.case.separation.clone();
-    if let Some(code) = code {
-        let text = format!("code = {code:?}");
-        let one = Separation::parse(&text, case.case.buildings.len());
-        let one = one.map_err(|e| Problem::from(Failure::case(e, &text)))?;
-        separation = separation.overridden_by(one);
-    }
+    let asked = AskedOfGaps {
+        code,
+        country,
+        date,
+        provisions: &[],
+        rules: rules.as_deref(),
+    };
+    let separation = overridden(case.case.separation.clone(), &asked).map_err(Problem::from)?;
     let options = GapCheckOptions {
         target_probability: probability,
         confidence,

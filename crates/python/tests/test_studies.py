@@ -126,6 +126,12 @@ def test_a_gap_check_by_one_code_is_that_of_the_command() -> None:
     )
     check = pounding.gap_check(case, code="eurocode_8_2004")
     assert check.answer == said
+    options = {"country": "Italy", "date": "2019-01-01", "rules": EXAMPLES / "gap_check" / "rules.toml"}
+    words = [word for name, value in options.items() for word in (f"--{name}", value)]
+    said = json.loads(command("gap", case, *words, "--points", 0, "--json", expect=1))
+    check = pounding.gap_check(case, **options)
+    assert check.answer == said
+    assert "ntc_2018" in json.dumps(check.answer) and '"yours"' in json.dumps(check.answer)
     with pytest.raises(pounding.CaseError, match="eurocode_8_2004"):
         pounding.gap_check(case, code="eurocode_8_204")
     with pytest.raises(ValueError, match="no records"):

@@ -113,7 +113,8 @@ fn is_whole(html: &str) -> String {
         .unwrap();
     let (data, rest) = rest.split_once("</script>\n<script>\n").unwrap();
     let (ours, after) = rest.split_once("</script>\n").unwrap();
-    assert_eq!(ours, include_str!("../src/page/run/run.js"));
+    let run = include_str!("../src/page/run/run.js");
+    assert_eq!(ours, format!("{}{run}", pounding_elevation::SCRIPT));
     let _: serde_json::Value = serde_json::from_str(data).unwrap();
     assert!(
         !data.contains(['<', '>', '&', '\u{2028}', '\u{2029}']),

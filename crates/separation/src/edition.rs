@@ -77,10 +77,13 @@ impl Edition {
 pub struct Date(NaiveDate);
 
 impl Date {
-    /// Today in universal time.
+    /// Today in universal time; `None` in a page, where only the host knows it.
     #[must_use]
-    pub fn today() -> Self {
-        Self(chrono::Utc::now().date_naive())
+    pub fn today() -> Option<Self> {
+        match cfg!(all(target_arch = "wasm32", target_os = "unknown")) {
+            true => None,
+            false => Some(Self(chrono::Utc::now().date_naive())),
+        }
     }
 
     /// The day so many days after 1 January 1970, which is day 0; `None` beyond the calendar. For

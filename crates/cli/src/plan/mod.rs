@@ -116,9 +116,11 @@ impl Plan {
         let shards = asked.min(chunks);
         if shards < asked {
             notes.push(format!(
-                "{shards} shards instead of {asked}: the {} are dealt out in chunks of {}, of which there are {chunks}; a smaller `chunk` in [output] makes more",
+                "{} instead of {asked}: {} in chunks of {} make {}; a smaller `chunk` in [output] makes more",
+                counted(shards, "shard"),
                 counted(runs, "run"),
-                study.chunk
+                study.chunk,
+                counted(chunks, "chunk")
             ));
         }
         let most = planning.array_limit as usize - 1;

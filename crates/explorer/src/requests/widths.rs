@@ -30,7 +30,8 @@ pub(crate) fn answer(prepared: Prepared) -> Result<Answer, Refused> {
     if separation.date.is_none() {
         separation.date = today().map(|day| Located {
             value: day.to_string(),
-            span: 0..0,
+            // It stands in no file.
+            span: usize::MAX..usize::MAX,
         });
     }
     let check = gap_check(&case, &separation, &records, &options, &|_, _| {})

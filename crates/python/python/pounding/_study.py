@@ -234,6 +234,9 @@ def gap_check(
     records: Records = None,
     *,
     code: str | None = None,
+    country: str | None = None,
+    date: str | None = None,
+    rules: Path | None = None,
     probability: float = 0.0,
     confidence: float = 0.9,
     points: int = 0,
@@ -249,7 +252,14 @@ def gap_check(
         A list, or a dict by name; the motion of the case by default.
     code : str, optional
         One code, such as ``"eurocode_8_2004"``, whose answer decides: with its statistic of the
-        suite, for both cases of ownership; it stands in ``answer["gaps"][i]["code"]``.
+        suite, for both cases of ownership; it stands in ``answer["gaps"][i]["code"]``. The name
+        of a family, such as ``"eurocode_8"``, is its edition in force on ``date``.
+    country : str, optional
+        The code in force there decides.
+    date : str, optional
+        Day of the editions, ``"YYYY-MM-DD"``; today by default, and in ``answer`` in any case.
+    rules : path, optional
+        A file of rules of your own (TOML), which are applied beside the built-in ones.
     probability : float
         Part of the records that may bring the buildings into contact (-).
     confidence : float
@@ -266,6 +276,9 @@ def gap_check(
             given._native,
             _records(records),
             code,
+            country,
+            date,
+            None if rules is None else os.fspath(rules),
             probability,
             confidence,
             points,

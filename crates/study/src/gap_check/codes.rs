@@ -356,7 +356,10 @@ fn provision_of(
 /// The day that is given, or today.
 fn date_of(case: &Case, separation: &Separation) -> Result<Date, CheckError> {
     let Some(text) = &separation.date else {
-        return Ok(Date::today());
+        return Date::today().ok_or_else(|| CheckError::Word {
+            message: "nobody says here which day it is".to_owned(),
+            help: Some("give `date` in [separation]".to_owned()),
+        });
     };
     let date = text.value.parse::<Date>();
     date.map_err(|e| unknown(case, text, e.to_string(), e.help()))
@@ -369,6 +372,9 @@ fn chosen_code(
     separation: &Separation,
     own: &[Provision],
 ) -> Result<(Option<Code>, Option<Date>), CheckError> {
+    if separation.country.is_none() && separation.code.is_none() && separation.date.is_none() {
+        return Ok((None, None));
+    }
     let date = date_of(case, separation)?;
     let wrong = |name, e: SeparationError| unknown(case, name, e.to_string(), e.help());
     if let Some(country) = &separation.country {

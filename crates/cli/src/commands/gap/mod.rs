@@ -1,6 +1,7 @@
 //! `pounding gap`: is the gap wide enough?
 
 mod answer;
+pub mod asked;
 mod files;
 pub mod numbers;
 mod provisions;
@@ -10,13 +11,11 @@ mod text;
 
 use std::path::Path;
 
-use pounding_case::{Case, Dimension, Located, RuleText, Separation, read_text};
+use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
 use pounding_report::pictures::gap::{amplifications, spectra};
 use pounding_study::Deal;
-use pounding_study::gap_check::{
-    GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt, wrong_rules,
-};
+use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
 use crate::deal::{deal, told_part};
@@ -26,6 +25,7 @@ use crate::files::have_a_place;
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit, threads};
 use crate::{page, plot};
+use asked::Asked;
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
 pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -94,29 +94,16 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
     }
-    // Words of arguments stand in no file.
-    let word = |text: &String| Located {
-        value: text.clone(),
-        span: usize::MAX..usize::MAX,
-    };
-    let provisions = &arguments.provisions;
-    let mut given = Separation {
-        code: arguments.code.as_ref().map(word),
-        country: arguments.country.as_ref().map(word),
-        date: arguments.date.as_ref().map(word),
-        provisions: (!provisions.is_empty()).then(|| provisions.iter().map(word).collect()),
-        ..Separation::default()
-    };
-    if let Some(path) = arguments.rules.as_deref() {
-        let text = read_text(path, "rules").map_err(|e| Failure::case(e, ""))?;
-        let rules = RuleText::parse_all(&text, &path.display().to_string());
-        given.rules = rules.map_err(|e| Failure::case(e, &text))?;
-    }
-    let separation = separation.overridden_by(given);
-    match wrong_rules(&separation) {
-        None => Ok(separation),
-        Some((error, source)) => Err(Failure::case(error, &source)),
-    }
+    asked::overridden(
+        separation,
+        &Asked {
+            code: arguments.code.as_deref(),
+            country: arguments.country.as_deref(),
+            date: arguments.date.as_deref(),
+            provisions: &arguments.provisions,
+            rules: arguments.rules.as_deref(),
+        },
+    )
 }
 
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {

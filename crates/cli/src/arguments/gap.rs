@@ -34,7 +34,7 @@ pub struct GapArguments {
     /// Day on which editions are in force, such as 2018-03-22, for a family or a country [default: that of the case, or today]
     #[arg(long, value_name = "DATE")]
     pub date: Option<String>,
-    /// Rules of your own, a file (TOML) of tables [[rule]]
+    /// Rules of your own, a file (TOML) of tables "rule"
     #[arg(long, value_name = "FILE")]
     pub rules: Option<InputPath>,
     /// Provisions to apply [default: those of the case, or all]

@@ -93,7 +93,7 @@ pub struct ProvisionDescriptor {
     pub status: Status,
     /// What else a user should know.
     pub remarks: &'static [&'static str],
-    /// The width of the [worked example](crate::worked_example) by hand, in mm: an expression of
+    /// The width of the [worked example](crate::worked_example()) by hand, in mm: an expression of
     /// numbers that the expressions of users can be.
     pub worked: &'static str,
     pub(crate) rule: Rule,

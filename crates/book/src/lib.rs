@@ -43,14 +43,22 @@ enable = true
 level = 0
 "#;
 
+/// What becomes a part of a book beside the pages of the repository.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Parts<'a> {
+    /// The documentation of the crates, which `cargo doc` made.
+    pub crates: Option<&'a Path>,
+    /// The page of `pounding explore`, which the front page shows.
+    pub explorer: Option<&'a Path>,
+}
+
 /// Writes the book of the repository at `root` into the folder `output`, whose old content goes.
-/// The documentation of the crates (`cargo doc`), if it is given, becomes a part of it.
 ///
 /// # Errors
 /// A page that cannot be read or a file that cannot be written.
-pub fn build(root: &Path, output: &Path, crates: Option<&Path>) -> Result<(), BookError> {
+pub fn build(root: &Path, output: &Path, parts: &Parts<'_>) -> Result<(), BookError> {
     let stage = tempfile::tempdir()?;
-    staging::stage(root, stage.path(), crates.is_some())?;
+    staging::stage(root, stage.path(), parts)?;
     std::fs::write(stage.path().join("book.toml"), CONFIGURATION)?;
     let book = MDBook::load(stage.path()).map_err(|e| BookError::of_book(&e))?;
     book.build().map_err(|e| BookError::of_book(&e))?;
@@ -59,8 +67,11 @@ pub fn build(root: &Path, output: &Path, crates: Option<&Path>) -> Result<(), Bo
         std::fs::remove_dir_all(output)?;
     }
     staging::copy(&built, output)?;
-    if let Some(crates) = crates {
+    if let Some(crates) = parts.crates {
         staging::copy(crates, &output.join(staging::CRATES))?;
+    }
+    if let Some(explorer) = parts.explorer {
+        std::fs::copy(explorer, output.join(staging::EXPLORER))?;
     }
     Ok(())
 }

@@ -1,24 +1,39 @@
-//! Writes the book: `book ROOT OUTPUT [CRATES]`, where `CRATES` is what `cargo doc` made.
+//! Writes the book of the documentation.
 
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-fn main() -> ExitCode {
-    let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    let (root, output, crates) = match arguments.as_slice() {
-        [root, output] => (root, output, None),
-        [root, output, crates] => (root, output, Some(crates.as_path())),
-        _ => return told("book ROOT OUTPUT [CRATES]"),
-    };
-    match book::build(root, output, crates) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => told(&error.to_string()),
-    }
+use book::Parts;
+use clap::Parser;
+
+/// Writes the documentation of the repository as a book.
+#[derive(Parser)]
+struct Arguments {
+    /// Root of the repository
+    root: PathBuf,
+    /// Folder of the book, whose old content goes
+    output: PathBuf,
+    /// What `cargo doc` made
+    #[arg(long)]
+    crates: Option<PathBuf>,
+    /// A page of `pounding explore`, for the front page
+    #[arg(long)]
+    explorer: Option<PathBuf>,
 }
 
-fn told(message: &str) -> ExitCode {
-    // Nobody is left to tell that nobody hears it.
-    let _ = writeln!(std::io::stderr(), "{message}");
-    ExitCode::FAILURE
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let parts = Parts {
+        crates: arguments.crates.as_deref(),
+        explorer: arguments.explorer.as_deref(),
+    };
+    match book::build(&arguments.root, &arguments.output, &parts) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nobody is left to tell that nobody hears it.
+            let _ = writeln!(std::io::stderr(), "{error}");
+            ExitCode::FAILURE
+        }
+    }
 }

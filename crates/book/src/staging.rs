@@ -4,17 +4,20 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use crate::Parts;
 use crate::error::BookError;
 use crate::formulas::rendered;
 use crate::outline::{Content, Entry, outline, target};
 
 /// Where the documentation of the crates goes.
 pub(crate) const CRATES: &str = "crates";
-/// The page that leads there.
+/// Where the page that computes goes.
+pub(crate) const EXPLORER: &str = "explorer.html";
+/// The page that leads to the crates.
 const PAGE_OF_CRATES: &str = "crates.md";
 
 /// Puts the sources of the book into `stage`.
-pub(crate) fn stage(root: &Path, stage: &Path, with_crates: bool) -> Result<(), BookError> {
+pub(crate) fn stage(root: &Path, stage: &Path, parts: &Parts<'_>) -> Result<(), BookError> {
     let source = stage.join("src");
     let mut summary = String::from("# Summary\n");
     for entry in outline(root)? {
@@ -29,7 +32,12 @@ pub(crate) fn stage(root: &Path, stage: &Path, with_crates: bool) -> Result<(), 
             }
         }
     }
-    if with_crates {
+    if parts.explorer.is_some() {
+        let front = source.join("README.md");
+        let text = std::fs::read_to_string(&front)?;
+        std::fs::write(front, with_explorer(&text))?;
+    }
+    if parts.crates.is_some() {
         let _ = write!(summary, "\n- [The crates]({PAGE_OF_CRATES})\n");
         std::fs::write(source.join(PAGE_OF_CRATES), page_of_crates(root)?)?;
     }
@@ -60,6 +68,17 @@ fn page(root: &Path, source: &Path, path: &Path) -> Result<(), BookError> {
     }
     std::fs::write(to, rendered(path, &text)?)?;
     Ok(())
+}
+
+/// The front page with the page that computes before its second heading.
+fn with_explorer(text: &str) -> String {
+    let (before, after) = text.split_once("\n## ").unwrap_or((text, ""));
+    let frame = format!(
+        "<iframe src=\"{EXPLORER}\" title=\"Drag the gap of two three-storey buildings\" style=\"width:100%;height:60rem;border:1px solid #ccc\" loading=\"lazy\"></iframe>"
+    );
+    format!(
+        "{before}\n## Drag the gap\n\nThe solver in the page: [on a page of its own]({EXPLORER}).\n\n{frame}\n\n## {after}"
+    )
 }
 
 /// What each crate is for, as CONTRIBUTING says, with a link to its documentation.

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use book::{Entry, build, outline};
+use book::{Entry, Parts, build, outline};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -69,7 +69,16 @@ fn every_page_is_a_chapter() {
 fn links_lead_somewhere() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("book");
-    build(&root(), &output, None).unwrap();
+    // Stands for the page of `pounding explore`.
+    let explorer = folder.path().join("page.html");
+    std::fs::write(&explorer, "<!DOCTYPE html>").unwrap();
+    let parts = Parts {
+        explorer: Some(&explorer),
+        ..Parts::default()
+    };
+    build(&root(), &output, &parts).unwrap();
+    let front = std::fs::read_to_string(output.join("index.html")).unwrap();
+    assert!(front.contains("<iframe src=\"explorer.html\""));
     let mut pages = Vec::new();
     html(&output, &mut pages);
     assert!(pages.len() > 100, "{}", pages.len());

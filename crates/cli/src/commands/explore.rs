@@ -43,7 +43,10 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let documentation = arguments.documentation.as_deref();
-    let documentation = documentation.map(|address| format!("{}/", address.trim_end_matches('/')));
+    let documentation = documentation.map(|address| match address.contains("{page}") {
+        true => address.to_owned(),
+        false => format!("{}/", address.trim_end_matches('/')),
+    });
     let made = page(&Inputs {
         title: &case.title,
         name: &name,

@@ -37,11 +37,17 @@ const elements = (() => {
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high * (1 + 1e-12); i++) out.push(clean(i * step));
     return out;
   };
+  // The address of a page: with `{page}` in it of a book, else of files.
+  const addressOf = (documentation, page) =>
+    documentation.includes("{page}")
+      ? documentation.replace("{page}", page.replace(/\.md$/, ""))
+      : documentation + page;
+
   // Where the documentation says more: a link, or the name of the page where nobody said where
   // the documentation is.
   const more = (documentation, page) =>
     documentation
-      ? html("a", { href: documentation + page, target: "_blank", rel: "noopener" }, "more")
+      ? html("a", { href: addressOf(documentation, page), target: "_blank", rel: "noopener" }, "more")
       : html("span", { class: "source" }, `docs/${page}`);
   const save = (name, type, contents) => {
     const address = URL.createObjectURL(new Blob([contents], { type }));

@@ -13,6 +13,8 @@ use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_all_bytes, read
 
 /// Bytes of each file: large beside what the process needs anyway.
 const SIZE: usize = 3 << 20;
+/// Bytes of noise behind a header.
+const NOISE: usize = 10 << 20;
 /// What the allocator and the process may hold besides (bytes).
 const SLACK: usize = 2 << 20;
 
@@ -121,8 +123,8 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
     ] {
         let file = common::fixtures(format, 0).pop().unwrap().bytes;
         let head = &file[..file.len() / 2];
-        all.push((name, [head, &noise(SIZE, false)].concat()));
-        all.push((digits, [head, &noise(SIZE, true)].concat()));
+        all.push((name, [head, &noise(NOISE, false)].concat()));
+        all.push((digits, [head, &noise(NOISE, true)].concat()));
     }
     // Rows that a count of the header allows: all are held.
     let nsmn = String::from_utf8_lossy(&common::fixtures("nsmn", 0)[0].bytes).into_owned();

@@ -172,11 +172,11 @@ fn wrong_rules_of_a_file() {
         ),
         (
             rule("nbcc_2015_between", "u_left"),
-            "is a provision or a code already",
+            "is a provision, a code or a combination rule already",
         ),
         (
             rule("eurocode_8", "u_left"),
-            "is a provision or a code already",
+            "is a provision, a code or a combination rule already",
         ),
         (rule("a", "u_left").repeat(2), "two rules are called \"a\""),
         (rule("a", "u_lef") + &rule("b", "u_righ"), "rules.toml:8:15"),
@@ -348,4 +348,54 @@ fn other_tables_are_folded_beside_the_answer_of_a_code() {
         folded.contains("height: what it is measured from was not seen"),
         "{folded}"
     );
+}
+
+/// A rule that has no value at a level where it applies judges nothing, and says why: what it asks
+/// at other levels would be no answer. The roofs of the case stand at 9 m.
+#[test]
+fn a_rule_without_a_value_at_a_level_decides_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, rule: &str| {
+        let path = folder.path().join(name);
+        let head = "[[rule]]\nkind = \"between\"\n";
+        std::fs::write(&path, format!("{head}{rule}")).unwrap();
+        path.display().to_string()
+    };
+    for (expression, reason) in [
+        ("p(height)", "p(height)"),
+        ("0.01 * height / max(0, 8 - height / one)", ""),
+    ] {
+        let table = "[rule.tables]\np = { points = [[\"0 m\", \"10 mm\"], [\"8.999 m\", \"100 mm\"]], interpolation = \"linear\" }\n";
+        let rule = format!(
+            "name = \"office\"\nexpression = {expression:?}\ninputs = {{ one = \"1 m\" }}\n{table}"
+        );
+        let rules = write("rules.toml", &rule);
+        let answer = json(&gap(&["--rules", &rules, "--json"]));
+        let office = named(&answer["gaps"][0]["provisions"], "office");
+        assert!(office["satisfied"].is_null(), "{office}");
+        assert!(
+            office["refusal"].as_str().unwrap().contains(reason),
+            "{office}"
+        );
+        let said = text(&gap(&["--rules", &rules, "--provisions", "office", "--all"]).stdout);
+        assert!(!said.contains("| yes"), "{said}");
+    }
+    // Names of combination rules are taken.
+    for name in [
+        "SRSS",
+        "DDC",
+        "absolute_sum",
+        "square_root_of_sum_of_squares (SRSS)",
+    ] {
+        let rules = write(
+            "taken.toml",
+            &format!("name = {name:?}\nexpression = \"0.01 * height\"\n"),
+        );
+        let output = gap(&["--rules", &rules]);
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert!(
+            plain(&text(&output.stderr)).contains("combination rule already"),
+            "{name}"
+        );
+    }
 }

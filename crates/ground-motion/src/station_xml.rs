@@ -9,6 +9,9 @@ use sha2::{Digest, Sha256};
 use crate::error::GroundMotionError;
 use crate::quantity::SeriesUnit;
 
+/// Elements of StationXML nest some ten deep; the parser calls itself for each.
+const MOST_DEPTH: usize = 200;
+
 /// Largest file that is read (bytes), and elements and texts that it may have: a network's
 /// stations with all their stages take some ten million bytes.
 const MOST_BYTES: u64 = 64 << 20;
@@ -257,6 +260,11 @@ impl StationFile {
 
     /// The sensitivity of a channel at the time of its first sample.
     fn sensitivity(&self, name: &ChannelName) -> Result<Sensitivity, GroundMotionError> {
+        if let Some(line) = too_deep(&self.text) {
+            let message =
+                format!("elements nest more than {MOST_DEPTH} deep: this is no StationXML");
+            return Err(self.refused(line, message, "get the file again"));
+        }
         let options = ParsingOptions {
             allow_dtd: false,
             nodes_limit: MOST_NODES,
@@ -501,6 +509,38 @@ fn days_after_1900(year: i64, month: i64, day: i64) -> i64 {
     let of_year = before[(month - 1) as usize] + i64::from(leap && month > 2) + day - 1;
     let past = year - 1;
     365 * (year - 1900) + past / 4 - past / 100 + past / 400 - 460 + of_year
+}
+
+/// The line at which elements nest deeper than is allowed; `None` if none do. What is not well
+/// formed is left to the parser.
+fn too_deep(text: &str) -> Option<usize> {
+    let (mut depth, mut at) = (0_usize, 0_usize);
+    while let Some(found) = text[at..].find('<') {
+        let start = at + found;
+        let rest = &text[start..];
+        let end = |mark: &str| {
+            rest.find(mark)
+                .map_or(text.len(), |e| start + e + mark.len())
+        };
+        at = if rest.starts_with("<!--") {
+            end("-->")
+        } else if rest.starts_with("<![CDATA[") {
+            end("]]>")
+        } else {
+            let end = end(">");
+            let opens = rest[1..].starts_with(|c: char| c.is_alphabetic() || c == '_' || c == ':');
+            if rest.starts_with("</") {
+                depth = depth.saturating_sub(1);
+            } else if opens && !text[start..end].ends_with("/>") {
+                depth += 1;
+            }
+            if depth > MOST_DEPTH {
+                return Some(1 + text[..start].matches('\n').count());
+            }
+            end
+        };
+    }
+    None
 }
 
 #[cfg(test)]

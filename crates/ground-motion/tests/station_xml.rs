@@ -398,6 +398,23 @@ fn damaged_metadata() {
         let error = read_all(&record, &with(&file)).unwrap_err().to_string();
         assert!(error.contains("noise.xml"), "{what}: {error}");
     }
+    // Well formed, and deeper than the stack: named, and lying beside the record.
+    for depth in [201, 20_000] {
+        let deep = [
+            "<FDSNStationXML>".to_owned(),
+            "<a>".repeat(depth),
+            "</a>".repeat(depth),
+        ]
+        .concat();
+        let file = write(folder.path(), "deep.xml", deep + "</FDSNStationXML>");
+        let error = read_all(&record, &with(&file)).unwrap_err().to_string();
+        assert!(
+            error.contains("deep.xml") && error.contains("200 deep"),
+            "{error}"
+        );
+        assert!(read_all(&record, &ReadOptions::default()).is_err());
+        std::fs::remove_file(file).unwrap();
+    }
     // Names in another encoding than the file says.
     let latin = station(&[HNE]).replace('\u{160}', "S").into_bytes();
     let at = latin.windows(5).position(|w| w == b"umava").unwrap();

@@ -90,6 +90,15 @@ pub enum SeparationError {
     },
 }
 
+impl SeparationError {
+    /// Whether a provision that applies has no value here: it is neither one that does not apply nor
+    /// one that lacks an input.
+    #[must_use]
+    pub fn is_without_value(&self) -> bool {
+        matches!(self, Self::Expression { .. } | Self::OutOfRange { .. })
+    }
+}
+
 fn of(structure: &str) -> String {
     if structure.is_empty() {
         String::new()

@@ -18,7 +18,7 @@ fn boundary(
     _: &Site,
 ) -> Result<f64, SeparationError> {
     if elevation <= LOWEST {
-        return Err(working.not_applicable("it speaks of structures above 15 m"));
+        return Err(working.not_applicable("it speaks of levels above 15 m"));
     }
     Ok(0.01 * working.elevation(elevation))
 }

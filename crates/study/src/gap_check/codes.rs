@@ -26,10 +26,15 @@ pub struct CodeGap {
 }
 
 impl CodeGap {
-    /// Why the provision says nothing at any level under any record; `None` if it does.
+    /// Why the provision says nothing at any level under any record, or why it has no value at
+    /// some level where it applies: what it says at others decides nothing then. `None` if it does.
     #[must_use]
     pub fn refusal(&self) -> Option<&SeparationError> {
         let mut results = self.records.iter().flatten();
+        let errors = results.clone().filter_map(|r| r.as_ref().err());
+        if let Some(error) = errors.clone().find(|e| e.is_without_value()) {
+            return Some(error);
+        }
         if results.clone().any(Result::is_ok) {
             return None;
         }
@@ -61,7 +66,7 @@ impl CodeGap {
     /// any record; `None` if nothing is, and for a provision that does not judge.
     #[must_use]
     pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
-        if !self.judges() {
+        if !self.judges() || self.refusal().is_some() {
             return None;
         }
         let records = self.records.iter();
@@ -82,6 +87,9 @@ impl CodeGap {
     /// Width for one record (m): the maximum over the levels.
     #[must_use]
     pub fn width(&self, record: usize) -> Option<f64> {
+        if self.refusal().is_some() {
+            return None;
+        }
         let widths = self.records.get(record)?.iter().flatten().map(|r| r.width);
         widths.fold(None, |most: Option<f64>, w| {
             Some(most.map_or(w, |m| m.max(w)))
@@ -306,14 +314,19 @@ fn own_rules(separation: &Separation) -> Result<Vec<Provision>, Vec<CaseError>> 
     let (mut rules, mut errors) = (Vec::<Provision>::new(), Vec::new());
     for text in &separation.rules {
         let name = &text.name.value;
-        let known = codes().iter().any(|c| c.name == name || c.family == name);
+        let of_rule = |rule: &CombinationRule| {
+            let beginning = name.split([' ', '(']).next();
+            beginning == Some(rule.name()) || rule.abbreviation() == Some(name)
+        };
+        let known = codes().iter().any(|c| c.name == name || c.family == name)
+            || CombinationRule::ALL.iter().any(of_rule);
         let refuse = |message: String| {
             let help = Some("give the rule another name".to_owned());
             text.error(text.name.span.clone(), message, help)
         };
         if known || find(name).is_ok() {
             errors.push(refuse(format!(
-                "\"{name}\" is a provision or a code already"
+                "\"{name}\" is a provision, a code or a combination rule already"
             )));
         } else if rules.iter().any(|rule| rule.name() == name) {
             errors.push(refuse(format!("two rules are called \"{name}\"")));

@@ -95,7 +95,8 @@ pub fn options(
         csv: running.csv.as_deref().map(Path::to_owned),
         threads: running.threads.map_or(cores, |n| n as usize),
         shard,
-        resume: running.resume,
+        // What stands in a folder of shards is gone on with, or refused.
+        resume: running.resume || into.is_some(),
         store_every,
         keep_going: running.keep_going,
         shared: into.map(Path::to_owned),

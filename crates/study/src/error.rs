@@ -216,7 +216,7 @@ impl StudyError {
                 "go on with the build that began, name another result with -o, or remove the folder to make all runs anew"
             }
             Self::Standing { .. } => {
-                "name another result with -o; move the file away if it is of no use; without --resume it is replaced"
+                "name another result with -o, or move the file away if it is of no use"
             }
             Self::OtherShard { .. } => {
                 "name another result with -o, or give all shards one folder with --into, where each has a name of its own; move the file away if it is of no use"

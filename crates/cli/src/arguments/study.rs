@@ -95,7 +95,7 @@ pub struct RunningArguments {
     /// Threads; all cores by default. Results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
-    /// Go on with the finished runs of an interrupted call
+    /// Go on with the finished runs of an interrupted call, as --into does of itself
     #[arg(long)]
     pub resume: bool,
     /// Time that a finished run waits at most until it is stored for --resume; the result does

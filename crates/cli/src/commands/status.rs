@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
+use pounding_files::checksum::is_absent;
 use pounding_study::ranges;
 use serde::Serialize;
 
@@ -118,8 +119,11 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
         let name = entry.map_err(failed)?.file_name();
         let name = name.to_string_lossy();
         if let Some(shard) = ShardName::of(&name) {
-            let key = (shard.study, shard.count);
-            studies.entry(key).or_default().push(shard.index);
+            let shards = studies.entry((shard.study, shard.count)).or_default();
+            // The end of a result is the last that is written: without it the file was cut off.
+            if matches!(is_absent(&folder.join(&*name)), Ok(false)) {
+                shards.push(shard.index);
+            }
         }
     }
     for shard in told(folder) {
@@ -161,15 +165,23 @@ impl Progress {
                 index,
             };
             let beat = read(folder, &name);
-            if let Some(beat) = &beat {
+            // A call that was refused or failed leaves what stood there, which may be no part of
+            // this study.
+            let failed = beat.as_ref().is_some_and(|b| b.state == State::Failed);
+            let stands = done.binary_search(&index).is_ok() && !failed;
+            // Runs of a result that is gone are gone.
+            let gone_again = |b: &&Beat| stands || b.state != State::Done;
+            if let Some(beat) = beat.as_ref().filter(gone_again) {
                 progress.finished += beat.finished;
                 progress.failed += beat.failed;
                 progress.collapsed += beat.collapsed;
+            }
+            if let Some(beat) = &beat {
                 let command = || (beat.folder.clone(), beat.command.clone());
                 progress.command.get_or_insert_with(command);
             }
             match beat {
-                _ if done.binary_search(&index).is_ok() => progress.done.push(index),
+                _ if stands => progress.done.push(index),
                 None => progress.missing.push(index),
                 Some(beat) => {
                     let silent = now().saturating_sub(beat.updated);
@@ -178,7 +190,10 @@ impl Progress {
                         shard: index,
                         how: how(&beat, silent),
                         runs: beat.runs,
-                        finished: beat.finished,
+                        finished: match beat.state {
+                            State::Done => 0,
+                            _ => beat.finished,
+                        },
                         rate: beat.rate,
                         remaining_seconds: beat.remaining_seconds,
                         host: beat.host,
@@ -322,7 +337,7 @@ fn how(beat: &Beat, silent: u64) -> String {
             }
             text.push_str(&format!(" (process {} on {})", beat.process, beat.host));
         }
-        State::Done => text.push_str("; it was done, but its result is gone"),
+        State::Done => text.push_str("; it was done, but its result is gone or cut off"),
         State::Interrupted => text.push_str(&format!(", {} stored; interrupted", beat.stored)),
         State::Failed => text.push_str(&format!("; {}", beat.message)),
     }

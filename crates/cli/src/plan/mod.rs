@@ -243,6 +243,8 @@ impl Plan {
         for note in &self.notes {
             text.push_str(&format!("# Note: {note}.\n"));
         }
+        // A name of two lines would end the comment.
+        let again = again.replace('\n', "?");
         text.push_str(&format!("# Again, what is missing only: {again}\n"));
         text
     }

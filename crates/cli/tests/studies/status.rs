@@ -129,3 +129,44 @@ fn an_interrupted_shard_says_so() {
     assert!(told.contains("stored; interrupted"), "{told}");
     assert!(told.contains("not begun: 1"), "{told}");
 }
+
+/// A result that was cut off, or of which the last call said that it does not fit, is not done: the
+/// list of what is unfinished has it.
+#[test]
+fn what_cannot_be_merged_is_not_done() {
+    let bench = Bench::new(MIXED);
+    for shard in ["1/2", "2/2"] {
+        bench.text(&format!(
+            "sweep study.toml --shard {shard} --into all --keep-going"
+        ));
+    }
+    assert_eq!(bench.run("status all").status.code(), Some(0));
+    let folder = bench.folder.path().canonicalize().unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let result = format!("all/{name}.shard-1-of-2.h5");
+    let whole = bench.bytes(&result);
+    for length in [0, 5000] {
+        std::fs::write(bench.path(&result), &whole[..length]).unwrap();
+        let output = bench.run("status all --json");
+        assert_eq!(output.status.code(), Some(1), "{length}");
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let study = &json["studies"][0];
+        assert_eq!(study["done"], json!([2]));
+        // Runs of what is lost are not counted.
+        let one = study["ended"][0]["runs"].as_u64().unwrap();
+        assert!(study["finished"].as_u64().unwrap() <= one, "{study}");
+        assert_eq!(bench.run("status all --unfinished").stdout, b"1\n");
+    }
+    std::fs::write(bench.path(&result), &whole).unwrap();
+    // Another study of the same name finds its places taken, and says so.
+    let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    std::fs::write(bench.path("study.toml"), study.replace("60 mm", "70 mm")).unwrap();
+    let before = bench.bytes(&result);
+    let refused = bench.run("sweep study.toml --shard 1/2 --into all --keep-going");
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(bench.bytes(&result), before);
+    let output = bench.run("status all");
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("1 of 2 shards done"), "{told}");
+}

@@ -185,3 +185,11 @@ fn counts_of_the_credibility_page() {
         laws.iter().map(|d| d.verification.name()).collect(),
     );
 }
+
+/// What nobody has entered is not counted as compared.
+#[test]
+fn without_numbers_nothing_is_said_to_reproduce() {
+    let said = support::text("verify", "structures --source entered");
+    let end = "0 lines compared; 6 lines without their numbers; nothing is said to reproduce.";
+    assert!(said.trim_end().ends_with(end), "{said}");
+}

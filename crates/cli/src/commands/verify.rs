@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_verification::{
-    Comparison, Entered, Line, Part, Report, Structures, TEMPLATE, VerificationError, borovin_2014,
+    Comparison, Entered, Line, Part, Report, Structures, TEMPLATE, Verdict, VerificationError, borovin_2014,
     holds, iwan, papi_toopchi_2022, restitution, zhou_2012,
 };
 
@@ -116,7 +116,16 @@ fn as_text(parts: &[Part]) -> String {
     }
     let comparisons = parts.iter().flat_map(|part| &part.comparisons);
     let lines: Vec<&Line> = comparisons.flat_map(|c| &c.lines).collect();
-    out.push_str(&format!("{} compared; ", counted(lines.len(), "line")));
+    let without = lines.iter().filter(|l| l.verdict == Verdict::NeedsData);
+    let (all, without) = (lines.len(), without.count());
+    out.push_str(&format!("{} compared; ", counted(all - without, "line")));
+    if without > 0 {
+        out.push_str(&format!("{} without their numbers; ", counted(without, "line")));
+    }
+    if without == all {
+        out.push_str("nothing is said to reproduce.");
+        return out;
+    }
     let failed: Vec<_> = lines.into_iter().filter(|line| !line.holds()).collect();
     if failed.is_empty() {
         out.push_str("everything that is said to reproduce does.");

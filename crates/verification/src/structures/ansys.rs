@@ -14,7 +14,7 @@ const VM65: CaseFile = case_file!("ansys/vm65");
 pub(super) fn ansys() -> Result<Part, VerificationError> {
     Ok(Part {
         name: "ansys",
-        citation: "Ansys verification manual VM65 and LS-DYNA VM-061, after Thomson, Vibration Theory and Applications; the printed figures from memory",
+        citation: "Ansys verification manual VM65 and LS-DYNA VM-061, after Thomson, Vibration Theory and Applications; the printed figures unverified",
         comparisons: vec![vm65()?],
         findings: vec![
             "In inches, pounds and lbf s2/in, taken as if they were SI: no unit enters the equations. The printed 1.5506 in is 4e-5 off the closed form 1.55067 in, whose penetration solves k d^2 = 2 m g (h + d).".to_owned(),

@@ -364,7 +364,7 @@ fn compared(file: &Entered, entry: &Entry) -> Result<Comparison, VerificationErr
             (Some(run_of_user(&path)?), inputs)
         }
         (None, Some((_, case))) => {
-            let inputs = format!("inputs, from memory: {}", case.path().display());
+            let inputs = format!("inputs, unverified: {}", case.path().display());
             (Some(case.run()?.outcome), inputs)
         }
         (None, None) => (None, "no case: name one with `case`".to_owned()),

@@ -4,8 +4,8 @@ use clap::ValueEnum;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_verification::{
-    Comparison, Entered, Line, Part, Report, Structures, TEMPLATE, Verdict, VerificationError, borovin_2014,
-    holds, iwan, papi_toopchi_2022, restitution, zhou_2012,
+    Comparison, Entered, Line, Part, Report, Structures, TEMPLATE, Verdict, VerificationError,
+    borovin_2014, holds, iwan, papi_toopchi_2022, restitution, zhou_2012,
 };
 
 use crate::arguments::{
@@ -120,7 +120,10 @@ fn as_text(parts: &[Part]) -> String {
     let (all, without) = (lines.len(), without.count());
     out.push_str(&format!("{} compared; ", counted(all - without, "line")));
     if without > 0 {
-        out.push_str(&format!("{} without their numbers; ", counted(without, "line")));
+        out.push_str(&format!(
+            "{} without their numbers; ",
+            counted(without, "line")
+        ));
     }
     if without == all {
         out.push_str("nothing is said to reproduce.");

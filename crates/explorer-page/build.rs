@@ -1,4 +1,5 @@
-//! Compiles `pounding-explorer` to the WebAssembly module that pages hold.
+//! Compiles `pounding-explorer` to the WebAssembly module that pages hold, and writes the
+//! JavaScript that calls it, by the library of `wasm-bindgen`.
 //!
 //! A cargo of its own does it, with a profile of its own (`explorer` in the workspace's
 //! `Cargo.toml`), whatever the outer build is for. Its target folder, `explorer-module` beside
@@ -18,10 +19,13 @@ use std::process::Command;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// Says where the module comes from.
 const CHOICE: &str = "POUNDING_EXPLORER_MODULE";
+/// What the JavaScript calls the module.
+const GLOBAL: &str = "pounding";
 /// What the linker is told: memory that a page may take (bytes), and of it the stack.
 const LINKER: [&str; 2] = ["--max-memory=1073741824", "-zstack-size=4194304"];
 
@@ -39,13 +43,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         _ => compiled(&out),
     };
-    let rust = match module {
-        Ok(path) => {
-            let packed = out.join("module.wasm.gz");
+    let rust = match module.and_then(|path| bound(&path)) {
+        Ok((script, module)) => {
+            let (glue, packed) = (out.join("module.js"), out.join("module.wasm.gz"));
+            fs::write(&glue, script)?;
             let mut encoder = GzEncoder::new(fs::File::create(&packed)?, Compression::best());
-            encoder.write_all(&fs::read(path)?)?;
+            encoder.write_all(&module)?;
             encoder.finish()?;
-            format!("Ok(include_bytes!({packed:?}))")
+            format!(
+                "Ok(Module {{ script: include_str!({glue:?}), packed: include_bytes!({packed:?}) }})"
+            )
         }
         Err(reason) => {
             println!("cargo::warning=`pounding explore` will write no page: {reason}");
@@ -88,6 +95,24 @@ fn compiled(out: &Path) -> Result<PathBuf, String> {
     let made = folder.join(TARGET).join("explorer");
     watch(&made.join("pounding_explorer.d"), &workspace);
     Ok(made.join("pounding_explorer.wasm"))
+}
+
+/// The JavaScript that calls a module, and the module as it wants it; or why there are none.
+fn bound(path: &Path) -> Result<(String, Vec<u8>), String> {
+    let mut bindgen = Bindgen::new();
+    let made = bindgen
+        .input_path(path)
+        // A script of a page: it is given the module, and loads nothing.
+        .no_modules(true)
+        .and_then(|b| b.no_modules_global(GLOBAL))
+        .map(|b| b.omit_default_module_path(true).typescript(false))
+        .map(|b| b.remove_name_section(true).remove_producers_section(true))
+        .and_then(Bindgen::generate_output);
+    let mut made = made.map_err(|e| {
+        let path = path.display();
+        format!("the JavaScript of the module {path} could not be written: {e:#}")
+    })?;
+    Ok((made.js().to_owned(), made.wasm_mut().emit_wasm()))
 }
 
 /// Whether the compiler can compile for the target.

@@ -1,8 +1,9 @@
 """Opens the page that computes, moves it, and compares it with what the command line says.
 
-python open_explorer.py PAGE.html POUNDING RECORD BROKEN_CASE [--pictures FOLDER]
+python open_explorer.py PAGE.html POUNDING RECORD BROKEN_CASE COMPONENTS RULES [--pictures FOLDER]
 
-PAGE is that of the README's pair; RECORD and BROKEN_CASE are dropped on it. Chromium is named by POUNDING_CHROMIUM;
+PAGE is that of the README's pair; RECORD, BROKEN_CASE, COMPONENTS, a record with NS, EW and UD, and RULES, one of which is
+called office_sum, are dropped on it. Chromium is named by POUNDING_CHROMIUM;
 where POUNDING_FIREFOX names Firefox, that opens the page too (over its debugging protocol, WebDriver BiDi).
 """
 
@@ -87,6 +88,24 @@ def drop(page, *paths):
     )
 
 
+def chooses(page, record, rules):
+    """Of a record with several components one is chosen, and rules stand among the widths."""
+    drop(page, record)
+    chosen = "document.querySelector('[data-control=\"ground_motion.component\"]')"
+    until(page, f"{chosen}?.value === 'NS'")
+    assert page.value(f"[...{chosen}.options].map((o) => o.value)") == ["NS", "EW", "UD"]
+    runs = page.value(f"Number({DATA}.runs)")
+    page.value(f"(() => {{ {chosen}.value = 'EW'; {chosen}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
+    until(page, f"Number({DATA}.runs) > {runs} && document.querySelector('[data-part=excitation]').textContent.includes('EW')")
+    drop(page, rules)
+    until(page, "document.querySelector('[data-part=rules]').textContent.includes('office_sum')")
+    until(page, "document.querySelector('[data-part=widths]').textContent.includes('Office standard')")
+    assert told(page) == "", told(page)
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-part=rules]').textContent === ''")
+    until(page, f"!{chosen} && document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
 def words(text):
     return " ".join(text.replace("│", " ").split())
 
@@ -122,7 +141,7 @@ def named(page):
 
 
 def in_chromium(arguments, pictures):
-    page_file, pounding, record, broken = arguments
+    page_file, pounding, record, broken, components, rules = arguments
     url = pathlib.Path(page_file).resolve().as_uri()
     with Chromium(os.environ["POUNDING_CHROMIUM"]) as browser, tempfile.TemporaryDirectory() as folder:
         page = browser.open(url)
@@ -131,6 +150,7 @@ def in_chromium(arguments, pictures):
         drag = moves(page)
         repeats(page, pounding, folder)
         drops(page, pounding, record, broken)
+        chooses(page, components, rules)
         named(page)
         started = time.monotonic()
         until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)

@@ -21,6 +21,9 @@
 //! # }
 //! ```
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 mod assemble;
 mod dimension;
 mod error;

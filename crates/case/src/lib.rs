@@ -5,6 +5,9 @@
 //! line and column. What is done to a record it says by the types of `pounding-ground-motion`;
 //! which floors are level it asks `pounding-shear-building`, which knows where floors lie.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod document;
 mod error;
 mod files;

@@ -498,8 +498,8 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
             } else {
                 (unit.up, unit.down)
             };
-            up *= rise.powf(power.abs());
-            down *= fall.powf(power.abs());
+            up *= libm::pow(rise, power.abs());
+            down *= libm::pow(fall, power.abs());
             dimension = dimension.plus(unit.dimension, power);
         }
     }

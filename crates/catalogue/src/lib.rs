@@ -37,6 +37,9 @@
 //! # Ok::<(), pounding_catalogue::DefinitionError>(())
 //! ```
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 /// Standard gravity (m/s2): the third General Conference on Weights and Measures (1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 

@@ -9,7 +9,7 @@ pub fn significant(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let magnitude = value.abs().log10().floor();
+    let magnitude = libm::log10(value.abs()).floor();
     if (-3.0..6.0).contains(&magnitude) {
         return trimmed(value, (4.0 - magnitude).max(0.0) as usize);
     }
@@ -21,7 +21,7 @@ pub fn significant(value: f64) -> String {
 pub fn six_digits(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1.0e-3..1.0e7).contains(&size) {
-        let digits = (5 - size.max(1.0e-3).log10().floor() as i32).clamp(0, 8) as usize;
+        let digits = (5 - libm::log10(size.max(1.0e-3)).floor() as i32).clamp(0, 8) as usize;
         return trimmed(value, digits);
     }
     format!("{value:.5e}")

@@ -13,12 +13,12 @@ use flate2::write::GzEncoder;
 use pounding_report::page::{Document, Script};
 use serde_json::json;
 
-/// The module, packed, or why this program has none.
-const MODULE: Result<&[u8], &str> = include!(concat!(env!("OUT_DIR"), "/module.rs"));
+/// The module, or why this program has none.
+const MODULE: Result<Module, &str> = include!(concat!(env!("OUT_DIR"), "/module.rs"));
 /// What is in the page beside its header.
 const BODY: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// Of the workers, which know no page.
+/// Of the workers, which know no page, behind the script of the module.
 const WORKER: &str = concat!(include_str!("module.js"), include_str!("worker.js"));
 /// Of the page, in the order in which one needs the other.
 const SCRIPTS: &str = concat!(
@@ -36,6 +36,14 @@ const SCRIPTS: &str = concat!(
 /// figures become pictures.
 const MAY: &str = " &#39;wasm-unsafe-eval&#39;; worker-src blob:; img-src blob: data:";
 
+/// The solver as a page holds it.
+struct Module {
+    /// The script that calls it, by `wasm-bindgen`.
+    script: &'static str,
+    /// The WebAssembly module, packed by gzip.
+    packed: &'static [u8],
+}
+
 /// What a page is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inputs<'a> {
@@ -47,6 +55,8 @@ pub struct Inputs<'a> {
     pub case: &'a str,
     /// The files that it names, by the names that it gives them, and other records.
     pub files: &'a [(String, Vec<u8>)],
+    /// A file of rules for the gap: its name and its text.
+    pub rules: Option<(&'a str, &'a str)>,
     /// Where the pages of the documentation are: what their names follow, such as
     /// `https://example.org/docs/`.
     pub documentation: Option<&'a str>,
@@ -67,11 +77,15 @@ pub enum ExplorerPageError {
     Packing(#[from] std::io::Error),
 }
 
-/// The module, packed by gzip.
+/// Whether this program has a solver for pages.
 ///
 /// # Errors
-/// [`ExplorerPageError::NoModule`].
-pub fn module() -> Result<&'static [u8], ExplorerPageError> {
+/// [`ExplorerPageError::NoModule`]: why not, and what to do.
+pub fn has_module() -> Result<(), ExplorerPageError> {
+    module().map(|_| ())
+}
+
+fn module() -> Result<Module, ExplorerPageError> {
     MODULE.map_err(|reason| ExplorerPageError::NoModule { reason })
 }
 
@@ -81,19 +95,23 @@ pub fn module() -> Result<&'static [u8], ExplorerPageError> {
 /// [`ExplorerPageError::NoModule`] in a program that was built without; a file that cannot be
 /// packed.
 pub fn page(inputs: &Inputs<'_>) -> Result<String, ExplorerPageError> {
-    let module = STANDARD.encode(module()?);
+    let Module {
+        script,
+        packed: module,
+    } = module()?;
     let files = inputs.files.iter().map(|(name, bytes)| {
         let packed = STANDARD.encode(packed(bytes)?);
         Ok(json!({ "name": name, "data": packed }))
     });
     let files: Result<Vec<_>, ExplorerPageError> = files.collect();
     let data = json!({
-        "module": module,
-        "worker": WORKER,
+        "module": STANDARD.encode(module),
+        "worker": format!("{script}{WORKER}"),
         "version": env!("CARGO_PKG_VERSION"),
         "name": inputs.name,
         "case": inputs.case,
         "files": files?,
+        "rules": inputs.rules.map(|(name, text)| json!({ "name": name, "text": text })),
         "documentation": inputs.documentation,
     });
     let document = Document {

@@ -1,15 +1,16 @@
-//! Answers: a JSON object, and columns of numbers behind it.
+//! Answers: a JSON object, and columns of numbers beside it.
 
 use serde_json::{Map, Value, json};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::fault::Refused;
 
-/// An answer that is being made.
-#[derive(Debug, Default)]
-pub(crate) struct Answer {
+/// The answer to a request.
+#[wasm_bindgen]
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Answer {
     object: Map<String, Value>,
-    columns: Map<String, Value>,
-    numbers: Vec<f64>,
+    columns: Vec<(String, Vec<f64>)>,
 }
 
 impl Answer {
@@ -19,28 +20,33 @@ impl Answer {
     }
 
     /// Adds a column of numbers.
-    pub(crate) fn column(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
-        let first = self.numbers.len();
-        self.numbers.extend(values);
-        let place = json!([first, self.numbers.len() - first]);
-        self.columns.insert(name.to_owned(), place);
+    pub(crate) fn add_column(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
+        let values = values.into_iter().collect();
+        self.columns.push((name.to_owned(), values));
+    }
+}
+
+#[wasm_bindgen]
+impl Answer {
+    /// The object as a JSON text. If anything is wrong it has `faults` alone, each with `message`,
+    /// `help` (or null) and the `line` of the case.
+    #[must_use]
+    pub fn text(&self) -> String {
+        Value::from(self.object.clone()).to_string()
     }
 
-    /// The answer as bytes: the length of the JSON text and the place of the numbers, each in
-    /// four bytes, lowest first; the text; the numbers, of eight bytes each.
-    pub(crate) fn bytes(mut self) -> Vec<u8> {
-        self.object
-            .insert("columns".to_owned(), Value::Object(self.columns));
-        let text = Value::Object(self.object).to_string();
-        let numbers_at = (8 + text.len()).next_multiple_of(8);
-        let mut bytes = Vec::with_capacity(numbers_at + 8 * self.numbers.len());
-        // Texts and columns are far below four gigabytes: the requests are.
-        bytes.extend((text.len() as u32).to_le_bytes());
-        bytes.extend((numbers_at as u32).to_le_bytes());
-        bytes.extend(text.as_bytes());
-        bytes.resize(numbers_at, b' ');
-        bytes.extend(self.numbers.iter().flat_map(|x| x.to_le_bytes()));
-        bytes
+    /// Names of the columns.
+    #[must_use]
+    #[wasm_bindgen(js_name = columnNames)]
+    pub fn column_names(&self) -> Vec<String> {
+        self.columns.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Numbers of the column of this name, in JavaScript a `Float64Array`.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let found = self.columns.iter().find(|(known, _)| known == name);
+        found.map(|(_, values)| values.clone())
     }
 }
 

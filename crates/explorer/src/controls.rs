@@ -26,7 +26,7 @@ struct Control {
     label: String,
     /// Where it stands in the case.
     path: String,
-    /// `number`, `list` of one number a storey, `model` or `record`.
+    /// `number`, `list` of one number a storey, `model`, `record` or `component` of it.
     kind: &'static str,
     /// Unit that it is shown and written in; empty for SI.
     unit: String,
@@ -251,7 +251,22 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
         // What is more than a number is left as the case says it.
         _ => None,
     };
-    std::iter::once(record).chain(scale).collect()
+    let component = case.ground_motion.component.as_ref();
+    // A motion that is turned needs both.
+    let component = component.filter(|_| case.ground_motion.rotation.is_none());
+    let component = component.map(|component| Control {
+        label: "component".to_owned(),
+        path: "ground_motion.component".to_owned(),
+        kind: "component",
+        value: json!(component),
+        allowed: "one that the record has".to_owned(),
+        explanation: explained(schema, "ground_motion", "component"),
+        ..record.clone()
+    });
+    std::iter::once(record)
+        .chain(component)
+        .chain(scale)
+        .collect()
 }
 
 fn of_building(schema: &Value, index: usize, building: &Building) -> Vec<Control> {

@@ -5,11 +5,13 @@ use std::path::Path;
 use pounding_assembly::{
     Assembly, AssemblyError, assemble, assemble_with_record, read_record, scale_record,
 };
-use pounding_case::{Case, GivenFiles, decoded};
-use pounding_ground_motion::Accelerogram;
+use pounding_case::{Case, GivenFiles, RuleText, Separation, decoded};
+use pounding_ground_motion::{Accelerogram, Quantity, read_all_bytes};
 use pounding_study::edited::{Change, edited};
 use pounding_study::faults;
-use serde_json::json;
+use pounding_study::gap_check::wrong_rules;
+use serde_json::{Value, json};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer::Answer;
 use crate::controls;
@@ -19,11 +21,14 @@ use crate::request::{Changed, Request, changes};
 use crate::requests::{calibrate, run, sweep, widths};
 
 /// A case, the files that it names, and what was computed of them before.
+#[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Explorer {
     files: GivenFiles,
     name: String,
     source: String,
+    /// Rules for the gap beside those of the case.
+    rules: Vec<RuleText>,
     /// The record as it was read, unscaled, under these changes of how it is read.
     record: Option<(Vec<Change>, Accelerogram)>,
     /// What the last sweep was made of.
@@ -39,11 +44,26 @@ pub(crate) struct Prepared {
     pub assembly: Assembly,
 }
 
+#[wasm_bindgen]
 impl Explorer {
-    /// Answers a request: the length of a JSON text in four bytes, lowest first, the text, and
-    /// the bytes that belong to it. The JSON text says what to `do`:
+    /// An explorer without case and files.
+    #[must_use]
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        // What would only trap the module is told to whoever called it.
+        #[cfg(target_arch = "wasm32")]
+        std::panic::set_hook(Box::new(|panic| {
+            wasm_bindgen::throw_str(&panic.to_string());
+        }));
+        Self::default()
+    }
+
+    /// Answers a request, a JSON text with the bytes that belong to it. The text says what to `do`:
     ///
-    /// - `file`: keep the bytes as the file `name`;
+    /// - `file`: keep the bytes as the file `name`; of a record with several components, their
+    ///   names are in the answer;
+    /// - `rules`: take the bytes as a file of rules for the gap, of this `name`, in the place of
+    ///   those before; no bytes for none;
     /// - `open`: take the bytes as the case of this `name`;
     /// - `controls`: say what can be moved in the case;
     /// - `run`: run it, with at most so many `frames` of its motion;
@@ -51,29 +71,38 @@ impl Explorer {
     /// - `calibrate`: the parameters with which `model` is like the model of `gap`;
     /// - `sweep`: runs at `widths` (m) of `gap`, or of all gaps.
     ///
-    /// All but the first two take `changes` of the case, each `{path, value}`, `{gap, keys}` or
-    /// `{record}`; nothing of them is kept.
-    ///
-    /// The answer is the length of a JSON text and the place of numbers, four bytes each, the
-    /// text, and the numbers, in eight bytes each. Its `columns` say where each column of numbers
-    /// begins, and how long it is. If anything is wrong it has `faults` instead, each with
-    /// `message`, `help` and the `line` of the case.
+    /// All but the first three take `changes` of the case, each `{path, value}`, `{gap, keys}` or
+    /// `{record}`; nothing of them is kept. What is wrong is an answer too, see [`Answer::text`].
     #[must_use]
-    pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
-        let answer = parts(request).and_then(|(request, bytes)| self.answered(request, bytes));
-        answer.unwrap_or_else(Answer::from).bytes()
+    pub fn answer(&mut self, request: &str, bytes: &[u8]) -> Answer {
+        let length = request.len().saturating_add(bytes.len());
+        let answer = limits::request(length)
+            .and_then(|()| {
+                let wrong =
+                    |why: serde_json::Error| Refused::new(format!("no request: {why}"), None);
+                serde_json::from_str(request).map_err(wrong)
+            })
+            .and_then(|request| self.answered(request, bytes));
+        answer.unwrap_or_else(Answer::from)
     }
+}
 
+impl Explorer {
     fn answered(&mut self, request: Request, bytes: &[u8]) -> Result<Answer, Refused> {
         match request {
             Request::File { name } => self.keep(&name, bytes),
+            Request::Rules { name } => self.take_rules(&name, bytes),
             Request::Open { name } => self.open(&name, bytes),
             Request::Controls { changes } => {
                 let prepared = self.prepared(&changes)?;
                 Ok(controls::answer(&prepared))
             }
             Request::Run { changes, frames } => run::answer(&self.prepared(&changes)?, frames),
-            Request::Widths { changes } => widths::answer(self.prepared(&changes)?),
+            Request::Widths { changes } => {
+                let prepared = self.prepared(&changes)?;
+                let separation = self.separation(&prepared.case)?;
+                widths::answer(prepared, &separation)
+            }
             Request::Calibrate {
                 changes,
                 gap,
@@ -104,7 +133,41 @@ impl Explorer {
         let names = self.files.lengths().map(|(name, _)| name.to_string_lossy());
         let mut answer = Answer::default();
         answer.say("files", json!(names.collect::<Vec<_>>()));
+        answer.say("components", json!(components(name, bytes)));
         Ok(answer)
+    }
+
+    fn take_rules(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
+        limits::text(bytes)?;
+        let text = decoded(name, bytes.to_vec()).map_err(|e| Refused::of_case(e, ""))?;
+        let rules = match text.is_empty() {
+            true => Vec::new(),
+            false => RuleText::parse_all(&text, name).map_err(|e| Refused::of_case(e, &text))?,
+        };
+        let alone = Separation {
+            rules,
+            ..Separation::default()
+        };
+        if let Some((error, source)) = wrong_rules(&alone) {
+            return Err(Refused::of_case(error, &source));
+        }
+        self.rules = alone.rules;
+        let names = self.rules.iter().map(|rule| rule.name.value.as_str());
+        let mut answer = Answer::default();
+        answer.say("rules", names.collect::<Value>());
+        Ok(answer)
+    }
+
+    /// What provisions need to know: of the case, and rules beside it.
+    fn separation(&self, case: &Case) -> Result<Separation, Refused> {
+        let separation = case.separation.clone().overridden_by(Separation {
+            rules: self.rules.clone(),
+            ..Separation::default()
+        });
+        match wrong_rules(&separation) {
+            None => Ok(separation),
+            Some((error, source)) => Err(Refused::of_case(error, &source)),
+        }
     }
 
     fn open(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
@@ -181,6 +244,22 @@ impl Explorer {
     }
 }
 
+/// Names of the accelerations in a file, where there are several: what `component` of a case
+/// chooses between. A file that is no record has none, and what is wrong with one is said when it
+/// is used.
+fn components(name: &str, bytes: &[u8]) -> Vec<String> {
+    let recording = read_all_bytes(name, bytes, &Default::default());
+    let series = recording.map_or_else(|_| Vec::new(), |recording| recording.series);
+    let accelerations = series
+        .into_iter()
+        .filter(|series| series.quantity == Quantity::Acceleration);
+    let names: Vec<String> = accelerations.map(|series| series.component).collect();
+    match names.len() {
+        1 => Vec::new(),
+        _ => names,
+    }
+}
+
 /// Whether a change is one of how the record is read, and not of its scale.
 fn reads_the_record(change: &Change) -> bool {
     match change {
@@ -190,17 +269,4 @@ fn reads_the_record(change: &Change) -> bool {
         }
         Change::Model { .. } => false,
     }
-}
-
-/// The request and the bytes behind it.
-fn parts(request: &[u8]) -> Result<(Request, &[u8]), Refused> {
-    let wrong = |why: String| Refused::new(format!("no request: {why}"), None);
-    let (length, rest) = request
-        .split_first_chunk::<4>()
-        .ok_or_else(|| wrong("it has no length".to_owned()))?;
-    let (text, bytes) = rest
-        .split_at_checked(u32::from_le_bytes(*length) as usize)
-        .ok_or_else(|| wrong("it ends before its text".to_owned()))?;
-    let request = serde_json::from_slice(text).map_err(|e| wrong(e.to_string()))?;
-    Ok((request, bytes))
 }

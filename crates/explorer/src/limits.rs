@@ -1,5 +1,7 @@
 //! What a page takes: memory and time are bounded before they are spent.
 
+use std::time::Duration;
+
 use pounding_assembly::Assembly;
 use pounding_case::Case;
 use pounding_time_history::StepEstimate;
@@ -26,14 +28,22 @@ pub const MOST_STEPS: f64 = 2.0e7;
 pub const MOST_NUMBERS: usize = 4_000_000;
 /// Most widths of one request for a sweep.
 pub const MOST_WIDTHS: usize = 1_000;
-/// Time after which a run is stopped (ms).
-pub const PATIENCE: f64 = 20_000.0;
+/// Time after which a run is stopped.
+pub const PATIENCE: Duration = Duration::from_secs(20);
 
 fn refuse(found: impl std::fmt::Display, most: impl std::fmt::Display, what: &str) -> Refused {
     Refused::new(
         format!("{found} {what} are more than a page takes: {most} at most"),
         Some("run the case with `pounding run`".to_owned()),
     )
+}
+
+/// Refuses a request of more bytes, with those that belong to it, than any file has.
+pub(crate) fn request(length: usize) -> Result<(), Refused> {
+    match length > LONGEST_REQUEST {
+        true => Err(refuse(length, LONGEST_REQUEST, "bytes")),
+        false => Ok(()),
+    }
 }
 
 /// Refuses a text that no one wrote.

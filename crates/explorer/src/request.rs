@@ -5,12 +5,14 @@ use serde::Deserialize;
 
 use crate::fault::Refused;
 
-/// A request; bytes that belong to it stand behind its JSON text.
+/// A request, as its JSON text says it.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum Request {
     /// Keeps the bytes as the file of this name, for cases that name it.
     File { name: String },
+    /// Takes the bytes as a file of rules for the gap from now on.
+    Rules { name: String },
     /// Takes the bytes as the text of a case from now on.
     Open { name: String },
     /// What can be moved in the case.

@@ -80,9 +80,9 @@ impl InSeries {
         } = self.contact;
         let ratio = stiffness / self.spring;
         // Each term alone bounds the root from above.
-        let mut delta = penetration.min((penetration / ratio).powf(1.0 / n));
+        let mut delta = penetration.min(libm::pow(penetration / ratio, 1.0 / n));
         for _ in 0..STEPS {
-            let power = ratio * delta.powf(n - 1.0);
+            let power = ratio * libm::pow(delta, n - 1.0);
             let step = (delta + power * delta - penetration) / (1.0 + n * power);
             let next = delta - step;
             if !(next < delta) {
@@ -103,7 +103,7 @@ impl InSeries {
             return (0.0, 0.0);
         }
         let delta = self.of_contact(penetration);
-        let slope = self.contact.stiffness * delta.powf(self.contact.exponent - 1.0);
+        let slope = self.contact.stiffness * libm::pow(delta, self.contact.exponent - 1.0);
         let own = self.contact.exponent * slope;
         (slope * delta, own * self.spring / (own + self.spring))
     }
@@ -125,7 +125,7 @@ impl InSeries {
     fn penetration_of(&self, energy: f64) -> f64 {
         // All of it in the contact, or all in the spring.
         let n = self.contact.exponent;
-        let contact = ((n + 1.0) * energy / self.contact.stiffness).powf(1.0 / (n + 1.0));
+        let contact = libm::pow((n + 1.0) * energy / self.contact.stiffness, 1.0 / (n + 1.0));
         let mut x = contact + (2.0 * energy / self.spring).sqrt();
         for _ in 0..STEPS {
             let next = x - (self.energy(x) - energy) / self.elastic(x).0;
@@ -237,7 +237,7 @@ mod tests {
                     by_penetration,
                     ..
                 } = force(law.as_ref(), x);
-                let delta = (value / stiffness).powf(1.0 / exponent);
+                let delta = libm::pow(value / stiffness, 1.0 / exponent);
                 let error = (delta + value / spring - x).abs();
                 assert!(error < 2e-15 * x, "{name} {stiffness} {x}: {error:e}");
                 let h = 1e-4 * x;

@@ -1,5 +1,8 @@
 //! Impact models for the gaps between buildings: trait, models, registry, two-body collision.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod calibration;
 pub mod contact_stiffness;
 pub mod descriptor;

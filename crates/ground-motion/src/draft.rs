@@ -546,7 +546,7 @@ fn compare_peak(
         return Ok(());
     }
     let (found, time) = series.signed_peak();
-    let decimals = ((4.0 - (value.abs() / in_si).log10().floor()).clamp(0.0, 9.0)) as usize;
+    let decimals = ((4.0 - libm::log10(value.abs() / in_si).floor()).clamp(0.0, 9.0)) as usize;
     let message = format!(
         "the header's peak is {:.decimals$} {unit}, that of the samples {:.decimals$} {unit} at {time:.3} s",
         peak.value.0,

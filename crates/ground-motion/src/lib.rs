@@ -7,6 +7,9 @@
 //! where unit and step came from. Whatever is done to it, or how it was
 //! generated, is reported by a list of [`StepRecord`]s.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod distributions;
 pub mod generators;
 pub mod matching;

@@ -97,7 +97,7 @@ impl BoucWen {
         let weakening = 1.0 + d.strength * work;
         let softening = 1.0 + d.stiffness * work;
         let reached = side * zeta;
-        let power = reached.abs().powf(self.exponent);
+        let power = libm::pow(reached.abs(), self.exponent);
         let power = if reached < 0.0 { -power } else { power };
         let bend = self.beta * direction * side + self.gamma;
         self.pinch(zeta, work, direction, weakening) * (1.0 - weakening * power * bend) / softening
@@ -109,12 +109,12 @@ impl BoucWen {
         if d.pinching == 0.0 {
             return 1.0;
         }
-        let amount = -d.pinching * (-d.pinching_rate * work).exp_m1();
+        let amount = -d.pinching * libm::expm1(-d.pinching_rate * work);
         let spread =
             (d.pinching_spread + d.pinching_spread_rate * work) * (d.pinching_coupling + amount);
-        let ultimate = (weakening * (self.beta + self.gamma)).powf(-1.0 / self.exponent);
+        let ultimate = libm::pow(weakening * (self.beta + self.gamma), -1.0 / self.exponent);
         let off = (zeta * direction - d.pinching_position * ultimate) / spread;
-        1.0 - amount * (-off * off).exp()
+        1.0 - amount * libm::exp(-off * off)
     }
 
     /// Follows a path in one direction; the committed variables are those of the

@@ -124,7 +124,7 @@ impl IwanDensity {
         let share = beta + order / (chi + 2.0);
         let phi_2 = slip_force * (1.0 + beta) / (initial_stiffness * share);
         Self {
-            density: slip_force * order / (phi_2.powf(chi + 2.0) * share),
+            density: slip_force * order / (libm::pow(phi_2, chi + 2.0) * share),
             exponent: chi,
             phi_1: 0.0,
             phi_2,

@@ -314,26 +314,26 @@ impl<'a> Problem<'a> {
     /// ln(alpha+1), ln phi_2, and where free ln(beta/(1-beta)) of the guess.
     fn unknowns(&self) -> DVector<f64> {
         let g = &self.guess;
-        let mut values = vec![(g.exponent + 1.0).ln(), g.phi_2.ln()];
+        let mut values = vec![libm::log(g.exponent + 1.0), libm::log(g.phi_2)];
         if g.phi_1 > 0.0 {
-            values.push((g.phi_1 / (g.phi_2 - g.phi_1)).ln());
+            values.push(libm::log(g.phi_1 / (g.phi_2 - g.phi_1)));
         }
         DVector::from_vec(values)
     }
 
     /// The density of these unknowns with the best R and K2.
     fn density(&self, unknowns: &DVector<f64>) -> IwanDensity {
-        let exponent = unknowns[0].exp() - 1.0;
-        let phi_2 = unknowns[1].exp();
+        let exponent = libm::exp(unknowns[0]) - 1.0;
+        let phi_2 = libm::exp(unknowns[1]);
         let phi_1 = if self.guess.phi_1 > 0.0 {
-            phi_2 / (1.0 + (-unknowns[2]).exp())
+            phi_2 / (1.0 + libm::exp(-unknowns[2]))
         } else {
             0.0
         };
         // One N/m in the power density, in the lump, in the residual spring.
         let is_backbone = self.curve == MeasuredCurve::Backbone;
         let powers = IwanDensity {
-            density: phi_2.powf(-1.0 - exponent),
+            density: libm::pow(phi_2, -1.0 - exponent),
             exponent,
             phi_1,
             phi_2,

@@ -25,6 +25,9 @@
 //! # Ok::<(), pounding_hysteresis::HysteresisError>(())
 //! ```
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod descriptor;
 pub mod error;
 pub mod history;

@@ -19,13 +19,13 @@ pub(crate) fn power(exponent: f64, low: f64, high: f64) -> f64 {
     }
     let order = exponent + 1.0;
     // ln(high / low), accurate where the limits nearly agree; infinite for low = 0.
-    let span = ((high - low) / low).ln_1p();
+    let span = libm::log1p((high - low) / low);
     let relative = if order == 0.0 {
         span
     } else {
-        -(-order * span).exp_m1() / order
+        -libm::expm1(-order * span) / order
     };
-    high.powf(order) * relative
+    libm::pow(high, order) * relative
 }
 
 /// Integral of `(reach - phi) phi^exponent` from `low` to `high`, `high <= reach`.
@@ -36,7 +36,7 @@ pub(crate) fn power_moment(exponent: f64, low: f64, high: f64, reach: f64) -> f6
     if high < 2.0 * low {
         // The two integrals below would cancel; the integrand is smooth here.
         let (middle, half) = (0.5 * (high + low), 0.5 * (high - low));
-        let value = |phi: f64| (reach - phi) * phi.powf(exponent);
+        let value = |phi: f64| (reach - phi) * libm::pow(phi, exponent);
         let sum: f64 = NODES
             .iter()
             .map(|(node, weight)| {
@@ -58,7 +58,7 @@ mod tests {
         // (h^o - l^o) / o = L + o (H^2 - l^2) / 2 + ..., H = ln h, l = ln l.
         let (low, high) = (1e-5_f64, 1e-4_f64);
         for order in [1e-5, 1e-8, 1e-12, 1e-16, 0.0, -1e-9] {
-            let (h, l) = (high.ln(), low.ln());
+            let (h, l) = (libm::log(high), libm::log(low));
             let series = (h - l)
                 + order / 2.0 * (h * h - l * l)
                 + order * order / 6.0 * (h.powi(3) - l.powi(3))

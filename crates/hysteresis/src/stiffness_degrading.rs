@@ -47,7 +47,7 @@ impl StiffnessDegrading {
     /// the secant to that point, so that unloading cannot cross zero deformation.
     fn unloading_stiffness(&self, peak: Point) -> f64 {
         let ductility = peak.deformation / self.yield_deformation();
-        let reduced = self.stiffness * ductility.powf(-self.unloading_exponent);
+        let reduced = self.stiffness * libm::pow(ductility, -self.unloading_exponent);
         reduced.max(peak.force / peak.deformation)
     }
 

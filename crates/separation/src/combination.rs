@@ -95,7 +95,7 @@ impl CombinationRule {
     pub fn gap(self, left: f64, right: f64, correlation: f64) -> f64 {
         match self {
             Self::AbsoluteSum => left.abs() + right.abs(),
-            Self::SquareRootOfSumOfSquares => left.hypot(right),
+            Self::SquareRootOfSumOfSquares => libm::hypot(left, right),
             Self::DoubleDifference => {
                 let product = 2.0 * (1.0 - correlation) * left.abs() * right.abs();
                 // (a - b)^2 + 2 (1 - rho) a b: exactly zero for identical buildings.

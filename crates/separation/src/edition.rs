@@ -77,22 +77,10 @@ impl Edition {
 pub struct Date(NaiveDate);
 
 impl Date {
-    /// Today in universal time; `None` in a page, where only the host knows it.
+    /// Today in universal time.
     #[must_use]
-    pub fn today() -> Option<Self> {
-        match cfg!(all(target_arch = "wasm32", target_os = "unknown")) {
-            true => None,
-            false => Some(Self(chrono::Utc::now().date_naive())),
-        }
-    }
-
-    /// The day so many days after 1 January 1970, which is day 0; `None` beyond the calendar. For
-    /// programs in a page, where only the page knows the time.
-    #[must_use]
-    pub fn of_day(day: i32) -> Option<Self> {
-        // Day 1 of the calendar is the first of the year 1.
-        let first = 719_163;
-        NaiveDate::from_num_days_from_ce_opt(day.checked_add(first)?).map(Self)
+    pub fn today() -> Self {
+        Self(chrono::Utc::now().date_naive())
     }
 }
 

@@ -102,10 +102,10 @@ impl EffectiveProperties {
                 ((ductility / strength).sqrt(), 2.0 / PI * loss)
             }
             Self::Iwan1980 => (
-                1.0 + 0.121 * beyond.powf(0.939),
-                0.0587 * beyond.powf(0.371),
+                1.0 + 0.121 * libm::pow(beyond, 0.939),
+                0.0587 * libm::pow(beyond, 0.371),
             ),
-            Self::Kasai1996 => (1.0 + 0.18 * beyond, 0.16 * beyond.powf(0.9)),
+            Self::Kasai1996 => (1.0 + 0.18 * beyond, 0.16 * libm::pow(beyond, 0.9)),
         };
         Ok(Oscillator {
             period: period * stretch,

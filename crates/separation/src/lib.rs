@@ -9,6 +9,9 @@
 //! edition is in force ([`Edition`]) and what it takes for granted ([`Assumptions`]). Users state
 //! rules of their own as expressions ([`OwnRule`]); a [`Provision`] is one of either kind.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 mod assumptions;
 mod codes;
 mod combination;

@@ -225,5 +225,5 @@ fn shown(factor: &Factor) -> String {
 
 /// Square root of the sum of squares.
 pub(crate) fn root(a: f64, b: f64) -> f64 {
-    a.hypot(b)
+    libm::hypot(a, b)
 }

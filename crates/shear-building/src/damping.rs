@@ -369,7 +369,7 @@ mod tests {
     #[test]
     fn products_in_blocks_have_the_bits_of_plain_sums() {
         let n = 2 * WIDTH * WIDTH + 21;
-        let entry = |p: usize, j: usize| ((3 * p + 7 * j) as f64).sin();
+        let entry = |p: usize, j: usize| libm::sin((3 * p + 7 * j) as f64);
         let product = outer_product(n, entry);
         for p in 0..n {
             for q in 0..n {

@@ -157,7 +157,7 @@ impl Soil {
         let area = self.length * self.width;
         let second_moment = self.width * self.length.powi(3) / 12.0;
         let sway_radius = (area / std::f64::consts::PI).sqrt();
-        let rocking_radius = (4.0 * second_moment / std::f64::consts::PI).powf(0.25);
+        let rocking_radius = libm::pow(4.0 * second_moment / std::f64::consts::PI, 0.25);
         let nearly_incompressible = nu > 1.0 / 3.0;
         let (compression_speed, trapped_inertia) = if nearly_incompressible {
             let trapped = 1.2 * (nu - 1.0 / 3.0) * density * second_moment * rocking_radius;
@@ -699,7 +699,7 @@ mod tests {
         };
         let springs = wet.springs().unwrap();
         near(springs.rocking.dashpot, 1800.0 * 360.0 * 4.0 / 3.0, 1e-14);
-        let radius = (16.0 / (3.0 * std::f64::consts::PI)).powf(0.25);
+        let radius = libm::pow(16.0 / (3.0 * std::f64::consts::PI), 0.25);
         let trapped = 1.2 * (0.45 - 1.0 / 3.0) * 1800.0 * (4.0 / 3.0) * radius;
         near(springs.trapped_inertia, trapped, 1e-14);
         let foundation = Foundation::on_soil(1e3, 500.0, &wet).unwrap();
@@ -917,7 +917,7 @@ mod tests {
             let first = founded.first_mode().unwrap();
             let distance = |s: &Complex<f64>| {
                 let period = std::f64::consts::TAU / s.norm() / first.period - 1.0;
-                period.hypot(-s.re / s.norm() - first.damping_ratio)
+                libm::hypot(period, -s.re / s.norm() - first.damping_ratio)
             };
             let nearest = values.iter().map(distance).fold(1.0, f64::min);
             assert!(nearest < 1e-10, "{nearest:e}");

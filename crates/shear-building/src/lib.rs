@@ -5,6 +5,9 @@
 //! first), so that the stiffness matrix is tridiagonal. A frame or a wall, whose floors all
 //! act on one another, is a building with a full matrix instead ([`LateralStiffness`]).
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 mod building;
 mod column;
 mod coordinates;

@@ -558,7 +558,7 @@ mod tests {
             let mut dynamics = Dynamics::new(&system);
             let n = dynamics.layout.dofs;
             let state: Vec<f64> = (0..dynamics.layout.dimension())
-                .map(|k| 0.02 * ((3 * k) as f64).sin())
+                .map(|k| 0.02 * libm::sin((3 * k) as f64))
                 .collect();
             let ground = Grounds {
                 first: -1.37,

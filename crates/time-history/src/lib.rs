@@ -1,5 +1,8 @@
 //! Time integration of buildings in a row: event location, energy ledger, recorders.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 mod bands;
 mod batch;
 mod bernstein;

@@ -332,7 +332,7 @@ fn period_text(f: &mut fmt::Formatter<'_>, building: &str, period: f64) -> fmt::
 
 /// One significant digit, not above the value.
 fn rounded_down(x: f64) -> f64 {
-    let unit = 10.0_f64.powf(x.log10().floor());
+    let unit = libm::pow(10.0, libm::log10(x).floor());
     (x / unit).floor() * unit
 }
 

@@ -59,7 +59,7 @@ fn history(
             let lines = (duration / step).ceil().max(1.0) as usize;
             let point = |k: usize| {
                 let t = duration.min(k as f64 * step);
-                (t, amplitude * (TAU * frequency * t + phase).sin())
+                (t, amplitude * libm::sin(TAU * frequency * t + phase))
             };
             ((0..=lines).map(point).collect(), &force.span)
         }

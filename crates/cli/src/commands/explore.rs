@@ -8,6 +8,7 @@ use pounding_files::FileUse;
 use pounding_ground_motion::read_all_bytes;
 
 use crate::arguments::ExploreArguments;
+use crate::commands::gap::asked::{Asked, overridden};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
 use crate::files::{have_a_place, name_left_over, reads_too, record_files};
@@ -31,17 +32,24 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     let records = record_files(&arguments.records);
     let records = records.map_err(|e| Failure::input(e.to_string(), e.help()))?;
     reads_too(&mut files, records.iter().map(|r| ("record", r.clone())))?;
-    // What cannot be run has no page.
+    // What cannot be run has no page, and rules that cannot be read neither.
     assembled(&case)?;
+    let asked = Asked {
+        rules: arguments.rules.as_deref(),
+        ..Asked::default()
+    };
+    let known = case.separation.rules.len();
+    let rules = overridden(case.separation.clone(), &asked)?.rules;
+    let given = rules.get(known).map(|rule| (&*rule.file, &*rule.source));
+    let given = given.map(|(file, text)| (name_of(Path::new(file)), text));
     have_a_place([Some(output.as_path())])?;
     let mut held = named_files(&case)?;
     for record in &records {
-        let name = record.file_name().unwrap_or_default().to_string_lossy();
         let bytes = bytes_of(record)?;
         read_all_bytes(&record.display().to_string(), &bytes, &Default::default())?;
-        held.push((name.into_owned(), bytes));
+        held.push((name_of(record), bytes));
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = name_of(path);
     let documentation = arguments.documentation.as_deref();
     let documentation = documentation.map(|address| match address.contains("{page}") {
         true => address.to_owned(),
@@ -52,6 +60,7 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
         name: &name,
         case: &case.source,
         files: &held,
+        rules: given.as_ref().map(|(name, text)| (name.as_str(), *text)),
         documentation: documentation.as_deref(),
     });
     let made = made.map_err(|error| match error {
@@ -67,6 +76,11 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
         made.len() as f64 * 1.0e-6,
         output.display()
     ))
+}
+
+fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 /// The files that the case names, by the names that it gives them.

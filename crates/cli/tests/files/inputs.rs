@@ -18,9 +18,19 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 43] = [
+const CALLS: [Call; 44] = [
     call("run case.toml", CASE),
     call("explore case.toml", CASE),
+    call(
+        "explore case.toml --rules rules.toml",
+        &[
+            "case.toml",
+            "rules.toml",
+            "record.csv",
+            "target.csv",
+            "step.csv",
+        ],
+    ),
     call(
         "explore case.toml --records second.csv",
         &[

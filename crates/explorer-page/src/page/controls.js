@@ -162,6 +162,12 @@ const controlsOf = (state, documentation, actions) => {
       const names = new Set([control.value, ...actions.records()]);
       return choice(control, [...names].map((name) => [name, name.split("/").pop()]), actions.chooseRecord);
     },
+    component: (control) => {
+      // The case may name a component by the first word of its name alone.
+      const others = actions.components().filter((name) => name.split(/\s/)[0] !== control.value);
+      const names = new Set([control.value, ...others]);
+      return choice(control, [...names].map((name) => [name, name]), (name) => state.set(control.path, name));
+    },
   };
 
   // What the descriptor of a model says of it.

@@ -17,7 +17,11 @@
   let base = null;
   let run = null;
   let dragging = false;
-  const records = new Set();
+  // Records by their names, with the names of their components where there are several.
+  const records = new Map();
+  // Rules of the reader, or those that the page was written with.
+  const given = data.rules || null;
+  let rules = given;
 
   // What is wrong with the run that is looked at, and with what the reader asked for before. A run
   // that succeeds says nothing of the second.
@@ -70,12 +74,17 @@
     clearTimeout(timer);
     timer = setTimeout(() => {
       sweep.begin();
-      const text = state.text(opened.own ? { name: opened.name, text: opened.text } : null);
-      written = `#${text}`;
+      written = `#${address()}`;
       history.replaceState(null, "", written);
     }, PAUSE);
   };
   let written = location.hash;
+  // The state behind the sign #, with what the reader brought.
+  const address = () =>
+    state.text({
+      case: opened.own ? { name: opened.name, text: opened.text } : null,
+      rules: rules === given ? null : rules,
+    });
   const state = stateOf(() => {
     update();
     later();
@@ -90,7 +99,8 @@
       update();
     },
     models: () => models,
-    records: () => records,
+    records: () => records.keys(),
+    components: () => records.get(recordInUse()) || [],
     chooseModel: async (path, model) => {
       const gap = Number(path.split(".")[1]);
       const answer = await solver.live.ask({ do: "calibrate", changes: state.changes(), gap, model });
@@ -107,6 +117,11 @@
       await useRecord(own && own[1] === name ? null : name);
     },
   });
+  const recordInUse = () => {
+    const changed = state.get().record;
+    const own = base && base.files.find(([what]) => what === "record");
+    return changed ? changed.find(([key]) => key === "file")[1] : own ? own[1] : "";
+  };
   const results = resultsOf(data.documentation);
   const modelOf = (gap) => {
     const path = `gap.${gap}`;
@@ -133,10 +148,15 @@
   };
 
   const useRecord = async (name) => {
-    const before = state.get().record;
-    state.record(name === null ? null : [["file", name]]);
+    const before = state.get();
+    const component = before.entries["ground_motion.component"];
+    const { record } = before;
+    const [first] = (name !== null && records.get(name)) || [];
+    // Of several components the first, until another is chosen.
+    state.record(name === null ? null : [["file", name], ...(first ? [["component", first]] : [])]);
     if (await describe()) return;
-    state.record(before);
+    state.record(record);
+    if (component !== undefined) state.set("ground_motion.component", component);
     // The faults of the record are told, not those of the run before it.
     await describeQuietly();
   };
@@ -154,10 +174,25 @@
     const text = answer.case;
     opened = { name, text, own, number: opened.number + 1 };
     base = answer;
-    for (const [what, path] of answer.files) if (what === "record") records.add(path);
+    for (const [what, path] of answer.files) if (what === "record" && !records.has(path)) records.set(path, []);
     document.title = answer.title || name;
     document.querySelector("h1").textContent = answer.title || name;
     return true;
+  };
+
+  // Rules for the gap in the place of those before; null for none.
+  const useRules = async (file) => {
+    const answer = await solver.rules(file ? file.name : "", encoder.encode(file ? file.text : ""));
+    if (answer.faults) {
+      told(answer.faults);
+      return;
+    }
+    told([]);
+    rules = file;
+    opened.number += 1;
+    const names = answer.rules.join(", ");
+    part("rules").textContent = file ? `Rules of ${file.name}, beside the codes: ${names}.` : "";
+    later();
   };
 
   const refresh = async () => {
@@ -173,7 +208,8 @@
     if (hash.length > 1) {
       try {
         const own = state.read(hash.slice(1));
-        if (own) await open(own.name, encoder.encode(own.text), true);
+        if (own.case) await open(own.case.name, encoder.encode(own.case.text), true);
+        if (own.rules) await useRules(own.rules);
       } catch (error) {
         refused = { message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" };
       }
@@ -201,8 +237,8 @@
   sweep.prepare();
   motion.begin();
   for (const file of data.files) {
-    await solver.file(file.name, await solver.unpacked(file.data));
-    records.add(file.name);
+    const kept = await solver.file(file.name, await solver.unpacked(file.data));
+    records.set(file.name, kept.components || []);
   }
   filesOf({
     openCase: async (name, bytes) => {
@@ -216,26 +252,27 @@
         told(answer.faults);
         return;
       }
-      records.add(name);
+      records.set(name, answer.components);
       if (use) await useRecord(name);
     },
+    openRules: (name, bytes) => useRules({ name, text: new TextDecoder().decode(bytes) }),
   }).prepare();
   part("reset").addEventListener("click", async () => {
     told([]);
     if (opened.own) await open(data.name, encoder.encode(data.case), false);
+    if (rules !== given) await useRules(given);
     part("notes").textContent = "";
     state.reset();
     await describe();
   });
   part("share").addEventListener("click", async () => {
-    const own = [...records].filter((name) => !data.files.some((file) => file.name === name));
+    const own = [...records.keys()].filter((name) => !data.files.some((file) => file.name === name));
     const used = (state.get().record || []).some(([key, value]) => key === "file" && own.includes(value));
-    const text = state.text(opened.own ? { name: opened.name, text: opened.text } : null);
-    const address = `${location.href.split("#")[0]}#${text}`;
+    const text = address();
     history.replaceState(null, "", `#${text}`);
     let copied = "copy it from the address bar";
     try {
-      await navigator.clipboard.writeText(address);
+      await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${text}`);
       copied = "it is in the clipboard";
     } catch {
       // Nobody has to let a page write there.
@@ -250,6 +287,7 @@
   if (await open(data.name, encoder.encode(data.case), false)) {
     for (const element of document.querySelectorAll(".live")) element.hidden = false;
     part("loading").hidden = true;
+    if (given) await useRules(given);
     await restore(location.hash);
   }
   document.documentElement.dataset.ready = "true";

@@ -44,7 +44,9 @@ const stateOf = (changed) => {
       now.models[path] = keys;
       changed();
     },
+    // Another record, with the component of it that is used.
     record: (keys) => {
+      delete now.entries["ground_motion.component"];
       now.record = keys;
       changed();
     },
@@ -59,10 +61,11 @@ const stateOf = (changed) => {
     clear: () => {
       now = empty();
     },
-    // The state as a text that an address can hold, with a case of the reader's own.
-    text: (own) => encodeURIComponent(JSON.stringify(own ? { ...now, case: own } : now)),
-    // Takes a text back; a case of somebody's own is returned, if there is one. Throws what is
-    // wrong with it.
+    // The state as a text that an address can hold, with a case and rules of the reader's own,
+    // `{ name, text }` each or null.
+    text: (own) => encodeURIComponent(JSON.stringify({ ...now, ...own }, (_, x) => (x === null ? undefined : x))),
+    // Takes a text back; a case and rules of somebody's own are returned, null where there are
+    // none. Throws what is wrong with it.
     read: (text) => {
       const given = JSON.parse(decodeURIComponent(text));
       if (!isRecord(given)) throw new Error("it is no object");
@@ -74,8 +77,8 @@ const stateOf = (changed) => {
       if (typeof given.quantity === "string") next.quantity = given.quantity;
       if (Number.isInteger(given.gap) && given.gap >= 0) next.gap = given.gap;
       now = next;
-      const own = given.case;
-      return isRecord(own) && typeof own.name === "string" && typeof own.text === "string" ? own : null;
+      const file = (own) => (isRecord(own) && typeof own.name === "string" && typeof own.text === "string" ? own : null);
+      return { case: file(given.case), rules: file(given.rules) };
     },
   };
 };

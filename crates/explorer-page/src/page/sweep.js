@@ -129,7 +129,7 @@ const sweepOf = (state, background, actions) => {
     }
     const row = (name, width, note, kind) =>
       html("tr", {}, html("th", { scope: "row" }, html("span", { class: `key ${kind}` }), name), html("td", {}, width === null ? "–" : shown(1e3 * width)), html("td", { class: "words" }, note || ""));
-    const code = (c) => row(`${c.edition}${c.clause ? `, ${c.clause}` : ""}`, c.width, c.caution || c.refusal || c.formula, "code");
+    const code = (c) => row(`${c.edition || c.name}${c.clause ? `, ${c.clause}` : ""}`, c.width, c.caution || c.refusal || c.formula, "code");
     const known = gap.codes.filter((c) => c.width !== null);
     const others = gap.codes.filter((c) => c.width === null);
     const table = (rows) =>

@@ -82,6 +82,7 @@ const workers = (() => {
       live,
       background,
       file: (name, bytes) => both(`file ${name}`, { do: "file", name }, bytes),
+      rules: (name, text) => both("rules", { do: "rules", name }, text),
       open: (name, text) => both("case", { do: "open", name }, text),
       unpacked,
     };

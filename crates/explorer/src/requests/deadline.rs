@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use pounding_time_history::{Impact, Recorder, Sample, StepView, System, TimeHistoryError};
+use web_time::Instant;
 
-use crate::clock;
 use crate::limits::PATIENCE;
 
 /// Steps between two looks at the clock.
@@ -14,7 +14,7 @@ const STEPS: u32 = 32;
 /// none until then.
 #[derive(Debug)]
 pub(super) struct Deadline {
-    until: f64,
+    until: Instant,
     steps: Cell<u32>,
     is_over: Cell<bool>,
 }
@@ -23,7 +23,7 @@ impl Deadline {
     /// For runs that begin now.
     pub(super) fn from_now() -> Self {
         Self {
-            until: clock::now() + PATIENCE,
+            until: Instant::now() + PATIENCE,
             steps: Cell::new(0),
             is_over: Cell::new(false),
         }
@@ -32,7 +32,7 @@ impl Deadline {
     /// Whether there is no time left.
     pub(super) fn is_over(&self) -> bool {
         self.is_over
-            .set(self.is_over.get() || clock::now() > self.until);
+            .set(self.is_over.get() || Instant::now() > self.until);
         self.is_over.get()
     }
 
@@ -41,7 +41,7 @@ impl Deadline {
             false => Ok(()),
             true => Err(TimeHistoryError::Recorder(format!(
                 "the run takes more than {} s; run the case with `pounding run`",
-                PATIENCE * 1.0e-3
+                PATIENCE.as_secs()
             ))),
         }
     }

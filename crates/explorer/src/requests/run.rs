@@ -146,9 +146,9 @@ fn impacts(answer: &mut Answer, system: &System, impacts: &[Impact]) {
         ("energy_dissipated", |i| i.energy_dissipated),
     ];
     let level = |i: &Impact| (system.gaps()[i.gap].first_level + i.level) as f64;
-    answer.column("impact_level", impacts.iter().map(level));
+    answer.add_column("impact_level", impacts.iter().map(level));
     for (name, part) in parts {
-        answer.column(&format!("impact_{name}"), impacts.iter().map(part));
+        answer.add_column(&format!("impact_{name}"), impacts.iter().map(part));
     }
 }
 
@@ -171,9 +171,9 @@ fn motion(answer: &mut Answer, history: &History) {
         ("force", &history.force),
     ];
     for (name, values) in columns {
-        answer.column(name, values.iter().copied());
+        answer.add_column(name, values.iter().copied());
     }
     for (name, part) in energies {
-        answer.column(&format!("energy_{name}"), history.energy.iter().map(part));
+        answer.add_column(&format!("energy_{name}"), history.energy.iter().map(part));
     }
 }

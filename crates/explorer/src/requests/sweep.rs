@@ -70,17 +70,17 @@ fn of_runs(widths: &[f64], runs: &[Result<SweepRun, String>], buildings: usize) 
         let values = runs.iter();
         values.map(move |run| run.as_ref().map_or(f64::NAN, of))
     };
-    answer.column("width", widths.iter().copied());
-    answer.column("impacts", value(|run| run.impacts as f64));
-    answer.column("peak_force", value(|run| run.peak_force));
-    answer.column("impact_energy", value(|run| run.impact_energy));
+    answer.add_column("width", widths.iter().copied());
+    answer.add_column("impacts", value(|run| run.impacts as f64));
+    answer.add_column("peak_force", value(|run| run.peak_force));
+    answer.add_column("impact_energy", value(|run| run.impact_energy));
     for building in 0..buildings {
         let most = |run: &Result<SweepRun, String>| {
             let run = run.as_ref().ok()?;
             Some(GapSweep::of_building(run, building, |a| a.displacement)?.1)
         };
         let column = runs.iter().map(|run| most(run).unwrap_or(f64::NAN));
-        answer.column(&format!("displacement_{building}"), column);
+        answer.add_column(&format!("displacement_{building}"), column);
     }
     let failed = runs.iter().zip(widths);
     let failed = failed.filter_map(|(run, width)| {

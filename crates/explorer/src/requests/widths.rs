@@ -1,7 +1,7 @@
 //! The widths that records, codes and combination rules ask for: what `pounding gap` says, for
 //! the record of the case.
 
-use pounding_case::Located;
+use pounding_case::Separation;
 use pounding_study::gap_check::{
     CodeGap, CombinationGap, GapCheckOptions, GapReport, even_widths, gap_check, widest,
 };
@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 
 use super::under_its_record;
 use crate::answer::Answer;
-use crate::clock::today;
 use crate::explorer::Prepared;
 use crate::fault::Refused;
 
@@ -17,7 +16,7 @@ use crate::fault::Refused;
 const POINTS: usize = 400;
 
 /// What each gap asks for.
-pub(crate) fn answer(prepared: Prepared) -> Result<Answer, Refused> {
+pub(crate) fn answer(prepared: Prepared, separation: &Separation) -> Result<Answer, Refused> {
     let case = prepared.case.clone();
     let records = [under_its_record(prepared)];
     let options = GapCheckOptions {
@@ -26,15 +25,7 @@ pub(crate) fn answer(prepared: Prepared) -> Result<Answer, Refused> {
         sweep: None,
         threads: 1,
     };
-    let mut separation = case.separation.clone();
-    if separation.date.is_none() {
-        separation.date = today().map(|day| Located {
-            value: day.to_string(),
-            // It stands in no file.
-            span: usize::MAX..usize::MAX,
-        });
-    }
-    let check = gap_check(&case, &separation, &records, &options, &|_, _| {})
+    let check = gap_check(&case, separation, &records, &options, &|_, _| {})
         .map_err(|e| Refused::of_check(e, &case))?;
     let mut answer = Answer::default();
     answer.say("gaps", check.gaps.iter().map(gap).collect::<Value>());
@@ -45,7 +36,7 @@ pub(crate) fn answer(prepared: Prepared) -> Result<Answer, Refused> {
         } else {
             Vec::new()
         };
-        answer.column(&format!("sweep_{index}"), widths);
+        answer.add_column(&format!("sweep_{index}"), widths);
     }
     Ok(answer)
 }

@@ -54,7 +54,7 @@ fn interpolate(
     let width = high.alpha - low.alpha;
     // Neighbouring doubles at the upper end.
     let finest = f64::EPSILON * high.alpha;
-    let bisections = (width / (2.0 * finest)).log2().ceil() as i32;
+    let bisections = libm::log2(width / (2.0 * finest)).ceil() as i32;
     for round in 0..=bisections + SLACK {
         let (below, above) = (low.achieved - requested, high.achieved - requested);
         let span = high.alpha - low.alpha;

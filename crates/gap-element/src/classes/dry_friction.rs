@@ -74,7 +74,7 @@ fn restitution(d: f64, y: f64) -> f64 {
     // Restitution: (1-d) s - ... = compression with s = y e / (1 - d) in [0, 1).
     let target = compression * y * y / (1.0 - d);
     let s = super::solve_increasing(
-        |s| -f64::ln_1p(-s) - s - target,
+        |s| -libm::log1p(-s) - s - target,
         1.0e-16,
         1.0 - f64::EPSILON,
     );
@@ -89,7 +89,7 @@ fn phase_work(x: f64) -> f64 {
             .rev()
             .fold(0.0, |sum, k| 1.0 / f64::from(k + 2) - x * sum)
     } else {
-        (x - f64::ln_1p(x)) / (x * x)
+        (x - libm::log1p(x)) / (x * x)
     }
 }
 
@@ -156,7 +156,7 @@ impl ImpactModel for DryFriction {
         let restitution = restitution(d, y);
         let energy = effective_mass * approach_velocity * approach_velocity;
         let work = phase_work(y / (1.0 + d)) / (1.0 + d);
-        let peak = (power * energy * work / self.stiffness).powf(1.0 / power);
+        let peak = libm::pow(power * energy * work / self.stiffness, 1.0 / power);
         let alone = y == 0.0 && approach_velocity > 0.0;
         let compression = elastic_time_factor(self.exponent) * peak / approach_velocity;
         Some(ClosedForm {

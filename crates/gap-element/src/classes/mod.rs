@@ -134,7 +134,7 @@ pub(crate) fn elastic_time_factor(exponent: f64) -> f64 {
     const PANELS: usize = 16;
     let power = exponent + 1.0;
     let integrand = |s: f64| {
-        let gap = -f64::exp_m1(power * f64::ln_1p(-s * s));
+        let gap = -libm::expm1(power * libm::log1p(-s * s));
         2.0 * s / gap.sqrt()
     };
     let half = 0.5 / PANELS as f64;

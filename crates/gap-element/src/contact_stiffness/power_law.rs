@@ -48,14 +48,17 @@ impl Approach {
     /// Maximum penetration (m) of the elastic law with this stiffness.
     pub(super) fn penetration(&self, stiffness: f64, exponent: f64) -> f64 {
         let power = exponent + 1.0;
-        (0.5 * power * self.effective_mass * self.velocity * self.velocity / stiffness)
-            .powf(1.0 / power)
+        libm::pow(
+            0.5 * power * self.effective_mass * self.velocity * self.velocity / stiffness,
+            1.0 / power,
+        )
     }
 
     /// Stiffness (N/m^n) that stops the floors at this penetration (m).
     fn stiffness(&self, penetration: f64, exponent: f64) -> f64 {
         let power = exponent + 1.0;
-        0.5 * power * self.effective_mass * self.velocity * self.velocity / penetration.powf(power)
+        0.5 * power * self.effective_mass * self.velocity * self.velocity
+            / libm::pow(penetration, power)
     }
 
     /// Contact time (s) of the elastic law that penetrates this far (m).
@@ -146,7 +149,11 @@ fn from_penetration(
                 approach.duration(penetration, exponent),
                 "s",
             ),
-            quantity("maximum force", value * penetration.powf(exponent), "N"),
+            quantity(
+                "maximum force",
+                value * libm::pow(penetration, exponent),
+                "N",
+            ),
         ],
         warnings,
     }

@@ -266,7 +266,7 @@ impl serde::Serialize for MeasuredForce {
 /// a force that begins slowly has samples below the threshold; where the force does not rise any
 /// more, the time of the sample before.
 fn closure(raw: &[(f64, f64)], first: usize, exponent: f64) -> f64 {
-    let root = |force: f64| force.powf(1.0 / exponent);
+    let root = |force: f64| libm::pow(force, 1.0 / exponent);
     let (time, force) = raw[first];
     let samples = (1..=first).take_while(|i| (*i as f64) < exponent + 1.0);
     let earliest = raw[first - samples.last().unwrap_or(0)].0;

@@ -92,7 +92,7 @@ fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElemen
         }
         (Some(damping), None) => damping,
         // k in N/mm^n is k_SI 10^(-3 n); N s/mm is 10^3 N s/m.
-        (None, Some(value)) => value * stiffness * 10.0_f64.powf(3.0 - 3.0 * exponent),
+        (None, Some(value)) => value * stiffness * libm::pow(10.0, 3.0 - 3.0 * exponent),
         (None, None) => {
             return Err(DESCRIPTOR.missing("damping or damping_ratio_n_mm_s").into());
         }
@@ -154,7 +154,7 @@ impl ImpactModel for AdamsImpact {
             return self.stiffness;
         }
         let (coefficient, _) = self.step(delta);
-        self.stiffness + coefficient / delta.powf(self.exponent) * velocity
+        self.stiffness + coefficient / libm::pow(delta, self.exponent) * velocity
     }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)

@@ -141,8 +141,10 @@ impl BilinearImpact {
     /// The penetration at which the loading work `k d^(n+1) (1 + c) / 2` is the
     /// kinetic energy: the element is then as deep as it was made for.
     fn reached(&self, velocity: f64, mass: f64) -> f64 {
-        (mass * velocity * velocity / (self.stiffness * (1.0 + self.loss)))
-            .powf(1.0 / (self.exponent + 1.0))
+        libm::pow(
+            mass * velocity * velocity / (self.stiffness * (1.0 + self.loss)),
+            1.0 / (self.exponent + 1.0),
+        )
     }
 
     /// `(K1 - K2) delta_y`.
@@ -166,7 +168,7 @@ impl ImpactModel for BilinearImpact {
                 effective_mass,
             )
         });
-        let k = self.stiffness * depth.powf(self.exponent - 1.0);
+        let k = self.stiffness * libm::pow(depth, self.exponent - 1.0);
         let (a, c) = (self.yield_ratio, self.loss);
         Collision {
             approach_velocity,
@@ -266,7 +268,7 @@ impl ImpactModel for BilinearImpact {
             ClosedForm {
                 restitution: ((1.0 - self.loss) / (1.0 + self.loss)).sqrt(),
                 peak_penetration: Some(depth),
-                peak_force: Some(self.stiffness * depth.powf(self.exponent)),
+                peak_force: Some(self.stiffness * libm::pow(depth, self.exponent)),
                 duration: None,
             }
         })

@@ -25,7 +25,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
 
 /// Relation of the paper.
 fn damping_factor(e: f64) -> f64 {
-    0.75 * (1.0 - e * e) * (2.0 * (1.0 - e)).exp()
+    0.75 * (1.0 - e * e) * libm::exp(2.0 * (1.0 - e))
 }
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {

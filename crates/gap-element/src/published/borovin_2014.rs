@@ -32,7 +32,7 @@ pub const PRINTED_STIFFNESS: f64 = 2.1873e6;
 /// Radius of the ball (m) from its mass and density.
 #[must_use]
 pub fn radius() -> f64 {
-    (0.75 * MASS / (PI * DENSITY)).cbrt()
+    libm::cbrt(0.75 * MASS / (PI * DENSITY))
 }
 
 /// Contact stiffness (N/m^1.5) of the ball on a flat floor, Hertz 1882.

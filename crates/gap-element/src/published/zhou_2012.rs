@@ -103,10 +103,10 @@ impl ExplicitCollision {
         let (n, power) = (exponent, exponent + 1.0);
         let y = 0.75 * (1.0 - restitution * restitution);
         let energy = effective_mass * approach_velocity * approach_velocity;
-        let peak_penetration = (0.5 * power * energy / stiffness).powf(1.0 / power);
+        let peak_penetration = libm::pow(0.5 * power * energy / stiffness, 1.0 / power);
         // The positive root in the form without cancellation, good for y = 0 too.
         let q = power * y / (n + (n * n + (3.0 * n + 1.0) * power * y * y).sqrt());
-        let place = (1.0 - q * q).powf(1.0 / power);
+        let place = libm::pow(1.0 - q * q, 1.0 / power);
         Self {
             stiffness,
             exponent,
@@ -114,7 +114,7 @@ impl ExplicitCollision {
             hysteresis_damping: y * stiffness / approach_velocity,
             peak_penetration,
             duration: 2.0 * elastic_time_factor(n) * peak_penetration / approach_velocity,
-            peak_force: stiffness * (place * peak_penetration).powf(n) * (1.0 + y * q),
+            peak_force: stiffness * libm::pow(place * peak_penetration, n) * (1.0 + y * q),
             peak_force_place: place,
         }
     }
@@ -123,10 +123,10 @@ impl ExplicitCollision {
     #[must_use]
     pub fn force(&self, penetration: f64, approaching: bool) -> f64 {
         let part = (penetration / self.peak_penetration).clamp(0.0, 1.0);
-        let velocity = (1.0 - part.powf(self.exponent + 1.0)).sqrt();
+        let velocity = (1.0 - libm::pow(part, self.exponent + 1.0)).sqrt();
         let sign = if approaching { 1.0 } else { -1.0 };
         self.stiffness
-            * penetration.max(0.0).powf(self.exponent)
+            * libm::pow(penetration.max(0.0), self.exponent)
             * (1.0 + sign * self.damping_factor * velocity)
     }
 }

@@ -134,11 +134,11 @@ fn pairs(numbers: Vec<f64>, unit: DraftUnit, places: (usize, usize, usize), coun
 /// One unit of the last of the five digits that a time is printed with.
 fn digit(time: f64) -> f64 {
     let exponent = if time > 0.0 {
-        time.log10().floor()
+        libm::log10(time).floor()
     } else {
         0.0
     };
-    10.0_f64.powf(exponent - 4.0)
+    libm::pow(10.0, exponent - 4.0)
 }
 
 /// Whether every other number is a time: they go forward from the start to the end, as no

@@ -101,13 +101,13 @@ impl Boore2003 {
     /// Seismic moment (N m): `10^(1.5 M + 9.05)` (Hanks and Kanamori 1979).
     #[must_use]
     pub fn moment(&self) -> f64 {
-        10.0_f64.powf(1.5 * self.magnitude + 9.05)
+        libm::pow(10.0, 1.5 * self.magnitude + 9.05)
     }
 
     /// Corner frequency (Hz): `0.4906 b (stress/M0)^(1/3)` (Brune 1970).
     #[must_use]
     pub fn corner_frequency(&self) -> f64 {
-        0.4906 * self.shear_velocity * (self.stress_parameter / self.moment()).cbrt()
+        0.4906 * self.shear_velocity * libm::cbrt(self.stress_parameter / self.moment())
     }
 
     /// Duration of the motion (s): `1/fc + 0.05 s/km R`.
@@ -126,8 +126,8 @@ impl Boore2003 {
             / (4.0 * PI * self.density * self.shear_velocity.powi(3) * REFERENCE_DISTANCE);
         let source = constant * self.moment() * (2.0 * PI * frequency).powi(2)
             / (1.0 + (frequency / self.corner_frequency()).powi(2));
-        let quality = self.quality.0 * frequency.powf(self.quality.1);
-        let path = (-PI * frequency * self.distance / (quality * self.shear_velocity)).exp();
+        let quality = self.quality.0 * libm::pow(frequency, self.quality.1);
+        let path = libm::exp(-PI * frequency * self.distance / (quality * self.shear_velocity));
         source * self.spreading() * path * self.amplify(frequency) * self.diminish(frequency)
     }
 
@@ -138,9 +138,9 @@ impl Boore2003 {
 
     fn diminish(&self, frequency: f64) -> f64 {
         match self.diminution {
-            Diminution::Kappa(kappa) => (-PI * kappa * frequency).exp(),
+            Diminution::Kappa(kappa) => libm::exp(-PI * kappa * frequency),
             Diminution::HighestFrequency(highest) => {
-                (1.0 + (frequency / highest).powi(8)).powf(-0.5)
+                libm::pow(1.0 + (frequency / highest).powi(8), -0.5)
             }
         }
     }
@@ -158,7 +158,7 @@ impl Boore2003 {
             return last.1;
         }
         let ((f0, a0), (f1, a1)) = (table[after - 1], table[after]);
-        a0 * (a1 / a0).powf((frequency / f0).ln() / (f1 / f0).ln())
+        a0 * libm::pow(a1 / a0, libm::log(frequency / f0) / libm::log(f1 / f0))
     }
 
     /// Window (-) at a time (s), Saragoni and Hart's form: one at a fifth of its
@@ -169,8 +169,8 @@ impl Boore2003 {
         if !(0.0..=1.0).contains(&part) {
             return 0.0;
         }
-        let b = -PEAK_AT * AT_END.ln() / (1.0 + PEAK_AT * (PEAK_AT.ln() - 1.0));
-        (E / PEAK_AT * part).powf(b) * (-b / PEAK_AT * part).exp()
+        let b = -PEAK_AT * libm::log(AT_END) / (1.0 + PEAK_AT * (libm::log(PEAK_AT) - 1.0));
+        libm::pow(E / PEAK_AT * part, b) * libm::exp(-b / PEAK_AT * part)
     }
 
     fn check(&self) -> Result<(), GroundMotionError> {

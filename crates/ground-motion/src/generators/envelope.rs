@@ -94,14 +94,14 @@ impl Envelope {
         }
         match *self {
             Self::Constant => 1.0,
-            Self::HalfSine => (PI * time / duration).sin(),
+            Self::HalfSine => libm::sin(PI * time / duration),
             Self::Ramped { rise, fall } => {
                 let up = if time < rise { time / rise } else { 1.0 };
                 let left = (duration - time).max(0.0);
                 let down = if left < fall { left / fall } else { 1.0 };
                 up.min(down)
             }
-            Self::Decay { rate } => (-rate * time).exp(),
+            Self::Decay { rate } => libm::exp(-rate * time),
             Self::JenningsHousnerTsai1968 {
                 rise,
                 strong_end,
@@ -110,16 +110,16 @@ impl Envelope {
                 if time < rise {
                     (time / rise).powi(2)
                 } else {
-                    (-decay * (time - strong_end).max(0.0)).exp()
+                    libm::exp(-decay * (time - strong_end).max(0.0))
                 }
             }
             Self::SaragoniHart1974 { power, rate } => {
                 let part = rate * time / power;
-                (power * (part.ln() + 1.0 - part)).exp()
+                libm::exp(power * (libm::log(part) + 1.0 - part))
             }
             Self::ShinozukaSato1967 { slow, fast } => {
-                let value = |t: f64| (-slow * t).exp() - (-fast * t).exp();
-                value(time) / value((fast / slow).ln() / (fast - slow))
+                let value = |t: f64| libm::exp(-slow * t) - libm::exp(-fast * t);
+                value(time) / value(libm::log(fast / slow) / (fast - slow))
             }
         }
     }

@@ -42,7 +42,7 @@ pub struct MakrisRoussos2000 {
 /// + ((2n+1) pi - 2 phi) sin phi - cos phi = 0`.
 fn phase(cycles: u32) -> f64 {
     let half_turns = f64::from(2 * cycles + 1) * PI;
-    let remains = |phi: f64| (half_turns - 2.0 * phi) * phi.sin() - 2.0 * phi.cos();
+    let remains = |phi: f64| (half_turns - 2.0 * phi) * libm::sin(phi) - 2.0 * libm::cos(phi);
     let (low, high) = (0.0, PI / 4.0);
     zero(low, high, remains(low), remains(high), 1.0e-16, remains)
 }
@@ -88,8 +88,8 @@ impl MakrisRoussos2000 {
                 * ((length - s) / grid.time_step + 0.5).clamp(0.0, 1.0);
             let inside = s.clamp(0.0, length);
             let value = match self.pulse {
-                PulseType::A => 0.5 * (w * inside).sin(),
-                PulseType::B | PulseType::C { .. } => (w * inside + phi).cos(),
+                PulseType::A => 0.5 * libm::sin(w * inside),
+                PulseType::B | PulseType::C { .. } => libm::cos(w * inside + phi),
             };
             self.amplitude * w * weight * value
         })?;

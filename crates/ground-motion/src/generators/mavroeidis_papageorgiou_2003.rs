@@ -41,7 +41,7 @@ impl MavroeidisPapageorgiou2003 {
             return 0.0;
         }
         let x = TAU * self.frequency * s;
-        0.5 * self.amplitude * (1.0 + (x / self.oscillation).cos()) * (x + self.phase).cos()
+        0.5 * self.amplitude * (1.0 + libm::cos(x / self.oscillation)) * libm::cos(x + self.phase)
     }
 
     /// Ground acceleration (m/s2) at a time (s).
@@ -53,15 +53,15 @@ impl MavroeidisPapageorgiou2003 {
         }
         let (x, gamma) = (TAU * self.frequency * s, self.oscillation);
         -self.amplitude * PI * self.frequency / gamma
-            * ((x / gamma).sin() * (x + self.phase).cos()
-                + gamma * (x + self.phase).sin() * (1.0 + (x / gamma).cos()))
+            * (libm::sin(x / gamma) * libm::cos(x + self.phase)
+                + gamma * libm::sin(x + self.phase) * (1.0 + libm::cos(x / gamma)))
     }
 
     /// Displacement (m) that remains.
     #[must_use]
     pub fn net_displacement(&self) -> f64 {
         let gamma = self.oscillation;
-        self.amplitude * self.phase.cos() * (PI * gamma).sin()
+        self.amplitude * libm::cos(self.phase) * libm::sin(PI * gamma)
             / (TAU * self.frequency * (1.0 - gamma * gamma))
     }
 

@@ -32,7 +32,7 @@ impl Ricker1953 {
     #[must_use]
     pub fn acceleration(&self, time: f64) -> f64 {
         let x = (PI * (time - self.centre) / self.period).powi(2);
-        self.amplitude * (1.0 - 2.0 * x) * (-x).exp()
+        self.amplitude * (1.0 - 2.0 * x) * libm::exp(-x)
     }
 
     /// The motion.

@@ -52,7 +52,7 @@ impl Sine {
         let samples = grid.sample(|t| {
             self.amplitude
                 * self.envelope.at(t, self.length)
-                * (TAU * self.frequency * t + self.phase).sin()
+                * libm::sin(TAU * self.frequency * t + self.phase)
         })?;
         let step = StepRecord::new(STEP)
             .number("amplitude", self.amplitude, "m/s2")

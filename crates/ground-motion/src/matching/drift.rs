@@ -42,7 +42,7 @@ pub(crate) fn bring_to(change: &mut [f64], shapes: [&[f64]; 2], end: [f64; 2], s
 pub(crate) fn end_shapes(count: usize) -> [Vec<f64>; 2] {
     [1.0, 2.0].map(|waves| {
         (0..count)
-            .map(|i| (PI * waves * i as f64 / (count - 1) as f64).sin())
+            .map(|i| libm::sin(PI * waves * i as f64 / (count - 1) as f64))
             .collect()
     })
 }

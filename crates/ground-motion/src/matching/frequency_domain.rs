@@ -85,11 +85,11 @@ fn multiplied(
     let ratios: Vec<f64> = periods
         .iter()
         .zip(&now.pseudo_acceleration)
-        .map(|(t, a)| (target.nearest(*t) / a).ln() * RELAXATION)
+        .map(|(t, a)| libm::log(target.nearest(*t) / a) * RELAXATION)
         .collect();
-    let limit = GREATEST_RATIO.ln();
+    let limit = libm::log(GREATEST_RATIO);
     let samples = filtered(record, |period| {
-        at(periods, &ratios, period).clamp(-limit, limit).exp()
+        libm::exp(at(periods, &ratios, period).clamp(-limit, limit))
     });
     drift::ending_at_rest(record, samples)
 }
@@ -132,8 +132,8 @@ fn filtered(record: &Accelerogram, factor: impl Fn(f64) -> f64) -> Vec<f64> {
 fn at(periods: &[f64], ratios: &[f64], period: f64) -> f64 {
     let last = periods.len() - 1;
     let beyond = |end: f64| {
-        let octaves = (period / end).log2().abs();
-        0.5 * (1.0 + (PI * (octaves / FADE).min(1.0)).cos())
+        let octaves = libm::log2(period / end).abs();
+        0.5 * (1.0 + libm::cos(PI * (octaves / FADE).min(1.0)))
     };
     if period <= periods[0] {
         return ratios[0] * beyond(periods[0]);
@@ -142,6 +142,6 @@ fn at(periods: &[f64], ratios: &[f64], period: f64) -> f64 {
         return ratios[last] * beyond(periods[last]);
     }
     let i = periods.partition_point(|p| *p <= period).min(last);
-    let part = (period / periods[i - 1]).ln() / (periods[i] / periods[i - 1]).ln();
+    let part = libm::log(period / periods[i - 1]) / libm::log(periods[i] / periods[i - 1]);
     ratios[i - 1] + part * (ratios[i] - ratios[i - 1])
 }

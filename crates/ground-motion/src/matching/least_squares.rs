@@ -65,7 +65,7 @@ impl Rows {
         for period in worst_places(record, target, periods)? {
             let known = all[between..]
                 .iter()
-                .any(|t| (t / period).ln().abs() < SAME_PERIOD);
+                .any(|t| libm::log(t / period).abs() < SAME_PERIOD);
             if !known {
                 all.push(period);
             }
@@ -171,7 +171,7 @@ fn objective(deviations: &[f64], power: f64) -> f64 {
     let c = LEAST_WEIGHT * LEAST_WEIGHT;
     deviations
         .iter()
-        .map(|d| ((d * d + c) / c).powf(0.5 * power) - 1.0)
+        .map(|d| libm::pow((d * d + c) / c, 0.5 * power) - 1.0)
         .sum()
 }
 
@@ -201,7 +201,7 @@ fn normal_equations(
     let mut weighted = responses.clone();
     let mut right = DVector::zeros(deviations.len());
     for (i, d) in deviations.iter().enumerate() {
-        let weight = ((d * d + c) / c).powf(0.25 * (power - 2.0));
+        let weight = libm::pow((d * d + c) / c, 0.25 * (power - 2.0));
         weighted.row_mut(i).scale_mut(weight);
         right[i] = weight * d;
     }

@@ -61,8 +61,8 @@ impl Adjustment for Wavelets {
 fn wavelet(row: &Row, peak: AtPeak, damping: f64, count: usize, h: f64) -> Option<Change> {
     let root = (1.0 - damping * damping).sqrt();
     let w = row.frequency * root;
-    let width = 1.178 * (row.frequency / TAU).powf(-0.93);
-    let centre = peak.index as f64 * h + peak.after - root.atan2(damping) / w;
+    let width = 1.178 * libm::pow(row.frequency / TAU, -0.93);
+    let centre = peak.index as f64 * h + peak.after - libm::atan2(root, damping) / w;
     let first = ((centre - WIDTHS * width) / h).ceil().max(0.0) as usize;
     let last = ((centre + WIDTHS * width) / h)
         .floor()
@@ -72,11 +72,11 @@ fn wavelet(row: &Row, peak: AtPeak, damping: f64, count: usize, h: f64) -> Optio
         (first..first + inside)
             .map(|i| {
                 let s = i as f64 * h - centre;
-                f(s) * (-(s / width).powi(2)).exp()
+                f(s) * libm::exp(-(s / width).powi(2))
             })
             .collect()
     };
-    let mut samples = of(&|s| (w * s).cos());
+    let mut samples = of(&|s| libm::cos(w * s));
     let (constant, slope) = (of(&|_| 1.0), of(&|s| s / width));
     // Zero at the ends of the window: no drift over it is no drift over the record.
     drift::bring_to(&mut samples, [&constant, &slope], [0.0; 2], h)

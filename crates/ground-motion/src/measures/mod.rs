@@ -162,7 +162,7 @@ impl IntensityMeasures {
                 evaluation,
             ),
             root_mean_square_acceleration: root_mean_square,
-            characteristic_intensity: root_mean_square.powf(1.5) * strong.sqrt(),
+            characteristic_intensity: libm::pow(root_mean_square, 1.5) * strong.sqrt(),
             specific_energy_density: motion.specific_energy_density(evaluation),
             housner_intensity: spectral.housner_intensity,
             acceleration_spectrum_intensity: spectral.acceleration_spectrum_intensity,

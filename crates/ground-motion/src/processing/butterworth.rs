@@ -67,10 +67,10 @@ impl Section {
 
 /// Sections of one side with its corner (Hz).
 fn sections(order: usize, corner: f64, time_step: f64, side: Side) -> Vec<Section> {
-    let k = (PI * corner * time_step).tan();
+    let k = libm::tan(PI * corner * time_step);
     let mut sections = Vec::new();
     for i in 0..order / 2 {
-        let damping = 2.0 * ((2 * i + 1) as f64 * PI / (2 * order) as f64).sin();
+        let damping = 2.0 * libm::sin((2 * i + 1) as f64 * PI / (2 * order) as f64);
         let norm = 1.0 + damping * k + k * k;
         let b = match side {
             Side::Low => [k * k / norm, 2.0 * k * k / norm, k * k / norm],

@@ -74,7 +74,7 @@ pub fn rotate(
     angle: f64,
 ) -> Result<RotatedPair, GroundMotionError> {
     within(STEP, "angle", angle, -360.0, 360.0)?;
-    let (sine, cosine) = angle.to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos(angle.to_radians());
     let step = StepRecord::new(STEP).number("angle", angle, "degrees");
     combine(first, second, [[cosine, sine], [-sine, cosine]], step)
 }
@@ -99,7 +99,7 @@ pub fn fault_components(
     ] {
         within(STEP, name, angle, -360.0, 360.0)?;
     }
-    let between = (second.1 - first.1).to_radians().sin();
+    let between = libm::sin((second.1 - first.1).to_radians());
     if between.abs() < LEAST_SINE {
         return Err(GroundMotionError::Mismatch(format!(
             "their azimuths {} and {} degrees are too near one line",
@@ -109,8 +109,8 @@ pub fn fault_components(
     // a(b) = (a1 sin(b2 - b) + a2 sin(b - b1)) / sin(b2 - b1).
     let weights = |azimuth: f64| {
         [
-            (second.1 - azimuth).to_radians().sin() / between,
-            (azimuth - first.1).to_radians().sin() / between,
+            libm::sin((second.1 - azimuth).to_radians()) / between,
+            libm::sin((azimuth - first.1).to_radians()) / between,
         ]
     };
     let step = StepRecord::new("fault components")

@@ -121,7 +121,7 @@ fn band_limited(
     if new_length < length {
         for (k, c) in coefficients.iter_mut().enumerate() {
             let part = (k as f64 / total * time_step - PASS) / (STOP - PASS);
-            *c *= 0.5 * (1.0 + (PI * part.clamp(0.0, 1.0)).cos());
+            *c *= 0.5 * (1.0 + libm::cos(PI * part.clamp(0.0, 1.0)));
         }
     } else if length.is_multiple_of(2) && new_length > length {
         // The Nyquist term stands for two, one at each sign of the frequency.

@@ -190,8 +190,8 @@ pub fn band_factor(
         let linear = Evaluation::PiecewiseLinear;
         let spectrum = response_spectrum(record, &periods, target.damping(), linear)?;
         for (period, value) in periods.iter().zip(&spectrum.pseudo_acceleration) {
-            sum += ratio(target.at(*period)?, *value)?.ln();
+            sum += libm::log(ratio(target.at(*period)?, *value)?);
         }
     }
-    Ok((sum / (records.len() * BAND_PERIODS) as f64).exp())
+    Ok(libm::exp(sum / (records.len() * BAND_PERIODS) as f64))
 }

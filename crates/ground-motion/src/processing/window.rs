@@ -77,7 +77,7 @@ pub(crate) fn taper(
     for (length, reversed) in [(start, false), (end, true)] {
         let count = whole_steps(length, h);
         for i in 0..count {
-            let weight = 0.5 * (1.0 - (PI * i as f64 / count as f64).cos());
+            let weight = 0.5 * (1.0 - libm::cos(PI * i as f64 / count as f64));
             samples[if reversed { last - i } else { i }] *= weight;
         }
     }

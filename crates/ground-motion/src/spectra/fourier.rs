@@ -113,7 +113,7 @@ impl FourierSpectrum {
             positive(STEP, "frequency", centre)?;
             let (mut sum, mut weights) = (0.0, 0.0);
             for (f, a) in self.frequencies.iter().zip(&self.amplitudes).skip(1) {
-                let weight = window(bandwidth * (f / centre).log10());
+                let weight = window(bandwidth * libm::log10(f / centre));
                 sum += weight * a;
                 weights += weight;
             }
@@ -127,5 +127,5 @@ fn window(x: f64) -> f64 {
     if x.abs() < 1.0e-6 {
         return 1.0;
     }
-    (x.sin() / x).powi(4)
+    (libm::sin(x) / x).powi(4)
 }

@@ -60,10 +60,16 @@ pub(crate) struct OscillatorPeaks {
     pub acceleration: Peak,
 }
 
+/// `exp(z)`, the same on every machine.
+pub(crate) fn exponential(z: Complex64) -> Complex64 {
+    let (sine, cosine) = libm::sincos(z.im);
+    Complex64::new(cosine, sine).scale(libm::exp(z.re))
+}
+
 /// `phi_1` and `phi_2`.
 fn phi(z: Complex64) -> (Complex64, Complex64) {
-    if z.norm() >= SERIES_BELOW {
-        let first = (z.exp() - 1.0) / z;
+    if libm::hypot(z.re, z.im) >= SERIES_BELOW {
+        let first = (exponential(z) - 1.0) / z;
         return (first, (first - 1.0) / z);
     }
     let mut second = Complex64::new(0.0, 0.0);
@@ -106,7 +112,7 @@ impl Oscillator {
 
     fn transition(&self, time: f64) -> Transition {
         let z = self.eigenvalue * time;
-        let growth = z.exp();
+        let growth = exponential(z);
         let (first, second) = phi(z);
         let decay = self.damping * self.frequency;
         let impulse = growth.im / self.damped_frequency;

@@ -64,9 +64,9 @@ pub fn logarithmic_periods(
     positive(STEP, "last period", to)?;
     ascending(STEP, ("first period", from), ("last period", to))?;
     within(STEP, "number of periods", count as f64, 2.0, 1.0e6)?;
-    let ratio = (to / from).ln() / (count - 1) as f64;
+    let ratio = libm::log(to / from) / (count - 1) as f64;
     let mut periods: Vec<f64> = (0..count)
-        .map(|i| from * (ratio * i as f64).exp())
+        .map(|i| from * libm::exp(ratio * i as f64))
         .collect();
     periods[count - 1] = to;
     Ok(periods)

@@ -98,7 +98,7 @@ pub fn rotated_spectrum(
 fn all_directions(peak: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     (0..DIRECTIONS)
         .map(|i| {
-            let (sine, cosine) = (i as f64 * (TAU / 2.0) / DIRECTIONS as f64).sin_cos();
+            let (sine, cosine) = libm::sincos(i as f64 * (TAU / 2.0) / DIRECTIONS as f64);
             peak(cosine, sine)
         })
         .collect()
@@ -145,7 +145,7 @@ impl<'a> Pair<'a> {
         let steps = self.steps_beyond(least, &points);
         (0..DIRECTIONS)
             .map(|i| {
-                let (sine, cosine) = (i as f64 * (TAU / 2.0) / DIRECTIONS as f64).sin_cos();
+                let (sine, cosine) = libm::sincos(i as f64 * (TAU / 2.0) / DIRECTIONS as f64);
                 let mut peak = Peak {
                     value: coarse[i],
                     time: 0.0,
@@ -166,7 +166,7 @@ impl<'a> Pair<'a> {
     /// Steps in which the displacement can be further out than `least`.
     fn steps_beyond(&self, least: f64, points: &[[f64; 2]]) -> Vec<usize> {
         let h = self.time_step;
-        let radius = |k: usize| points[k][0].hypot(points[k][1]);
+        let radius = |k: usize| libm::hypot(points[k][0], points[k][1]);
         let curvature = |k: usize| {
             let of = |c: usize| {
                 let forces = [-self.ground[c][k], -self.ground[c][k + 1]];
@@ -174,7 +174,7 @@ impl<'a> Pair<'a> {
                     .curvature(self.states[c][k], forces[0], forces[1])
                     .norm()
             };
-            of(0).hypot(of(1))
+            libm::hypot(of(0), of(1))
         };
         (0..points.len() - 1)
             .filter(|&k| radius(k).max(radius(k + 1)) + h * h / 8.0 * curvature(k) > least)

@@ -104,9 +104,9 @@ impl TargetSpectrum {
         let period = period.clamp(from, to);
         let after = self.periods.partition_point(|p| *p <= period);
         let i = after.clamp(1, self.periods.len() - 1);
-        let part =
-            (period / self.periods[i - 1]).ln() / (self.periods[i] / self.periods[i - 1]).ln();
+        let part = libm::log(period / self.periods[i - 1])
+            / libm::log(self.periods[i] / self.periods[i - 1]);
         let (low, high) = (self.accelerations[i - 1], self.accelerations[i]);
-        low * (part * (high / low).ln()).exp()
+        low * libm::exp(part * libm::log(high / low))
     }
 }

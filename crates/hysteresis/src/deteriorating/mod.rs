@@ -87,7 +87,7 @@ impl Deteriorating {
             return Some(0.0);
         }
         let left = capacity * self.yield_force * self.yield_deformation() - total;
-        let rate = (energy / left).powf(self.capacities.exponent);
+        let rate = libm::pow(energy / left, self.capacities.exponent);
         (left > 0.0 && rate < 1.0).then_some(rate)
     }
 

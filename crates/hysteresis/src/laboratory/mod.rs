@@ -117,11 +117,11 @@ pub fn cycle_dissipation(law: &dyn HysteresisLaw, amplitude: f64, cycling: Cycli
     let approach = steps.div_ceil(4);
     let quarter = std::f64::consts::FRAC_PI_2 / approach as f64;
     let phases = (1..=approach)
-        .map(|i| (i as f64 * quarter).sin())
+        .map(|i| libm::sin(i as f64 * quarter))
         .map(|share| (share, (1.0 - share * share).max(0.0).sqrt()))
         .chain((1..=cycles * steps).map(|i| {
             let angle = (i % steps) as f64 * rate;
-            (angle.cos(), -angle.sin())
+            (libm::cos(angle), -libm::sin(angle))
         }));
     let motions = phases.map(|(position, speed)| Motion {
         deformation: amplitude * position,
@@ -175,7 +175,7 @@ pub fn log_slope(pairs: &[(f64, f64)]) -> Option<f64> {
     let logarithms: Vec<(f64, f64)> = pairs
         .iter()
         .filter(|(_, energy)| *energy > 0.0)
-        .map(|(amplitude, energy)| (amplitude.ln(), energy.ln()))
+        .map(|(amplitude, energy)| (libm::log(*amplitude), libm::log(*energy)))
         .collect();
     let count = logarithms.len() as f64;
     let mean = |pick: fn(&(f64, f64)) -> f64| logarithms.iter().map(pick).sum::<f64>() / count;

@@ -126,8 +126,8 @@ impl LoadPath {
                 for i in 1..steps {
                     let angle = std::f64::consts::PI * i as f64 / steps as f64;
                     self.step(
-                        middle - half * angle.cos(),
-                        half * frequency * angle.sin(),
+                        middle - half * libm::cos(angle),
+                        half * frequency * libm::sin(angle),
                         duration,
                     );
                 }

@@ -104,7 +104,7 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
 impl FrictionPendulum {
     /// Coefficient of friction at a speed, and its derivative by it.
     fn friction(&self, speed: f64) -> (f64, f64) {
-        let fading = (self.fast - self.slow) * (-self.rate * speed).exp();
+        let fading = (self.fast - self.slow) * libm::exp(-self.rate * speed);
         (self.fast - fading, self.rate * fading)
     }
 
@@ -130,9 +130,9 @@ impl FrictionPendulum {
         }
         let side = if z < 0.0 { -direction } else { direction };
         if rest > 0.0 {
-            let tangent = rest.tanh();
+            let tangent = libm::tanh(rest);
             // ln(cosh rest + z sinh rest), without large numbers.
-            done += rest + (0.5 * ((1.0 + z) + (1.0 - z) * (-2.0 * rest).exp())).ln();
+            done += rest + libm::log(0.5 * ((1.0 + z) + (1.0 - z) * libm::exp(-2.0 * rest)));
             z = (z + tangent) / (1.0 + z * tangent);
         }
         history.variables = [direction * z, work + friction * done];

@@ -163,7 +163,7 @@ impl HyperbolicGap {
                 .rev()
                 .fold(0.0, |sum, k| 1.0 / f64::from(k + 2) - z * sum)
         } else {
-            (z - z.ln_1p()) / (z * z)
+            (z - libm::log1p(z)) / (z * z)
         };
         y * y / self.flexibility * part
     }

@@ -88,7 +88,7 @@ impl HysteresisLaw for Maxwell {
         let [before, dissipated] = committed.variables;
         // Steps over relaxation time; the rest is exact for constant velocity.
         let ratio = step * self.stiffness / self.damping;
-        let forgotten = -(-ratio).exp_m1();
+        let forgotten = -libm::expm1(-ratio);
         let share = if ratio == 0.0 { 1.0 } else { forgotten / ratio };
         let elastic = self.stiffness * (end.deformation - committed.deformation);
         let force = before - before * forgotten + elastic * share;

@@ -69,12 +69,12 @@ impl RambergOsgood {
     /// falls monotonically onto the root; it ends where it no longer falls.
     fn force_ratio(&self, deformation: f64) -> f64 {
         let target = deformation / self.yield_deformation;
-        let mut ratio = target.min((target / self.alpha).powf(1.0 / self.exponent));
+        let mut ratio = target.min(libm::pow(target / self.alpha, 1.0 / self.exponent));
         if !(ratio > 0.0) {
             return ratio;
         }
         loop {
-            let plastic = self.alpha * ratio.powf(self.exponent - 1.0);
+            let plastic = self.alpha * libm::pow(ratio, self.exponent - 1.0);
             let next = ratio - (ratio + plastic * ratio - target) / (1.0 + self.exponent * plastic);
             if !(next < ratio) {
                 return ratio;
@@ -97,7 +97,7 @@ impl Backbone for RambergOsgood {
     }
     fn force(&self, _: usize, deformation: f64) -> (f64, f64) {
         let ratio = self.force_ratio(deformation);
-        let plastic = self.alpha * ratio.powf(self.exponent - 1.0);
+        let plastic = self.alpha * libm::pow(ratio, self.exponent - 1.0);
         let stiffness = self.yield_force / self.yield_deformation;
         (
             self.yield_force * ratio,
@@ -107,12 +107,12 @@ impl Backbone for RambergOsgood {
     fn slip_work(&self, deformation: f64) -> f64 {
         let n = self.exponent;
         let ratio = self.force_ratio(deformation);
-        self.energy() * self.alpha * ratio.powf(n + 1.0) * (n - 1.0) / (n + 1.0)
+        self.energy() * self.alpha * libm::pow(ratio, n + 1.0) * (n - 1.0) / (n + 1.0)
     }
     fn stored(&self, deformation: f64) -> f64 {
         // int F dx less the slip work.
         let n = self.exponent;
         let ratio = self.force_ratio(deformation);
-        self.energy() * (0.5 * ratio * ratio + self.alpha * ratio.powf(n + 1.0) / (n + 1.0))
+        self.energy() * (0.5 * ratio * ratio + self.alpha * libm::pow(ratio, n + 1.0) / (n + 1.0))
     }
 }

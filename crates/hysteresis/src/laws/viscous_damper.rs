@@ -88,7 +88,7 @@ impl ViscousDamper {
             return (slope * velocity, slope);
         }
         let speed = velocity.abs();
-        let slope = self.damping * speed.powf(self.exponent - 1.0);
+        let slope = self.damping * libm::pow(speed, self.exponent - 1.0);
         (slope * velocity, self.exponent * slope)
     }
 }
@@ -110,7 +110,7 @@ impl HysteresisLaw for ViscousDamper {
         if self.exponent == 1.0 {
             return self.damping;
         }
-        self.damping * self.transition_velocity.powf(self.exponent - 1.0)
+        self.damping * libm::pow(self.transition_velocity, self.exponent - 1.0)
     }
     fn internal_variables(&self) -> usize {
         1
@@ -119,7 +119,7 @@ impl HysteresisLaw for ViscousDamper {
     fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
         let (speed, way) = (0.1_f64, 1.0e-3);
         [
-            self.damping * speed.powf(self.exponent) * way,
+            self.damping * libm::pow(speed, self.exponent) * way,
             f64::INFINITY,
         ]
     }

@@ -555,16 +555,21 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
         return Err(text.error(at..at + 1, message, NAME_PARTS));
     }
     let owned = source.clone();
-    let parser = std::thread::Builder::new().stack_size(STACK);
     let parse = move || Parser::default().parse_with_source_info(&owned);
-    let running = parser.spawn(parse).map_err(|e| {
-        let message = format!("there is no thread to read the expression: {e}");
-        let help =
-            "rules of your own are for `pounding gap`; a page that computes does not read them";
-        text.error(0..0, message, help)
-    })?;
-    let Ok(answer) = running.join() else {
-        return Err(text.error(0..0, "this cannot be read as an expression", "simplify it"));
+    // A page has no threads: its stack is long enough for what is allowed above.
+    #[cfg(target_family = "wasm")]
+    let answer = parse();
+    #[cfg(not(target_family = "wasm"))]
+    let answer = {
+        let parser = std::thread::Builder::new().stack_size(STACK);
+        let running = parser.spawn(parse).map_err(|e| {
+            let message = format!("there is no thread to read the expression: {e}");
+            text.error(0..0, message, "end other programs, and try again")
+        })?;
+        let Ok(answer) = running.join() else {
+            return Err(text.error(0..0, "this cannot be read as an expression", "simplify it"));
+        };
+        answer
     };
     let (tree, places) = answer.map_err(|errors| unreadable(text, &errors))?;
     text.places = places;

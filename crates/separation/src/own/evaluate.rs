@@ -207,7 +207,7 @@ impl<'g> Evaluation<'g> {
             }
             Function::SquareRoot => first.sqrt(),
             Function::Power => {
-                let value = first.powf(values.get(1).copied().unwrap_or(f64::NAN));
+                let value = libm::pow(first, values.get(1).copied().unwrap_or(f64::NAN));
                 if !value.is_finite() {
                     return Err(self.refused(part, "the power has no finite value"));
                 }

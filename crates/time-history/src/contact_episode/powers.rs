@@ -116,7 +116,7 @@ impl Power {
             } else if exponent == 0.25 {
                 first.sqrt().sqrt()
             } else {
-                first.powf(exponent)
+                libm::pow(first, exponent)
             };
             return self.newest;
         };
@@ -160,7 +160,7 @@ mod tests {
         let mut powers = Powers::NONE;
         let binomial = |a: f64, k: usize| -> f64 {
             let ratio = v / d;
-            (0..k).fold(d.powf(a), |c, j| {
+            (0..k).fold(libm::pow(d, a), |c, j| {
                 c * (a - j as f64) / (j + 1) as f64 * ratio
             })
         };

@@ -333,7 +333,7 @@ mod tests {
 
     #[test]
     fn many_values_of_a_row_have_the_bits_of_one_after_another() {
-        let lane = |seed: usize| Lane::from_fn(|l| ((seed * WIDTH + l) as f64).sin());
+        let lane = |seed: usize| Lane::from_fn(|l| libm::sin((seed * WIDTH + l) as f64));
         let lanes = 53;
         let x: Vec<Lane> = (0..lanes * 23).map(|c| lane(c + 7)).collect();
         let row = ModalRow {

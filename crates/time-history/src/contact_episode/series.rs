@@ -187,7 +187,7 @@ impl Series {
             for k in [self.last - 1, self.last] {
                 let term = touch.delta[k].abs();
                 if term > allowed {
-                    reach = reach.min((allowed / term).powf(1.0 / k as f64));
+                    reach = reach.min(libm::pow(allowed / term, 1.0 / k as f64));
                 }
             }
         }

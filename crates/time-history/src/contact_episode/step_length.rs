@@ -210,7 +210,7 @@ impl StepLength {
 
 fn factor(error: f64) -> f64 {
     if error > 0.0 {
-        (0.9 * error.powf(-0.125)).clamp(FACTORS[0], FACTORS[1])
+        (0.9 / error.sqrt().sqrt().sqrt()).clamp(FACTORS[0], FACTORS[1])
     } else {
         FACTORS[1]
     }

@@ -156,7 +156,7 @@ mod tests {
         for last in 0..TERMS {
             let mut terms = [0.0; TERMS];
             for (k, term) in terms[..=last].iter_mut().enumerate() {
-                *term = (1.7 * k as f64 + 0.3).sin();
+                *term = libm::sin(1.7 * k as f64 + 0.3);
             }
             let theta = 0.83_f64;
             let (mut value, mut slope, mut sum, mut bend) = (0.0, 0.0, 0.0, 0.0);

@@ -157,19 +157,19 @@ mod tests {
             let c1 = -gamma * slope / (omega * omega);
             let c0 = (-gamma * a - 2.0 * zeta * omega * c1) / (omega * omega);
             let (x, v) = (q0 - c0, p0 - c1);
-            let decay = (-zeta * omega * step).exp();
+            let decay = libm::exp(-zeta * omega * step);
             let homogeneous = match zeta {
                 z if z < 1.0 => {
                     let wd = omega * (1.0 - z * z).sqrt();
                     let s = (v + z * omega * x) / wd;
-                    decay * (x * (wd * step).cos() + s * (wd * step).sin())
+                    decay * (x * libm::cos(wd * step) + s * libm::sin(wd * step))
                 }
                 1.0 => decay * (x + (v + omega * x) * step),
                 z => {
                     let wd = omega * (z * z - 1.0).sqrt();
                     let (up, down) = (-z * omega + wd, -z * omega - wd);
                     let first = (v - down * x) / (up - down);
-                    first * (up * step).exp() + (x - first) * (down * step).exp()
+                    first * libm::exp(up * step) + (x - first) * libm::exp(down * step)
                 }
             };
             let expected = homogeneous + c0 + c1 * step;

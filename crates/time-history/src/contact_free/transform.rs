@@ -162,7 +162,7 @@ mod tests {
             let columns = (0..lanes * modes).map(|c| {
                 Lane::from_fn(|l| {
                     let floor = (first_lane + c / modes) * WIDTH + l;
-                    let entry = ((floor * 7 + c % modes * 13) as f64).sin();
+                    let entry = libm::sin((floor * 7 + c % modes * 13) as f64);
                     if within.contains(&floor) { entry } else { 0.0 }
                 })
             });
@@ -191,7 +191,7 @@ mod tests {
         let shapes = shapes(counts);
         let modal: Vec<Vec<Lane>> = (0..20)
             .map(|v| {
-                let value = |c: usize, l: usize| ((c * WIDTH + l + 31 * v) as f64).cos();
+                let value = |c: usize, l: usize| libm::cos((c * WIDTH + l + 31 * v) as f64);
                 (0..lanes).map(|c| Lane::from_fn(|l| value(c, l))).collect()
             })
             .collect();

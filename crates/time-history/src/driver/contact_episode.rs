@@ -386,5 +386,5 @@ impl Driver<'_> {
 
 /// Terms of a series of powers: more are worth while where more digits are asked for.
 fn series_terms(tolerance: f64) -> usize {
-    (10.0 - tolerance.log10()).clamp(14.0, 22.0) as usize
+    (10.0 - libm::log10(tolerance)).clamp(14.0, 22.0) as usize
 }

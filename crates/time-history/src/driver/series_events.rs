@@ -158,7 +158,7 @@ mod tests {
         let (mut factor, phase) = (1.0, -0.6_f64);
         for (k, term) in terms.iter_mut().enumerate() {
             let turn = 0.5 * std::f64::consts::PI * k as f64;
-            *term = factor * (phase + turn).sin();
+            *term = factor * libm::sin(phase + turn);
             factor *= 3.0 / (k + 1) as f64;
         }
         let found = rise(&terms, 1.0).flatten().expect("a rise");

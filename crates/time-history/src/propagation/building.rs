@@ -177,7 +177,7 @@ impl Building {
             .row_iter()
             .map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
         let norm = size.fold(0.0, f64::max);
-        let doublings = (norm * h / REACH).max(1.0).log2().ceil() as usize;
+        let doublings = libm::log2((norm * h / REACH).max(1.0)).ceil() as usize;
         let doublings = doublings.max(HALVINGS);
         let part = h / 2.0_f64.powi(doublings as i32);
         let powers = powers(&(a * part));

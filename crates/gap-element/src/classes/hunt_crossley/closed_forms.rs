@@ -12,7 +12,7 @@ pub(crate) fn restitution(y: f64) -> f64 {
     }
     // The other root is e = -1; between zero and 1/y the function rises from a
     // negative value, so bisection is safe and Newton fast.
-    let f = |e: f64| f64::ln_1p(y) - f64::ln_1p(-y * e) - y * (1.0 + e);
+    let f = |e: f64| libm::log1p(y) - libm::log1p(-y * e) - y * (1.0 + e);
     let (mut low, mut high) = (0.0, 1.0_f64.min(1.0 / y));
     let mut e = 0.5 * high;
     for _ in 0..200 {
@@ -48,7 +48,7 @@ pub(crate) fn damping_factor(e: f64) -> f64 {
     }
     // f falls from zero at y = 0 and rises without bound towards 1/e; the root
     // lies above half the slope's estimate and below 1/e.
-    let f = |y: f64| f64::ln_1p(y) - f64::ln_1p(-y * e) - y * (1.0 + e);
+    let f = |y: f64| libm::log1p(y) - libm::log1p(-y * e) - y * (1.0 + e);
     solve_increasing(f, 0.75 * loss, (1.0 - f64::EPSILON) / e)
 }
 
@@ -60,7 +60,7 @@ fn approach_loss(y: f64) -> f64 {
             .rev()
             .fold(0.0, |sum, k| 2.0 / f64::from(k + 2) - y * sum)
     } else {
-        2.0 * (y - f64::ln_1p(y)) / (y * y)
+        2.0 * (y - libm::log1p(y)) / (y * y)
     }
 }
 
@@ -81,7 +81,10 @@ pub(crate) fn damping_factor_approach_only(e: f64) -> f64 {
 /// Maximum penetration (m) of a free collision with damping factor `y`.
 fn peak_penetration(stiffness: f64, exponent: f64, y: f64, velocity: f64, mass: f64) -> f64 {
     let power = exponent + 1.0;
-    (power * mass * velocity * velocity / (2.0 * stiffness) * approach_loss(y)).powf(1.0 / power)
+    libm::pow(
+        power * mass * velocity * velocity / (2.0 * stiffness) * approach_loss(y),
+        1.0 / power,
+    )
 }
 
 /// Closed forms of a free collision.

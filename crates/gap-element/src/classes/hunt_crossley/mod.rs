@@ -24,7 +24,7 @@ pub(crate) fn elastic(stiffness: f64, exponent: f64, delta: f64) -> (f64, f64) {
         let slope = if exponent == 1.5 {
             stiffness * delta.sqrt()
         } else {
-            stiffness * delta.powf(exponent - 1.0)
+            stiffness * libm::pow(delta, exponent - 1.0)
         };
         (slope * delta, exponent * slope)
     }

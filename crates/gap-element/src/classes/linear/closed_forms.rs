@@ -12,26 +12,26 @@ fn decrement(zeta: f64) -> f64 {
     if distance.abs() < 1.0e-8 {
         1.0 - 2.0 / 3.0 * (1.0 - zeta)
     } else if distance > 0.0 {
-        zeta * zeta.acos() / distance.sqrt()
+        zeta * libm::acos(zeta) / distance.sqrt()
     } else {
-        zeta * zeta.acosh() / (-distance).sqrt()
+        zeta * libm::acosh(zeta) / (-distance).sqrt()
     }
 }
 
 /// Restitution of a free collision.
 fn restitution(phases: DampingPhases, separation: SeparationRule, zeta: f64) -> f64 {
     match phases {
-        DampingPhases::ApproachOnly => (-decrement(zeta)).exp(),
-        DampingPhases::Both if separation.forbids_tension() => (-2.0 * decrement(zeta)).exp(),
+        DampingPhases::ApproachOnly => libm::exp(-decrement(zeta)),
+        DampingPhases::Both if separation.forbids_tension() => libm::exp(-2.0 * decrement(zeta)),
         DampingPhases::Both if zeta >= 1.0 => 0.0,
-        DampingPhases::Both => (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp(),
+        DampingPhases::Both => libm::exp(-PI * zeta / (1.0 - zeta * zeta).sqrt()),
     }
 }
 
 /// The ratio with which damping in both phases returns exactly `e` if contact
 /// ends at zero penetration. The same for every exponent.
 pub(crate) fn damping_ratio_zero_penetration(e: f64) -> f64 {
-    let log = e.ln();
+    let log = libm::log(e);
     // `0 - log` and not `-log`, so that restitution 1 gives +0.
     (0.0 - log) / (PI * PI + log * log).sqrt()
 }
@@ -39,12 +39,12 @@ pub(crate) fn damping_ratio_zero_penetration(e: f64) -> f64 {
 /// The ratio with which damping in both phases returns exactly `e` if contact
 /// ends at zero force.
 pub(crate) fn damping_ratio_no_tension(e: f64) -> f64 {
-    ratio_of_decrement(-0.5 * e.ln())
+    ratio_of_decrement(-0.5 * libm::log(e))
 }
 
 /// The ratio with which damping in approach only returns exactly `e`.
 pub(crate) fn damping_ratio_approach_only(e: f64) -> f64 {
-    ratio_of_decrement(-e.ln())
+    ratio_of_decrement(-libm::log(e))
 }
 
 /// The inverse of [`decrement`], which rises from zero without bound.
@@ -56,7 +56,7 @@ fn ratio_of_decrement(wanted: f64) -> f64 {
     solve_increasing(
         |zeta| decrement(zeta) - wanted,
         wanted / PI,
-        1.0 + wanted.exp(),
+        1.0 + libm::exp(wanted),
     )
 }
 
@@ -64,16 +64,19 @@ fn ratio_of_decrement(wanted: f64) -> f64 {
 /// restitution does not change.
 fn peak_penetration(stiffness: f64, exponent: f64, zeta: f64, velocity: f64, mass: f64) -> f64 {
     let power = exponent + 1.0;
-    let elastic_peak = (power * mass * velocity * velocity / (2.0 * stiffness)).powf(1.0 / power);
-    elastic_peak * (-decrement(zeta) * 2.0 / power).exp()
+    let elastic_peak = libm::pow(
+        power * mass * velocity * velocity / (2.0 * stiffness),
+        1.0 / power,
+    );
+    elastic_peak * libm::exp(-decrement(zeta) * 2.0 / power)
 }
 
 /// Time until the bodies stop acting on one another (s), exponent 1, `zeta < 1`.
 fn duration(phases: DampingPhases, separation: SeparationRule, zeta: f64, omega: f64) -> f64 {
     let damped = (1.0 - zeta * zeta).sqrt() * omega;
     match phases {
-        DampingPhases::ApproachOnly => zeta.acos() / damped + 0.5 * PI / omega,
-        DampingPhases::Both if separation.forbids_tension() => 2.0 * zeta.acos() / damped,
+        DampingPhases::ApproachOnly => libm::acos(zeta) / damped + 0.5 * PI / omega,
+        DampingPhases::Both if separation.forbids_tension() => 2.0 * libm::acos(zeta) / damped,
         DampingPhases::Both => PI / damped,
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn force(
     let coefficient = if exponent == 1.5 {
         dashpot * delta.sqrt().sqrt()
     } else {
-        dashpot * delta.powf(half)
+        dashpot * libm::pow(delta, half)
     };
     Force {
         value: spring + coefficient * velocity,

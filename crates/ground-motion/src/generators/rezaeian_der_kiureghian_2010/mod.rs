@@ -14,6 +14,7 @@ use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
 use crate::generators::{Generated, Generator, TimeGrid};
 use crate::measures::GRAVITY;
+use crate::spectra::exponential;
 use crate::step_record::StepRecord;
 
 const STEP: &str = RezaeianDerKiureghian2010::GENERATOR.name;
@@ -59,10 +60,12 @@ impl Modulation {
             return if self.shape > 1.0 {
                 0.0
             } else {
-                self.ln_factor.exp()
+                libm::exp(self.ln_factor)
             };
         }
-        (self.ln_factor + 0.5 * (self.shape - 1.0) * time.ln() - 0.5 * self.rate * time).exp()
+        libm::exp(
+            self.ln_factor + 0.5 * (self.shape - 1.0) * libm::log(time) - 0.5 * self.rate * time,
+        )
     }
 }
 
@@ -143,7 +146,7 @@ impl RezaeianDerKiureghian2010 {
         Ok(Modulation {
             shape,
             rate,
-            ln_factor: 0.5 * (square.ln() + shape * rate.ln() - ln_gamma(shape)),
+            ln_factor: 0.5 * (libm::log(square) + shape * libm::log(rate) - ln_gamma(shape)),
         })
     }
 
@@ -198,12 +201,11 @@ impl RezaeianDerKiureghian2010 {
         for j in 0..count {
             let pulse = noise.normal();
             let w = self.filter_frequency(j as f64 * step, 0.5 / step);
-            let turn = Complex64::new(-self.damping * w * step, root * w * step).exp();
+            let turn = exponential(Complex64::new(-self.damping * w * step, root * w * step));
             // h(s) = w/root exp(-damping w s) sin(root w s), half a step after the pulse
             // so that the first sample is not zero.
-            let mut state = Complex64::new(-self.damping * w, root * w)
-                .scale(0.5 * step)
-                .exp();
+            let mut state =
+                exponential(Complex64::new(-self.damping * w, root * w).scale(0.5 * step));
             state *= w / root;
             let least = NEGLIGIBLE * w / root;
             for i in j..count {
@@ -225,7 +227,7 @@ impl RezaeianDerKiureghian2010 {
 /// The acceleration z'' of `z'' + 2 w z' + w^2 z = x` from rest, exact for an input
 /// that is linear between samples.
 fn high_pass(input: &[f64], step: f64, w: f64) -> Vec<f64> {
-    let decay = (-w * step).exp();
+    let decay = libm::exp(-w * step);
     let (mut z, mut v) = (0.0, 0.0);
     let mut output = vec![input[0]];
     for x in input.windows(2) {

@@ -86,8 +86,9 @@ fn cholesky(matrix: &[&[f64]; 6]) -> [[f64; 6]; 6] {
 /// Distribution function of the frequency rate (Hz/s): two exponentials that meet at
 /// zero, cut at both ends.
 fn rate_distribution(x: f64) -> f64 {
-    let below = |x: f64| ((RATE_BELOW * x).exp() - (RATE_BELOW * RATE_RANGE.0).exp()) / RATE_BELOW;
-    let above = |x: f64| (1.0 - (-RATE_ABOVE * x).exp()) / RATE_ABOVE;
+    let below =
+        |x: f64| (libm::exp(RATE_BELOW * x) - libm::exp(RATE_BELOW * RATE_RANGE.0)) / RATE_BELOW;
+    let above = |x: f64| (1.0 - libm::exp(-RATE_ABOVE * x)) / RATE_ABOVE;
     let whole = below(0.0) + above(RATE_RANGE.1);
     (below(x.min(0.0)) + above(x.max(0.0))) / whole
 }
@@ -113,8 +114,8 @@ impl RezaeianDerKiureghianScenario {
         let scaled = [
             self.magnitude / 7.0,
             reverse,
-            (kilometres / 25.0).ln(),
-            (self.shear_velocity / 750.0).ln(),
+            libm::log(kilometres / 25.0),
+            libm::log(self.shear_velocity / 750.0),
         ];
         let plain = [self.magnitude, reverse, kilometres, self.shear_velocity];
         let mut medians = [0.0; 6];
@@ -130,7 +131,7 @@ impl RezaeianDerKiureghianScenario {
     fn parameters(normal: [f64; 6], high_pass: f64) -> RezaeianDerKiureghian2010 {
         let part = normal.map(normal_distribution);
         let beta = |i: usize, a: f64, b: f64| beta_quantile(a, b, part[i]);
-        let square = (LN_ARIAS.0 + LN_ARIAS.1 * normal[0]).exp() * GRAVITY * GRAVITY;
+        let square = libm::exp(LN_ARIAS.0 + LN_ARIAS.1 * normal[0]) * GRAVITY * GRAVITY;
         RezaeianDerKiureghian2010 {
             arias_intensity: square * PI / (2.0 * GRAVITY),
             significant_duration: 5.0 + 40.0 * beta(1, 1.1314, 2.4474),
@@ -172,7 +173,7 @@ impl RezaeianDerKiureghianScenario {
             let mut normal = medians;
             for i in 0..6 {
                 let error: f64 = (0..=i).map(|k| factor[i][k] * independent[k]).sum();
-                normal[i] += error * REGRESSION[i][5].hypot(REGRESSION[i][6]);
+                normal[i] += error * libm::hypot(REGRESSION[i][5], REGRESSION[i][6]);
             }
             let parameters = Self::parameters(normal, high_pass);
             if parameters.middle_time <= parameters.significant_duration && parameters.feasible() {

@@ -22,6 +22,7 @@
 //! ```
 
 mod assemble;
+mod band;
 mod dimension;
 mod error;
 mod excitation;
@@ -33,5 +34,5 @@ pub use assemble::{
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{
-    RecordFiles, ScaleTarget, further_record, read_record, read_target, scale_record, scale_target,
+    RecordFiles, further_record, read_record, read_target, scale_record, scale_target,
 };

@@ -8,6 +8,9 @@ use super::html::{JUMPS, escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
 
+/// Name of the picture of the widths that were tried; all others are of the records.
+const WIDTHS: &str = "widths";
+
 /// The page of what `gap --json` prints.
 #[must_use]
 pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
@@ -37,10 +40,11 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
             "Peaks with pounding over those of the isolated buildings at many widths, the maximum over \
              storeys and records: a gap a little too small can be worse than none.",
         );
-        let inside = inside + &pictures(drawn) + &swept(answer);
+        let inside = inside + &pictures(drawn.iter().filter(|p| p.name == WIDTHS)) + &swept(answer);
         body.push_str(&section("Other widths", &inside));
     }
-    body.push_str(&section("Records", &records(answer)));
+    let spectra = pictures(drawn.iter().filter(|p| p.name != WIDTHS));
+    body.push_str(&section("Records", &(records(answer) + &spectra)));
     inputs.page(&body)
 }
 

@@ -1,20 +1,42 @@
 //! What pages of commands with many runs have in common.
 
+use serde::{Deserialize, Serialize};
+
 use super::document::{Document, listing};
 use super::html::{figure, section};
 use super::table::facts;
+use crate::chart::{Chart, Plot};
 
-/// A picture that a command has drawn, and what it shows in words.
-#[derive(Debug, Clone)]
+/// A picture of a page, and what it shows in words.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
-    /// SVG.
-    pub svg: String,
+    /// What it is called, by which a page finds the place of it.
+    pub(super) name: String,
     /// For those who do not see it.
-    pub words: String,
+    words: String,
+    /// What is drawn.
+    plots: Vec<Plot>,
+}
+
+impl Picture {
+    /// A chart that is as wide as a page.
+    #[must_use]
+    pub fn of(name: &str, words: &str, chart: Chart) -> Self {
+        Self {
+            name: name.to_owned(),
+            words: words.to_owned(),
+            plots: chart.plots,
+        }
+    }
+
+    /// Whether it can be drawn: one that stands in a file may hold anything.
+    pub(crate) fn is_drawable(&self) -> bool {
+        Chart::of_page(self.plots.clone()).is_drawable()
+    }
 }
 
 /// What a page says of its inputs beside the answer.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inputs {
     /// Title of the case or study.
     pub title: String,
@@ -53,8 +75,9 @@ impl Inputs {
 }
 
 /// Pictures one below the other.
-pub(super) fn pictures(pictures: &[Picture]) -> String {
-    let drawn = pictures.iter().map(|p| figure(&p.svg, &p.words));
+pub(super) fn pictures<'p>(pictures: impl IntoIterator<Item = &'p Picture>) -> String {
+    let drawn = pictures.into_iter();
+    let drawn = drawn.map(|p| figure(&Chart::of_page(p.plots.clone()).svg(), &p.words));
     drawn.collect()
 }
 

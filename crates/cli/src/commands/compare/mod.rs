@@ -5,7 +5,9 @@ pub mod numbers;
 mod text;
 
 use pounding_files::FileUse;
+use pounding_report::page::Picture;
 use pounding_report::pictures::comparison::peak_ratios;
+use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::comparison::{
     ComparisonOptions, RestitutionRule, StiffnessRule, compare_dealt,
 };
@@ -30,6 +32,7 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
+        arguments.output.as_deref(),
     ])?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
@@ -58,14 +61,20 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     if let Some(path) = &arguments.plot {
         plot::write_drawn(path, peak_ratios(&comparison), &arguments.figure)?;
     }
-    if let Some(output) = &arguments.report {
-        let answer = page::answer(&numbers::Compared::of(&comparison))?;
+    let answered = || {
         let words = "Peaks over those without pounding, by impact model";
-        let drawn = [page::picture(&peak_ratios(&comparison), words)];
-        let inputs = page::of_case("compare", &case, &arguments.case, &records);
-        let html = pounding_report::page::comparison(&answer, &drawn, &inputs);
-        plot::write(output, &html)?;
-    }
+        Ok(Answered {
+            command: AnsweredCommand::Compare,
+            inputs: page::of_case("compare", &case, &arguments.case, &records),
+            answer: page::answer(&numbers::Compared::of(&comparison))?,
+            figures: vec![Picture::of("peaks", words, peak_ratios(&comparison))],
+        })
+    };
+    page::write_answered(
+        answered,
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     if arguments.json {
         print(&pretty(&numbers::Compared::of(&comparison))?)?;
     } else {

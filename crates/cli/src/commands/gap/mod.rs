@@ -13,7 +13,9 @@ use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
+use pounding_report::page::Picture;
 use pounding_report::pictures::gap::{amplifications, spectra};
+use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
@@ -52,6 +54,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
         arguments.report.as_deref(),
+        arguments.output.as_deref(),
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
@@ -62,19 +65,23 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         return Ok(());
     }
     write_files(arguments, &check)?;
-    if let Some(output) = &arguments.report {
-        let answer = page::answer(&numbers::Check::of(&check))?;
+    let answered = || {
         let words = "Amplification of peaks by pounding over the width of the gap";
-        let drawn = amplifications(&check).map(|drawn| page::picture(&drawn, words));
-        let inputs = page::of_gap(&case, path, &records, &separation);
-        let mut drawn: Vec<_> = drawn.into_iter().collect();
+        let widths = amplifications(&check).map(|drawn| Picture::of("widths", words, drawn));
         let words = "Spectra of the records, their mean and the target";
-        drawn.push(page::picture(&spectra(&check), words));
-        plot::write(
-            output,
-            &pounding_report::page::gap(&answer, &drawn, &inputs),
-        )?;
-    }
+        let spectra = Picture::of("spectra", words, spectra(&check));
+        Ok(Answered {
+            command: AnsweredCommand::Gap,
+            inputs: page::of_gap(&case, path, &records, &separation),
+            answer: page::answer(&numbers::Check::of(&check))?,
+            figures: widths.into_iter().chain([spectra]).collect(),
+        })
+    };
+    page::write_answered(
+        answered,
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     if arguments.json {
         print(&pretty(&numbers::Check::of(&check))?)?;
     } else {

@@ -1,5 +1,6 @@
 //! The command line, by running the program.
 
+mod answers;
 mod argument_units;
 mod bad_input;
 mod bad_laws;

@@ -23,7 +23,7 @@ mod result;
 
 pub use answer_file::{AnswerFileError, Answered, AnsweredCommand, SCHEMA_VERSION};
 pub use chart::{Chart, PAGE};
-pub use conversion::PictureFormat;
+pub use conversion::{Converted, PictureFormat};
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_with_references};
 pub use loops::cycle_cells;

@@ -4,7 +4,7 @@ use super::{DealArguments, InputPath, OutputPath};
 
 use clap::ValueEnum;
 
-use super::figure::{FigureArguments, answer_file, figure_file};
+use super::figure::{FigureArguments, figure_file};
 use super::quantities::{number, velocity};
 
 /// Arguments of `compare`.
@@ -38,8 +38,8 @@ pub struct CompareArguments {
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
-    /// Write the answer with its inputs and figures into this file, of which `report` makes the page (.json)
-    #[arg(short, long, value_name = "FILE", value_parser = answer_file())]
+    /// Write the answer with its inputs and figures into this JSON file, of which `report` makes the page
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<OutputPath>,
     /// Write a page of the answer into this HTML file
     #[arg(long, value_name = "FILE")]

@@ -1,4 +1,4 @@
-//! Files of figures and how wide these are, and files of answers, which hold figures.
+//! Files of figures and how wide these are.
 
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser};
@@ -51,17 +51,6 @@ pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
         match PictureFormat::of_ending(&ending) {
             Some(_) => Ok(path),
             None => Err("figures are written as SVG, PNG or PDF: give a name that ends in .svg, .png or .pdf"),
-        }
-    })
-}
-
-/// A file for an answer with its figures, of which `report` makes the page.
-pub fn answer_file() -> impl TypedValueParser<Value = OutputPath> {
-    OsStringValueParser::new().try_map(|name| {
-        let path = OutputPath::from(name);
-        match path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json")) {
-            true => Ok(path),
-            false => Err("the answer is written as JSON: give a name that ends in .json, and --report FILE.html for the page"),
         }
     })
 }

@@ -2,7 +2,7 @@
 
 use super::{DealArguments, InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FigureArguments, answer_file, figure_file};
+use super::figure::{FigureArguments, figure_file};
 use super::quantities::number;
 
 /// Arguments of `gap`.
@@ -75,8 +75,8 @@ pub struct GapArguments {
     pub spectra: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
-    /// Write the answer with its inputs and figures into this file, of which `report` makes the page (.json)
-    #[arg(short, long, value_name = "FILE", value_parser = answer_file())]
+    /// Write the answer with its inputs and figures into this JSON file, of which `report` makes the page
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<OutputPath>,
     /// Write a page of the answer into this HTML file
     #[arg(long, value_name = "FILE")]

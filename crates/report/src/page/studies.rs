@@ -7,6 +7,11 @@ use super::html::{figure, section};
 use super::table::facts;
 use crate::chart::{Chart, Plot};
 
+/// Height of a figure (pt) that a sheet has room for below a heading, and what a plot takes beside its
+/// axes for heading, legend and labels.
+const HIGHEST: f64 = 560.0;
+const AROUND: f64 = 55.0;
+
 /// A picture of a page, and what it shows in words.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
@@ -27,6 +32,33 @@ impl Picture {
             words: words.to_owned(),
             plots: chart.plots,
         }
+    }
+
+    /// Its figures: plots that fit below one another stand in one.
+    fn figures(&self) -> String {
+        let mut parts: Vec<Vec<Plot>> = Vec::new();
+        let mut free = 0.0;
+        for plot in &self.plots {
+            let needed = plot.height + AROUND;
+            match parts.last_mut() {
+                Some(part) if needed <= free => part.push(plot.clone()),
+                _ => {
+                    parts.push(vec![plot.clone()]);
+                    free = HIGHEST;
+                }
+            }
+            free -= needed;
+        }
+        let several = parts.len() > 1;
+        let parts = parts.into_iter().map(|plots| {
+            let mut words = self.words.clone();
+            if several {
+                let headings: Vec<&str> = plots.iter().map(|p| p.heading.as_str()).collect();
+                words = format!("{words}: {}", headings.join("; "));
+            }
+            figure(&Chart::of_page(plots).svg(), &words)
+        });
+        parts.collect()
     }
 
     /// Whether it can be drawn: one that stands in a file may hold anything.
@@ -74,11 +106,9 @@ impl Inputs {
     }
 }
 
-/// Pictures one below the other.
+/// Pictures one below the other, each in parts that a sheet of paper has room for.
 pub(super) fn pictures<'p>(pictures: impl IntoIterator<Item = &'p Picture>) -> String {
-    let drawn = pictures.into_iter();
-    let drawn = drawn.map(|p| figure(&Chart::of_page(p.plots.clone()).svg(), &p.words));
-    drawn.collect()
+    pictures.into_iter().map(Picture::figures).collect()
 }
 
 /// Rows of a table: the places of a list with their heads.

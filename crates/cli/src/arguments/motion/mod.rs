@@ -10,7 +10,7 @@ use clap::{Subcommand, ValueEnum};
 pub use generators::*;
 pub use steps::StepArguments;
 
-use super::figure::{FigureArguments, answer_file, figure_file};
+use super::figure::{FigureArguments, figure_file};
 
 /// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
@@ -108,8 +108,8 @@ pub struct InfoArguments {
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
-    /// Write the answer with its inputs and figures into this file, of which `report` makes the page (.json)
-    #[arg(short, long, value_name = "FILE", value_parser = answer_file())]
+    /// Write the answer with its inputs and figures into this JSON file, of which `report` makes the page
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<OutputPath>,
     /// Write a page of the series into this HTML file
     #[arg(long, value_name = "FILE")]

@@ -13,7 +13,7 @@ use pounding_study::comparison::{
 };
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, no_outputs, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -28,12 +28,14 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
     let deal = deal(&arguments.dealing, ("compare", &arguments.case), &mut files)?;
-    have_a_place([
+    let outputs = [
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
         arguments.output.as_deref(),
-    ])?;
+    ];
+    no_outputs(&deal, outputs)?;
+    have_a_place(outputs)?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {

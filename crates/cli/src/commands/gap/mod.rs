@@ -20,7 +20,7 @@ use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, no_outputs, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -48,14 +48,16 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         let message = "without a sweep there are no runs to share";
         return Err(Failure::input(message, Some(help)));
     }
-    have_a_place([
+    let outputs = [
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
         arguments.report.as_deref(),
         arguments.output.as_deref(),
-    ])?;
+    ];
+    no_outputs(&deal, outputs)?;
+    have_a_place(outputs)?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
     let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));

@@ -9,8 +9,8 @@ use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
 use pounding_report::page::Picture;
-use pounding_report::pictures::motion::{Named, histories};
-use pounding_report::{Answered, AnsweredCommand, Chart, Curve, Panel, figure};
+use pounding_report::pictures::motion::{Named, histories, over_period};
+use pounding_report::{Answered, AnsweredCommand, Chart, Curve, Panel};
 
 use super::info_output::{Files, as_text, comma_separated};
 use super::reading;
@@ -23,6 +23,8 @@ use crate::{page, plot};
 
 /// Periods of spectra on the page: first, last (s), number.
 const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
+/// Files that are named below the title.
+const NAMED: usize = 5;
 /// Damping of spectra on the page (-).
 const DAMPING: f64 = 0.05;
 
@@ -205,14 +207,18 @@ fn answered(files: &[ShownFile]) -> Result<Answered, Failure> {
         drawn.push(Picture::of("histories", words, histories));
         drawn.push(Picture::of("spectra", "Response spectra", spectra(&named)?));
     }
-    let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
-    let title = match files.len() {
-        1 => String::new(),
-        count => format!("{count} records"),
+    let names: Vec<&str> = files.iter().map(|f| f.file.as_str()).collect();
+    let (names, title) = match names.len() {
+        1 => (names[0].to_owned(), String::new()),
+        count @ ..=NAMED => (names.join(", "), format!("{count} records")),
+        count => (
+            format!("{} and {} more", names[..NAMED].join(", "), count - NAMED),
+            format!("{count} records"),
+        ),
     };
     Ok(Answered {
         command: AnsweredCommand::MotionInfo,
-        inputs: page::inputs("motion info", &title, first),
+        inputs: page::inputs("motion info", &title, Path::new(&names)),
         answer: page::answer(&Files::of(files))?,
         figures: drawn,
     })
@@ -236,5 +242,5 @@ fn spectra(named: &[Named<'_>]) -> Result<Chart, Failure> {
         horizontal: "period (s)".to_owned(),
         curves,
     };
-    Ok(figure(&[panel]))
+    Ok(over_period(&[panel]))
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pounding_case::{BandSource, Case, CaseError, SpectrumSource};
-use pounding_catalogue::numbers::six_digits;
+use pounding_catalogue::numbers;
 use pounding_ground_motion::processing::BandTarget;
 use pounding_ground_motion::spectra::TargetSpectrum;
 
@@ -11,6 +11,11 @@ use crate::assemble::fundamental_periods;
 
 /// The band (s) where there are no buildings whose periods could say another.
 const WITHOUT_BUILDINGS: (f64, f64) = (0.1, 3.0);
+
+/// A period (s) to a tenth of a millisecond.
+fn shown(period: f64) -> String {
+    numbers::six_digits((1.0e4 * period).round() / 1.0e4)
+}
 
 /// The band of a case: what it gives, and else what the code asks for with the fundamental
 /// periods of its buildings, within the range of the spectrum.
@@ -35,39 +40,39 @@ pub(crate) fn band_of_case(
     if !(from < to) {
         let message = format!(
             "no band of periods is left between {} and {} s: the spectrum of {} reaches from {} to {} s, and fundamental periods of the buildings from {} to {} s",
-            six_digits(from),
-            six_digits(to),
+            shown(from),
+            shown(to),
             code.name(),
-            six_digits(range.0),
-            six_digits(range.1),
-            six_digits(smallest),
-            six_digits(greatest),
+            shown(range.0),
+            shown(range.1),
+            shown(smallest),
+            shown(greatest),
         );
         let help = "give `from` and `to`, or the factor".to_owned();
         return Err(case.error(place, message, Some(help)));
     }
     let periods = match smallest == greatest {
-        true => format!("T1 = {} s", six_digits(smallest)),
+        true => format!("T1 = {} s", shown(smallest)),
         false => format!(
             "T1 of the buildings from {} to {} s",
-            six_digits(smallest),
-            six_digits(greatest)
+            shown(smallest),
+            shown(greatest)
         ),
     };
     let mut said = Vec::new();
     if band.from.is_none() {
         said.push(match first < range.0 {
-            true => format!("from {} s, where the spectrum begins", six_digits(range.0)),
-            false => format!("from {low} T1 = {} s", six_digits(from)),
+            true => format!("from {} s, where the spectrum begins", shown(range.0)),
+            false => format!("from {low} T1 = {} s", shown(from)),
         });
     }
     if band.to.is_none() {
         said.push(match last > range.1 {
             true => format!(
                 "to {} s, where the spectrum ends before {high} T1",
-                six_digits(range.1)
+                shown(range.1)
             ),
-            false => format!("to {high} T1 = {} s", six_digits(to)),
+            false => format!("to {high} T1 = {} s", shown(to)),
         });
     }
     Ok(BandTarget {

@@ -27,6 +27,7 @@ mod motion;
 mod plausibility;
 mod provisions;
 mod report;
+mod scaled_suites;
 mod screen;
 mod shown_commands;
 mod sizes;

@@ -20,6 +20,7 @@ fn answered() -> Answered {
         name: name.to_owned(),
         points: vec![
             (0.1 + 0.2, 1.0 / 3.0),
+            (0.7, 2.0 / 3.0),
             (1.0, f64::NAN),
             (f64::INFINITY, 2.0),
             (5e-324, 1.797e308),

@@ -161,10 +161,7 @@ impl<'a> Answer<'a> {
 pub(super) fn spoken(name: &str) -> String {
     let name = name.replace('_', " ");
     let name = name.replace("acceleration absolute", "absolute acceleration");
-    match name.strip_suffix(" max") {
-        Some(what) => format!("maximum {what}"),
-        None => name,
-    }
+    name.replace("impulse max", "maximum impulse")
 }
 
 /// The factor from SI to the unit that people read, and that unit; empty for pure numbers.

@@ -7,6 +7,7 @@ use fontdb::Database;
 use resvg::{tiny_skia, usvg};
 use ttf_parser::Face;
 
+use crate::chart::FACES;
 use crate::error::ReportError;
 
 /// Dots of an inch of a PNG file: what journals ask of line drawings in colour.
@@ -101,7 +102,6 @@ impl Letters {
         for font in [dejavu::sans::regular(), dejavu::sans::bold()] {
             fonts.load_font_data(font.to_vec());
         }
-        fonts.set_sans_serif_family("DejaVu Sans");
         // All that the program itself writes is in the font.
         let wanted = svg.chars().filter(|c| !c.is_ascii());
         let mut without_glyph: BTreeSet<char> = wanted.collect();
@@ -124,7 +124,9 @@ impl Letters {
             fontdb: Arc::new(self.fonts.clone()),
             ..usvg::Options::default()
         };
-        usvg::Tree::from_str(svg, &options).map_err(refused)
+        // Faces of the machine stand in for missing characters alone.
+        let svg = svg.replacen(FACES, "DejaVu Sans", 1);
+        usvg::Tree::from_str(&svg, &options).map_err(refused)
     }
 }
 
@@ -199,6 +201,14 @@ mod tests {
         assert!(text.contains("DejaVuSans"), "the font is in the file");
     }
 
+    /// Dark pixels of a picture.
+    fn ink(tree: &usvg::Tree) -> usize {
+        let size = tree.size().to_int_size();
+        let mut image = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
+        resvg::render(tree, tiny_skia::Transform::identity(), &mut image.as_mut());
+        image.pixels().iter().filter(|p| p.red() < 128).count()
+    }
+
     /// Marks of text and of lines are dark on a white ground.
     #[test]
     fn something_is_drawn() {
@@ -220,14 +230,23 @@ mod tests {
         let named = |name: &str| picture().replace(">one<", &format!(">{name}<"));
         let western = Letters::of(&named("Größe α 2×10⁻⁵ ж"), |_| panic!("asked"));
         assert!(western.without_glyph.is_empty());
-        let more =
-            |fonts: &mut Database| fonts.load_font_data(dejavu::sans_mono::regular().to_vec());
+        // A machine has ideas of its own about what a face without serifs is.
+        let more = |fonts: &mut Database| {
+            fonts.load_font_data(dejavu::sans_mono::regular().to_vec());
+            fonts.set_sans_serif_family("a font that is not there");
+        };
         let arc = named("\u{2312}");
         let (alone, helped) = (Letters::of(&arc, |_| {}), Letters::of(&arc, more));
         assert_eq!(alone.without_glyph, BTreeSet::from(['\u{2312}']));
         assert!(helped.without_glyph.is_empty());
         let drawn = |letters: &Letters| png(&letters.tree(&arc).unwrap()).unwrap();
         assert_ne!(drawn(&alone), drawn(&helped), "the glyph is drawn");
+        let texts = |letters: &Letters| ink(&letters.tree(&arc).unwrap());
+        let (alone, helped) = (texts(&alone), texts(&helped));
+        assert!(
+            10 * alone.abs_diff(helped) < alone,
+            "all other text is drawn: {alone} {helped}"
+        );
         let bridge = Letters::of(&named("橋 \u{2312}"), more);
         assert_eq!(bridge.without_glyph, BTreeSet::from(['橋']));
         assert!(

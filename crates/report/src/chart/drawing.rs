@@ -6,6 +6,8 @@ use super::axis::Range;
 use super::look::{Look, Marker};
 use super::{Chart, LimitPlace, Plot};
 
+/// Faces of text, for whoever shows the picture.
+pub(crate) const FACES: &str = "Helvetica, Arial, sans-serif";
 /// Size of text (pt).
 const TEXT: f64 = 8.5;
 /// Width of a letter over the size of the text: no letter of a sentence in a usual sans-serif
@@ -120,7 +122,7 @@ impl<'c> Picture<'c> {
         let height = chart.height.unwrap_or(y + 1.0);
         let width = chart.width;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{TEXT}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"{FACES}\" font-size=\"{TEXT}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
             chart.stated_width
         )
     }

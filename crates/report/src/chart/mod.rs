@@ -11,6 +11,7 @@ mod drawing;
 mod look;
 
 pub use axis::{Axis, Scale};
+pub(crate) use drawing::FACES;
 pub use look::Look;
 
 /// A series of points with its look.

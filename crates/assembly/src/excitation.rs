@@ -4,13 +4,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use pounding_case::{Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource};
-use pounding_ground_motion::processing::{ProcessingStep, Scale, process, rotate};
+use pounding_case::{
+    BandSource, Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource,
+};
+use pounding_ground_motion::processing::{BandTarget, ProcessingStep, Scale, process, rotate};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions,
 };
 
+use crate::band::{band_of_case, band_without_case};
 use crate::error::AssemblyError;
 
 /// The ground acceleration of a case.
@@ -99,7 +102,7 @@ fn read(
     }
     for step in &motion.process {
         let refused = |e: GroundMotionError| case.error(step.span.clone(), e.to_string(), e.help());
-        let made = step.value.with_target(|spectrum| target(case, spectrum))?;
+        let made = step.value.with_target(|band| target(case, band))?;
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
     Ok(record)
@@ -138,7 +141,7 @@ fn scaled(
     let Some(scale) = &motion.scale else {
         return Ok(record);
     };
-    let made = scale.value.with_target(|spectrum| target(case, spectrum))?;
+    let made = scale.value.with_target(|band| target(case, band))?;
     let refused = |e| match e {
         // What the scale asks for, not what the record is.
         GroundMotionError::OutOfRange { .. } => {
@@ -156,50 +159,33 @@ fn scaled(
     Ok(record.scaled_by(factor)?)
 }
 
-/// A spectrum to which a record is scaled over a band of periods.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ScaleTarget {
-    /// The spectrum.
-    pub spectrum: TargetSpectrum,
-    /// First period of the band (s).
-    pub from: f64,
-    /// Last period of the band (s).
-    pub to: f64,
-}
-
-/// The spectrum to which a case scales its record; `None` if it does not scale to one.
+/// The spectrum to which a case scales its record, with the band of periods; `None` if it does
+/// not scale to one.
 ///
 /// # Errors
 /// A file that cannot be read or is no spectrum, or parameters out of range: with the place in
 /// the case.
-pub fn scale_target(case: &Case) -> Result<Option<ScaleTarget>, CaseError> {
+pub fn scale_target(case: &Case) -> Result<Option<BandTarget>, CaseError> {
     match case.ground_motion.scale.as_ref().map(|s| &s.value) {
-        Some(Scale::Band {
-            target: spectrum,
-            from,
-            to,
-        }) => Ok(Some(ScaleTarget {
-            spectrum: target(case, spectrum)?,
-            from: *from,
-            to: *to,
-        })),
+        Some(Scale::Band(band)) => Ok(Some(target(case, band)?)),
         _ => Ok(None),
     }
 }
 
-/// The spectrum that a scale of the case names.
-fn target(case: &Case, spectrum: &SpectrumSource) -> Result<TargetSpectrum, CaseError> {
-    let place = || match spectrum {
+/// The band that a scale of the case names, with its spectrum.
+fn target(case: &Case, band: &BandSource) -> Result<BandTarget, CaseError> {
+    let place = match &band.spectrum {
         SpectrumSource::File(spectrum) => spectrum.file.span.clone(),
         SpectrumSource::Code(code) => code.span.clone(),
     };
-    let made = match (spectrum, case.given_files.as_ref()) {
+    let made = match (&band.spectrum, case.given_files.as_ref()) {
         (SpectrumSource::File(spectrum), Some(given)) => {
             given_target(case, given, &spectrum.file.value, spectrum.damping)
         }
-        _ => read_target(spectrum, |path| case.resolve(path)),
+        (spectrum, _) => read_spectrum(spectrum, |path| case.resolve(path)),
     };
-    made.map_err(|e| case.error(place(), e.to_string(), e.help()))
+    let spectrum = made.map_err(|e| case.error(place.clone(), e.to_string(), e.help()))?;
+    band_of_case(case, band, spectrum, place)
 }
 
 /// The spectrum in a file that was given with the case.
@@ -224,12 +210,23 @@ fn given_target(
 /// What the standard library says of a file that is no text.
 const NOT_TEXT: &str = "stream did not contain valid UTF-8";
 
-/// Makes or reads the spectrum that a scale or a step of a case names. `resolve` finds its
-/// file.
+/// Makes or reads the spectrum that a step names beside no case, with its band of periods, which
+/// without buildings is fixed. `resolve` finds its file.
 ///
 /// # Errors
 /// A file that cannot be read, or is no spectrum; parameters of a code out of range.
 pub fn read_target(
+    band: &BandSource,
+    resolve: impl Fn(&Path) -> PathBuf,
+) -> Result<BandTarget, GroundMotionError> {
+    Ok(band_without_case(
+        band,
+        read_spectrum(&band.spectrum, resolve)?,
+    ))
+}
+
+/// Makes or reads a spectrum.
+fn read_spectrum(
     spectrum: &SpectrumSource,
     resolve: impl Fn(&Path) -> PathBuf,
 ) -> Result<TargetSpectrum, GroundMotionError> {

@@ -25,6 +25,7 @@
 #![warn(clippy::disallowed_methods)]
 
 mod assemble;
+mod band;
 mod dimension;
 mod error;
 mod excitation;
@@ -36,5 +37,5 @@ pub use assemble::{
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{
-    RecordFiles, ScaleTarget, further_record, read_record, read_target, scale_record, scale_target,
+    RecordFiles, further_record, read_record, read_target, scale_record, scale_target,
 };

@@ -87,7 +87,7 @@ impl Case {
             let steps = motion.process.iter().filter_map(|step| step.value.target());
             let scale = motion.scale.as_ref();
             let targets = steps.chain(scale.and_then(|scale| scale.value.target()));
-            let targets = targets.filter_map(|t| t.file());
+            let targets = targets.filter_map(|t| t.spectrum.file());
             files.extend(targets.map(|t| ("target spectrum", &*t.file.value)));
         }
         let lateral = self.buildings.iter().filter_map(|b| b.lateral.as_ref());

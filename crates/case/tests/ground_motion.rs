@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use pounding_case::{Case, CaseError, SpectrumSource, process_steps, schema};
+use pounding_case::{BandSource, Case, CaseError, SpectrumSource, process_steps, schema};
 use pounding_ground_motion::processing::{
     Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, Scale,
     SegmentWindow, Trim,
@@ -180,15 +180,15 @@ fn scales() {
     let band = scale("{ target = \"s.csv\", from = \"0.2 s\", to = \"2 s\", damping = \"2 %\" }");
     assert!(matches!(
         band.unwrap(),
-        Scale::Band { target: SpectrumSource::File(target), from: 0.2, to: 2.0 }
+        Scale::Band(BandSource { spectrum: SpectrumSource::File(target), from: Some(0.2), to: Some(2.0) })
             if target.file.value == Path::new("s.csv") && target.damping == 0.02
     ));
     let of_code = |text: &str| match scale(text).unwrap() {
-        Scale::Band {
-            target: SpectrumSource::Code(code),
+        Scale::Band(BandSource {
+            spectrum: SpectrumSource::Code(code),
             from,
             to,
-        } => (code.value, from, to),
+        }) => (code.value, from, to),
         other => panic!("{other:?}"),
     };
     let eurocode = CodeSpectrum::Eurocode8Of2004(Eurocode8Of2004 {
@@ -198,14 +198,14 @@ fn scales() {
         damping: 0.05,
     });
     let text = "{ code = \"eurocode_8_2004\", ground_type = \"C\", ag = \"0.25 g\" }";
-    assert_eq!(of_code(text), (eurocode, 0.1, 3.0));
+    assert_eq!(of_code(text), (eurocode, None, None));
     let asce = CodeSpectrum::Asce7Of2016(Asce7Of2016 {
         short_period: 9.80665,
         one_second: 6.0,
         long_transition: 8.0,
     });
     let text = "{ code = \"asce_7_2016\", s_ds = \"1 g\", s_d1 = 6.0, t_l = \"8 s\", from = \"0.2 s\", to = 2 }";
-    assert_eq!(of_code(text), (asce, 0.2, 2.0));
+    assert_eq!(of_code(text), (asce, Some(0.2), Some(2.0)));
 }
 
 /// What is wrong, its column in line 9, and a part of message or remedy.

@@ -13,6 +13,21 @@ use crate::output::print;
 /// Ending of the file of a shard of a check.
 const ENDING: &str = "runs";
 
+/// Refuses outputs of a shard: the answer comes when all are put together.
+pub fn no_outputs<'p>(
+    deal: &Deal,
+    outputs: impl IntoIterator<Item = Option<&'p Path>>,
+) -> Result<(), Failure> {
+    let given = outputs.into_iter().flatten().next();
+    match (deal, given) {
+        (Deal::Part { .. }, Some(path)) => Err(Failure::input(
+            format!("a shard has no answer to write into {}", path.display()),
+            Some("give this output where all shards are put together, with --merge".to_owned()),
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// Who makes the runs of a check, as the arguments say.
 pub fn deal(
     arguments: &DealArguments,

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use pounding_case::{Case, Separation};
 use pounding_files::checksum::{WithoutChecksum, hexadecimal};
-use pounding_report::page::{self as pages, Inputs, Picture};
-use pounding_report::{Chart, ReportError, RunResult};
+use pounding_report::page::{self as pages, Inputs};
+use pounding_report::{Answered, ReportError, RunResult};
 use pounding_study::ResultReader;
 use pounding_study::gap_check::CaseUnderRecord;
 use serde::Serialize;
@@ -21,12 +21,20 @@ pub fn answer(answer: &impl Serialize) -> Result<Value, Failure> {
         .map_err(|e| Failure::output(&std::io::Error::other(e), "the result as JSON"))
 }
 
-/// A picture of the page.
-pub fn picture(drawn: &Chart, words: &str) -> Picture {
-    Picture {
-        svg: drawn.svg(),
-        words: words.to_owned(),
+/// Writes the file of an answer and its page, where they are asked for.
+pub fn write_answered(
+    made: impl FnOnce() -> Result<Answered, Failure>,
+    output: Option<&Path>,
+    page: Option<&Path>,
+) -> Result<(), Failure> {
+    if output.is_none() && page.is_none() {
+        return Ok(());
     }
+    let answered = made()?;
+    if let Some(output) = output {
+        plot::write(output, &answered.text())?;
+    }
+    page.map_or(Ok(()), |page| plot::write(page, &answered.page()))
 }
 
 /// Inputs of a command that takes a file.

@@ -1,21 +1,43 @@
 //! Where pictures, tables and pages are written.
 
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use pounding_report::documentation::DocumentationFile;
 use pounding_report::{Chart, PictureFormat, ReportError};
 
 use crate::arguments::FigureArguments;
 use crate::failure::Failure;
+use crate::output::warn;
 
 /// A picture as wide as asked for, written as a file of the form that its ending says.
 pub fn write_drawn(path: &Path, picture: Chart, size: &FigureArguments) -> Result<(), Failure> {
     let picture = picture.of_width(size.millimetres()).svg();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
-    let bytes = format.of(&picture).map_err(|e| not_drawn(&e))?;
-    pounding_files::write(path, &bytes)
+    let made = format.of(&picture).map_err(|e| not_drawn(&e))?;
+    say_without_glyph(made.without_glyph);
+    pounding_files::write(path, &made.bytes)
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
+}
+
+/// Says once which characters of pictures no font has.
+fn say_without_glyph(characters: BTreeSet<char>) {
+    static SAID: Mutex<BTreeSet<char>> = Mutex::new(BTreeSet::new());
+    // Who panicked while saying it has said it.
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    let new: Vec<String> = characters
+        .into_iter()
+        .filter(|c| said.insert(*c))
+        .map(|c| c.to_string())
+        .collect();
+    if !new.is_empty() {
+        warn(&format!(
+            "no font of this machine has a glyph for {}: boxes stand in their places in the figure; write it as SVG, or install a font that has them",
+            new.join(" ")
+        ));
+    }
 }
 
 /// A picture of a motion, or why there is none.

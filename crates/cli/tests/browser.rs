@@ -183,13 +183,19 @@ fn studies() {
         ("motion", "motion", format!("info {records}")),
     ] {
         let page = at(&format!("{name}.html"));
-        let arguments = format!("{arguments} --json --report {}", page.display());
+        let file = at(&format!("{name}.file.json"));
+        let arguments = format!("{arguments} --json -o {}", file.display());
         let output = run(command, &arguments);
         let told = String::from_utf8_lossy(&output.stderr);
         // The answer "too small" is exit code 1.
         assert!(matches!(output.status.code(), Some(0 | 1)), "{told}");
         let answer = at(&format!("{name}.json"));
         std::fs::write(&answer, output.stdout).unwrap();
+        // Numbers of the page of the file are those that the command prints.
+        text(
+            "report",
+            &format!("{} -o {}", file.display(), page.display()),
+        );
         pages.push((page, answer));
     }
     let study = at("study.toml");

@@ -1,5 +1,6 @@
 //! The command line, by running the program.
 
+mod answers;
 mod argument_units;
 mod bad_input;
 mod bad_laws;
@@ -26,6 +27,7 @@ mod motion;
 mod plausibility;
 mod provisions;
 mod report;
+mod scaled_suites;
 mod screen;
 mod shown_commands;
 mod sizes;

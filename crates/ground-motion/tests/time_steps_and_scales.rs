@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid};
 use pounding_ground_motion::processing::{
-    Interpolation, OffsetCorrection, ProcessingStep, Scale, band_factor, fault_components, process,
-    rotate, standard_order, to_even_steps,
+    BandTarget, Interpolation, OffsetCorrection, ProcessingStep, Scale, band_factor,
+    fault_components, process, rotate, standard_order, to_even_steps,
 };
 use pounding_ground_motion::spectra::{
     Evaluation, TargetSpectrum, logarithmic_periods, response_spectrum,
@@ -155,25 +155,22 @@ fn scales() {
     });
     let reached = response_spectrum(&spectral, &[0.7], 0.02, LINEAR).unwrap();
     assert!((reached.pseudo_acceleration[0] - 4.0).abs() < 1e-12);
-    let band = scaled(Scale::Band {
-        target: target.clone(),
-        from: 0.1,
-        to: 3.0,
-    });
+    let over = |from| {
+        Scale::Band(BandTarget {
+            spectrum: target.clone(),
+            from,
+            to: 3.0,
+            reason: String::new(),
+        })
+    };
+    let band = scaled(over(0.1));
     assert!((band.scale() - 2.5).abs() < 1e-12);
     // Two records, one three times the other: the mean of the logarithms is in the middle.
     let set = [ground.clone(), ground.scaled_by(3.0).unwrap()];
     let factor = band_factor(&set, &target, 0.1, 3.0).unwrap();
     assert!((factor - 2.5 / 3.0_f64.sqrt()).abs() < 1e-12);
     assert!(band_factor(&[], &target, 0.1, 3.0).is_err());
-    refused(
-        &ground,
-        ProcessingStep::Scale(Scale::Band {
-            target,
-            from: 0.05,
-            to: 3.0,
-        }),
-    );
+    refused(&ground, ProcessingStep::Scale(over(0.05)));
     refused(
         &ground,
         ProcessingStep::Scale(Scale::PeakAcceleration(-1.0)),

@@ -1,9 +1,13 @@
 //! Pictures as PNG and PDF.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use fontdb::Database;
 use resvg::{tiny_skia, usvg};
+use ttf_parser::Face;
 
+use crate::chart::FACES;
 use crate::error::ReportError;
 
 /// Dots of an inch of a PNG file: what journals ask of line drawings in colour.
@@ -47,13 +51,34 @@ impl PictureFormat {
     ///
     /// # Errors
     /// [`ReportError::Figure`].
-    pub fn of(self, svg: &str) -> Result<Vec<u8>, ReportError> {
-        match self {
-            Self::Svg => Ok(svg.as_bytes().to_vec()),
-            Self::Png => png(&tree(svg)?),
-            Self::Pdf => pdf(&tree(svg)?),
-        }
+    pub fn of(self, svg: &str) -> Result<Converted, ReportError> {
+        let letters = Letters::of(svg, Database::load_system_fonts);
+        let bytes = match self {
+            Self::Svg => {
+                // Whoever shows it has fonts of their own.
+                return Ok(Converted {
+                    bytes: svg.as_bytes().to_vec(),
+                    without_glyph: BTreeSet::new(),
+                });
+            }
+            Self::Png => png(&letters.tree(svg)?)?,
+            Self::Pdf => pdf(&letters.tree(svg)?)?,
+        };
+        Ok(Converted {
+            bytes,
+            without_glyph: letters.without_glyph,
+        })
     }
+}
+
+/// A picture in another form.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Converted {
+    /// Its file.
+    pub bytes: Vec<u8>,
+    /// Characters of it of which neither the program nor the machine has a glyph: boxes stand in
+    /// their places.
+    pub without_glyph: BTreeSet<char>,
 }
 
 fn refused(reason: impl ToString) -> ReportError {
@@ -62,21 +87,61 @@ fn refused(reason: impl ToString) -> ReportError {
     }
 }
 
-/// The picture with DejaVu Sans for its text, which is in the program: it looks alike on every
-/// machine. Lengths are points.
-fn tree(svg: &str) -> Result<usvg::Tree, ReportError> {
-    let mut fonts = usvg::fontdb::Database::new();
-    for font in [dejavu::sans::regular(), dejavu::sans::bold()] {
-        fonts.load_font_data(font.to_vec());
+/// The fonts for the text of a picture: DejaVu Sans, which is in the program, so that pictures look
+/// alike on every machine; for characters that it lacks, those of the machine too.
+struct Letters {
+    fonts: Database,
+    /// Characters that are in none of them.
+    without_glyph: BTreeSet<char>,
+}
+
+impl Letters {
+    /// Fonts for a picture; `system` adds those of the machine.
+    fn of(svg: &str, system: impl FnOnce(&mut Database)) -> Self {
+        let mut fonts = Database::new();
+        for font in [dejavu::sans::regular(), dejavu::sans::bold()] {
+            fonts.load_font_data(font.to_vec());
+        }
+        // All that the program itself writes is in the font.
+        let wanted = svg.chars().filter(|c| !c.is_ascii());
+        let mut without_glyph: BTreeSet<char> = wanted.collect();
+        remove_known(&fonts, &mut without_glyph);
+        if !without_glyph.is_empty() {
+            system(&mut fonts);
+            remove_known(&fonts, &mut without_glyph);
+        }
+        Self {
+            fonts,
+            without_glyph,
+        }
     }
-    fonts.set_sans_serif_family("DejaVu Sans");
-    let options = usvg::Options {
-        dpi: POINTS_PER_INCH,
-        font_family: "DejaVu Sans".to_owned(),
-        fontdb: Arc::new(fonts),
-        ..usvg::Options::default()
-    };
-    usvg::Tree::from_str(svg, &options).map_err(refused)
+
+    /// The picture with text in these fonts. Lengths are points.
+    fn tree(&self, svg: &str) -> Result<usvg::Tree, ReportError> {
+        let options = usvg::Options {
+            dpi: POINTS_PER_INCH,
+            font_family: "DejaVu Sans".to_owned(),
+            fontdb: Arc::new(self.fonts.clone()),
+            ..usvg::Options::default()
+        };
+        // Faces of the machine stand in for missing characters alone.
+        let svg = svg.replacen(FACES, "DejaVu Sans", 1);
+        usvg::Tree::from_str(&svg, &options).map_err(refused)
+    }
+}
+
+/// Removes characters that some font has a glyph of.
+fn remove_known(fonts: &Database, characters: &mut BTreeSet<char>) {
+    for face in fonts.faces() {
+        if characters.is_empty() {
+            return;
+        }
+        fonts.with_face_data(face.id, |data, index| {
+            if let Ok(face) = Face::parse(data, index) {
+                characters.retain(|c| face.glyph_index(*c).is_none());
+            }
+        });
+    }
 }
 
 fn png(tree: &usvg::Tree) -> Result<Vec<u8>, ReportError> {
@@ -125,22 +190,30 @@ mod tests {
     fn sizes() {
         let svg = picture();
         assert!(svg.contains("width=\"190mm\""));
-        let png = PictureFormat::Png.of(&svg).unwrap();
+        let png = PictureFormat::Png.of(&svg).unwrap().bytes;
         assert_eq!(&png[1..4], b"PNG");
         let width = u32::from_be_bytes([png[16], png[17], png[18], png[19]]);
         assert_eq!(width, 2245);
-        let pdf = PictureFormat::Pdf.of(&svg).unwrap();
+        let pdf = PictureFormat::Pdf.of(&svg).unwrap().bytes;
         assert!(pdf.starts_with(b"%PDF"));
         let text = String::from_utf8_lossy(&pdf);
         assert!(text.contains("/MediaBox [0 0 538.58"), "size of the page");
         assert!(text.contains("DejaVuSans"), "the font is in the file");
     }
 
+    /// Dark pixels of a picture.
+    fn ink(tree: &usvg::Tree) -> usize {
+        let size = tree.size().to_int_size();
+        let mut image = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
+        resvg::render(tree, tiny_skia::Transform::identity(), &mut image.as_mut());
+        image.pixels().iter().filter(|p| p.red() < 128).count()
+    }
+
     /// Marks of text and of lines are dark on a white ground.
     #[test]
     fn something_is_drawn() {
         let svg = picture();
-        let tree = tree(&svg).unwrap();
+        let tree = Letters::of(&svg, |_| {}).tree(&svg).unwrap();
         let size = tree.size().to_int_size();
         let mut image = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
         resvg::render(&tree, tiny_skia::Transform::identity(), &mut image.as_mut());
@@ -148,6 +221,41 @@ mod tests {
         let white = image.pixels().iter().filter(|p| p.red() == 255).count();
         assert!(dark > 300 && white > 20 * dark, "{dark} {white}");
         assert!(tree.has_text_nodes());
+    }
+
+    /// A character that DejaVu Sans lacks comes from another font, here its monospaced sister; one
+    /// that none has is named, and nothing is asked of the machine where all is known.
+    #[test]
+    fn characters_of_other_fonts() {
+        let named = |name: &str| picture().replace(">one<", &format!(">{name}<"));
+        let western = Letters::of(&named("Größe α 2×10⁻⁵ ж"), |_| panic!("asked"));
+        assert!(western.without_glyph.is_empty());
+        // A machine has ideas of its own about what a face without serifs is.
+        let more = |fonts: &mut Database| {
+            fonts.load_font_data(dejavu::sans_mono::regular().to_vec());
+            fonts.set_sans_serif_family("a font that is not there");
+        };
+        let arc = named("\u{2312}");
+        let (alone, helped) = (Letters::of(&arc, |_| {}), Letters::of(&arc, more));
+        assert_eq!(alone.without_glyph, BTreeSet::from(['\u{2312}']));
+        assert!(helped.without_glyph.is_empty());
+        let drawn = |letters: &Letters| png(&letters.tree(&arc).unwrap()).unwrap();
+        assert_ne!(drawn(&alone), drawn(&helped), "the glyph is drawn");
+        let texts = |letters: &Letters| ink(&letters.tree(&arc).unwrap());
+        let (alone, helped) = (texts(&alone), texts(&helped));
+        assert!(
+            10 * alone.abs_diff(helped) < alone,
+            "all other text is drawn: {alone} {helped}"
+        );
+        let bridge = Letters::of(&named("橋 \u{2312}"), more);
+        assert_eq!(bridge.without_glyph, BTreeSet::from(['橋']));
+        assert!(
+            PictureFormat::Svg
+                .of(&named("橋"))
+                .unwrap()
+                .without_glyph
+                .is_empty()
+        );
     }
 
     #[test]

@@ -7,6 +7,8 @@ use pounding_results::OpenError;
 use pounding_results::study::StudyFileError;
 use thiserror::Error;
 
+use crate::answer_file::AnswerFileError;
+
 /// Why a page could not be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
@@ -39,6 +41,9 @@ pub enum ReportError {
     /// The result of a study that cannot be read.
     #[error(transparent)]
     Study(StudyFileError),
+    /// The file of an answer that cannot be used.
+    #[error(transparent)]
+    Answer(#[from] AnswerFileError),
     /// A motion or spectrum that cannot be drawn.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
@@ -58,17 +63,18 @@ impl ReportError {
             Self::Unreadable { source, .. } => {
                 let help = source.help();
                 Some(
-                    help.unwrap_or("give the .h5 file that `pounding run` or a study has written; pages of other commands come from their option --report")
+                    help.unwrap_or("give the .h5 file that `pounding run` or a study has written, or the .json file of the option --output of `gap`, `compare` or `motion info`")
                         .to_owned(),
                 )
             }
             Self::NotAResult { .. } => {
-                Some("give the result of `pounding run`, `sweep`, `merge` or `ida`; pages of other commands come from their option --report".to_owned())
+                Some("give the result of `pounding run`, `sweep`, `merge` or `ida`, or the .json file of the option --output of `gap`, `compare` or `motion info`".to_owned())
             }
             Self::Damaged { .. } => Some(
                 "run the case again: its text stands in the file as the attribute `case`"
                     .to_owned(),
             ),
+            Self::Answer(error) => error.help(),
             Self::Motion(error) => error.help(),
             Self::Study(error) => Some(error.help().to_owned()),
             Self::Figure { .. } => None,

@@ -3,7 +3,7 @@
 //! [`RunResult`] reads what a run has written (`docs/reference/result-file.md`); [`page`] makes one
 //! HTML file of it, and of what studies answer, that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves for the command line as well. Values are SI as in the result
-//! file; the page shows them in the units that engineers write. [`documentation`] has the
+//! file; [`Answered`] is the file of what other commands answer; the page shows them in the units that engineers write. [`documentation`] has the
 //! reference pages of impact models and laws, and [`pictures`] draws what runs, studies,
 //! laboratories and motions show.
 
@@ -11,6 +11,7 @@ pub mod documentation;
 pub mod page;
 pub mod pictures;
 
+mod answer_file;
 mod chart;
 mod conversion;
 mod decimation;
@@ -20,8 +21,9 @@ mod loops;
 mod reading;
 mod result;
 
+pub use answer_file::{AnswerFileError, Answered, AnsweredCommand, SCHEMA_VERSION};
 pub use chart::{Chart, PAGE};
-pub use conversion::PictureFormat;
+pub use conversion::{Converted, PictureFormat};
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_with_references};
 pub use loops::cycle_cells;

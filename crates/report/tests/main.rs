@@ -1,4 +1,5 @@
 //! Pages, in one program.
 
+mod answer_file;
 mod page;
 mod studies;

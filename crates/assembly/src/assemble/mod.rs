@@ -163,6 +163,13 @@ impl Parts {
     }
 }
 
+/// The greatest period (s) of each building of a case, as it is before anything yields.
+pub(crate) fn fundamental_periods(case: &Case) -> Result<Vec<f64>, CaseError> {
+    let buildings = Parts::of(case)?.buildings;
+    let longest = |b: &Arc<ShearBuilding>| b.modes().period.iter().copied().fold(0.0, f64::max);
+    Ok(buildings.iter().map(longest).collect())
+}
+
 /// Columns that are hit beside floors that turn, or in buildings on isolators.
 fn columns_of_rigid_floors(case: &Case) -> Vec<CaseError> {
     let mut found = Vec::new();

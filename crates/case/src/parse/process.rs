@@ -18,7 +18,7 @@ use crate::document::{
     Signed, TableOr, Time,
 };
 use crate::error::{CaseError, Errors};
-use crate::types::{Located, SpectrumSource};
+use crate::types::{BandSource, Located};
 
 /// A text that holds nothing but steps.
 #[derive(Deserialize)]
@@ -207,7 +207,7 @@ impl<T: JsonSchema> JsonSchema for Words<T> {
 pub fn process_steps(
     source: &str,
     name: &str,
-) -> Result<Vec<Located<ProcessingStep<SpectrumSource>>>, CaseError> {
+) -> Result<Vec<Located<ProcessingStep<BandSource>>>, CaseError> {
     let errors = Errors::default();
     let reader = Reader {
         file: name,
@@ -223,7 +223,7 @@ impl Process {
     pub(super) fn read(
         self,
         reader: &Reader<'_>,
-    ) -> Option<Vec<Located<ProcessingStep<SpectrumSource>>>> {
+    ) -> Option<Vec<Located<ProcessingStep<BandSource>>>> {
         let made = |step: Field<Step>| {
             let step = step.located()?;
             Some(Located {
@@ -251,11 +251,7 @@ fn nothing<T>(
 
 impl Step {
     /// The step, which stands at `place`.
-    fn read(
-        self,
-        reader: &Reader<'_>,
-        place: &Range<usize>,
-    ) -> Option<ProcessingStep<SpectrumSource>> {
+    fn read(self, reader: &Reader<'_>, place: &Range<usize>) -> Option<ProcessingStep<BandSource>> {
         let or_zero = |time: Option<NotNegative<Time>>| time.map_or(0.0, f64::from);
         Some(match self {
             Self::TrueUnit(unit) => {

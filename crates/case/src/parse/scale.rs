@@ -13,12 +13,10 @@ use serde::Deserialize;
 use crate::document::{
     Acceleration, Fault, Kinds, Number, Positive, Ratio, Reader, TableOr, Time, Velocity,
 };
-use crate::types::{Located, SpectrumFile, SpectrumSource};
+use crate::types::{BandSource, Located, SpectrumFile, SpectrumSource};
 
 /// Damping ratio where none is given.
 const DAMPING: f64 = 0.05;
-/// Band of periods (s) of a code's spectrum where none is given.
-const BAND: (f64, f64) = (0.1, 3.0);
 
 /// A factor, or a table of one of the kinds.
 pub(super) type ScaleValue = TableOr<Kinds<ScaleTable>, Positive<Number>>;
@@ -74,9 +72,11 @@ pub(super) enum ScaleTable {
         s_d1: Option<Positive<Acceleration>>,
         /// T_L of ASCE 7, long-period transition (s)
         t_l: Option<Positive<Time>>,
-        /// First period of the band (s), by default 0.1
+        /// First period of the band (s), by default 0.2 times the smallest fundamental period of
+        /// the buildings
         from: Option<Positive<Time>>,
-        /// Last period of the band (s), by default 3
+        /// Last period of the band (s), by default twice the greatest fundamental period of the
+        /// buildings
         to: Option<Positive<Time>>,
         /// Damping ratio, by default 0.05, the only one of ASCE 7
         damping: Option<Ratio>,
@@ -148,7 +148,7 @@ pub(super) fn scale_of(
     reader: &Reader<'_>,
     value: ScaleValue,
     place: &Range<usize>,
-) -> Option<Scale<SpectrumSource>> {
+) -> Option<Scale<BandSource>> {
     let table = match value {
         TableOr::Value(factor) => return Some(Scale::Factor(factor.into())),
         TableOr::Table(Kinds(table)) => table,
@@ -172,14 +172,14 @@ pub(super) fn scale_of(
             from,
             to,
             damping,
-        } => Scale::Band {
-            target: SpectrumSource::File(SpectrumFile {
+        } => Scale::Band(BandSource {
+            spectrum: SpectrumSource::File(SpectrumFile {
                 file: target.into(),
                 damping: or_default(damping),
             }),
-            from: from.into(),
-            to: to.into(),
-        },
+            from: Some(from.into()),
+            to: Some(to.into()),
+        }),
         ScaleTable::Code {
             code,
             ag,
@@ -237,14 +237,14 @@ pub(super) fn scale_of(
                     })
                 }
             };
-            Scale::Band {
-                target: SpectrumSource::Code(Located {
+            Scale::Band(BandSource {
+                spectrum: SpectrumSource::Code(Located {
                     value: spectrum,
                     span: place.clone(),
                 }),
-                from: from.map_or(BAND.0, f64::from),
-                to: to.map_or(BAND.1, f64::from),
-            }
+                from: from.map(f64::from),
+                to: to.map(f64::from),
+            })
         }
     })
 }

@@ -463,9 +463,9 @@ pub struct GroundMotion {
     /// What becomes of the mean.
     pub offset: Offset,
     /// What is done to the record, in this order.
-    pub process: Vec<Located<ProcessingStep<SpectrumSource>>>,
+    pub process: Vec<Located<ProcessingStep<BandSource>>>,
     /// Scale, after that; `None`: as recorded.
-    pub scale: Option<Located<Scale<SpectrumSource>>>,
+    pub scale: Option<Located<Scale<BandSource>>>,
 }
 
 /// A turn of two components at right angles.
@@ -475,6 +475,17 @@ pub struct Rotation {
     pub second_component: Located<String>,
     /// Angle (degrees).
     pub angle: f64,
+}
+
+/// A spectrum to which a record is scaled, over a band of periods.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandSource {
+    /// The spectrum.
+    pub spectrum: SpectrumSource,
+    /// First period (s); `None` for that which the code asks for.
+    pub from: Option<f64>,
+    /// Last period (s), likewise.
+    pub to: Option<f64>,
 }
 
 /// A spectrum to which a record is scaled.

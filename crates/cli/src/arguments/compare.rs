@@ -38,6 +38,9 @@ pub struct CompareArguments {
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
+    /// Write the answer with its inputs and figures into this JSON file, of which `report` makes the page
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OutputPath>,
     /// Write a page of the answer into this HTML file
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,

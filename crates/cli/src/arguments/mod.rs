@@ -92,7 +92,7 @@ pub enum Command {
     Explore(ExploreArguments),
     /// Write one HTML page of a result: the answer, tables, figures, buildings in motion
     Report {
-        /// Result file of `run`, `sweep` or `merge` (HDF5)
+        /// Result file of `run`, `sweep`, `merge` or `ida` (.h5), or of --output of `gap`, `compare` or `motion info` (.json)
         result: InputPath,
         /// Page; by default the result's name with .html beside it
         #[arg(short, long)]

@@ -5,14 +5,14 @@ use std::path::Path;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
-use pounding_report::{ReportError, RunResult};
+use pounding_report::{Answered, ReportError, RunResult};
 use pounding_study::ResultReader;
 
 use crate::failure::Failure;
 use crate::files::name_left_over;
 use crate::output::{print, warn};
-use crate::page;
 use crate::separate::{Reading, reading, warnings};
+use crate::{page, plot};
 
 /// What is to have a page.
 pub struct Asked<'a> {
@@ -47,6 +47,9 @@ pub fn report(
             beside
         }
     };
+    if Answered::may_be(path) {
+        return of_answer(asked, &output);
+    }
     let read = [path.to_owned()];
     let without = match reading(&read, child)? {
         Reading::Here(without) => without,
@@ -64,12 +67,7 @@ pub fn report(
         }
         result => {
             let result = result.map_err(page::failed)?;
-            if asked.study.is_some() {
-                return Err(Failure::input(
-                    format!("{} is the result of a run, not of a study", path.display()),
-                    Some("leave --study away".to_owned()),
-                ));
-            }
+            no_study(asked, "the result of a run")?;
             page::write_run(&result, path, &output)?;
             let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
             let held = [
@@ -84,4 +82,27 @@ pub fn report(
         warnings(&read).iter().for_each(|text| warn(text));
     }
     print(&format!("{held}: page written to {}", output.display()))
+}
+
+/// The page of what another command has answered.
+fn of_answer(asked: &Asked<'_>, output: &Path) -> Result<(), Failure> {
+    let answered = Answered::read(asked.result).map_err(|e| page::failed(e.into()))?;
+    no_study(asked, "the answer of another command")?;
+    plot::write(output, &answered.page())?;
+    let command = answered.command.name();
+    print(&format!(
+        "answer of `pounding {command}`: page written to {}",
+        output.display()
+    ))
+}
+
+/// Refuses a study for what is no result of one.
+fn no_study(asked: &Asked<'_>, what: &str) -> Result<(), Failure> {
+    match asked.study {
+        None => Ok(()),
+        Some(_) => Err(Failure::input(
+            format!("{} is {what}, not of a study", asked.result.display()),
+            Some("leave --study away".to_owned()),
+        )),
+    }
 }

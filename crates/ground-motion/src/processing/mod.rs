@@ -11,7 +11,6 @@ mod window;
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, within};
 use crate::measures::GroundMotion;
-use crate::spectra::TargetSpectrum;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
@@ -20,7 +19,7 @@ pub use butterworth::{Butterworth, Phase};
 pub(crate) use components::common_length;
 pub use components::{RotatedPair, fault_components, rotate};
 pub use resampling::{Interpolation, to_even_steps};
-pub use scaling::{Scale, band_factor};
+pub use scaling::{BandTarget, Scale, band_factor};
 pub use window::Trim;
 
 /// What is taken off all samples.
@@ -34,9 +33,9 @@ pub enum OffsetCorrection {
     Value(f64),
 }
 
-/// One step of processing. `T` is the spectrum of a band, as in [`Scale`].
+/// One step of processing. `T` is a band with its spectrum, as in [`Scale`].
 #[derive(Debug, Clone, PartialEq)]
-pub enum ProcessingStep<T = TargetSpectrum> {
+pub enum ProcessingStep<T = BandTarget> {
     /// The values, taken as m/s2, are in truth in this unit.
     Unit(AccelerationUnit),
     /// Turns the sign.
@@ -84,7 +83,7 @@ pub struct Processed {
 }
 
 impl<T> ProcessingStep<T> {
-    /// The same step with the spectrum that it scales to in another form: see
+    /// The same step with the band that it scales over in another form: see
     /// [`Scale::with_target`].
     ///
     /// # Errors
@@ -113,7 +112,7 @@ impl<T> ProcessingStep<T> {
         })
     }
 
-    /// The spectrum that this step scales to.
+    /// The band that this step scales over, with its spectrum.
     #[must_use]
     pub fn target(&self) -> Option<&T> {
         match self {

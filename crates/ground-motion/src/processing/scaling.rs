@@ -12,9 +12,22 @@ const STEP: &str = "scale";
 /// Periods of a band, evenly spaced in their logarithm.
 const BAND_PERIODS: usize = 100;
 
-/// What a record is scaled to. `T` is the spectrum of a band: as read, or what names it.
+/// A spectrum to which a record comes near over a band of periods.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub enum Scale<T = TargetSpectrum> {
+pub struct BandTarget {
+    /// The spectrum, with its damping ratio.
+    pub spectrum: TargetSpectrum,
+    /// First period (s).
+    pub from: f64,
+    /// Last period (s).
+    pub to: f64,
+    /// Why these periods, for the user; empty where the user chose them.
+    pub reason: String,
+}
+
+/// What a record is scaled to. `T` is a band with its spectrum: as read, or what names it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub enum Scale<T = BandTarget> {
     /// By this factor.
     Factor(f64),
     /// To a peak ground acceleration (m/s2).
@@ -31,18 +44,11 @@ pub enum Scale<T = TargetSpectrum> {
         target: f64,
     },
     /// To a spectrum over a band of periods: see [`band_factor`].
-    Band {
-        /// The spectrum, with its damping ratio.
-        target: T,
-        /// First period (s).
-        from: f64,
-        /// Last period (s).
-        to: f64,
-    },
+    Band(T),
 }
 
 impl<T> Scale<T> {
-    /// The same scale with its spectrum made into another form, such as the one read from
+    /// The same scale with its band made into another form, such as the spectrum read from
     /// the file that `T` names.
     ///
     /// # Errors
@@ -61,23 +67,15 @@ impl<T> Scale<T> {
                 damping,
                 target,
             },
-            Self::Band {
-                ref target,
-                from,
-                to,
-            } => Scale::Band {
-                target: made(target)?,
-                from,
-                to,
-            },
+            Self::Band(ref target) => Scale::Band(made(target)?),
         })
     }
 
-    /// The spectrum of a band.
+    /// The band with its spectrum.
     #[must_use]
     pub fn target(&self) -> Option<&T> {
         match self {
-            Self::Band { target, .. } => Some(target),
+            Self::Band(target) => Some(target),
             _ => None,
         }
     }
@@ -106,8 +104,9 @@ impl Scale {
                 let spectrum = response_spectrum(record, &[*period], *damping, linear)?;
                 ratio(*target, spectrum.pseudo_acceleration[0])
             }
-            Self::Band { target, from, to } => {
-                band_factor(std::slice::from_ref(record), target, *from, *to)
+            Self::Band(band) => {
+                let record = std::slice::from_ref(record);
+                band_factor(record, &band.spectrum, band.from, band.to)
             }
         }
     }
@@ -130,15 +129,19 @@ impl Scale {
                 .number("pseudo-acceleration", *target, "m/s2")
                 .number("period", *period, "s")
                 .number("damping ratio", *damping, "-"),
-            Self::Band { target, from, to } => step
-                .number("first period", *from, "s")
-                .number("last period", *to, "s")
-                .number("damping ratio", target.damping(), "-")
+            Self::Band(band) => step
+                .number("first period", band.from, "s")
+                .number("last period", band.to, "s")
+                .number("damping ratio", band.spectrum.damping(), "-")
                 .remark(format!(
-                    "to {}: least squares of the logarithm at {BAND_PERIODS} periods",
-                    match target.name() {
+                    "to {}: least squares of the logarithm at {BAND_PERIODS} periods{}",
+                    match band.spectrum.name() {
                         "" => "a spectrum",
                         name => name,
+                    },
+                    match band.reason.as_str() {
+                        "" => String::new(),
+                        reason => format!("; {reason}"),
                     }
                 )),
         };

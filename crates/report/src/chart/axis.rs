@@ -1,7 +1,10 @@
 //! Axes: ranges, ticks and their labels.
 
+use serde::{Deserialize, Serialize};
+
 /// How an axis divides its range.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Scale {
     /// Evenly; zero is in the range.
     Linear,
@@ -12,7 +15,7 @@ pub enum Scale {
 }
 
 /// An axis before its range is known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// Quantity and unit.
     pub label: String,

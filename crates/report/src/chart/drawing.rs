@@ -2,15 +2,21 @@
 
 use std::fmt::Write as _;
 
-use super::axis::Range;
+use super::axis::{Range, Scale};
 use super::look::{Look, Marker};
 use super::{Chart, LimitPlace, Plot};
 
+/// Faces of text, for whoever shows the picture.
+pub(crate) const FACES: &str = "Helvetica, Arial, sans-serif";
 /// Size of text (pt).
 const TEXT: f64 = 8.5;
 /// Width of a letter over the size of the text: no letter of a sentence in a usual sans-serif
 /// face is wider on average.
 const LETTER: f64 = 0.58;
+/// Width of the name of a model over what a text of as many letters takes in a sentence.
+const NAMES: f64 = 1.1;
+/// Part of the width that labels of the vertical axis take at most.
+const MOST_OF_NAMES: f64 = 0.62;
 /// Distance of lines of text (pt).
 const LINE: f64 = 11.5;
 /// Sample of a line in the legend (pt).
@@ -86,7 +92,12 @@ impl<'c> Picture<'c> {
         let label = |plot: &Plot| {
             let range = vertical_range(plot);
             let ticks = range.ticks(ticks_of(plot.height));
-            let widest = ticks.iter().map(|(_, label)| width_of(label));
+            // Names of few narrow letters are wider than sentences, and none is cut.
+            let part = match plot.vertical.scale {
+                Scale::Names(_) => NAMES,
+                _ => 1.0,
+            };
+            let widest = ticks.iter().map(|(_, label)| part * width_of(label));
             let title = if plot.vertical.label.is_empty() {
                 0.0
             } else {
@@ -98,7 +109,7 @@ impl<'c> Picture<'c> {
         Self {
             chart,
             shared,
-            left: SPACE + widest.min(0.45 * chart.width) + TICK + 3.0,
+            left: SPACE + widest.min(MOST_OF_NAMES * chart.width) + TICK + 3.0,
         }
     }
 
@@ -120,7 +131,7 @@ impl<'c> Picture<'c> {
         let height = chart.height.unwrap_or(y + 1.0);
         let width = chart.width;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{TEXT}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"{FACES}\" font-size=\"{TEXT}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
             chart.stated_width
         )
     }

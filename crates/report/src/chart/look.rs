@@ -1,5 +1,9 @@
 //! How curves look: told apart by dash, width and marker, and by colour besides.
 
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
 /// Colours in turn, of different lightness, all dark enough on white.
 const COLOURS: [&str; 7] = [
     "#10437f", "#c8502a", "#2d8a4e", "#8a5bb0", "#a47d00", "#0e8fa0", "#7a2f4a",
@@ -18,7 +22,8 @@ const DASHES: [&str; 7] = [
 const WIDTHS: [f64; 7] = [0.9, 1.1, 1.4, 1.0, 1.2, 0.9, 1.3];
 
 /// A shape at points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Marker {
     /// None.
     Nothing,
@@ -29,12 +34,12 @@ pub enum Marker {
 }
 
 /// How a curve is drawn.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Look {
-    /// Colour.
-    pub colour: &'static str,
+    /// Colour: `#` and six hexadecimal digits.
+    pub colour: Cow<'static, str>,
     /// Dashes and spaces (pt), empty for a solid line; `None` draws no line.
-    pub dash: Option<&'static str>,
+    pub dash: Option<Cow<'static, str>>,
     /// Width (pt).
     pub width: f64,
     /// Shape at the points.
@@ -48,8 +53,8 @@ impl Look {
     pub fn line(number: usize) -> Self {
         let turn = number / COLOURS.len();
         Self {
-            colour: COLOURS[number % COLOURS.len()],
-            dash: Some(DASHES[number % DASHES.len()]),
+            colour: COLOURS[number % COLOURS.len()].into(),
+            dash: Some(DASHES[number % DASHES.len()].into()),
             width: WIDTHS[number % WIDTHS.len()],
             marker: match turn {
                 0 => Marker::Nothing,
@@ -81,8 +86,8 @@ impl Look {
     /// markers.
     pub fn reference(number: usize) -> Self {
         Self {
-            colour: "#000000",
-            dash: Some("6 2.4"),
+            colour: "#000000".into(),
+            dash: Some("6 2.4".into()),
             width: 1.6,
             marker: match number {
                 0 => Marker::Nothing,
@@ -95,8 +100,8 @@ impl Look {
     /// One of many lines, of which none is to be told from the others.
     pub fn one_of_many() -> Self {
         Self {
-            colour: "#9a9a9a",
-            dash: Some(""),
+            colour: "#9a9a9a".into(),
+            dash: Some("".into()),
             width: 0.45,
             marker: Marker::Nothing,
             few_markers: true,
@@ -106,8 +111,8 @@ impl Look {
     /// What stands for many lines.
     pub fn summary(dash: &'static str) -> Self {
         Self {
-            colour: "#000000",
-            dash: Some(dash),
+            colour: "#000000".into(),
+            dash: Some(dash.into()),
             width: 1.5,
             marker: Marker::Nothing,
             few_markers: true,
@@ -117,17 +122,29 @@ impl Look {
     /// A limit across the panel: dotted and thin, else thicker than any line.
     pub fn limit(dash: &'static str) -> Self {
         Self {
-            colour: "#000000",
-            dash: Some(dash),
+            colour: "#000000".into(),
+            dash: Some(dash.into()),
             width: if dash.starts_with('1') { 0.9 } else { 1.5 },
             marker: Marker::Nothing,
             few_markers: true,
         }
     }
 
+    /// Whether it can be drawn as it was read: a colour, lengths of dashes and a width, which
+    /// stand in the picture as they are.
+    pub fn is_drawable(&self) -> bool {
+        let digits = |text: &str| text.chars().all(|c| c.is_ascii_hexdigit());
+        let colour = self.colour.strip_prefix('#');
+        let length = |c: char| c.is_ascii_digit() || c == '.' || c == ' ';
+        let dash = self.dash.as_deref().unwrap_or_default();
+        colour.is_some_and(|c| c.len() == 6 && digits(c))
+            && dash.chars().all(length)
+            && (0.0..=10.0).contains(&self.width)
+    }
+
     /// The line of this look as attributes of SVG.
     pub fn stroke(&self) -> String {
-        let dash = match self.dash {
+        let dash = match self.dash.as_deref() {
             None | Some("") => String::new(),
             Some(dash) => format!(" stroke-dasharray=\"{dash}\""),
         };
@@ -146,7 +163,7 @@ impl Look {
         let fill = if number >= 5 || number % 2 == 1 {
             "#ffffff"
         } else {
-            self.colour
+            &self.colour
         };
         let style = format!(
             "fill=\"{fill}\" stroke=\"{}\" stroke-width=\"0.8\"",
@@ -179,7 +196,7 @@ mod tests {
         let grey = |number| {
             let look = Look::line(number);
             (
-                look.dash,
+                look.dash.clone(),
                 look.width.to_bits(),
                 format!("{:?}", look.marker),
             )

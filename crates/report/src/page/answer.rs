@@ -157,6 +157,13 @@ impl<'a> Answer<'a> {
     }
 }
 
+/// The name of a quantity as people say it.
+pub(super) fn spoken(name: &str) -> String {
+    let name = name.replace('_', " ");
+    let name = name.replace("acceleration absolute", "absolute acceleration");
+    name.replace("impulse max", "maximum impulse")
+}
+
 /// The factor from SI to the unit that people read, and that unit; empty for pure numbers.
 pub(super) fn unit_of(unit: &str) -> (f64, &str) {
     match numbers::shown_unit(unit) {

@@ -3,13 +3,13 @@
 use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
-use super::answer::{Answer, in_parentheses, unit_of};
+use super::answer::{Answer, in_parentheses, spoken, unit_of};
 use super::html::{escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
 
 /// Quantities side by side in a table of values.
-const BESIDE: usize = 7;
+const BESIDE: usize = 8;
 /// Records whose values have a table.
 const TABLES: usize = 7;
 
@@ -75,7 +75,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         let at = format!("/quantities/{q}");
         let mut sentence = format!(
             "Models lie furthest apart in {} of {}: by {} %",
-            escaped(&answer.text(&format!("{at}/name")).replace('_', " ")),
+            escaped(&spoken(answer.text(&format!("{at}/name")))),
             answer.quote(&format!("{at}/of")),
             answer.say(&format!("{at}/spread/between_models"), 1.0e2),
         );
@@ -118,17 +118,14 @@ fn conclusions(answer: Answer<'_>) -> String {
     let heads = all
         .iter()
         .map(|c| c["statement"].as_str().unwrap_or_default());
-    format!(
-        "<div class=\"words\">\n{}</div>\n",
-        answer.table("Conclusions", &columns, rows(heads))
-    )
+    answer.table("Conclusions", &columns, rows(heads))
 }
 
 /// Heads of the rows of quantities, with the units that people read.
 fn quantities(answer: Answer<'_>) -> Vec<(String, String)> {
     let head = |(i, q): (usize, &Value)| {
         let text = |key: &str| q[key].as_str().unwrap_or_default();
-        let what = text("name").replace('_', " ");
+        let what = spoken(text("name"));
         let head = format!("{what}, {}{}", text("of"), in_parentheses(text("unit")));
         (i.to_string(), head)
     };
@@ -169,7 +166,7 @@ fn values(answer: Answer<'_>) -> String {
         let column = |q: &usize| {
             let text = |key: &str| answer.text(&format!("/quantities/{q}/{key}"));
             let (factor, _) = unit_of(text("unit"));
-            let what = text("name").replace('_', " ") + &in_parentheses(text("unit"));
+            let what = spoken(text("name")) + &in_parentheses(text("unit"));
             let column = match text("name") {
                 "impacts" => Column::count_of(what, of(*q)),
                 _ => Column::of(what, of(*q), factor),
@@ -190,7 +187,7 @@ fn values(answer: Answer<'_>) -> String {
             .is_finite()
     };
     let isolated: Vec<usize> = all.iter().filter(known).copied().collect();
-    for chunk in isolated.chunks(BESIDE) {
+    for chunk in &beside(answer, &isolated) {
         let columns = columns(&|q| format!("/quantities/{q}/isolated/*"), "record", chunk);
         out.push_str(&answer.table("Without pounding", &columns, rows(records.iter().copied())));
     }
@@ -199,7 +196,7 @@ fn values(answer: Answer<'_>) -> String {
             "<h3>With pounding, under {}</h3>\n",
             escaped(record)
         ));
-        for chunk in all.chunks(BESIDE) {
+        for chunk in &beside(answer, &all) {
             let columns = columns(&|q| format!("/quantities/{q}/values/*/{r}"), "model", chunk);
             out.push_str(&answer.table(record, &columns, rows(models.iter().copied())));
         }
@@ -211,6 +208,22 @@ fn values(answer: Answer<'_>) -> String {
         )));
     }
     out
+}
+
+/// Quantities in parts for tables beside one another: those of a building or of a gap stay
+/// together as long as there is room for them.
+fn beside(answer: Answer<'_>, quantities: &[usize]) -> Vec<Vec<usize>> {
+    let of = |q: &usize| answer.text(&format!("/quantities/{q}/of"));
+    let mut parts: Vec<Vec<usize>> = Vec::new();
+    for group in quantities.chunk_by(|a, b| of(a) == of(b)) {
+        for few in group.chunks(BESIDE) {
+            match parts.last_mut() {
+                Some(part) if part.len() + few.len() <= BESIDE => part.extend(few),
+                _ => parts.push(few.to_vec()),
+            }
+        }
+    }
+    parts
 }
 
 fn models(answer: Answer<'_>) -> String {
@@ -229,19 +242,13 @@ fn models(answer: Answer<'_>) -> String {
         Column::new("gap"),
         Column::of("approach (m/s)", "/references/*/approach_velocity", 1.0),
         Column::of("effective mass (t)", "/references/*/effective_mass", 1.0e-3),
-        Column::of("stiffness (N/m^n)", "/references/*/stiffness", 1.0),
+        Column::of("stiffness (N/m\u{207f})", "/references/*/stiffness", 1.0),
         Column::of("exponent n", "/references/*/exponent", 1.0),
         Column::of("restitution", "/references/*/restitution", 1.0),
     ];
     let gaps = answer.list("/gaps").iter().map(name);
-    let mut out = format!(
-        "<div class=\"words\">\n{}</div>\n",
-        answer.table(
-            "Models",
-            &columns,
-            rows(answer.list("/models").iter().map(name))
-        )
-    );
+    let heads = answer.list("/models").iter().map(name);
+    let mut out = answer.table("Models", &columns, rows(heads));
     if answer.list("/gaps").len() > 1 {
         out.push_str(&note(
             "In the first gap; the others are in the output of --json.",

@@ -1,5 +1,6 @@
 //! The page of a gap check.
 
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
@@ -7,6 +8,9 @@ use super::answer::Answer;
 use super::html::{JUMPS, escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
+
+/// Name of the picture of the widths that were tried; all others are of the records.
+const WIDTHS: &str = "widths";
 
 /// The page of what `gap --json` prints.
 #[must_use]
@@ -26,7 +30,7 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     );
     for g in 0..gaps {
         let title = format!("Gap {}", answer.text(&format!("/gaps/{g}/name")));
-        body.push_str(&section(&title, &(demand(answer, g) + &rules(answer, g))));
+        body.push_str(&section(&title, &demand(answer, g)));
     }
     body.push_str(&section(
         "With pounding at the provided gap",
@@ -37,10 +41,21 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
             "Peaks with pounding over those of the isolated buildings at many widths, the maximum over \
              storeys and records: a gap a little too small can be worse than none.",
         );
-        let inside = inside + &pictures(drawn) + &swept(answer);
+        let inside = inside + &pictures(drawn.iter().filter(|p| p.name == WIDTHS)) + &swept(answer);
         body.push_str(&section("Other widths", &inside));
     }
-    body.push_str(&section("Records", &records(answer)));
+    let spectra = pictures(drawn.iter().filter(|p| p.name != WIDTHS));
+    body.push_str(&section(
+        "Records",
+        &(records(answer) + &scaled(answer) + &spectra),
+    ));
+    for g in 0..gaps {
+        let name = answer.text(&format!("/gaps/{g}/name"));
+        body.push_str(&section(
+            &format!("Gap {name} by every rule"),
+            &rules(answer, g),
+        ));
+    }
     inputs.page(&body)
 }
 
@@ -61,13 +76,17 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     if answer.at(&code).is_object() {
         // Its own answer: what the records say without it stands below.
         let satisfied = answer.at(&at("code/satisfied")).as_bool();
+        let edition = answer.quote(&at("code/edition"));
+        let said = match satisfied {
+            Some(yes) => format!("By {edition} gap {name} {}.", word(yes)),
+            None => format!("{edition} gives no answer for gap {name}."),
+        };
         points.push(format!(
-            "<strong>By {} gap {name} {}.</strong> Demand of the suite by its rule ({}): {} mm.",
-            answer.quote(&at("code/edition")),
-            satisfied.map_or("has no answer", word),
+            "<strong>{said}</strong> Demand of the suite by its rule ({}): {} mm.",
             answer.quote(&at("code/statistic")),
             answer.say(&at("code/demand"), 1.0e3),
         ));
+        points.push(statistic(answer, &at("code")));
         for c in 0..answer.list(&at("code/cases")).len() {
             let case = format!("{code}/cases/{c}");
             let ownership = match answer.text(&format!("{case}/ownership")) {
@@ -115,7 +134,7 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 answer.quote(&format!("{rule}/source")),
             ));
             points.push(format!(
-                "{ownership}the rule takes for granted: {}.",
+                "{ownership}what the rule takes for granted &ndash; {}.",
                 taken(answer, &format!("{rule}/assumptions"))
             ));
         }
@@ -137,22 +156,6 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 "The case states who owns the ground: {stated} decides."
             ));
         }
-        let rule = answer.quote(&at("code/statistic_rule"));
-        let rule = match answer.text(&at("code/statistic_clause")) {
-            "" => format!("Many records: {rule}."),
-            clause => format!(
-                "The code takes {rule} ({}, {}).",
-                escaped(clause),
-                answer.quote(&at("code/statistic_status")),
-            ),
-        };
-        let few = match answer.at(&at("code/enough_records")).as_bool() {
-            Some(false) => {
-                " There are fewer records than it asks for: the widths are no answer by the code."
-            }
-            _ => "",
-        };
-        points.push(format!("{rule}{few}"));
         let satisfied = answer.at(&at("code/satisfied")).as_bool();
         let contacts = answer.at(&at("records_in_contact")).as_u64();
         if satisfied == Some(true) && contacts.is_some_and(|count| count > 0) {
@@ -204,6 +207,26 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     points
 }
 
+/// Which statistic of the suite decides by a code, and whether there are records enough.
+fn statistic(answer: Answer<'_>, code: &str) -> String {
+    let rule = answer.quote(&format!("{code}/statistic_rule"));
+    let rule = match answer.text(&format!("{code}/statistic_clause")) {
+        "" => format!("Many records: {rule}."),
+        clause => format!(
+            "The code takes {rule} ({}, {}).",
+            escaped(clause),
+            answer.quote(&format!("{code}/statistic_status")),
+        ),
+    };
+    let few = match answer.at(&format!("{code}/enough_records")).as_bool() {
+        Some(false) => {
+            " There are fewer records than it asks for: the widths are no answer by the code."
+        }
+        _ => "",
+    };
+    format!("{rule}{few}")
+}
+
 /// What a rule takes for granted, in a sentence.
 fn taken(answer: Answer<'_>, of: &str) -> String {
     let mut parts: Vec<String> = ["displacement", "height", "ownership", "alignment"]
@@ -228,6 +251,17 @@ fn failures(answer: Answer<'_>) -> Vec<String> {
     failed.collect()
 }
 
+/// Statistics of a suite in the order in which people read them.
+const STATISTICS: [&str; 7] = [
+    "minimum",
+    "p16",
+    "median",
+    "p84",
+    "maximum",
+    "mean",
+    "standard_deviation",
+];
+
 /// Demand by level and by record.
 fn demand(answer: Answer<'_>, g: usize) -> String {
     let of = format!("/gaps/{g}/levels");
@@ -250,7 +284,9 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
     ];
     let statistics = format!("/gaps/{g}/suite");
     let mut suite = String::new();
-    if let Some(known) = answer.at(&statistics).as_object() {
+    // Of a single record all are the same.
+    let several = answer.list("/records").len() > 1;
+    if let Some(known) = answer.at(&statistics).as_object().filter(|_| several) {
         let columns = [
             Column::new("over the records"),
             Column::of("demand (mm)", format!("{statistics}/*"), 1.0e3),
@@ -259,7 +295,8 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
             Some(percent) if percent.parse::<u8>().is_ok() => format!("{percent} % fractile"),
             _ => key.replace('_', " "),
         };
-        let rows = known.keys().map(|key| (key.clone(), word(key)));
+        let ordered = STATISTICS.iter().filter(|key| known.contains_key(**key));
+        let rows = ordered.map(|key| ((*key).to_owned(), word(key)));
         suite = answer.table("Demand over the records", &columns, rows);
     }
     let heads = levels
@@ -297,7 +334,10 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
         ),
         Column::words_of("provided reaches it", format!("{of}/*/satisfied")),
         Column::words_of("status", format!("{of}/*/status")),
-        Column::words_of("seen, or uncertain", format!("{of}/*/source")),
+        Column::words_of(
+            "what was seen, or is not verified",
+            format!("{of}/*/source"),
+        ),
     ]);
     let all = answer.list(&of);
     let speaks = |i: &usize| all[*i]["refusal"].is_null();
@@ -386,15 +426,18 @@ fn disputed(answer: Answer<'_>, of: &str) -> String {
     }
 }
 
+/// What is said above ratios of peaks.
+const RATIO: &str = "with pounding / isolated (-)";
+
 /// Maximum amplifications at the provided gap, by building.
 fn provided(answer: Answer<'_>) -> String {
     let buildings = answer.list("/records/0/isolated");
     let of = |quantity: &str| format!("maximum /records/+/amplification/*/+/{quantity}");
     let columns = [
         Column::new("building"),
-        Column::of("displacement", of("displacement"), 1.0),
-        Column::of("storey shear", of("storey_shear"), 1.0),
-        Column::of("absolute acceleration", of("acceleration_absolute"), 1.0),
+        Column::of("displacement", of("displacement"), 1.0).below(RATIO),
+        Column::of("storey shear", of("storey_shear"), 1.0).below(RATIO),
+        Column::of("absolute acceleration", of("acceleration_absolute"), 1.0).below(RATIO),
     ];
     let heads = buildings
         .iter()
@@ -434,13 +477,13 @@ fn swept(answer: Answer<'_>) -> String {
             ("acceleration", "acceleration_absolute"),
         ] {
             let from = format!("maximum /sweep/runs/*/+/amplification/{b}/+/{quantity}");
-            columns.push(Column::of(heading, from, 1.0).below(name));
+            columns.push(Column::of(heading, from, 1.0).below(format!("{name}, {RATIO}")));
         }
     }
     columns.extend([
-        Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below("most of a record"),
+        Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below("maximum over records"),
         Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3)
-            .below("most of a record"),
+            .below("maximum over records"),
     ]);
     let every = widths.div_ceil(ROWS);
     let shown = (0..widths).step_by(every);
@@ -452,13 +495,38 @@ fn swept(answer: Answer<'_>) -> String {
     }
 }
 
+/// To which spectrum the records are scaled, over which periods, and how near they come.
+fn scaled(answer: Answer<'_>) -> String {
+    let target = "/spectra/target";
+    if !answer.at(target).is_object() {
+        return String::new();
+    }
+    let say = |path: &str| answer.say(&format!("{target}/{path}"), 1.0);
+    let reason = match answer.text(&format!("{target}/band_reason")) {
+        "" => String::new(),
+        reason => format!(" ({})", escaped(reason)),
+    };
+    let text = format!(
+        "The records are scaled to {} from {} to {} s{reason}, by least squares of the logarithm: their mean \
+         spectrum is {} (at {} s) to {} (at {} s) of it.",
+        answer.quote(&format!("{target}/name")),
+        say("from"),
+        say("to"),
+        say("least_ratio_of_mean"),
+        say("period_of_least_ratio"),
+        say("greatest_ratio_of_mean"),
+        say("period_of_greatest_ratio"),
+    );
+    format!("<p>{text}</p>\n")
+}
+
 fn records(answer: Answer<'_>) -> String {
     let mut columns = vec![
         Column::new("record"),
         Column::of(
-            "peak ground acceleration (m/s\u{b2})",
+            "peak ground acceleration (g)",
             "/records/*/peak_ground_acceleration",
-            1.0,
+            1.0 / STANDARD_GRAVITY,
         ),
     ];
     if !answer.at("/records/0/factor").is_null() {
@@ -466,7 +534,14 @@ fn records(answer: Answer<'_>) -> String {
     }
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let name = gap["name"].as_str().unwrap_or_default();
-        columns.push(Column::of(name, format!("/gaps/{g}/demand/*"), 1.0e3).below("demand (mm)"));
+        let above = format!("demand of {name}");
+        columns.push(Column::of("(mm)", format!("/gaps/{g}/demand/*"), 1.0e3).below(&above));
+        let governing = answer.at(&format!("/gaps/{g}/governing_level")).as_u64();
+        let level = governing.map_or(0, |level| level.saturating_sub(1));
+        let of_level = format!("/gaps/{g}/levels/{level}");
+        let place = answer.text(&format!("{of_level}/level"));
+        let time = format!("time at level {place} (s)");
+        columns.push(Column::of(time, format!("{of_level}/demand/*/time"), 1.0).below(&above));
     }
     columns.push(Column::of("impacts", "sum /records/*/impacts/+/+", 1.0));
     let list = answer.list("/records");

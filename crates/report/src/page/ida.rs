@@ -4,7 +4,7 @@ use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::wording::counted;
 use serde_json::Value;
 
-use super::answer::{Answer, in_parentheses, unit_of};
+use super::answer::{Answer, in_parentheses, spoken, unit_of};
 use super::html::{escaped, note, section, sentences, warnings};
 use super::numbers::figures;
 use super::studies::{Inputs, Picture, pictures, rows};
@@ -79,8 +79,15 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
             ));
         }
         if !answer.at(&at("mean_annual_frequency_bounds")).is_null() {
+            let confidence = match answer.at(&at("fit/confidence")).is_null() {
+                true => String::new(),
+                false => format!(
+                    " at {} confidence",
+                    answer.say_percent(&at("fit/confidence"))
+                ),
+            };
             sentence.push_str(&format!(
-                " ({} to {}, by a bootstrap over the records)",
+                " ({} to {}{confidence}, by a bootstrap over the records)",
                 answer.say(&at("mean_annual_frequency_bounds/0"), 1.0),
                 answer.say(&at("mean_annual_frequency_bounds/1"), 1.0)
             ));
@@ -144,7 +151,8 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
         Column::of("from", of("fit/dispersion_bounds/0"), 1.0).below("dispersion"),
         Column::of("to", of("fit/dispersion_bounds/1"), 1.0).below("dispersion"),
     ]);
-    if states.iter().any(|s| !s["goodness_of_fit"].is_null()) {
+    let tested = states.iter().any(|s| !s["goodness_of_fit"].is_null());
+    if tested {
         let test = "Pearson's test of the fit";
         columns.extend([
             Column::of("p-value", of("goodness_of_fit/p_value"), 1.0).below(test),
@@ -172,11 +180,14 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
     let heads = states
         .iter()
         .map(|s| s["name"].as_str().unwrap_or_default());
-    answer.table("Fragility", &columns, rows(heads))
-        + &note(
-            "From and to: bounds at the confidence of the study. The distance is that between the curve and the \
-             share of runs that reach the state.",
-        )
+    let distance = match tested {
+        true => {
+            " The distance is that between the curve and the share of runs that reach the state."
+        }
+        false => "",
+    };
+    let bounds = format!("From and to: bounds at the confidence of the study.{distance}");
+    answer.table("Fragility", &columns, rows(heads)) + &note(&bounds)
 }
 
 /// How often states were reached, by intensity.
@@ -235,7 +246,7 @@ fn demands(answer: Answer<'_>) -> String {
         for (d, demand) in chunk.iter().enumerate() {
             let text = |key: &str| demand[key].as_str().unwrap_or_default();
             let (factor, _) = unit_of(text("unit"));
-            let head = text("name").replace('_', " ") + &in_parentheses(text("unit"));
+            let head = spoken(text("name")) + &in_parentheses(text("unit"));
             for (word, key) in [("16 %", "p16"), ("50 %", "p50"), ("84 %", "p84")] {
                 let from = format!("/levels/*/demands/{}/{key}", first * BESIDE + d);
                 columns.push(Column::of(word, from, factor).below(&head));

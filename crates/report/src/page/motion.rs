@@ -12,11 +12,11 @@ use super::table::Column;
 /// Measures: words with unit, path below `measures`.
 const MEASURES: [(&str, &str); 21] = [
     ("peak acceleration PGA (g)", "peak_acceleration/value"),
-    ("at (s)", "peak_acceleration/time"),
+    ("time of PGA (s)", "peak_acceleration/time"),
     ("peak velocity PGV (cm/s)", "peak_velocity/value"),
-    ("at (s)", "peak_velocity/time"),
+    ("time of PGV (s)", "peak_velocity/time"),
     ("peak displacement PGD (cm)", "peak_displacement/value"),
-    ("at (s)", "peak_displacement/time"),
+    ("time of PGD (s)", "peak_displacement/time"),
     ("Arias intensity (m/s)", "arias_intensity"),
     (
         "cumulative absolute velocity (m/s)",
@@ -77,9 +77,12 @@ pub fn motion(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
                 continue;
             }
             points.push(format!(
-                "<strong>{}, {}:</strong> peak {} g at {} s; 5 to 95 % of its Arias intensity of {} m/s {}.",
+                "<strong>{}{}:</strong> peak {} g at {} s; 5 to 95 % of its Arias intensity of {} m/s {}.",
                 escaped(base(name)),
-                escaped(one["component"].as_str().unwrap_or_default()),
+                match one["component"].as_str().unwrap_or_default() {
+                    "" => String::new(),
+                    component => format!(", {}", escaped(component)),
+                },
                 answer.say(&format!("{at}/measures/peak_acceleration/value"), 1.0 / STANDARD_GRAVITY),
                 answer.say(&format!("{at}/measures/peak_acceleration/time"), 1.0),
                 answer.say(&format!("{at}/measures/arias_intensity"), 1.0),
@@ -149,10 +152,11 @@ fn of_file(answer: Answer<'_>, f: usize, file: &Value, series: &[Value]) -> Stri
         .collect();
     for s in &measured {
         let of = |path: &str| format!("/files/{f}/series/{s}/measures/{path}");
-        out.push_str(&format!(
-            "<h3>Measures of {}</h3>\n",
-            escaped(&head(&series[*s]))
-        ));
+        let of_component = match head(&series[*s]).as_str() {
+            "" => String::new(),
+            component => format!(" of {}", escaped(component)),
+        };
+        out.push_str(&format!("<h3>Measures{of_component}</h3>\n"));
         // One row for each measure, whose path stands for `*`.
         let columns = [
             Column::new("measure"),

@@ -1,20 +1,74 @@
 //! What pages of commands with many runs have in common.
 
+use serde::{Deserialize, Serialize};
+
 use super::document::{Document, listing};
 use super::html::{figure, section};
 use super::table::facts;
+use crate::chart::{Chart, Plot};
 
-/// A picture that a command has drawn, and what it shows in words.
-#[derive(Debug, Clone)]
+/// Height of a figure (pt) that a sheet has room for below a heading, and what a plot takes beside its
+/// axes for heading, legend and labels.
+const HIGHEST: f64 = 560.0;
+const AROUND: f64 = 55.0;
+
+/// A picture of a page, and what it shows in words.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
-    /// SVG.
-    pub svg: String,
+    /// What it is called, by which a page finds the place of it.
+    pub(super) name: String,
     /// For those who do not see it.
-    pub words: String,
+    words: String,
+    /// What is drawn.
+    plots: Vec<Plot>,
+}
+
+impl Picture {
+    /// A chart that is as wide as a page.
+    #[must_use]
+    pub fn of(name: &str, words: &str, chart: Chart) -> Self {
+        Self {
+            name: name.to_owned(),
+            words: words.to_owned(),
+            plots: chart.plots,
+        }
+    }
+
+    /// Its figures: plots that fit below one another stand in one.
+    fn figures(&self) -> String {
+        let mut parts: Vec<Vec<Plot>> = Vec::new();
+        let mut free = 0.0;
+        for plot in &self.plots {
+            let needed = plot.height + AROUND;
+            match parts.last_mut() {
+                Some(part) if needed <= free => part.push(plot.clone()),
+                _ => {
+                    parts.push(vec![plot.clone()]);
+                    free = HIGHEST;
+                }
+            }
+            free -= needed;
+        }
+        let several = parts.len() > 1;
+        let parts = parts.into_iter().map(|plots| {
+            let mut words = self.words.clone();
+            if several {
+                let headings: Vec<&str> = plots.iter().map(|p| p.heading.as_str()).collect();
+                words = format!("{words}: {}", headings.join("; "));
+            }
+            figure(&Chart::of_page(plots).svg(), &words)
+        });
+        parts.collect()
+    }
+
+    /// Whether it can be drawn: one that stands in a file may hold anything.
+    pub(crate) fn is_drawable(&self) -> bool {
+        Chart::of_page(self.plots.clone()).is_drawable()
+    }
 }
 
 /// What a page says of its inputs beside the answer.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inputs {
     /// Title of the case or study.
     pub title: String,
@@ -52,10 +106,9 @@ impl Inputs {
     }
 }
 
-/// Pictures one below the other.
-pub(super) fn pictures(pictures: &[Picture]) -> String {
-    let drawn = pictures.iter().map(|p| figure(&p.svg, &p.words));
-    drawn.collect()
+/// Pictures one below the other, each in parts that a sheet of paper has room for.
+pub(super) fn pictures<'p>(pictures: impl IntoIterator<Item = &'p Picture>) -> String {
+    pictures.into_iter().map(Picture::figures).collect()
 }
 
 /// Rows of a table: the places of a list with their heads.

@@ -18,8 +18,8 @@ const BLOCK: usize = 4096;
 const LISTED: usize = 20;
 /// Parts of the range of a variable that a curve has a point for.
 const PARTS: usize = 24;
-/// Size of a figure (pixels).
-const SIZE: (u32, u32) = (1100, 280);
+/// Size of a panel (pixels), as wide as a page.
+const SIZE: (u32, u32) = (718, 230);
 /// Quantities that have figures: of the run's levels or storeys the greatest.
 const DRAWN: [&str; 4] = [
     "impacts",
@@ -233,7 +233,12 @@ fn variables(result: &ResultReader, runs: &Runs) -> String {
             Some(choices) => choices.join(", "),
             None => {
                 let ends = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
-                format!("{} to {} {}", figures(ends[0]), figures(ends[1]), c.unit)
+                let unit = match c.unit.as_str() {
+                    "1" | "-" => "",
+                    unit => unit,
+                };
+                let range = format!("{} to {} {unit}", figures(ends[0]), figures(ends[1]));
+                range.trim_end().to_owned()
             }
         };
         Row::new(

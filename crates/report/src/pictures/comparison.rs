@@ -36,7 +36,7 @@ pub fn peak_ratios(c: &Comparison) -> Chart {
                         name: String::new(),
                         points: vec![(*least, row), (*most, row)],
                         look: Look {
-                            dash: Some(""),
+                            dash: Some("".into()),
                             width: 0.9,
                             ..Look::line(turn)
                         },

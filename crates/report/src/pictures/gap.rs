@@ -137,7 +137,7 @@ pub fn spectra(check: &GapCheck) -> Chart {
     let plot = Plot {
         heading: String::new(),
         horizontal: Axis::logarithmic("period (s)"),
-        vertical: Axis::linear(&format!("pseudo-acceleration (g), {damping:.0} %")),
+        vertical: Axis::linear(&format!("pseudo-acceleration (g), {damping:.0} % damping")),
         series,
         limits,
         height: 1.5 * HEIGHT,

@@ -188,7 +188,7 @@ fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
             },
             points: vec![(width, bounds.low), (width, bounds.high)],
             look: Look {
-                dash: Some(""),
+                dash: Some("".into()),
                 ..Look::line(0)
             },
         });

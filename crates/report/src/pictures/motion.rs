@@ -12,10 +12,12 @@ use pounding_ground_motion::spectra::{
 use super::{over, panel};
 use crate::chart::{Axis, Chart, Plot};
 use crate::error::ReportError;
-use crate::figure::{Curve, Panel, Reference, figure, plots};
+use crate::figure::{Curve, Panel, Reference, plots};
 
 /// Points of a curve: as many as a picture can show; peaks of each stretch are kept.
 const POINTS: usize = 4000;
+/// Height of the axes of one of several accelerations (pt).
+const LOW: f64 = 80.0;
 /// Periods at which spectra are drawn.
 const PERIODS: usize = 200;
 
@@ -42,12 +44,34 @@ impl<'a> Named<'a> {
     }
 }
 
+/// Accelerations that have axes of their own: together they would hide one another.
+const APART: usize = 7;
+
 /// Acceleration, velocity, displacement and Husid curve of motions over time.
 ///
 /// # Errors
 /// A record of zeros, which has no Husid curve.
 pub fn histories(motions: &[Named<'_>]) -> Result<Chart, ReportError> {
-    Ok(figure(&history_panels(motions)?))
+    let mut all = plots(&history_panels(motions)?, &[]);
+    if (2..=APART).contains(&motions.len()) {
+        let together = all.remove(0);
+        let points = together.series.iter().flat_map(|s| &s.points);
+        let most = 1.05 * points.fold(0.0_f64, |m, p| m.max(p.1.abs()));
+        let apart = together.series.iter().map(|series| Plot {
+            heading: format!("{}, {}", together.heading, series.name),
+            series: vec![series.clone()],
+            vertical: together.vertical.clone().over(-most, most),
+            height: LOW,
+            ..together.clone()
+        });
+        all.splice(0..0, apart);
+    }
+    Ok(Chart::of_page(all))
+}
+
+/// Panels over the period.
+pub fn over_period(panels: &[Panel]) -> Chart {
+    over_periods(panels, &[], false)
 }
 
 fn history_panels(motions: &[Named<'_>]) -> Result<[Panel; 4], ReportError> {

@@ -22,8 +22,8 @@ use pounding_time_history::{BuildingOutcome, Peak, StoreyPeaks, System, run};
 use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
-    Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, amplification,
-    demands, in_parallel, levels, rebuilt,
+    Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, Repeated,
+    amplification, demands, in_parallel, levels, rebuilt,
 };
 
 /// What is asked for.
@@ -235,7 +235,10 @@ pub fn compare_dealt(
     let gaps = system.gaps().iter();
     let warnings = system.unequal_floor_warnings();
     let warnings = warnings.iter().map(ToString::to_string);
-    let warnings = warnings.chain(undamped(system, &references)).collect();
+    let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
+    let copies = Repeated::among(records).warnings(&names);
+    let warnings = warnings.chain(undamped(system, &references));
+    let warnings = warnings.chain(copies).collect();
     let mut comparison = Comparison {
         options: options.clone(),
         references,

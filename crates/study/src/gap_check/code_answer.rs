@@ -121,15 +121,16 @@ impl CodeAnswer {
 }
 
 /// The answer of a code at one gap: its rules take the code's statistic of the displacements
-/// under all records.
+/// under all records, of which so many are distinct: a motion that is there twice is no second
+/// record.
 pub(super) fn code_answer(
     (code, date): (Code, Option<Date>),
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
-    records: &[RecordDemand],
+    (records, distinct): (&[RecordDemand], usize),
     demand: &[f64],
 ) -> CodeAnswer {
-    let statistic = code.suite.statistic(records.len());
+    let statistic = code.suite.statistic(distinct);
     let levels = place.levels();
     let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule: (_, &Rules)| {
         answer_at(place, inputs, records, statistic, (level, *sides), rule)
@@ -157,7 +158,7 @@ pub(super) fn code_answer(
     let cases = cases.collect();
     CodeAnswer {
         statistic,
-        enough_records: records.len() >= code.suite.least,
+        enough_records: distinct >= code.suite.least,
         demand: statistic.of(demand),
         ownership: inputs.ownership(),
         cases,

@@ -7,6 +7,7 @@ mod demand;
 mod error;
 mod parallel;
 mod records;
+mod repeated;
 mod required;
 mod spectra;
 mod statistics;
@@ -22,6 +23,7 @@ pub use demand::{
 pub use error::CheckError;
 pub use parallel::Progress;
 pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
+pub use repeated::Repeated;
 pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
@@ -111,6 +113,8 @@ pub struct GapCheck {
     pub options: GapCheckOptions,
     /// Each record with its demands, isolated responses and responses with pounding.
     pub records: Vec<RecordDemand>,
+    /// Records that are one motion under several names: codes count each motion once.
+    pub repeated: Repeated,
     /// Spectra of the records as they are used, beside the target of the case's scale.
     pub spectra: SuiteSpectra,
     /// Gaps in the order of the case.
@@ -228,6 +232,8 @@ pub fn gap_check_dealt(
     let runs = swept.map_or(0, |s| s.points) * records.len();
     let total = records.len() + runs;
     let demands = demands(records, options.threads, &|done, _| progress(done, total))?;
+    let repeated = Repeated::among(records);
+    let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let mut gaps = Vec::new();
     for index in 0..first.assembly.system.gaps().len() {
         let place = codes::GapPlace {
@@ -239,7 +245,8 @@ pub fn gap_check_dealt(
         let mut report = report(&place, &demands, options, (codes, combinations))?;
         report.code = chosen.code.clone().map(|code| {
             let code = (code, chosen.date);
-            code_answer::code_answer(code, &place, &inputs, &demands, &report.demand)
+            let records = (&demands[..], repeated.distinct);
+            code_answer::code_answer(code, &place, &inputs, records, &report.demand)
         });
         gaps.push(report);
     }
@@ -266,7 +273,9 @@ pub fn gap_check_dealt(
             .unequal_floor_warnings()
             .iter()
             .map(ToString::to_string)
+            .chain(repeated.warnings(&names))
             .collect(),
+        repeated,
     })
 }
 

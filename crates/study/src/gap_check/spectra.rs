@@ -1,7 +1,8 @@
 //! Response spectra of a suite of records, and the target to which it is scaled.
 
-use pounding_assembly::{ScaleTarget, scale_target};
+use pounding_assembly::scale_target;
 use pounding_case::Case;
+use pounding_ground_motion::processing::BandTarget;
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 
 use super::error::CheckError;
@@ -37,6 +38,8 @@ pub struct SuiteTarget {
     pub name: String,
     /// First and last period of the band of the scale (s).
     pub band: (f64, f64),
+    /// Why these periods; empty where the case gives them.
+    pub band_reason: String,
     /// Pseudo-accelerations at the periods of the spectra (m/s2); `None` beyond its range.
     pub values: Vec<Option<f64>>,
     /// Least ratio of the mean to the target within the band, with its period (s).
@@ -74,10 +77,11 @@ pub(super) fn spectra(
     let mean_at = |i: usize| spectra.iter().map(|s| s[i]).sum::<f64>() / spectra.len() as f64;
     let mean: Vec<f64> = (0..periods.len()).map(mean_at).collect();
     let target = target.map(
-        |ScaleTarget {
+        |BandTarget {
              spectrum: target,
              from,
              to,
+             reason,
          }| {
             let band = (from, to);
             let values: Vec<Option<f64>> = periods.iter().map(|t| target.at(*t).ok()).collect();
@@ -90,6 +94,7 @@ pub(super) fn spectra(
             SuiteTarget {
                 name: target.name().to_owned(),
                 band,
+                band_reason: reason,
                 least: ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
                 greatest: ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
                 values,

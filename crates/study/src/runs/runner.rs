@@ -20,6 +20,7 @@ use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
 use crate::case_text::{Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
+use crate::gap_check::Repeated;
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
 use pounding_files::checksum::hexadecimal;
 
@@ -102,6 +103,18 @@ impl<'s> Runner<'s> {
                 missing.join(", ")
             ));
         }
+        // The hash is that of the file, of which another component is another motion.
+        let known = |r: usize| {
+            let component = match &study.records[r].kind {
+                RecordKind::File { case, .. } => case.ground_motion.component.as_deref(),
+                RecordKind::Made { .. } => None,
+            };
+            let motion = motions.all[r].as_ref().ok()?;
+            Some((motion.sha256.as_str(), component))
+        };
+        let same = |a: usize, b: usize| known(a).is_some() && known(a) == known(b);
+        let names: Vec<&str> = study.records.iter().map(|r| r.name.as_str()).collect();
+        warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
         let base =
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         Ok(Self {

@@ -108,6 +108,9 @@ pub struct InfoArguments {
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
+    /// Write the answer with its inputs and figures into this JSON file, of which `report` makes the page
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OutputPath>,
     /// Write a page of the series into this HTML file
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,

@@ -5,13 +5,15 @@ pub mod numbers;
 mod text;
 
 use pounding_files::FileUse;
+use pounding_report::page::Picture;
 use pounding_report::pictures::comparison::peak_ratios;
+use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::comparison::{
     ComparisonOptions, RestitutionRule, StiffnessRule, compare_dealt,
 };
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, no_outputs, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -26,11 +28,14 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
     let deal = deal(&arguments.dealing, ("compare", &arguments.case), &mut files)?;
-    have_a_place([
+    let outputs = [
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
-    ])?;
+        arguments.output.as_deref(),
+    ];
+    no_outputs(&deal, outputs)?;
+    have_a_place(outputs)?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {
@@ -58,14 +63,20 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     if let Some(path) = &arguments.plot {
         plot::write_drawn(path, peak_ratios(&comparison), &arguments.figure)?;
     }
-    if let Some(output) = &arguments.report {
-        let answer = page::answer(&numbers::Compared::of(&comparison))?;
+    let answered = || {
         let words = "Peaks over those without pounding, by impact model";
-        let drawn = [page::picture(&peak_ratios(&comparison), words)];
-        let inputs = page::of_case("compare", &case, &arguments.case, &records);
-        let html = pounding_report::page::comparison(&answer, &drawn, &inputs);
-        plot::write(output, &html)?;
-    }
+        Ok(Answered {
+            command: AnsweredCommand::Compare,
+            inputs: page::of_case("compare", &case, &arguments.case, &records),
+            answer: page::answer(&numbers::Compared::of(&comparison))?,
+            figures: vec![Picture::of("peaks", words, peak_ratios(&comparison))],
+        })
+    };
+    page::write_answered(
+        answered,
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     if arguments.json {
         print(&pretty(&numbers::Compared::of(&comparison))?)?;
     } else {

@@ -114,7 +114,11 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
         verdict(answer.satisfied()),
         edition(answer)
     );
-    text.push_str(&statistic(answer, check.records.len()));
+    text.push_str(&statistic(
+        answer,
+        check.records.len(),
+        check.repeated.distinct,
+    ));
     text.push_str(&cases(gap, answer));
     for case in &answer.cases {
         text.push_str(&explained(case));
@@ -162,7 +166,7 @@ fn edition(answer: &CodeAnswer) -> String {
 }
 
 /// What decides: which number of the responses, and whether there are records enough.
-fn statistic(answer: &CodeAnswer, records: usize) -> String {
+fn statistic(answer: &CodeAnswer, records: usize, distinct: usize) -> String {
     let suite = &answer.code.suite;
     let clause = match suite.clause {
         "" => String::new(),
@@ -172,16 +176,25 @@ fn statistic(answer: &CodeAnswer, records: usize) -> String {
         String::new()
     } else {
         format!(
-            "  warning: the code asks for {} records at least: with {records} the maximum is no answer by the code\n",
+            "  warning: the code asks for {} records at least: with {distinct} the maximum is no answer by the code\n",
             suite.least
         )
     };
     format!(
         "  decided by the {} of the displacements under {}: {}{clause}\n{few}",
         answer.statistic.name(),
-        counted(records, "record"),
+        records_of(records, distinct),
         suite.explanation(),
     )
+}
+
+/// `7 records`, `7 records, 6 of them distinct`.
+fn records_of(records: usize, distinct: usize) -> String {
+    let all = counted(records, "record");
+    match records == distinct {
+        true => all,
+        false => format!("{all}, {distinct} of them distinct"),
+    }
 }
 
 fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {

@@ -13,12 +13,14 @@ use std::path::Path;
 
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
+use pounding_report::page::Picture;
 use pounding_report::pictures::gap::{amplifications, spectra};
+use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, no_outputs, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -46,13 +48,16 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         let message = "without a sweep there are no runs to share";
         return Err(Failure::input(message, Some(help)));
     }
-    have_a_place([
+    let outputs = [
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
         arguments.report.as_deref(),
-    ])?;
+        arguments.output.as_deref(),
+    ];
+    no_outputs(&deal, outputs)?;
+    have_a_place(outputs)?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
     let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));
@@ -62,19 +67,23 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         return Ok(());
     }
     write_files(arguments, &check)?;
-    if let Some(output) = &arguments.report {
-        let answer = page::answer(&numbers::Check::of(&check))?;
+    let answered = || {
         let words = "Amplification of peaks by pounding over the width of the gap";
-        let drawn = amplifications(&check).map(|drawn| page::picture(&drawn, words));
-        let inputs = page::of_gap(&case, path, &records, &separation);
-        let mut drawn: Vec<_> = drawn.into_iter().collect();
+        let widths = amplifications(&check).map(|drawn| Picture::of("widths", words, drawn));
         let words = "Spectra of the records, their mean and the target";
-        drawn.push(page::picture(&spectra(&check), words));
-        plot::write(
-            output,
-            &pounding_report::page::gap(&answer, &drawn, &inputs),
-        )?;
-    }
+        let spectra = Picture::of("spectra", words, spectra(&check));
+        Ok(Answered {
+            command: AnsweredCommand::Gap,
+            inputs: page::of_gap(&case, path, &records, &separation),
+            answer: page::answer(&numbers::Check::of(&check))?,
+            figures: widths.into_iter().chain([spectra]).collect(),
+        })
+    };
+    page::write_answered(
+        answered,
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     if arguments.json {
         print(&pretty(&numbers::Check::of(&check))?)?;
     } else {

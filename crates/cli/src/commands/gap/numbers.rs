@@ -24,6 +24,8 @@ pub struct Check<'c> {
     /// Whether velocities jump at impacts: accelerations leave that out.
     rigid_impacts: bool,
     warnings: &'c [String],
+    /// Records without those that are copies of others.
+    distinct_records: usize,
     records: Vec<Record<'c>>,
     spectra: Spectra<'c>,
     gaps: Vec<Gap<'c>>,
@@ -47,6 +49,7 @@ impl<'c> Check<'c> {
             confidence: check.options.confidence,
             rigid_impacts: rigid(check),
             warnings: &check.warnings,
+            distinct_records: check.repeated.distinct,
             records: check.records.iter().map(Record::of).collect(),
             spectra: Spectra::of(&check.spectra),
             gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
@@ -72,6 +75,8 @@ struct Target<'c> {
     name: &'c str,
     from: f64,
     to: f64,
+    /// Why these periods; empty where the case gives them.
+    band_reason: &'c str,
     pseudo_acceleration: &'c [Option<f64>],
     least_ratio_of_mean: f64,
     period_of_least_ratio: f64,
@@ -90,6 +95,7 @@ impl<'c> Spectra<'c> {
                 name: &t.name,
                 from: t.band.0,
                 to: t.band.1,
+                band_reason: &t.band_reason,
                 pseudo_acceleration: &t.values,
                 least_ratio_of_mean: t.least.0,
                 period_of_least_ratio: t.least.1,

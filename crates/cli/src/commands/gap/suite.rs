@@ -1,5 +1,6 @@
 //! The records of a gap check, one by one and together.
 
+use pounding_catalogue::numbers::six_digits;
 use pounding_study::gap_check::GapCheck;
 
 use crate::tables::{G, decimal, new_table};
@@ -15,9 +16,15 @@ pub fn target(check: &GapCheck) -> String {
     };
     let (ratio, period) = target.least;
     let (most, at) = target.greatest;
+    let reason = match target.band_reason.as_str() {
+        "" => String::new(),
+        reason => format!(" ({reason})"),
+    };
     format!(
-        "  records are scaled to {} from {} to {} s, by least squares of the logarithm: their mean spectrum is {ratio:.2} (at {period:.2} s) to {most:.2} (at {at:.2} s) of it\n",
-        target.name, target.band.0, target.band.1
+        "  records are scaled to {} from {} to {} s{reason}, by least squares of the logarithm: their mean spectrum is {ratio:.2} (at {period:.2} s) to {most:.2} (at {at:.2} s) of it\n",
+        target.name,
+        six_digits(target.band.0),
+        six_digits(target.band.1)
     )
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_report::page::Inputs;
+use pounding_report::page::{Inputs, Picture};
 use pounding_report::pictures::ida::fragility;
 use pounding_study::{
     IdaReport, ResultReader, Shard, Study, StudyError, SweepOptions, SweepReport, evaluate,
@@ -163,7 +163,7 @@ fn write_page(
     };
     let d = &result.description;
     let words = "Fragilities with the counts that they were fitted to";
-    let drawn = [page::picture(&fragility(report), words)];
+    let drawn = [Picture::of("fragility", words, fragility(report))];
     let inputs = Inputs {
         title: d.title.clone(),
         origin: vec![

@@ -28,6 +28,7 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
     let line = format!("process = [{{ scale = {{ {} }} }}]", keys.join(", "));
     let read = pounding_case::process_steps(&line, "code").map_err(|e| unreadable(text, &e))?;
     let target = read.first().and_then(|step| step.value.target());
+    let target = target.map(|band| &band.spectrum);
     match target {
         Some(SpectrumSource::Code(code)) => Ok(code.value),
         _ => Err(Failure::input(

@@ -8,8 +8,9 @@ use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_
 use pounding_ground_motion::{
     Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
-use pounding_report::pictures::motion::{Named, histories};
-use pounding_report::{Chart, Curve, Panel, figure};
+use pounding_report::page::Picture;
+use pounding_report::pictures::motion::{Named, histories, over_period};
+use pounding_report::{Answered, AnsweredCommand, Chart, Curve, Panel};
 
 use super::info_output::{Files, as_text, comma_separated};
 use super::reading;
@@ -22,6 +23,8 @@ use crate::{page, plot};
 
 /// Periods of spectra on the page: first, last (s), number.
 const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
+/// Files that are named below the title.
+const NAMED: usize = 5;
 /// Damping of spectra on the page (-).
 const DAMPING: f64 = 0.05;
 
@@ -91,9 +94,11 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         }
         plot::write_drawn(path, plot::of_motion(histories(&named))?, &arguments.figure)?;
     }
-    if let Some(path) = &arguments.report {
-        report(path, &files)?;
-    }
+    page::write_answered(
+        || answered(&files),
+        arguments.output.as_deref(),
+        arguments.report.as_deref(),
+    )?;
     print(&if arguments.json {
         pretty(&Files::of(&files))?
     } else {
@@ -192,26 +197,31 @@ fn named(files: &[ShownFile]) -> Vec<Named<'_>> {
     named
 }
 
-/// The page of all series.
-fn report(path: &Path, files: &[ShownFile]) -> Result<(), Failure> {
+/// What the page of all series shows.
+fn answered(files: &[ShownFile]) -> Result<Answered, Failure> {
     let named = named(files);
     let mut drawn = Vec::new();
     if !named.is_empty() {
         let words = "Acceleration, velocity, displacement and Husid curve over time";
-        drawn.push(page::picture(&plot::of_motion(histories(&named))?, words));
-        drawn.push(page::picture(&spectra(&named)?, "Response spectra"));
+        let histories = plot::of_motion(histories(&named))?;
+        drawn.push(Picture::of("histories", words, histories));
+        drawn.push(Picture::of("spectra", "Response spectra", spectra(&named)?));
     }
-    let first = files.first().map_or(Path::new(""), |f| Path::new(&f.file));
-    let title = match files.len() {
-        1 => String::new(),
-        count => format!("{count} records"),
+    let names: Vec<&str> = files.iter().map(|f| f.file.as_str()).collect();
+    let (names, title) = match names.len() {
+        1 => (names[0].to_owned(), String::new()),
+        count @ ..=NAMED => (names.join(", "), format!("{count} records")),
+        count => (
+            format!("{} and {} more", names[..NAMED].join(", "), count - NAMED),
+            format!("{count} records"),
+        ),
     };
-    let inputs = page::inputs("motion info", &title, first);
-    let answer = page::answer(&Files::of(files))?;
-    plot::write(
-        path,
-        &pounding_report::page::motion(&answer, &drawn, &inputs),
-    )
+    Ok(Answered {
+        command: AnsweredCommand::MotionInfo,
+        inputs: page::inputs("motion info", &title, Path::new(&names)),
+        answer: page::answer(&Files::of(files))?,
+        figures: drawn,
+    })
 }
 
 /// Pseudo-acceleration of motions over the period.
@@ -232,5 +242,5 @@ fn spectra(named: &[Named<'_>]) -> Result<Chart, Failure> {
         horizontal: "period (s)".to_owned(),
         curves,
     };
-    Ok(figure(&[panel]))
+    Ok(over_period(&[panel]))
 }

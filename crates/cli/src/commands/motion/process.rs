@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::read_target;
-use pounding_case::SpectrumSource;
+use pounding_case::BandSource;
 use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
 
@@ -66,7 +66,7 @@ fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Fail
             None,
         ));
     };
-    let target = |spectrum: &SpectrumSource| read_target(spectrum, Path::to_owned);
+    let target = |band: &BandSource| read_target(band, Path::to_owned);
     let made = step
         .value
         .with_target(target)
@@ -74,7 +74,7 @@ fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Fail
     let file = step
         .value
         .target()
-        .and_then(SpectrumSource::file)
+        .and_then(|band| band.spectrum.file())
         .map(|spectrum| spectrum.file.value.clone());
     Ok((made, file))
 }

@@ -35,6 +35,16 @@ impl CodeSpectrum {
         }
     }
 
+    /// What the first and the last period of a suite are of the smallest and the greatest
+    /// fundamental period of the structures (-), and the clause that says it.
+    #[must_use]
+    pub fn band(&self) -> ((f64, f64), &'static str) {
+        match self {
+            Self::Eurocode8Of2004(_) => ((0.2, 2.0), "EN 1998-1:2004, 3.2.3.1.2(4)c"),
+            Self::Asce7Of2016(_) => ((0.2, 2.0), "ASCE/SEI 7-16, 16.2.3.1"),
+        }
+    }
+
     /// Damping ratio that the values are for (-).
     #[must_use]
     pub fn damping(&self) -> f64 {

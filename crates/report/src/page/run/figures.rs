@@ -9,9 +9,10 @@ use crate::figure::{Curve, Panel, figure_of_size};
 use crate::page::html::{beside, figure};
 use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult, StoreyPeaks};
 
-/// Size of a history, and of a profile beside another (pixels).
-const HISTORY: (u32, u32) = (1100, 260);
-const PROFILE: (u32, u32) = (540, 340);
+/// Size of a history, and of a profile beside another (pixels): on paper text of both is as large
+/// as in other figures.
+const HISTORY: (u32, u32) = (718, 250);
+const PROFILE: (u32, u32) = (352, 300);
 /// Parts of a history: a curve has no more points than the picture can show, and fewer where
 /// many pictures have to fit on a page.
 const COLUMNS: usize = 1000;

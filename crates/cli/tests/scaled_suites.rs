@@ -1,0 +1,190 @@
+//! Suites of records scaled to the spectrum of a code: the band of periods, and records that are
+//! there under several names.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::support::run;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+const CODE: &str = "code = \"eurocode_8_2004\", ag = \"0.25 g\", ground_type = \"B\"";
+
+/// The pair of two uniform buildings of three storeys with this scale of its record; `masses` are
+/// those of their storeys (t).
+fn case(folder: &Path, masses: [f64; 2], scale: &str) -> PathBuf {
+    let source = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let motions = root().join("ground_motions").display().to_string();
+    let text = source
+        .unwrap()
+        .replace("../../ground_motions", &motions)
+        .replace("\"25 t\"", &format!("\"{} t\"", masses[0]))
+        .replace("\"1000 t\"", &format!("\"{} t\"", masses[1]))
+        .replace(
+            "[ground_motion]\n",
+            &format!("[ground_motion]\nscale = {{ {scale} }}\n"),
+        );
+    let path = folder.join("case.toml");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// The first period of a uniform shear building of three storeys in closed form (s):
+/// `omega = 2 sqrt(k / m) sin(pi / 14)`.
+fn period(mass: f64, stiffness: f64) -> f64 {
+    PI / ((stiffness / mass).sqrt() * (PI / 14.0).sin())
+}
+
+fn answer(case: &Path, options: &str) -> Value {
+    let output = run(
+        "gap",
+        &format!("{} --points 0 --json {options}", case.display()),
+    );
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{told}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_band_is_that_of_the_buildings() {
+    let folder = tempfile::tempdir().unwrap();
+    let near = |a: &Value, b: f64| (a.as_f64().unwrap() / b - 1.0).abs() < 1e-9;
+    let [light, heavy] = [period(25e3, 3.46e6), period(1000e3, 2215e6)];
+    let target = |scale: &str, masses| {
+        let found = answer(&case(folder.path(), masses, scale), "");
+        found["spectra"]["target"].clone()
+    };
+    let own = target(CODE, [25.0, 1000.0]);
+    assert!(
+        near(&own["from"], 0.2 * heavy) && near(&own["to"], 2.0 * light),
+        "{own}"
+    );
+    let reason = own["band_reason"].as_str().unwrap();
+    for word in [
+        "0.2 T1 = 0.06 s",
+        "2 T1 = 2.4002 s",
+        "3.2.3.1.2(4)c",
+        "0.3 to 1.2001 s",
+    ] {
+        assert!(reason.contains(word), "{reason}");
+    }
+    // What is given stays, the other end is that of the code.
+    let given = target(&format!("{CODE}, from = 0.1, to = \"3 s\""), [25.0, 1000.0]);
+    assert_eq!((&given["from"], &given["to"]), (&0.1.into(), &3.0.into()));
+    assert_eq!(given["band_reason"], "");
+    let half = target(&format!("{CODE}, from = 0.1"), [25.0, 1000.0]);
+    assert!(
+        half["from"] == 0.1 && near(&half["to"], 2.0 * light),
+        "{half}"
+    );
+    // The spectrum of the code ends at 4 s.
+    let soft = target(CODE, [25.0 * 9.0, 1000.0]);
+    assert!(
+        near(&soft["from"], 0.2 * heavy) && soft["to"] == 4.0,
+        "{soft}"
+    );
+    let reason = soft["band_reason"].as_str().unwrap();
+    assert!(
+        reason.contains("to 4 s, where the spectrum ends before 2 T1"),
+        "{reason}"
+    );
+    // ASCE 7-16 asks for the same.
+    let american = "code = \"asce_7_2016\", s_ds = \"1 g\", s_d1 = \"0.6 g\", t_l = \"8 s\"";
+    let american = target(american, [25.0, 1000.0]);
+    assert!(near(&american["from"], 0.2 * heavy) && near(&american["to"], 2.0 * light));
+    assert!(
+        american["band_reason"]
+            .as_str()
+            .unwrap()
+            .contains("16.2.3.1")
+    );
+}
+
+/// Buildings too soft for the spectrum leave no band: the place, and what to do.
+#[test]
+fn a_band_beyond_the_spectrum() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case(folder.path(), [1e6, 1e9], CODE);
+    let output = run("check", &case.display().to_string());
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    for word in ["no band of periods", "case.toml", "`from` and `to`"] {
+        assert!(told.contains(word), "{told}");
+    }
+}
+
+/// Without a case there are no buildings: the band is fixed, and said.
+#[test]
+fn a_step_beside_no_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let output = folder.path().join("scaled.csv");
+    let made = std::process::Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(["motion", "process"])
+        .arg(&record)
+        .args([
+            "--scale",
+            "code=eurocode_8_2004, ag=0.25 g, ground_type=B",
+            "-o",
+        ])
+        .arg(&output)
+        .output()
+        .unwrap();
+    assert!(
+        made.status.success(),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
+    let said = String::from_utf8_lossy(&made.stdout).replace('\n', " ");
+    assert!(
+        said.contains("0.1 to 3 s where none are given: no buildings"),
+        "{said}"
+    );
+}
+
+#[test]
+fn copies_are_no_further_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = root().join("examples/gap_check/case.toml");
+    let motion = |i: usize| root().join(format!("examples/synthetic_suite/motion_{i}.csv"));
+    let copy = |i: usize| {
+        let path = folder.path().join(format!("other_name_{i}.csv"));
+        std::fs::copy(motion(1), &path).unwrap();
+        path
+    };
+    let said = |records: Vec<PathBuf>| {
+        let records: Vec<String> = records.iter().map(|r| r.display().to_string()).collect();
+        let options = format!("--code eurocode_8_2004 --records {}", records.join(" "));
+        let found = answer(&case, &options);
+        let code = found["gaps"][0]["code"].clone();
+        (
+            found["distinct_records"].as_u64().unwrap(),
+            code,
+            found["warnings"].to_string(),
+        )
+    };
+    let (distinct, code, warnings) = said((1..=7).map(motion).collect());
+    assert_eq!((distinct, &code["statistic"]), (7, &"mean".into()));
+    assert!(!warnings.contains("samples"), "{warnings}");
+    // Six and a copy are six.
+    let six = (1..=6).map(motion).chain([copy(0)]).collect();
+    let (distinct, code, warnings) = said(six);
+    assert_eq!((distinct, &code["statistic"]), (6, &"maximum".into()));
+    assert_eq!(code["enough_records"], true);
+    assert!(
+        warnings.contains("motion_1 and other_name_0 have the same samples"),
+        "{warnings}"
+    );
+    // Seven of one are one: fewer than the code asks for.
+    let (distinct, code, warnings) = said((0..7).map(copy).collect());
+    assert_eq!((distinct, &code["enough_records"]), (1, &false.into()));
+    assert!(
+        code["satisfied"].is_null() && warnings.contains("of 1 record in all"),
+        "{warnings}"
+    );
+}

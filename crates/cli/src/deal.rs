@@ -13,12 +13,26 @@ use crate::output::print;
 /// Ending of the file of a shard of a check.
 const ENDING: &str = "runs";
 
-/// Who makes the runs of a check, as the arguments say.
+/// Who makes the runs of a check, as the arguments say; refuses answers, options by name and
+/// whether they are given, where a shard makes its part of the runs alone.
 pub fn deal(
     arguments: &DealArguments,
     (check, case): (&str, &Path),
+    answers: &[(&str, bool)],
     files: &mut FileUse,
 ) -> Result<Deal, Failure> {
+    if let (Some(_), Some((option, _))) =
+        (&arguments.shard, answers.iter().find(|(_, given)| *given))
+    {
+        return Err(Failure::input(
+            format!(
+                "--shard makes a part of the runs and no answer: {option} has nothing to write"
+            ),
+            Some(format!(
+                "give {option} to the call with --merge, when all shards are done"
+            )),
+        ));
+    }
     if let (Some(shard), Some(folder)) = (&arguments.shard, &arguments.into) {
         let shard: pounding_study::Shard = shard.parse()?;
         std::fs::create_dir_all(folder)

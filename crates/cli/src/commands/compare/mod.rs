@@ -25,7 +25,14 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
-    let deal = deal(&arguments.dealing, ("compare", &arguments.case), &mut files)?;
+    let answers = [
+        ("--csv", arguments.csv.is_some()),
+        ("--plot", arguments.plot.is_some()),
+        ("--report", arguments.report.is_some()),
+        ("--json", arguments.json),
+    ];
+    let check = ("compare", &*arguments.case);
+    let deal = deal(&arguments.dealing, check, &answers, &mut files)?;
     have_a_place([
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),

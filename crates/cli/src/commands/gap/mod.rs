@@ -40,7 +40,15 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let options = options(arguments)?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
-    let deal = deal(&arguments.dealing, ("gap", path), &mut files)?;
+    let answers = [
+        ("--csv", arguments.csv.is_some()),
+        ("--codes-csv", arguments.codes_csv.is_some()),
+        ("--plot", arguments.plot.is_some()),
+        ("--spectra", arguments.spectra.is_some()),
+        ("--report", arguments.report.is_some()),
+        ("--json", arguments.json),
+    ];
+    let deal = deal(&arguments.dealing, ("gap", path), &answers, &mut files)?;
     if arguments.points == 0 && deal != Deal::All {
         let help = "leave --points 0 away, or --shard and --merge".to_owned();
         let message = "without a sweep there are no runs to share";

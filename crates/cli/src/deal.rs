@@ -13,27 +13,26 @@ use crate::output::print;
 /// Ending of the file of a shard of a check.
 const ENDING: &str = "runs";
 
-/// Refuses outputs of a shard: the answer comes when all are put together.
-pub fn no_outputs<'p>(
-    deal: &Deal,
-    outputs: impl IntoIterator<Item = Option<&'p Path>>,
-) -> Result<(), Failure> {
-    let given = outputs.into_iter().flatten().next();
-    match (deal, given) {
-        (Deal::Part { .. }, Some(path)) => Err(Failure::input(
-            format!("a shard has no answer to write into {}", path.display()),
-            Some("give this output where all shards are put together, with --merge".to_owned()),
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// Who makes the runs of a check, as the arguments say.
+/// Who makes the runs of a check, as the arguments say; refuses answers, options by name and
+/// whether they are given, where a shard makes its part of the runs alone.
 pub fn deal(
     arguments: &DealArguments,
     (check, case): (&str, &Path),
+    answers: &[(&str, bool)],
     files: &mut FileUse,
 ) -> Result<Deal, Failure> {
+    if let (Some(_), Some((option, _))) =
+        (&arguments.shard, answers.iter().find(|(_, given)| *given))
+    {
+        return Err(Failure::input(
+            format!(
+                "--shard makes a part of the runs and no answer: {option} has nothing to write"
+            ),
+            Some(format!(
+                "give {option} to the call with --merge, when all shards are done"
+            )),
+        ));
+    }
     if let (Some(shard), Some(folder)) = (&arguments.shard, &arguments.into) {
         let shard: pounding_study::Shard = shard.parse()?;
         std::fs::create_dir_all(folder)

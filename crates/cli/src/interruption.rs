@@ -3,27 +3,40 @@
 //!
 //! A sweep stores the runs that have finished first; everything else ends at once. Either
 //! way no file is left half-written, none that stood before is lost, and the exit code is
-//! [`EXIT_CODE`]. A second signal does not wait for anything.
+//! [`EXIT_CODE`]. A second signal does not wait for anything, unless it comes within
+//! [a second](TOGETHER): batch systems and shells send the same wish to several processes, which
+//! hand it on.
 
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
 use crate::failure::Failure;
 
 /// Exit code of a command that was interrupted.
 pub const EXIT_CODE: u8 = 5;
 
+/// Signals that follow the first so soon belong to it. Storing takes a small part of this time.
+#[cfg(unix)]
+const TOGETHER: Duration = Duration::from_secs(1);
+
 /// Whether a signal has come that waits for the runs to be stored.
 static ASKED: AtomicBool = AtomicBool::new(false);
 static STATE: Mutex<State> = Mutex::new(State {
     waits: false,
+    #[cfg(unix)]
+    first: None,
     resume: None,
 });
 
 struct State {
     /// Whether somebody looks at [`asked`].
     waits: bool,
+    /// When the first signal came that waits.
+    #[cfg(unix)]
+    first: Option<Instant>,
     /// The command that goes on where this one ends.
     resume: Option<String>,
 }
@@ -95,9 +108,15 @@ fn state() -> std::sync::MutexGuard<'static, State> {
 
 #[cfg(unix)]
 fn received() {
-    if state().waits && !ASKED.swap(true, Ordering::Relaxed) {
-        return;
+    let mut state = state();
+    if state.waits {
+        let first = *state.first.get_or_insert_with(Instant::now);
+        let again = ASKED.swap(true, Ordering::Relaxed);
+        if !again || first.elapsed() < TOGETHER {
+            return;
+        }
     }
+    drop(state);
     leave("");
 }
 

@@ -26,6 +26,7 @@ mod tables;
 mod version;
 
 use std::ffi::OsString;
+use std::io::Write;
 
 use clap::{CommandFactory, FromArgMatches};
 use pounding_files::FileUse;
@@ -65,9 +66,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let (arguments, matches) = match read {
         Ok(read) => read,
         Err(error) => {
-            // Where nobody can read it, the exit code still says it.
-            let _ = error.print();
-            return u8::try_from(error.exit_code()).unwrap_or(2);
+            let printed = error.print().and_then(|()| std::io::stdout().flush());
+            return match (error.use_stderr(), printed) {
+                // Where nobody can read a complaint, the exit code still says it.
+                (true, _) => u8::try_from(error.exit_code()).unwrap_or(2),
+                // Help that was asked for is an output as any other.
+                (false, printed) => output::to_standard_output(printed)
+                    .map_or_else(|failure| failure.report(), |()| 0),
+            };
         }
     };
     let files = arguments::file_use(&command, &matches);

@@ -18,11 +18,15 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints to standard output what programs read. A reader that closed the pipe has seen
-/// enough.
+/// Prints to standard output what programs read.
 pub fn print_as_it_is(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
+    to_standard_output(writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()))
+}
+
+/// What became of writing to standard output. A reader that closed the pipe has seen enough.
+pub fn to_standard_output(written: std::io::Result<()>) -> Result<(), Failure> {
+    match written {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         Err(e) => Err(Failure::output(&e, "to standard output")),
         Ok(()) => Ok(()),

@@ -62,6 +62,40 @@ fn versions() {
     assert_eq!(pounding(&["--color", "never"], &[]).status.code(), Some(2));
 }
 
+/// Help that cannot be written is an output that failed; a reader who has seen enough is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn help_that_cannot_be_written() {
+    for words in [&["--help"][..], &["run", "--help"], &["help", "sweep"]] {
+        let full = std::fs::File::create("/dev/full").unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(words)
+            .stdout(full)
+            .output()
+            .unwrap();
+        assert_eq!(
+            output.status.code(),
+            Some(4),
+            "{words:?}: {}",
+            told(&output)
+        );
+        assert!(
+            told(&output).contains("standard output"),
+            "{}",
+            told(&output)
+        );
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let closed = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(words)
+            .stdout(writer)
+            .status()
+            .unwrap();
+        assert_eq!(closed.code(), Some(0), "{words:?}");
+    }
+    assert_eq!(pounding(&["--help"], &[]).status.code(), Some(0));
+}
+
 /// Steps of the work with their times go to standard error; the answer is the same to the bit.
 #[test]
 fn an_account_of_the_work() {

@@ -16,7 +16,7 @@ use crate::error::StudyError;
 use crate::parts::{Parts, Store};
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::study_file::{Study, Value, Values, Variable};
-use crate::table::RunTable;
+use crate::table::{GrowingTable, RunTable};
 
 /// Part `index` of `count` of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -162,19 +162,24 @@ pub fn sweep(
         options.resume,
     )?;
     runner.need(&parts.left(), options.keep_going, shared)?;
-    let now = make(&runner, &mut parts, total, options, progress)?;
-    let mut report = assemble(&runner, &description, &parts, options)?;
+    let mut table = options
+        .csv
+        .as_ref()
+        .map(|path| GrowingTable::create(study, path, &description))
+        .transpose()?;
+    let now = make(&runner, (&mut parts, total), &mut table, options, progress)?;
+    let mut report = assemble(&runner, &description, (&parts, table), options)?;
     report.made = now.made;
     // Its runs are in the result; a folder that stays does no harm.
     let _ = parts.remove();
     Ok(report)
 }
 
-/// Makes the runs that are left and stores them.
+/// Makes the runs that are left, stores them, and has the table follow.
 fn make(
     runner: &Runner<'_>,
-    parts: &mut Parts,
-    total: usize,
+    (parts, total): (&mut Parts, usize),
+    table: &mut Option<GrowingTable<'_>>,
     options: &SweepOptions,
     progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Progress, StudyError> {
@@ -204,17 +209,21 @@ fn make(
         let last = now.stored_before + now.made == total;
         loop {
             let written = if stopped || last {
-                store.store()
+                store.store().map(|()| true)
             } else {
                 store.store_if_due()
             };
-            written.map_err(|source| StudyError::Store {
+            let written = written.map_err(|source| StudyError::Store {
                 folder: store.folder(),
                 source,
                 stored: now.stored,
                 of: total,
             })?;
             now.stored = now.stored_before + now.made - store.waiting();
+            // Not while somebody waits for this to end: the table is not finished by this call.
+            if let Some(table) = table.as_mut().filter(|_| written && !stopped) {
+                table.follow(store.parts())?;
+            }
             let asked = progress(&now);
             if stopped {
                 return Ok(ControlFlow::Break(()));
@@ -348,7 +357,11 @@ fn complete(
         return Err(standing(other));
     }
     let mut report = empty_report(runner, description);
-    let mut table = table(options, description)?;
+    let mut table = options
+        .csv
+        .as_ref()
+        .map(|path| RunTable::create(path, description))
+        .transpose()?;
     for start in (0..reader.rows).step_by(READ_AT_ONCE) {
         for (row, point) in reader.block(start..(start + READ_AT_ONCE).min(reader.rows))? {
             report.count(&row);
@@ -403,19 +416,11 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
 /// Rows of a result that are held at once.
 const READ_AT_ONCE: usize = 1024;
 
-fn table(options: &SweepOptions, d: &Description) -> Result<Option<RunTable>, StudyError> {
-    options
-        .csv
-        .as_ref()
-        .map(|path| RunTable::create(path, d))
-        .transpose()
-}
-
 /// Writes the result from the stored runs, one after another.
 fn assemble(
     runner: &Runner<'_>,
     description: &Description,
-    parts: &Parts,
+    (parts, table): (&Parts, Option<GrowingTable<'_>>),
     options: &SweepOptions,
 ) -> Result<SweepReport, StudyError> {
     let rows = parts.chunks.iter().map(Range::len).sum();
@@ -423,16 +428,12 @@ fn assemble(
     spare_other_shards(description, &options.output)?;
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
-    let mut table = table(options, description)?;
     parts.rows(&mut |row| {
         let point: Vec<Value> = runner.study.point(row.run);
         report.count(&row);
-        if let Some(table) = &mut table {
-            table.push(&row, &point)?;
-        }
         writer.push(row, point).map_err(StudyError::from)
     })?;
-    table.map_or(Ok(()), RunTable::finish)?;
+    table.map_or(Ok(()), |table| table.finish(parts))?;
     writer.finish()?;
     Ok(report)
 }

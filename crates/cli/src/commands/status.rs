@@ -17,6 +17,7 @@ use crate::files::ShardName;
 use crate::heartbeat::{BETWEEN, Beat, State, host, now, read, told};
 use crate::interruption::shell_line;
 use crate::output::{pretty, print, print_as_it_is};
+use crate::plan::path_word;
 use crate::progress::time;
 
 /// A shard that has not told of itself for this long is taken as ended: clocks of machines, and
@@ -301,8 +302,8 @@ impl Progress {
         if self.is_done() {
             text.push_str(&format!(
                 "merge them with\n  pounding merge {} -o {}.h5\n",
-                shell_line(&[folder.to_string_lossy()]),
-                shell_line(&[&self.name])
+                shell_line(&[path_word(folder)]),
+                shell_line(&[path_word(Path::new(&self.name))])
             ));
         }
         text

@@ -9,7 +9,7 @@ pub fn script(plan: &Plan) -> String {
     let mut options = vec![
         "--wait".to_owned(),
         "--array \"$list\"".to_owned(),
-        format!("--name {}", quoted(&plan.name)),
+        format!("--name={}", quoted(&plan.name)),
         format!("--cpus {}", plan.threads),
     ];
     if let Some(seconds) = plan.time {

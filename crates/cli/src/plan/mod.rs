@@ -142,19 +142,19 @@ impl Plan {
         }
         let name = name(&study.file);
         let folder = planned.into.map_or_else(
-            || format!("{name}.shards"),
-            |folder| folder.display().to_string(),
+            || path_word(Path::new(&format!("{name}.shards"))),
+            path_word,
         );
         let program = program();
         let words = |words: &[&str]| words.iter().map(|w| (*w).to_owned()).collect::<Vec<_>>();
-        let file = study.file.display().to_string();
+        let file = path_word(&study.file);
         let threads = running.threads.unwrap_or(1);
         let mut command = words(&[&program, planned.command, &file, "--into", &folder]);
         command.extend(words(&["--threads", &threads.to_string(), "--resume"]));
         command.extend(words(&["--store-every", &running.store_every]));
         let mut merge = words(&[&program, "merge", &folder, "-o"]);
         let output = running.output.as_deref();
-        let output = output.map_or_else(|| format!("{name}.h5"), |o| o.display().to_string());
+        let output = output.map_or_else(|| path_word(Path::new(&format!("{name}.h5"))), path_word);
         merge.push(output.clone());
         let mut last = words(&[&program, planned.command, &file, "-o", &output, "--resume"]);
         if running.keep_going {
@@ -164,7 +164,7 @@ impl Plan {
         let mut at_the_end = vec![merge];
         for (option, path) in [("--csv", &running.csv), ("--report", &running.report)] {
             if let Some(path) = path {
-                last.extend(words(&[option, &path.display().to_string()]));
+                last.extend(words(&[option, &path_word(path)]));
             }
         }
         last.extend(planned.at_the_end.iter().cloned());
@@ -264,6 +264,15 @@ impl Plan {
             "list=${{1-1-{}}}\nshards=$(for range in $(echo \"$list\" | tr , ' '); do seq \"${{range%-*}}\" \"${{range#*-}}\"; done)\n",
             self.shards
         )
+    }
+}
+
+/// A path as a word of a command: one that began with a dash would be taken for an option.
+pub fn path_word(path: &Path) -> String {
+    let word = path.display().to_string();
+    match word.starts_with('-') {
+        true => format!("./{word}"),
+        false => word,
     }
 }
 

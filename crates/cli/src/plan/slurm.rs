@@ -25,6 +25,9 @@ pub fn script(plan: &Plan) -> String {
         "tasks=$(for shard in $shards; do echo $(( (shard - 1) % {tasks} + 1 )); done | sort -nu | paste -sd, -)\n"
     ));
     let at_once = plan.at_once.map_or_else(String::new, |n| format!("%{n}"));
+    // A % in the name of a file begins what Slurm replaces, two of them are one.
+    let folder = plan.folder.replace('%', "%%");
+    let log = |name: &str| quoted(&format!("{folder}/log/{name}.txt"));
     let mut options = vec![
         "--parsable".to_owned(),
         format!("--array=\"$tasks{at_once}\""),
@@ -34,10 +37,7 @@ pub fn script(plan: &Plan) -> String {
         format!("--cpus-per-task={}", plan.threads),
         "--requeue".to_owned(),
         "--open-mode=append".to_owned(),
-        format!(
-            "--output={}",
-            quoted(&format!("{}/log/%a.txt", plan.folder))
-        ),
+        format!("--output={}", log("%a")),
     ];
     if let Some(seconds) = plan.time {
         options.push(format!("--time={}", clock(seconds)));
@@ -55,16 +55,13 @@ pub fn script(plan: &Plan) -> String {
         format!("--job-name={}", quoted(&format!("{}-merge", plan.name))),
         "--nodes=1".to_owned(),
         "--ntasks=1".to_owned(),
-        format!(
-            "--output={}",
-            quoted(&format!("{}/log/merge.txt", plan.folder))
-        ),
+        format!("--output={}", log("merge")),
     ];
     text.push_str(&format!(
-        "merge=$(sbatch {} <<'MERGE'\n#!/bin/bash\nset -e\n{}\nMERGE\n)\necho \"array ${{array:-none}}, merge $merge; {shards} shards: see {}\"\n",
+        "merge=$(sbatch {} <<'MERGE'\n#!/bin/bash\nset -e\n{}\nMERGE\n)\necho \"array ${{array:-none}}, merge $merge; {shards} shards: see \"{}\n",
         merge.join(" \\\n  "),
         plan.last_lines(),
-        shell_line(&plan.unfinished[..plan.unfinished.len() - 1])
+        quoted(&shell_line(&plan.unfinished[..plan.unfinished.len() - 1]))
     ));
     text
 }

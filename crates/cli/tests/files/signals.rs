@@ -140,3 +140,41 @@ fn a_sweep_stores_what_has_finished() {
         std::fs::remove_file(fixture.path("new.h5")).unwrap();
     }
 }
+
+/// Batch systems send a signal to a task and to the shell above it, which hands it on: the second
+/// loses nothing.
+#[test]
+fn signals_that_come_together_are_one() {
+    let fixture = Fixture::new();
+    let study = "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nfrom = \"5 mm\"\nto = \"60 mm\"\ncount = 1500\n";
+    std::fs::write(fixture.path("study.toml"), study).unwrap();
+    let words = "sweep study.toml -o new.h5 --store-every 1000s --threads 1 --resume";
+    let mut child = fixture
+        .command(&words.split_whitespace().collect::<Vec<_>>())
+        .env("POUNDING_PROGRESS_SECONDS", "0.05")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Some runs have finished, and none is stored: neither time nor a whole chunk asked for it.
+    let mut line = String::new();
+    let mut errors = std::io::BufReader::new(child.stderr.take().unwrap());
+    while line.is_empty() || line.starts_with("0 of") {
+        line.clear();
+        assert!(std::io::BufRead::read_line(&mut errors, &mut line).unwrap() > 0);
+    }
+    let both = format!("kill -TERM {0}; kill -TERM {0}", child.id());
+    assert!(
+        Command::new("sh")
+            .args(["-c", &both])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut told = String::new();
+    std::io::Read::read_to_string(&mut errors, &mut told).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(5), "{told}");
+    let stored = told.split("interrupted; ").nth(1).unwrap();
+    let stored: usize = stored.split(' ').next().unwrap().parse().unwrap();
+    assert!((1..1500).contains(&stored), "{told}");
+}

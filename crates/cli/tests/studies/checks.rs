@@ -41,6 +41,19 @@ fn shards_of_checks_give_what_one_process_gives() {
         let told = bench.complaint(&format!("{call} --merge parts"), 2);
         assert!(told.contains("of 3 shards these are missing: 2"), "{told}");
     }
+    // A shard answers nothing, and so writes no answer.
+    for call in [
+        "gap case.toml --csv a.csv",
+        "gap case.toml --codes-csv a.csv",
+        "gap case.toml --report a.html",
+        "gap case.toml --json",
+        "compare case.toml --plot a.svg",
+        "compare case.toml --csv a.csv",
+    ] {
+        let told = bench.complaint(&format!("{call} --shard 1/2 --into refused"), 2);
+        assert!(told.contains("to the call with --merge"), "{told}");
+    }
+    assert!(!bench.path("refused").exists());
     let told = bench.complaint("gap case.toml --points 0 --shard 1/2 --into parts", 2);
     assert!(told.contains("no runs to share"), "{told}");
     let told = bench.complaint("compare case.toml --merge .", 2);

@@ -154,3 +154,21 @@ fn large_results_are_read_in_parts_by_python() {
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{told}");
 }
+
+/// `-vv` tells of every run with its number and the time it took, in any order; no bit changes.
+#[test]
+fn an_account_of_every_run() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o quiet.h5");
+    let output = bench.run("-vv sweep study.toml -o told.h5 --threads 2");
+    let account = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{account}");
+    for run in 0..60 {
+        let of_run = |line: &str| {
+            line.contains(&format!("study_run{{number={run}}}: "))
+                && line.contains("close time.busy=")
+        };
+        assert_eq!(account.lines().filter(|l| of_run(l)).count(), 1, "{run}");
+    }
+    assert!(bench.bytes("told.h5") == bench.bytes("quiet.h5"));
+}

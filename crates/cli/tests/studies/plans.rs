@@ -199,6 +199,50 @@ fn the_script_for_slurm_regroups_shards_and_says_so() {
     );
 }
 
+/// Names that begin as options do, and that Slurm and shells would replace.
+#[cfg(unix)]
+#[test]
+fn names_are_taken_as_they_are() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o whole.h5 --csv whole.csv");
+    std::fs::rename(
+        bench.path("study.toml"),
+        bench.path("-50% $(touch no) \"'.toml"),
+    )
+    .unwrap();
+    std::fs::create_dir(bench.path("stubs")).unwrap();
+    for (name, text) in [("sbatch", SBATCH), ("hq", HQ)] {
+        let stub = bench.path("stubs").join(name);
+        std::fs::write(&stub, text).unwrap();
+        std::fs::set_permissions(&stub, std::fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    for scheduler in ["shell", "slurm", "hyper-queue"] {
+        let output = bench
+            .command(&format!("sweep --plan={scheduler} --shards 3 --csv=-t.csv"))
+            .arg("./-50% $(touch no) \"'.toml")
+            .output()
+            .unwrap();
+        std::fs::write(bench.path("plan.sh"), succeeded(&output)).unwrap();
+        let told = succeeded(&bash(&bench, &["plan.sh"]));
+        assert!(!bench.path("no").exists(), "{told}");
+        let result = "-50% $(touch no) \"'.h5";
+        assert!(
+            bench.bytes(result) == bench.bytes("whole.h5"),
+            "{scheduler}"
+        );
+        assert!(
+            bench.bytes("-t.csv") == bench.bytes("whole.csv"),
+            "{scheduler}"
+        );
+        std::fs::remove_file(bench.path(result)).unwrap();
+        std::fs::remove_dir_all(bench.path("-50% $(touch no) \"'.shards")).unwrap();
+    }
+    let given = std::fs::read_to_string(bench.path("sbatch.options")).unwrap();
+    let log = "--output=./-50%% $(touch no) \"'.shards/log/%a.txt";
+    assert!(given.lines().any(|o| o == log), "{given}");
+}
+
 /// `hq`, as far as the plan uses it.
 const HQ: &str = r#"#!/bin/bash
 printf '%s\n' "$@" > hq.options

@@ -17,15 +17,21 @@ const LOCK: &str = "lock";
 /// How often a folder that another process is just removing is made anew.
 const TRIES: usize = 10;
 
+/// The piece of a run that is not stored.
+const NOWHERE: u32 = u32::MAX;
+
 /// Finished runs of one study, or of one shard of it.
 #[derive(Debug)]
 pub(crate) struct Parts {
     pub folder: PathBuf,
     study: String,
-    /// Chunks of this shard, in order.
+    /// Chunks of this shard, in order; all have one length, but the last may be shorter.
     pub chunks: Vec<Range<usize>>,
-    /// The piece in which each stored run stands.
-    stored: BTreeMap<usize, PathBuf>,
+    /// All pieces that were read or written.
+    pieces: Vec<PathBuf>,
+    /// The piece in which each run stands, or [`NOWHERE`], by the run's place among those of this
+    /// shard: four bytes a run, as there may be ten million.
+    stored: Vec<u32>,
     /// Held as long as this lives.
     _lock: File,
 }
@@ -51,11 +57,13 @@ impl Parts {
     ) -> Result<Self, StudyError> {
         let folder = Self::folder(result);
         let lock = lock(&folder)?;
+        let runs = chunks.iter().map(Range::len).sum();
         let mut parts = Self {
             folder,
             study: study.to_owned(),
             chunks,
-            stored: BTreeMap::new(),
+            pieces: Vec::new(),
+            stored: vec![NOWHERE; runs],
             _lock: lock,
         };
         parts.claim(resume)?;
@@ -74,7 +82,7 @@ impl Parts {
             Ok(text) if text != self.study => Err(self.other(&text)),
             Ok(_) => {
                 self.look();
-                let stored = self.stored.len();
+                let stored = self.stored.iter().filter(|p| **p != NOWHERE).count();
                 if stored > 0 && !resume {
                     return Err(StudyError::Unfinished { folder, stored });
                 }
@@ -105,19 +113,43 @@ impl Parts {
         for path in files(&self.folder, &["runs"]) {
             // What is damaged is made again.
             let rows = piece::read(&path, &self.study).unwrap_or_default();
-            for run in rows.iter().map(|r| r.run) {
-                let place = self.chunks.partition_point(|c| c.end <= run);
-                if self.chunks.get(place).is_some_and(|c| c.contains(&run)) {
-                    self.stored.insert(run, path.clone());
-                }
+            self.note(path, &rows);
+        }
+    }
+
+    /// Notes where these rows are stored.
+    fn note(&mut self, path: PathBuf, rows: &[Row]) {
+        // More pieces than that are more files than file systems hold.
+        let piece = u32::try_from(self.pieces.len()).unwrap_or(NOWHERE);
+        for row in rows {
+            if let Some(place) = self.place(row.run) {
+                self.stored[place] = piece;
             }
         }
+        self.pieces.push(path);
+    }
+
+    /// The place of a run among those of this shard; `None` if it is of another one.
+    fn place(&self, run: usize) -> Option<usize> {
+        let chunk = self.chunks.partition_point(|c| c.end <= run);
+        let inside = self.chunks.get(chunk).filter(|c| c.contains(&run))?;
+        Some(chunk * self.chunks[0].len() + run - inside.start)
+    }
+
+    /// The piece in which a run stands; `None` if it is not stored.
+    fn piece(&self, run: usize) -> Option<&Path> {
+        let piece = *self.stored.get(self.place(run)?)?;
+        Some(self.pieces.get(usize::try_from(piece).ok()?)?.as_path())
     }
 
     /// Runs that are not stored, in order.
     pub(crate) fn left(&self) -> Vec<usize> {
         let all = self.chunks.iter().flat_map(Clone::clone);
-        all.filter(|run| !self.stored.contains_key(run)).collect()
+        let stored = all.zip(&self.stored);
+        stored
+            .filter(|(_, piece)| **piece == NOWHERE)
+            .map(|(run, _)| run)
+            .collect()
     }
 
     /// Stores some rows, which are in the order of their runs, as a piece.
@@ -128,9 +160,7 @@ impl Parts {
         let content = piece::encode(&self.study, rows);
         let path = self.folder.join(piece::name(&content, rows));
         pounding_files::write(&path, &content)?;
-        for row in rows {
-            self.stored.insert(row.run, path.clone());
-        }
+        self.note(path.clone(), rows);
         Ok(path)
     }
 
@@ -142,24 +172,22 @@ impl Parts {
         &self,
         take: &mut dyn FnMut(Row) -> Result<(), StudyError>,
     ) -> Result<(), StudyError> {
-        let failed = |source| StudyError::File {
+        let mut rows = RowsInOrder::default();
+        while let Some(row) = rows.next(self)? {
+            take(row)?;
+        }
+        match rows.awaited(self) {
+            Some(run) => Err(self.unreadable(lost(run))),
+            None => Ok(()),
+        }
+    }
+
+    fn unreadable(&self, source: Error) -> StudyError {
+        StudyError::File {
             what: "read the finished runs in",
             path: self.folder.clone(),
             source,
-        };
-        // Runs were made nearly in order, so that few pieces are open at a time.
-        let mut open: BTreeMap<usize, Row> = BTreeMap::new();
-        for run in self.chunks.iter().flat_map(Clone::clone) {
-            if !open.contains_key(&run) {
-                let path = self.stored.get(&run).ok_or_else(|| lost(run));
-                let rows = path.and_then(|path| piece::read(path, &self.study));
-                let rows = rows.map_err(failed)?.into_iter();
-                open.extend(rows.filter(|r| r.run >= run).map(|r| (r.run, r)));
-            }
-            let row = open.remove(&run).ok_or_else(|| failed(lost(run)))?;
-            take(row)?;
         }
-        Ok(())
     }
 
     /// Removes the folder of a result that stands complete, if it holds runs of this very
@@ -178,7 +206,8 @@ impl Parts {
                 folder: folder.clone(),
                 study: study.to_owned(),
                 chunks: Vec::new(),
-                stored: BTreeMap::new(),
+                pieces: Vec::new(),
+                stored: Vec::new(),
                 _lock: lock,
             };
             // A folder that stays does no harm.
@@ -197,6 +226,51 @@ impl Parts {
         // Last of all: who comes now makes a folder of its own.
         std::fs::remove_file(self.folder.join(LOCK))?;
         std::fs::remove_dir(&self.folder)
+    }
+}
+
+/// The rows of a folder one after another, in the order of their runs, while more are stored.
+#[derive(Debug, Default)]
+pub(crate) struct RowsInOrder {
+    /// Chunk of the next run, and which of its runs it is.
+    at: (usize, usize),
+    /// Rows that were read with others of their piece. Runs are made nearly in order, so that few
+    /// pieces are open at a time.
+    open: BTreeMap<usize, Row>,
+}
+
+impl RowsInOrder {
+    /// The run whose row comes next; `None` if there is none.
+    fn awaited(&mut self, parts: &Parts) -> Option<usize> {
+        while let Some(chunk) = parts.chunks.get(self.at.0) {
+            if self.at.1 < chunk.len() {
+                return Some(chunk.start + self.at.1);
+            }
+            self.at = (self.at.0 + 1, 0);
+        }
+        None
+    }
+
+    /// The next row; `None` at the end, and where its run is not stored yet.
+    ///
+    /// # Errors
+    /// A piece that is not whole.
+    pub(crate) fn next(&mut self, parts: &Parts) -> Result<Option<Row>, StudyError> {
+        let Some(run) = self.awaited(parts) else {
+            return Ok(None);
+        };
+        if !self.open.contains_key(&run) {
+            let Some(path) = parts.piece(run) else {
+                return Ok(None);
+            };
+            let rows = piece::read(path, &parts.study).map_err(|e| parts.unreadable(e))?;
+            let ahead = rows.into_iter().filter(|row| row.run >= run);
+            self.open.extend(ahead.map(|row| (row.run, row)));
+        }
+        let row = self.open.remove(&run);
+        let row = row.ok_or_else(|| parts.unreadable(lost(run)))?;
+        self.at.1 += 1;
+        Ok(Some(row))
     }
 }
 

@@ -11,5 +11,5 @@ mod folder;
 mod piece;
 mod store;
 
-pub(crate) use folder::Parts;
+pub(crate) use folder::{Parts, RowsInOrder};
 pub(crate) use store::Store;

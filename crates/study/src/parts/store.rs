@@ -42,6 +42,11 @@ impl<'p> Store<'p> {
         self.parts.folder.clone()
     }
 
+    /// What is stored.
+    pub(crate) fn parts(&self) -> &Parts {
+        self.parts
+    }
+
     /// Takes a finished run.
     pub(crate) fn take(&mut self, row: Row) {
         self.waiting.push(row);
@@ -52,11 +57,11 @@ impl<'p> Store<'p> {
         self.waiting.len()
     }
 
-    /// Stores what waits if there is enough, or if time is up.
+    /// Stores what waits if there is enough, or if time is up; says whether it has.
     ///
     /// # Errors
     /// What the system said; what was stored before stays.
-    pub(crate) fn store_if_due(&mut self) -> std::io::Result<()> {
+    pub(crate) fn store_if_due(&mut self) -> std::io::Result<bool> {
         if self.waiting.len() + self.small.0.len() >= self.most {
             let mut rows = std::mem::take(&mut self.small.0);
             rows.append(&mut self.waiting);
@@ -65,12 +70,13 @@ impl<'p> Store<'p> {
                 // Its runs stand in the new piece, too: it does no harm.
                 let _ = std::fs::remove_file(path);
             }
-            return Ok(());
+            return Ok(true);
         }
         if self.last.elapsed() >= self.every {
-            return self.store();
+            self.store()?;
+            return Ok(true);
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Stores what waits.

@@ -40,8 +40,11 @@ pub(crate) fn run_all(
                     let Some(run) = runs.get(at) else {
                         return;
                     };
+                    // Told when it ends, with its number and the time that it took.
+                    let row = tracing::debug_span!("study_run", number = *run)
+                        .in_scope(|| runner.row(*run));
                     // The other end is gone only if the study has stopped.
-                    if sender.send(runner.row(*run)).is_err() {
+                    if sender.send(row).is_err() {
                         return;
                     }
                 }

@@ -1,5 +1,6 @@
 //! The rows as a table, CSV or Parquet: a line per run, a column for every variable and value.
 
+mod growing;
 mod parquet_table;
 
 use std::fs::File;
@@ -11,6 +12,8 @@ use pounding_results::study::{Axis, Description, Row, Value};
 use crate::error::StudyError;
 use parquet_table::{Cell, ParquetTable};
 use pounding_files::checksum::hexadecimal;
+
+pub(crate) use growing::GrowingTable;
 
 /// Writes a table beside its place; `finish` puts it there. It is Parquet if its name ends
 /// in `.parquet`, else CSV.

@@ -16,7 +16,7 @@ const FOLDER: &str = "crates/verification/cases";
 const RECORDS: [(&str, &[u8]); 2] = [
     (
         "el_centro_1940_ns.csv",
-        include_bytes!("../../records/el_centro_1940_ns.csv"),
+        include_bytes!(env!("POUNDING_EL_CENTRO")),
     ),
     ("at_rest.csv", include_bytes!("../../cases/at_rest.csv")),
 ];

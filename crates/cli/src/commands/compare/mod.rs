@@ -13,7 +13,7 @@ use pounding_study::comparison::{
 };
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
-use crate::deal::{deal, no_outputs, told_part};
+use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -27,15 +27,21 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
-    let deal = deal(&arguments.dealing, ("compare", &arguments.case), &mut files)?;
-    let outputs = [
+    let answers = [
+        ("--csv", arguments.csv.is_some()),
+        ("--plot", arguments.plot.is_some()),
+        ("--report", arguments.report.is_some()),
+        ("--output", arguments.output.is_some()),
+        ("--json", arguments.json),
+    ];
+    let check = ("compare", &*arguments.case);
+    let deal = deal(&arguments.dealing, check, &answers, &mut files)?;
+    have_a_place([
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
         arguments.output.as_deref(),
-    ];
-    no_outputs(&deal, outputs)?;
-    have_a_place(outputs)?;
+    ])?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {

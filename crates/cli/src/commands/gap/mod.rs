@@ -20,7 +20,7 @@ use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
-use crate::deal::{deal, no_outputs, told_part};
+use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::have_a_place;
@@ -42,22 +42,29 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let options = options(arguments)?;
     let failed = |e| of_check(e, &case);
     let records = recorded(&case, &arguments.records, &mut files)?;
-    let deal = deal(&arguments.dealing, ("gap", path), &mut files)?;
+    let answers = [
+        ("--csv", arguments.csv.is_some()),
+        ("--codes-csv", arguments.codes_csv.is_some()),
+        ("--plot", arguments.plot.is_some()),
+        ("--spectra", arguments.spectra.is_some()),
+        ("--report", arguments.report.is_some()),
+        ("--output", arguments.output.is_some()),
+        ("--json", arguments.json),
+    ];
+    let deal = deal(&arguments.dealing, ("gap", path), &answers, &mut files)?;
     if arguments.points == 0 && deal != Deal::All {
         let help = "leave --points 0 away, or --shard and --merge".to_owned();
         let message = "without a sweep there are no runs to share";
         return Err(Failure::input(message, Some(help)));
     }
-    let outputs = [
+    have_a_place([
         arguments.csv.as_deref(),
         arguments.codes_csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
         arguments.report.as_deref(),
         arguments.output.as_deref(),
-    ];
-    no_outputs(&deal, outputs)?;
-    have_a_place(outputs)?;
+    ])?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| progress.show(done, total, "");
     let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::files::{have_a_place, reads_too};
 use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print};
-use crate::plan::{self, Planned};
+use crate::plan::{self, Planned, path_word};
 use crate::study::{Finished, all_failed, options, run, shard, summary};
 use crate::{page, plot};
 
@@ -89,7 +89,7 @@ fn part(
         return print(&pretty(&Finished::of(sweep, options))?);
     }
     let mut text = summary(study, sweep, options);
-    let file = quoted(&study.file.display().to_string());
+    let file = quoted(&path_word(&study.file));
     text.push_str(&format!(
         "When all shards are done: `pounding merge` with all of them and -o ALL.h5, then `pounding ida {file} -o ALL.h5 --resume`\n"
     ));
@@ -100,7 +100,7 @@ fn part(
 fn at_the_end(arguments: &IdaArguments) -> Vec<String> {
     let files = [("--table", &arguments.table), ("--plot", &arguments.plot)];
     let given = files.iter().filter_map(|(option, path)| {
-        let path = path.as_ref()?.display().to_string();
+        let path = path_word(path.as_ref()?);
         Some([(*option).to_owned(), path])
     });
     given.flatten().collect()

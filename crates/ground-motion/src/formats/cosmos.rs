@@ -90,12 +90,13 @@ fn channel(
         Some(s) if s < 2.0 => Processing::Raw,
         _ => Processing::Unstated,
     };
-    draft.quantities = NamedQuantity::of(first.number, lower.split("(format").next().unwrap_or(""))
+    let before = |line: Line<'_>, words: &str| {
+        let at = line.lower().find(words).unwrap_or(0);
+        NamedQuantity::of(line.number, &line.columns(0, at))
+    };
+    draft.quantities = before(first, "(format")
         .into_iter()
-        .chain(NamedQuantity::of(
-            announcement.number,
-            data.split("units=").next().unwrap_or(""),
-        ))
+        .chain(before(announcement, "units="))
         .chain(by_sensor(&integers))
         .collect();
     stage_agrees(source, first, &integers)?;

@@ -27,9 +27,12 @@ const AZIMUTH: usize = 14;
 const COMMENTS: usize = 16;
 const COUNT: usize = 17;
 const RATE: usize = 2;
+/// Integer that holds the digits of the values where they are not five.
+const DIGITS: usize = 47;
 const INTEGERS: Layout = Layout::new(8, 10);
 const REALS: Layout = Layout::new(5, 15);
 const DATA: Layout = Layout::new(8, 10);
+const DATA_OF_EIGHT_DIGITS: Layout = Layout::new(5, 14);
 
 pub(super) static FORMAT: Format = Format {
     name: "usgs_smc",
@@ -83,7 +86,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ));
     };
     let first = lines.number() + 1;
-    let numbers = source.block(&mut lines, DATA, Some(count), None)?;
+    let layout = match integers.get(DIGITS) {
+        Some(8.0) => DATA_OF_EIGHT_DIGITS,
+        _ => DATA,
+    };
+    let numbers = source.block(&mut lines, layout, Some(count), None)?;
     let rate = known(reals.positive(RATE)).filter(|rate| *rate < MOST_SAMPLES_A_SECOND);
     let places = (reals.line_of(RATE), first, lines.number());
     let unit = DraftUnit::Stated(kind.unit);

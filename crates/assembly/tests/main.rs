@@ -6,4 +6,5 @@ mod forces;
 mod given_files;
 mod lateral;
 mod plan;
+mod spring;
 mod warnings;

@@ -121,6 +121,12 @@ impl ModelDescriptor {
         }
     }
 
+    /// Whether the spring may be given as a table: the law holds for any force that increases.
+    #[must_use]
+    pub fn takes_spring_table(&self) -> bool {
+        self.class == "dry friction"
+    }
+
     /// Whether users may ask for a restitution.
     #[must_use]
     pub fn takes_restitution(&self) -> bool {

@@ -79,7 +79,7 @@ impl GapElementError {
             Self::Conflict { first, second, .. } => format!("give {first} or {second}, not both"),
             Self::Separation { offered, .. } => format!("it offers {}", offered.join(", ")),
             Self::Series { .. } => "take an elastic law, linear_elastic or hertz_1882".to_owned(),
-            Self::SpringTable(_) => "give penetrations and forces that increase from above zero".to_owned(),
+            Self::SpringTable(_) => "give borovin_2014 penetrations and forces that increase from above zero".to_owned(),
             Self::Bodies(_) => "the left body must move towards the right one".to_owned(),
             Self::Unfinished { .. } => "so much damping makes the contact creep for ever: check damping, restitution and their units".to_owned(),
         })

@@ -9,13 +9,18 @@ use crate::descriptor::{ModelDescriptor, ParameterDescriptor, ParameterUnit};
 use crate::error::GapElementError;
 use crate::model::SeparationRule;
 
-/// Parameters by name (SI) and the separation rule.
+/// Parameters by name (SI), the separation rule, and a measured spring.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModelParameters {
     /// Parameters by name.
     pub parameters: Parameters,
     /// Separation rule; `None` is the model's first.
     pub separation: Option<SeparationRule>,
+    /// Penetrations (m) and forces (N) of a spring that is given as a table, both increasing from
+    /// above zero, in the place of stiffness and exponent: straight lines from the origin over
+    /// the points, and on beyond the last. For models that hold for any spring
+    /// ([`ModelDescriptor::takes_spring_table`]).
+    pub spring: Option<Vec<(f64, f64)>>,
 }
 
 impl Deref for ModelParameters {
@@ -37,6 +42,7 @@ impl From<Parameters> for ModelParameters {
         Self {
             parameters,
             separation: None,
+            spring: None,
         }
     }
 }
@@ -58,7 +64,10 @@ impl ModelParameters {
     /// Refuses unknown, missing and out-of-range parameters, and a separation rule that the
     /// model does not offer.
     pub(crate) fn check(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
-        self.parameters.check(model)?;
+        match &self.spring {
+            Some(table) => self.check_spring(model, table)?,
+            None => self.parameters.check(model)?,
+        }
         let rule = self.separation(model);
         if !model.separation_rules.contains(&rule) {
             return Err(GapElementError::Separation {
@@ -67,6 +76,44 @@ impl ModelParameters {
                 offered: model.separation_rules.iter().map(|r| r.name()).collect(),
             });
         }
+        Ok(())
+    }
+
+    /// The same with a table of a spring, whose first line stands for the stiffness.
+    fn check_spring(
+        &self,
+        model: &'static ModelDescriptor,
+        table: &[(f64, f64)],
+    ) -> Result<(), GapElementError> {
+        if !model.takes_spring_table() {
+            return Err(GapElementError::SpringTable(format!(
+                "model {} takes none",
+                model.name
+            )));
+        }
+        let given = ["stiffness", "exponent"]
+            .into_iter()
+            .find(|name| self.given(name).is_some());
+        if let Some(second) = given {
+            return Err(GapElementError::Conflict {
+                model: model.name,
+                first: "spring",
+                second,
+            });
+        }
+        let Some((penetration, force)) = table.first() else {
+            return Err(GapElementError::SpringTable("it is empty".to_owned()));
+        };
+        let mut all = self.parameters.clone();
+        let slope = force / penetration;
+        // What is wrong with the table is said where it is taken apart.
+        let slope = if slope.is_finite() && slope > 0.0 {
+            slope
+        } else {
+            1.0
+        };
+        all.values.insert("stiffness".to_owned(), slope);
+        all.check(model)?;
         Ok(())
     }
 

@@ -28,6 +28,30 @@ pub(crate) struct DraftPeak {
     pub shift: f64,
     /// Its line, from 1; `None`: that of the step.
     pub line: Option<usize>,
+    /// Whether it is the largest value of its sign alone.
+    pub of_sign: bool,
+}
+
+/// A quantity that a header names in words, which is that of the unit.
+pub(crate) struct NamedQuantity {
+    pub quantity: Quantity,
+    /// The words.
+    pub text: String,
+    /// Their line, from 1.
+    pub line: usize,
+}
+
+impl NamedQuantity {
+    /// What the words of a line name, if they name one quantity.
+    pub(crate) fn of(line: usize, text: &str) -> Option<Self> {
+        let quantity = Quantity::in_words(&text.to_ascii_lowercase())?;
+        let text = text.trim().chars().take(48).collect();
+        Some(Self {
+            quantity,
+            text,
+            line,
+        })
+    }
 }
 
 /// A length of the record that a header states.
@@ -89,6 +113,8 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
+    /// What the header counts, if not samples, in brackets after a blank.
+    pub counted: String,
     /// Other counts that the header states, with their lines.
     pub other_counts: Vec<(usize, usize)>,
     /// Lengths of the record that the header states, in numbers or in words.
@@ -97,6 +123,10 @@ pub(crate) struct Draft {
     /// tells which of them is wrong is said first.
     pub step_conflict: Option<(usize, String, String)>,
     pub peak: Option<DraftPeak>,
+    /// The same peak where the header repeats it, and lesser ones.
+    pub other_peaks: Vec<DraftPeak>,
+    /// What the header says in words that the values are.
+    pub quantities: Vec<NamedQuantity>,
     pub initial: Option<(f64, f64)>,
     pub processing: Processing,
     pub title: String,
@@ -109,7 +139,7 @@ pub(crate) struct Draft {
 }
 
 /// Values that a last row may hold beyond the count of the header: agencies fill it.
-const ROW: usize = 10;
+pub(crate) const ROW: usize = 10;
 
 impl Draft {
     /// A draft with nothing but values: `lines` are those of the header, of the
@@ -122,10 +152,13 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
+            counted: String::new(),
             other_counts: Vec::new(),
             header_durations: Vec::new(),
             step_conflict: None,
             peak: None,
+            other_peaks: Vec::new(),
+            quantities: Vec::new(),
             initial: None,
             processing: Processing::Unstated,
             title: String::new(),
@@ -146,6 +179,7 @@ impl Draft {
         self.samples.shrink_to_fit();
         self.missing();
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
+        self.agrees_in_words(source, quantity, symbol)?;
         let (sampling, step_text) = self.sampling(source)?;
         self.duration(source, &sampling)?;
         if let Some((line, message, remedy)) = self.step_conflict.take() {
@@ -181,18 +215,25 @@ impl Draft {
                 ..Origin::default()
             },
         };
-        if let Some(peak) = self.peak.take() {
+        let peaks = self.peak.take().map(|peak| (peak, true));
+        let others = self.other_peaks.drain(..).map(|peak| (peak, false));
+        for (peak, is_main) in peaks.into_iter().chain(others) {
             let unit = peak.unit.map_or((symbol, factor), |u| {
                 (u.symbol, u.in_si(gravity(source.options.gravity)))
             });
-            let compared = compare_peak(&mut series, &peak, unit, &mut self.warnings);
+            let (stated, compared) = compare_peak(&series, &peak, unit, &mut self.warnings);
+            if is_main {
+                series.header_peak = Some(stated);
+            }
             if let Err(message) = compared {
                 // Who says the unit has said that the header is wrong in it.
                 if !(source.options.lenient || source.options.unit.is_some()) {
                     let line = peak.line.unwrap_or(self.lines.0);
                     return Err(source.error(line, 0, message, PEAK_REMEDY));
                 }
-                self.warnings.push(message);
+                if !self.warnings.contains(&message) {
+                    self.warnings.push(message);
+                }
             }
         }
         series.origin.warnings = self.warnings;
@@ -210,6 +251,7 @@ impl Draft {
                     column: 1,
                     expected,
                     found,
+                    stated: std::mem::take(&mut self.counted),
                 });
             }
             self.warnings.push(format!(
@@ -262,6 +304,32 @@ impl Draft {
             ));
         }
         Ok(())
+    }
+
+    /// Refuses words that name another quantity than the unit: which is right cannot be known.
+    fn agrees_in_words(
+        &self,
+        source: &Source<'_>,
+        quantity: Quantity,
+        unit: &str,
+    ) -> Result<(), GroundMotionError> {
+        let Some(other) = self.quantities.iter().find(|q| q.quantity != quantity) else {
+            return Ok(());
+        };
+        // Counts and volts are not what they count.
+        let values = match &self.unit {
+            DraftUnit::Scaled { of, .. } => format!("{of} of {quantity}"),
+            _ => format!("in {unit}, which is {quantity}"),
+        };
+        Err(source.error(
+            other.line,
+            0,
+            format!(
+                "the header says {} here (\"{}\"), but the values are {values}",
+                other.quantity, other.text
+            ),
+            "header and unit contradict one another: get the record again",
+        ))
     }
 
     /// Values that often stand for "missing" but can be true are only named.
@@ -486,16 +554,14 @@ const PEAK_REMEDY: &str = "header and samples contradict one another: check the 
 /// Holds the header's peak against the samples: magnitudes, for agencies print
 /// either sign, within the last printed digit; times within one step. Headers of
 /// raw records refer to samples with or without their mean. A sign that differs is kept
-/// with the header's peak.
-///
-/// # Errors
-/// What is wrong with a peak that differs by more than [`PEAK_TOLERANCE`].
+/// with the header's peak. What is wrong with a peak that differs by more than [`PEAK_TOLERANCE`]
+/// is returned beside it.
 fn compare_peak(
-    series: &mut Series,
+    series: &Series,
     peak: &DraftPeak,
     (unit, in_si): (&'static str, f64),
     warnings: &mut Vec<String>,
-) -> Result<(), String> {
+) -> (HeaderPeak, Result<(), String>) {
     let value = peak.value.0 * in_si;
     // Either the header or the samples have fewer digits than the other.
     let tolerance = (peak.value.1 * in_si).abs() + 1.0e-4 * value.abs();
@@ -506,14 +572,17 @@ fn compare_peak(
         unit_in_si: in_si,
         opposite_sign: false,
     };
-    series.header_peak = Some(stated);
     let mean = if series.origin.processing == Processing::Corrected {
         0.0
     } else {
         series.mean()
     };
     let less = |offset: f64| {
-        let largest = |m: f64, a: &f64| m.max((a - offset).abs());
+        let size = |a: &f64| match peak.of_sign {
+            true => (a - offset) * value.signum(),
+            false => (a - offset).abs(),
+        };
+        let largest = |m: f64, a: &f64| m.max(size(a));
         series.samples.iter().fold(0.0_f64, largest)
     };
     for offset in [0.0, mean] {
@@ -542,10 +611,12 @@ fn compare_peak(
                 ));
             }
         }
-        series.header_peak = Some(stated);
-        return Ok(());
+        return (stated, Ok(()));
     }
-    let (found, time) = series.signed_peak();
+    let (found, time) = match peak.of_sign {
+        true => series.extreme(value.signum()),
+        false => series.signed_peak(),
+    };
     let decimals = ((4.0 - libm::log10(value.abs() / in_si).floor()).clamp(0.0, 9.0)) as usize;
     let message = format!(
         "the header's peak is {:.decimals$} {unit}, that of the samples {:.decimals$} {unit} at {time:.3} s",
@@ -555,8 +626,10 @@ fn compare_peak(
     let differs = |offset: f64| (less(offset) - value.abs()).abs() > PEAK_TOLERANCE * value.abs();
     // A zero is a field that was not filled in.
     if value != 0.0 && [0.0, mean].into_iter().all(differs) {
-        return Err(message);
+        return (stated, Err(message));
     }
-    warnings.push(message);
-    Ok(())
+    if !warnings.contains(&message) {
+        warnings.push(message);
+    }
+    (stated, Ok(()))
 }

@@ -81,7 +81,7 @@ pub enum GroundMotionError {
     },
     /// Fewer samples than the header says.
     #[error(
-        "{file}:{line}:{column}: the header says {expected} samples, the series ends after {found}"
+        "{file}:{line}:{column}: the header says {expected} samples{stated}, the series ends after {found}"
     )]
     TooFewSamples {
         /// File.
@@ -94,6 +94,8 @@ pub enum GroundMotionError {
         expected: usize,
         /// Count found.
         found: usize,
+        /// What the header counts, if not samples, in brackets after a blank.
+        stated: String,
     },
     /// A velocity or displacement series.
     #[error("{file}: the series is a {quantity}, not an acceleration")]

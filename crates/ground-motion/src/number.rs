@@ -3,10 +3,16 @@
 /// Magnitude from which a value is the `1.7E+38` that stands for "missing".
 const MISSING: f64 = 1.0e37;
 
+/// Characters that no number of a record exceeds.
+const LONGEST: usize = 64;
+
 /// Parses `.5`, `5.`, `1.0D-03`, `1.234-103`; refuses NaN, infinities, Fortran
 /// overflow, decimal commas and values that stand for missing, with the reason.
 pub(crate) fn parse(field: &[u8]) -> Result<f64, String> {
     let plain = field.trim_ascii();
+    if plain.len() > LONGEST {
+        return Err(not_a_number(plain));
+    }
     let simple = |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E');
     if plain.iter().all(simple)
         && let Ok(text) = std::str::from_utf8(plain)
@@ -31,11 +37,10 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
     if plain.contains(&b',') {
         return Err(format!("\"{shown}\" has a decimal comma"));
     }
-    let not = || format!("\"{shown}\" is not a number");
     let fortran =
         |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E' | b'd' | b'D');
-    if plain.len() > 64 || !plain.iter().all(fortran) {
-        return Err(not());
+    if !plain.iter().all(fortran) {
+        return Err(not_a_number(plain));
     }
     let mut normal = String::with_capacity(plain.len() + 1);
     for b in plain {
@@ -49,8 +54,12 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
     {
         normal.insert(at, 'e');
     }
-    let value = normal.parse::<f64>().map_err(|_| not())?;
+    let value = normal.parse::<f64>().map_err(|_| not_a_number(plain))?;
     present(value, plain)
+}
+
+fn not_a_number(plain: &[u8]) -> String {
+    format!("\"{}\" is not a number", shown(plain))
 }
 
 fn present(value: f64, plain: &[u8]) -> Result<f64, String> {
@@ -124,6 +133,17 @@ pub(crate) fn after(text: &str, key: &str) -> Option<(f64, f64)> {
     let lower = text.to_ascii_lowercase();
     let at = lower.find(key)? + key.len();
     first_in(text.get(at..)?)
+}
+
+/// The number that a header states under a key, any case: `DURATION = 11.435` for `duration`.
+/// Nothing but blanks, `=` and `:` may stand between: where the number is blank, the next one is
+/// another key's.
+pub(crate) fn stated(text: &str, key: &str) -> Option<(f64, f64)> {
+    let lower = text.to_ascii_lowercase();
+    let at = lower.find(key)? + key.len();
+    let rest = lower.get(at..)?.trim_start_matches([' ', '\t', '=', ':']);
+    rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))
+        .then(|| first_in(rest))?
 }
 
 /// The time step (s) of a text such as `equally spaced at .005 sec` or `at 200 pts/sec`,

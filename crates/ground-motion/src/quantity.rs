@@ -36,6 +36,15 @@ impl Quantity {
         }
     }
 
+    /// The quantity that a text in lower case names, if it names one alone: `uncorrected
+    /// accelerogram`, `raw veloc. counts`.
+    pub(crate) fn in_words(lower: &str) -> Option<Self> {
+        let named = |q: &Self| lower.contains(&q.name()[..5]);
+        let all = [Self::Acceleration, Self::Velocity, Self::Displacement];
+        let mut found = all.into_iter().filter(named);
+        found.next().filter(|_| found.next().is_none())
+    }
+
     /// The quantity of this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {

@@ -102,6 +102,14 @@ impl Series {
         peak
     }
 
+    /// The largest value of a sign (1 or -1) with its time (s): the one nearest to it if none
+    /// has the sign.
+    pub(crate) fn extreme(&self, sign: f64) -> (f64, f64) {
+        let values = self.samples.iter().enumerate();
+        let largest = values.max_by(|a, b| (a.1 * sign).total_cmp(&(b.1 * sign)));
+        largest.map_or((0.0, 0.0), |(i, a)| (*a, self.time(i)))
+    }
+
     /// Time of sample `index` (s).
     #[must_use]
     pub fn time(&self, index: usize) -> f64 {

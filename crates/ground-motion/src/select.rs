@@ -1,5 +1,6 @@
 //! The series that excites the buildings.
 
+use crate::direction::Direction;
 use crate::accelerogram::{Accelerogram, Processing};
 use crate::error::GroundMotionError;
 use crate::options::{Offset, ReadOptions};
@@ -120,7 +121,8 @@ fn choose(
 }
 
 /// Series of this name; else of this azimuth or code at the start of the name;
-/// else of this channel; else of this word in the name, as the azimuth of `L 50 deg`.
+/// else of this channel; else of this word in the name, as the azimuth of `L 50 deg`;
+/// else of this direction, however file and user write it: `90` is `N90E`, `360` is `N-S`.
 fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
     let wanted = wanted.trim();
     let full = |s: &Series| s.component.eq_ignore_ascii_case(wanted);
@@ -136,7 +138,12 @@ fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
             .split_whitespace()
             .any(|w| w.eq_ignore_ascii_case(wanted))
     };
-    let tests: [&dyn Fn(&Series) -> bool; 4] = [&full, &first, &channel, &word];
+    let direction = Direction::parse(wanted);
+    let points_there = |s: &Series| {
+        let own = Direction::parse(&s.component);
+        own.zip(direction).is_some_and(|(own, wanted)| own.is(wanted))
+    };
+    let tests: [&dyn Fn(&Series) -> bool; 5] = [&full, &first, &channel, &word, &points_there];
     let Some(test) = tests.into_iter().find(|t| possible.iter().any(t)) else {
         return Vec::new();
     };

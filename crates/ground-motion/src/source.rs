@@ -122,6 +122,25 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// Two statements of a header that contradict one another at a line: an error, or a warning
+    /// where the user takes the file as it is.
+    pub(crate) fn contradiction(
+        &self,
+        line: usize,
+        message: String,
+    ) -> Result<(), GroundMotionError> {
+        if self.options.lenient {
+            self.warn(&format!("line {line}: {message}"));
+            return Ok(());
+        }
+        Err(self.error(
+            line,
+            0,
+            message,
+            "the header contradicts itself: get the record again, or set `lenient = true` to use the first",
+        ))
+    }
+
     /// The next line, which must be there: `what` names it.
     pub(crate) fn expect<'b>(
         &self,
@@ -239,6 +258,7 @@ impl<'a> Source<'a> {
     ) -> Result<HeaderNumbers, GroundMotionError> {
         let first = lines.number() + 1;
         let mut values = Vec::new();
+        let mut texts = Vec::new();
         let rows = count.div_ceil(layout.per_line);
         for i in 0..rows {
             let line = self.expect(lines, "numbers of the header")?;
@@ -248,10 +268,12 @@ impl<'a> Source<'a> {
                 let to = (from + layout.width).min(line.bytes.len());
                 let field = line.bytes.get(from..to).unwrap_or(&[]);
                 values.push(number::parse(field).ok());
+                texts.push(number::shown(field.trim_ascii()));
             }
         }
         Ok(HeaderNumbers {
             values,
+            texts,
             first,
             per_line: layout.per_line,
         })
@@ -261,6 +283,8 @@ impl<'a> Source<'a> {
 /// Numbers of a header.
 pub(crate) struct HeaderNumbers {
     values: Vec<Option<f64>>,
+    /// The fields as they stand.
+    texts: Vec<String>,
     /// Their first line, from 1.
     pub first: usize,
     per_line: usize,
@@ -278,6 +302,15 @@ impl HeaderNumbers {
     /// Line (from 1) of number `index` (from 1).
     pub(crate) fn line_of(&self, index: usize) -> usize {
         self.first + index.saturating_sub(1) / self.per_line
+    }
+
+    /// What stands in the field of number `index`, in words.
+    pub(crate) fn shown(&self, index: usize) -> String {
+        let text = index.checked_sub(1).and_then(|i| self.texts.get(i));
+        match text.map_or("", String::as_str) {
+            "" => "is blank".to_owned(),
+            text => format!("is \"{text}\""),
+        }
     }
 
     /// Number `index` as a count, unless it is zero or not whole.

@@ -1,5 +1,8 @@
 //! Lines of a file whatever their ends and their encoding.
 
+/// Bytes at the start of a file of which one ends a line, in any text that has lines.
+const FIRST_ENDS: usize = 1 << 16;
+
 /// Lines with their numbers, read one after another: nothing is stored.
 #[derive(Clone)]
 pub(crate) struct Lines<'a> {
@@ -19,10 +22,12 @@ pub(crate) struct Line<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// Ends are LF, CRLF or CR CR LF; CR alone in a file that has no LF.
+    /// Ends are LF, CRLF or CR CR LF; CR alone in a file that has no LF in its first 64 KiB.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let end = if !bytes.contains(&b'\n') && bytes.contains(&b'\r') {
+        // Bounded: lines are begun anew for every format that a file may be of.
+        let start = &bytes[..bytes.len().min(FIRST_ENDS)];
+        let end = if !start.contains(&b'\n') && start.contains(&b'\r') {
             b'\r'
         } else {
             b'\n'

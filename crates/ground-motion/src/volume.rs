@@ -18,14 +18,17 @@ const NARROW_INTEGERS: Layout = Layout::new(20, 4);
 /// The layout of the hundred integers, which their number of lines tells: seven of 16, or
 /// five of 20. The reals after them have decimal points.
 fn integer_layout(lines: &Lines<'_>) -> Layout {
-    let whole =
-        |line: &Line<'_>| !line.is_blank() && !line.is_text() && !line.bytes.contains(&b'.');
-    let rows = lines.clone().take(8).take_while(whole).count();
-    if rows == 100 / NARROW_INTEGERS.per_line {
-        NARROW_INTEGERS
-    } else {
-        INTEGERS
-    }
+    let lines_of = |layout: Layout| 100_usize.div_ceil(layout.per_line);
+    let mut ahead = lines.clone().take(lines_of(INTEGERS) + 1);
+    // Numbers may be blank, and then so may lines be.
+    let rows = ahead.position(|line| line.bytes.contains(&b'.'));
+    let touching = |line: &Line<'_>| line.fields().count() > INTEGERS.per_line;
+    let narrow = match rows {
+        Some(rows) if rows == lines_of(NARROW_INTEGERS) => true,
+        Some(rows) if rows == lines_of(INTEGERS) => false,
+        _ => lines.clone().take(lines_of(NARROW_INTEGERS)).any(|l| touching(&l)),
+    };
+    if narrow { NARROW_INTEGERS } else { INTEGERS }
 }
 
 /// The header of one channel.
@@ -71,12 +74,7 @@ impl<'a> ChannelHeader<'a> {
             .unwrap_or_default()
     }
 
-    /// The first line of text that holds a word, in lower case.
-    pub(crate) fn find(&self, word: &str) -> Option<String> {
-        self.find_line(word).map(|(_, line)| line)
-    }
-
-    /// The same with its number.
+    /// The first line of text that holds a word, in lower case, with its number.
     pub(crate) fn find_line(&self, word: &str) -> Option<(usize, String)> {
         let lines = self.text.iter().map(|l| (l.number, l.lower()));
         lines.into_iter().find(|(_, l)| l.contains(word))
@@ -118,7 +116,7 @@ impl<'a> ChannelHeader<'a> {
         let keys = ["record length", "duration"];
         let (line, seconds) = keys.into_iter().find_map(|key| {
             let (line, text) = self.find_line(key)?;
-            Some((line, number::after(&text, key)?.0))
+            Some((line, number::stated(&text, key)?.0))
         })?;
         let stated = StatedDuration {
             seconds,
@@ -244,18 +242,27 @@ impl Label {
     }
 }
 
+/// The unit behind the number under a key: `cm/s/s` of `= 210.1 cm/s/s at 11.4 sec`.
+pub(crate) fn unit_of_number(text: &str, key: &str) -> Option<SeriesUnit> {
+    let (_, rest) = text.split_once(key)?;
+    let rest = rest.trim_start_matches([' ', '=', ':']);
+    let after = rest.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    let word = after.split([',', ' ']).find(|word| !word.is_empty())?;
+    SeriesUnit::parse(word.trim_end_matches('.'))
+}
+
 /// `PEAK ACCELERATION = 210.14200 CMS/SEC/SEC AT 11.440 SEC` of the right quantity.
 pub(crate) fn peak_line(header: &ChannelHeader<'_>, quantity: Quantity) -> Option<DraftPeak> {
-    let line = header
-        .text
-        .iter()
-        .map(Line::lower)
-        .find(|l| l.trim_start().starts_with("peak") && l.contains(&quantity.name()[..5]))?;
+    let is_peak =
+        |l: &String| l.trim_start().starts_with("peak") && l.contains(&quantity.name()[..5]);
+    let lines = header.text.iter().map(|l| (l.number, l.lower()));
+    let (number, line) = lines.into_iter().find(|(_, l)| is_peak(l))?;
     Some(DraftPeak {
-        value: number::after(&line, "=")?,
-        time: number::after(&line, " at "),
-        unit: None,
+        value: number::stated(&line, "=")?,
+        time: number::stated(&line, " at "),
+        unit: unit_of_number(&line, "="),
         shift: 0.0,
-        line: None,
+        line: Some(number),
+        of_sign: false,
     })
 }

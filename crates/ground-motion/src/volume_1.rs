@@ -1,7 +1,7 @@
 //! Volume 1, uncorrected: pairs of time and acceleration, or even steps.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::fortran::Layout;
 use crate::number;
@@ -10,7 +10,7 @@ use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
 use crate::time_column::{part_ties, tied_times};
-use crate::volume::{ChannelHeader, end_of_channel};
+use crate::volume::{ChannelHeader, end_of_channel, unit_of_number};
 
 const TEXT_LINES: usize = 13;
 const REALS: usize = 50;
@@ -40,6 +40,9 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         draft.title = header.title(6, 2);
         draft.start_time = header.start_time();
         draft.peak = peak(&header);
+        let of_unit = header.find_line("units ");
+        let of_unit = of_unit.and_then(|(line, text)| NamedQuantity::of(line, before_peak(&text)));
+        draft.quantities.extend(of_unit);
         draft.header_durations = durations(&header);
         series.push(draft.finish(source)?);
         end_of_channel(source, &mut lines);
@@ -58,7 +61,7 @@ fn count(
         .count(33)
         .or_else(|| header.integers.count(28));
     let text = header.find_line("of points").and_then(|(line, text)| {
-        let count = number::after(&text, "of points")?.0;
+        let count = number::stated(&text, "of points")?.0;
         let whole = count.fract() == 0.0 && (1.0..1.0e9).contains(&count);
         whole.then_some((line, count as usize))
     });
@@ -85,9 +88,14 @@ const BEFORE_UNIT: [&str; 8] = [
     ", in ",
 ];
 
+/// What stands before the peak in the line of the unit.
+fn before_peak(text: &str) -> &str {
+    text.split("max").next().unwrap_or_default()
+}
+
 /// Unit in a text: `SEC AND G/10`, `sec and g.`, `IS G`, `(UNITS: G)`, `in units of g.`.
 fn unit_in(text: &str) -> Option<SeriesUnit> {
-    let before_peak = text.split("max").next().unwrap_or_default();
+    let before_peak = before_peak(text);
     BEFORE_UNIT.iter().find_map(|key| {
         let at = before_peak.rfind(key)? + key.len();
         let word = before_peak.get(at..)?.split_whitespace().next()?;
@@ -251,20 +259,18 @@ fn state_step(
     draft.step_conflict = Some((first.line, message, remedy));
 }
 
-/// `MAX = -.200 G, AT 11.576 SEC.`: in g whatever the unit of the samples.
+/// `MAX = -.200 G, AT 11.576 SEC.`: in its own unit, whatever that of the samples.
 fn peak(header: &ChannelHeader<'_>) -> Option<DraftPeak> {
-    let line = header.find("max ")?;
+    let (number, line) = header.find_line("max ")?;
     let at = line.find("max ")?;
     let rest = line.get(at..)?;
-    if !rest.contains(" g,") {
-        return None;
-    }
     Some(DraftPeak {
-        value: number::after(rest, "=")?,
-        time: number::after(rest, " at "),
-        unit: Some(SeriesUnit::G),
+        value: number::stated(rest, "=")?,
+        time: number::stated(rest, " at "),
+        unit: Some(unit_of_number(rest, "=")?),
         shift: 0.0,
-        line: None,
+        line: Some(number),
+        of_sign: false,
     })
 }
 
@@ -301,6 +307,7 @@ fn even(
     );
     draft.header_count = expected;
     draft.other_counts = in_words;
+    draft.quantities = NamedQuantity::of(label.number, &text).into_iter().collect();
     draft.warnings = warnings;
     state_step(&mut draft, source, header, place);
     Ok(draft)

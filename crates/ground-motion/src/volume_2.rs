@@ -15,6 +15,8 @@ const REALS: usize = 100;
 /// series: processing may cut off an end.
 const RAW_LENGTH: usize = 3;
 const LENGTH: usize = 60;
+/// Real that holds the step (s).
+const STEP: usize = 61;
 
 /// Reads all channels.
 pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -92,12 +94,18 @@ fn block(
             label.count
         ));
     }
-    if let Some(step) = header.reals.positive(61)
+    if let Some(step) = header.reals.positive(STEP)
         && (step - label.step.0).abs() > label.step.1
     {
-        draft.warnings.push(format!(
-            "the header says a step of {step} s, the line before the data {} s, which is used",
-            label.step.0
+        let message = format!(
+            "the step is {} s here, but {step} s in line {}",
+            label.step.0,
+            header.reals.line_of(STEP)
+        );
+        draft.step_conflict = Some((
+            line.number,
+            message,
+            "the header contradicts itself: get the record again, or set `lenient = true` to use the first".to_owned(),
         ));
     }
     Ok(draft)

@@ -172,6 +172,56 @@ fn random_bytes() {
     }
 }
 
+/// Ten megabytes of noise behind the header of every format are refused, where the noise begins or
+/// is first not of the format: nothing reads on to the end and then tells something else.
+#[test]
+fn noise_behind_every_header() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let noise: Vec<u8> = std::iter::repeat_with(|| random.next() as u8)
+        .take(10 << 20)
+        .collect();
+    for format in Format::all() {
+        for fixture in fixtures(format.name, 0) {
+            let head = &fixture.bytes[..fixture.bytes.len() / 2];
+            let bytes = [head, &noise[..]].concat();
+            let options = ReadOptions {
+                format: Some(format),
+                ..fixture.options.clone()
+            };
+            let error = read_all_bytes("file", &bytes, &options).unwrap_err();
+            names_its_place(&error, bytes.len(), fixture.name);
+            // Near where the noise begins, in lines or in bytes.
+            let near = match &error {
+                GroundMotionError::Parse { line, .. }
+                | GroundMotionError::TooFewSamples { line, .. } => {
+                    *line <= head.iter().filter(|b| **b == b'\n').count() + 40
+                }
+                GroundMotionError::Binary { offset, .. } => *offset <= head.len() + 4096,
+                _ => true,
+            };
+            assert!(near, "{}: {error}", fixture.name);
+        }
+    }
+}
+
+/// What is no record is told from its start, and what is too large from its size.
+#[test]
+fn zeros_are_no_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("zeros");
+    let file = std::fs::File::create(&path).unwrap();
+    // Sparse: no disk holds them.
+    for (size, says) in [
+        (8_u64 << 20, "the format of this record is not known"),
+        (300 << 20, "the file has 300 MiB, more than the 256"),
+    ] {
+        file.set_len(size).unwrap();
+        let error = pounding_ground_motion::read(&path, &ReadOptions::default()).unwrap_err();
+        assert!(error.to_string().contains(says), "{error}");
+        assert!(error.help().is_some());
+    }
+}
+
 /// Headers that promise more than any file holds.
 #[test]
 fn enormous_counts() {

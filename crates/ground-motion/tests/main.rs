@@ -6,6 +6,7 @@ mod agency_more;
 mod column_headers;
 mod common;
 mod contradictory_headers;
+mod contradictory_words;
 mod design_spectra;
 mod ensemble;
 mod excitation;

@@ -160,6 +160,7 @@ impl Gap {
                         values: parameters.iter().cloned().collect(),
                     },
                     separation: self.separation,
+                    spring: None,
                 };
                 let model = registry::build(name, &parameters).map_err(|reason| Error::Model {
                     gap: self.name(),

@@ -393,10 +393,18 @@ fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
     if let Some(separation) = &gap.separation {
         parameters.separation = errors.keep(separation_rule(case, descriptor, separation));
     }
+    parameters.spring = gap.spring.as_ref().map(|table| table.value.clone());
     // TOML keys are unique.
     parameters.values = errors.finish(read)?.into_iter().collect();
+    // What is wrong with a table is said where it stands.
+    let wrong = |e: GapElementError| match (&e, &gap.spring) {
+        (GapElementError::SpringTable(_), Some(table)) => {
+            case.error(table.span.clone(), e.to_string(), e.help())
+        }
+        _ => at_model(e),
+    };
     Ok(registry::build(descriptor.name, &parameters)
-        .map_err(at_model)?
+        .map_err(wrong)?
         .into())
 }
 

@@ -10,7 +10,8 @@ use super::column::ColumnTables;
 use super::levels::{Between, Faces, Levels};
 use super::{Row, name, spread};
 use crate::document::{
-    Entry, Field, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader, Signed,
+    Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
+    Signed,
 };
 use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side};
 use crate::units::Quantity;
@@ -52,10 +53,19 @@ pub(super) struct GapTable {
     /// zero_penetration, no_tension, no_tension_latched or gap_shift, where the model offers
     /// more than one
     separation: Optional<String>,
+    /// Penetrations (m) and forces (N) of the contact's spring, straight lines from the origin over
+    /// them: [["0.5 mm", "10 kN"], ["1 mm", "50 kN"], ...], both increasing; in the place of
+    /// `stiffness` and `exponent`, where the model holds for any spring
+    spring: Optional<Vec<SpringPoint>>,
     /// Parameters of the model: stiffness (N/m^n), restitution, exponent, ...
     #[serde(rename = "*")]
     parameters: FreeKeys<Quantity>,
 }
+
+/// A penetration and a force.
+#[derive(Clone, Deserialize, JsonSchema)]
+#[serde(expecting = "a list of a penetration and a force\nfor example [\"0.5 mm\", \"10 kN\"]")]
+struct SpringPoint(Positive<Length>, Positive<Force>);
 
 /// How the wall of a gap moves
 #[derive(Clone, Copy, PartialEq, Deserialize, JsonSchema)]
@@ -104,6 +114,14 @@ impl GapTable {
             value: seat.value.into(),
             span: seat.span,
         });
+        let spring = self.spring.located().map(|points| Located {
+            value: points
+                .value
+                .into_iter()
+                .map(|point| (point.0.into(), point.1.into()))
+                .collect(),
+            span: points.span,
+        });
         let model = self.model.located()?;
         let mut parameters = Vec::new();
         for (key, value) in self.parameters.0 {
@@ -133,6 +151,7 @@ impl GapTable {
             seat,
             model,
             separation: self.separation.located(),
+            spring,
             parameters,
         };
         Some((gap, place))

@@ -411,6 +411,8 @@ pub struct Gap {
     pub model: Located<String>,
     /// Separation rule.
     pub separation: Option<Located<String>>,
+    /// Penetrations (m) and forces (N) of a spring that is given as a table.
+    pub spring: Option<Located<Vec<(f64, f64)>>>,
     /// All other keys, for the model to judge.
     pub parameters: Vec<Parameter>,
 }

@@ -57,11 +57,18 @@ pub struct HysteresisArguments {
     /// Number of its amplitudes, evenly spaced on a logarithmic scale
     #[arg(long, default_value = "25", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub points: u32,
-    /// Fit iwan_six_parameter to a measured curve: a text file with the columns amplitude and
-    /// dissipation of a cycle, units in the header, such as amplitude_mm,dissipation_J, or to a
-    /// backbone: deformation and force on first loading, such as deformation_mm,force_kN
-    #[arg(long, value_name = "FILE", requires = "law")]
-    pub fit: Option<InputPath>,
+    /// Fit iwan_six_parameter to a measured curve. CURVE is `backbone`, for a text file with the
+    /// columns deformation and force on first loading, units in the header, such as
+    /// deformation_mm,force_kN; or `dissipation`, for amplitude and dissipation of a cycle, such as
+    /// amplitude_mm,dissipation_J. Without it the unit of the second column says which
+    #[arg(
+        long,
+        value_names = ["CURVE", "FILE"],
+        num_args = 1..=2,
+        action = clap::ArgAction::Set,
+        requires = "law"
+    )]
+    pub fit: Vec<InputPath>,
 
     /// Write the loop, or else the dissipation curve or the fit, into this CSV file
     #[arg(long, requires = "law")]

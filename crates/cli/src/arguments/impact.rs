@@ -25,6 +25,11 @@ pub struct ImpactArguments {
     /// Parameter as key=value, such as stiffness="93.5 MN/m", or MODEL.key=value; may be repeated
     #[arg(short, long = "parameter", value_name = "[MODEL.]KEY=VALUE")]
     pub parameters: Vec<String>,
+    /// A spring of your own for the contact, in the place of stiffness and exponent, for models that
+    /// hold for any: a text file of penetrations and forces, both increasing, units in the header,
+    /// such as penetration_mm,force_kN
+    #[arg(long, value_name = "FILE", conflicts_with = "example")]
+    pub spring: Option<InputPath>,
     /// Separation rule, for the models that offer it
     #[arg(long)]
     pub separation: Option<String>,

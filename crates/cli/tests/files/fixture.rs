@@ -133,6 +133,10 @@ impl Fixture {
             ),
             ("dissipation.csv", dissipation),
             (
+                "spring.csv",
+                "penetration_mm,force_kN\n0,0\n0.5,10\n1,50\n20,3000\n".to_owned(),
+            ),
+            (
                 "rules.toml",
                 "[[rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"u_left + u_right\"\n"
                     .to_owned(),

@@ -184,11 +184,15 @@ const CALLS: [Call; 44] = [
     ),
     call("impact exact_hunt_crossley --example --table", &[]),
     call(
+        "impact borovin_2014 -p friction=0.3 --spring spring.csv",
+        &["spring.csv"],
+    ),
+    call(
         "hysteresis elastic_perfectly_plastic --history history.csv",
         &["history.csv"],
     ),
     call(
-        "hysteresis iwan_six_parameter --set residual_stiffness=1kN/m --fit dissipation.csv",
+        "hysteresis iwan_six_parameter --set residual_stiffness=1kN/m --fit dissipation dissipation.csv",
         &["dissipation.csv"],
     ),
     call("hysteresis bilinear --cycles 1mm", &[]),

@@ -226,6 +226,34 @@ fn curves_that_cannot_be_fitted_are_refused() {
         &format!("iwan_six_parameter --fit {path}"),
         &["deformation does not grow", "input.csv:5"],
     );
+    // The curve that is asked for is not that of the file.
+    refused(
+        &format!("iwan_six_parameter --fit dissipation {path}"),
+        &[
+            "asks for a dissipation",
+            "in \"kN\", as of a backbone",
+            "input.csv:1",
+            "--fit backbone",
+        ],
+    );
+    let energies = file(folder.path(), "a_mm,d_J\n1,1\n2,2\n3,3\n4,4\n");
+    refused(
+        &format!("iwan_six_parameter --fit backbone {energies}"),
+        &["asks for a backbone", "in \"J\"", "deformation_mm,force_kN"],
+    );
+    let seconds = file(folder.path(), "a_mm,d_s\n1,1\n");
+    refused(
+        &format!("iwan_six_parameter --fit backbone {seconds}"),
+        &["force column is in \"s\""],
+    );
+    refused(
+        "iwan_six_parameter --fit backbone",
+        &["names no file", "--fit backbone curve.csv"],
+    );
+    refused(
+        &format!("iwan_six_parameter --fit spine {path}"),
+        &["no curve \"spine\""],
+    );
     let path = file(folder.path(), "d_mm,f_kN\n1,1\n2,2\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::{REFERENCES, close, equal, has, json, text, text_in};
+use super::{REFERENCES, close, equal, has, json, refused, text, text_in};
 
 /// The first reference collision of every model, through the command.
 #[test]
@@ -152,6 +152,41 @@ fn a_separation_rule_goes_to_the_models_that_offer_it() {
 }
 
 /// An elastic drop in closed form, and what a sensor reads 100 ms after first contact.
+/// A spring of one's own: restitution by the closed form of the law about any spring.
+#[test]
+fn a_table_is_the_spring_of_a_collision() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("spring.csv");
+    let write = |rows: &str| std::fs::write(&path, rows).unwrap();
+    let call = format!(
+        "borovin_2014|-p|friction=0.3|--spring={}|--mass-right=wall",
+        path.display()
+    );
+    write("penetration_mm,force_kN\n0,0\n5,100\n10,500\n20,3000\n");
+    let result = json(&call);
+    close(&result["restitution"], (0.7_f64 / 1.3).sqrt(), 1e-8);
+    for (rows, other, says) in [
+        (
+            "penetration_mm,force_kN\n5,100\n10,50\n",
+            "",
+            "do not both increase",
+        ),
+        (
+            "penetration_mm,force_s\n5,100\n",
+            "",
+            "force column is in \"s\"",
+        ),
+        (
+            "penetration_mm,force_kN\n5,100\n",
+            "|-p|stiffness=1e9",
+            "exclude one another",
+        ),
+    ] {
+        write(rows);
+        refused(&format!("{call}{other}"), &[says]);
+    }
+}
+
 #[test]
 fn a_drop_on_a_slab() {
     let result = json(

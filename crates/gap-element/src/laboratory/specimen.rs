@@ -119,6 +119,10 @@ pub fn unit_of(
 /// descriptor, else that of its stiffness; 1 for a law without one.
 #[must_use]
 pub fn exponent_of(descriptor: &ModelDescriptor, parameters: &ModelParameters) -> f64 {
+    // A table begins with a straight line.
+    if parameters.spring.is_some() {
+        return 1.0;
+    }
     let known = |name: &str| descriptor.parameters.iter().find(|p| p.name == name);
     let of_stiffness = match known("stiffness").map(|p| p.unit) {
         Some(ParameterUnit::NewtonPerMetreToExponent) => 1.5,

@@ -2,6 +2,7 @@
 //! restitution by the same part.
 
 use crate::classes::dry_friction::{DryFriction, friction};
+use crate::classes::dry_friction_table::TabulatedDryFriction;
 use crate::descriptor::{
     AchievedRestitution, Alias, ModelDescriptor, ParameterUnit, Verification, constant,
 };
@@ -39,12 +40,18 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
         "The force drops by (1 - D) / (1 + D) at the turning point.",
         "With D = 1 and above friction holds what the spring pushes: a plastic impact, restitution 0. The floors stay together, overlapping, until they are pulled apart by more than k delta^n (D - 1).",
         "Floors that stop relative to one another stick; fixed steps without that state chatter.",
+        "A spring of your own, `spring` in a gap and `impact --spring`, takes the place of stiffness and exponent: the equations hold for any force that increases.",
         "The preprint's force law lacks a bracket: its equations 3 and 4 use F = f (1 + D sgn v).",
     ],
     build,
 };
 
 fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
+    if let Some(table) = &parameters.spring {
+        let friction = parameters.damping(&DESCRIPTOR, "friction", friction)?;
+        let model = TabulatedDryFriction::new(&DESCRIPTOR, table, friction)?;
+        return Ok(Box::new(model));
+    }
     Ok(Box::new(DryFriction {
         descriptor: &DESCRIPTOR,
         stiffness: parameters.get(&DESCRIPTOR, "stiffness")?,

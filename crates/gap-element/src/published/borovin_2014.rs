@@ -6,7 +6,6 @@
 
 use std::f64::consts::PI;
 
-use crate::classes::dry_friction_table::TabulatedDryFriction;
 use crate::collision::{Bodies, CollisionOutcome, collide};
 use crate::contact_stiffness::{ContactStiffnessError, Sphere, hertz};
 use crate::error::GapElementError;
@@ -96,9 +95,9 @@ pub fn about_table(
     table: &[(f64, f64)],
     friction: f64,
 ) -> Result<Box<dyn ImpactModel>, GapElementError> {
-    let descriptor = registry::find("borovin_2014")?;
-    let model = TabulatedDryFriction::new(descriptor, table, friction)?;
-    Ok(Box::new(model))
+    let mut parameters = ModelParameters::from_pairs(&[("friction", friction)]);
+    parameters.spring = Some(table.to_vec());
+    registry::build("borovin_2014", &parameters)
 }
 
 /// Reference values at one velocity.

@@ -2,6 +2,7 @@
 //! then a column for each channel, gal.
 
 use crate::accelerogram::Processing;
+use crate::direction::Direction;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
@@ -53,6 +54,11 @@ impl Entries {
         Some((number::first_in(text)?, *line))
     }
 
+    /// The line of the first entry.
+    fn line(&self) -> Option<usize> {
+        self.0.iter().flatten().map(|(_, line)| *line).next()
+    }
+
     /// Names in the order of the channels.
     fn texts(&self) -> Vec<&str> {
         self.0
@@ -71,7 +77,14 @@ struct Header {
     durations: Entries,
     counts: Entries,
     peaks: Entries,
+    /// Unit of the peaks, in brackets in the key.
+    peak_unit: Option<SeriesUnit>,
+    /// Samples (from 1) that have the peaks.
+    peak_places: Entries,
     names: Entries,
+    /// The columns' numbers and names just before the rows, with their line.
+    column_numbers: Option<(Vec<String>, usize)>,
+    column_names: Option<(Vec<String>, usize)>,
     channels: Option<usize>,
     unit: Option<SeriesUnit>,
     /// Line and text of a unit that is none of acceleration.
@@ -111,10 +124,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             *line,
             0,
             format!("\"{text}\" is not a unit of acceleration"),
-            "give the unit where the file does not: the line UNIDADES DE LOS DATOS must say gal, or be blank",
+            "the lines UNIDADES DE LOS DATOS and ACEL. MAX. must name one, such as gal, or be blank: get the record again",
         ));
     }
     let names = header.names.texts();
+    header.agrees_with_columns(source, &names)?;
     if layout.per_line > MOST_CHANNELS || !WIDTH.contains(&layout.width) {
         return Err(source.error(
             end,
@@ -278,12 +292,15 @@ impl Header {
             })
             .into_iter()
             .collect();
+        let place = self.peak_places.number(k).map(|((place, _), _)| place);
+        let time = place.zip(step).map(|(place, step)| ((place - 1.0) * step, 0.0));
         draft.peak = self.peaks.number(k).map(|(value, line)| DraftPeak {
             value,
-            time: None,
-            unit: Some(SeriesUnit::CM_S2),
+            time: time.filter(|(time, _)| *time >= 0.0),
+            unit: self.peak_unit,
             shift: 0.0,
             line: Some(line),
+            of_sign: false,
         });
         draft.processing = Processing::Raw;
         draft.title.clone_from(&self.station);
@@ -347,7 +364,11 @@ fn header<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Header, Grou
             break;
         }
         lines.next();
-        header.take(line);
+        if announced {
+            header.take_columns(line);
+        } else {
+            header.take(line);
+        }
         announced |= plain(line).trim_start().starts_with("DATOS DE ACELERACION");
     }
     Err(source.error(
@@ -370,6 +391,56 @@ fn is_row(line: Line<'_>) -> bool {
 }
 
 impl Header {
+    /// The lines between the announcement of the data and its rows: `CANAL-1 CANAL-2`, then the
+    /// orientations.
+    fn take_columns(&mut self, line: Line<'_>) {
+        let upper = plain(line);
+        let words: Vec<String> = upper.split_whitespace().map(str::to_owned).collect();
+        let is_channel = |word: &String| word.starts_with("CANAL");
+        if !(1..=MOST_CHANNELS).contains(&words.len()) {
+            return;
+        }
+        if words.iter().all(is_channel) {
+            self.column_numbers = Some((words, line.number));
+        } else if words.iter().any(|word| Direction::parse(word).is_some()) {
+            self.column_names = Some((words, line.number));
+        }
+    }
+
+    /// Holds what stands above the columns against the orientations in the header.
+    fn agrees_with_columns(
+        &self,
+        source: &Source<'_>,
+        names: &[&str],
+    ) -> Result<(), GroundMotionError> {
+        if let Some((words, line)) = &self.column_numbers {
+            let number = |word: &String| number::first_in(word).map(|n| n.0.abs());
+            let in_order = |(k, word): (usize, &String)| {
+                number(word).is_none_or(|n| n == (k + 1) as f64)
+            };
+            if !words.iter().enumerate().all(in_order) {
+                let message = format!(
+                    "the columns are {} here, not in the order of the channels in the header",
+                    words.join(", ")
+                );
+                source.contradiction(*line, message)?;
+            }
+        }
+        let (Some((words, line)), Some(of_names)) = (&self.column_names, self.names.line()) else {
+            return Ok(());
+        };
+        let mut both = words.iter().zip(names);
+        if both.any(|(a, b)| Direction::differ(a, b)) {
+            let message = format!(
+                "the columns are {} here, but the orientations are {} in line {of_names}",
+                words.join(", "),
+                names.join(", ")
+            );
+            source.contradiction(*line, message)?;
+        }
+        Ok(())
+    }
+
     fn take(&mut self, line: Line<'_>) {
         let (text, upper) = (line.text(), plain(line));
         self.incomplete |= upper.contains("REGISTRO INCOMPLETO");
@@ -384,12 +455,21 @@ impl Header {
         let first = if key.contains("C7-C12") { 6 } else { 0 };
         let entries = match key {
             // `ACEL. MAX., C1-C6, EN LA MUESTRA` is where they are.
-            k if k.contains("EN LA MUESTRA") => return,
+            k if k.contains("EN LA MUESTRA") => &mut self.peak_places,
             k if k.starts_with("INTERVALO DE MUESTREO") => &mut self.steps,
             k if k.starts_with("VEL. DE MUESTREO") => &mut self.rates,
             k if k.starts_with("DURACION DEL REGISTRO") => &mut self.durations,
             k if k.starts_with("NUM. TOTAL DE MUESTRAS") => &mut self.counts,
-            k if k.starts_with("ACEL. MAX") => &mut self.peaks,
+            k if k.starts_with("ACEL. MAX") => {
+                let bracketed = key.split_once('(').and_then(|(_, r)| r.split(')').next());
+                if let Some(word) = bracketed {
+                    self.peak_unit = SeriesUnit::parse(word);
+                    if self.peak_unit.is_none() {
+                        self.strange_unit = Some((line.number, word.to_owned()));
+                    }
+                }
+                &mut self.peaks
+            }
             k if k.starts_with("ORIENTACION C") => &mut self.names,
             k => return self.take_single(line.number, k, value),
         };
@@ -410,7 +490,9 @@ impl Header {
                 let inner = SeriesUnit::parse(inner.trim().trim_end_matches(')'));
                 let unit = SeriesUnit::parse(word);
                 self.unit = unit.or(inner).filter(|u| inner.is_none_or(|i| i == *u));
-                self.strange_unit = self.unit.is_none().then(|| (line, value.to_owned()));
+                if self.unit.is_none() {
+                    self.strange_unit = Some((line, value.to_owned()));
+                }
             }
             k if k.starts_with("FORMATO DATOS") || k.starts_with("FORMATO DE LOS DATOS") => {
                 self.layout = Layout::parse(value);

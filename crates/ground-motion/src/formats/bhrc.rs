@@ -92,7 +92,7 @@ fn channel<'a>(
     let integers = source.header_numbers(lines, INTEGERS, 100)?;
     let reals = source.header_numbers(lines, REALS, 50)?;
     let in_words = text.iter().find_map(|line| {
-        let count = number::after(&line.lower(), "of points")?.0;
+        let count = number::stated(&line.lower(), "of points")?.0;
         let whole = count.fract() == 0.0 && (1.0..1.0e9).contains(&count);
         whole.then_some((line.number, count as usize))
     });
@@ -199,7 +199,7 @@ fn unit(
 /// `NO. OF POINTS =   9472      DURATION =  47.360`
 fn duration_in_words(text: &[Line<'_>]) -> Option<StatedDuration> {
     text.iter().find_map(|line| {
-        let seconds = number::after(&line.lower(), "duration")?.0;
+        let seconds = number::stated(&line.lower(), "duration")?.0;
         let line = Some(line.number);
         (seconds > 0.0).then_some(StatedDuration { seconds, line })
     })

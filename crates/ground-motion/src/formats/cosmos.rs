@@ -2,7 +2,8 @@
 //! volts by the sensitivities of recorder and sensor in the header.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::direction::Direction;
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -11,6 +12,7 @@ use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
+use crate::volume::unit_of_number;
 
 const TEXT_LINES: usize = 13;
 /// Numbers that a header block may have: the format defines 100.
@@ -88,7 +90,17 @@ fn channel(
         Some(s) if s < 2.0 => Processing::Raw,
         _ => Processing::Unstated,
     };
-    draft.component = component(&text, &integers);
+    let before = |line: Line<'_>, words: &str| {
+        let at = line.lower().find(words).unwrap_or(0);
+        NamedQuantity::of(line.number, &line.columns(0, at))
+    };
+    draft.quantities = before(first, "(format")
+        .into_iter()
+        .chain(before(announcement, "units="))
+        .chain(by_sensor(&integers))
+        .collect();
+    stage_agrees(source, first, &integers)?;
+    draft.component = component(source, &text, &integers)?;
     draft.title = format!(
         "{}; {}",
         text[1].text().trim(),
@@ -106,7 +118,13 @@ fn channel(
         unit: None,
         shift: 0.0,
         line: None,
+        of_sign: false,
     });
+    let counts = matches!(
+        draft.unit,
+        DraftUnit::Scaled { of: "counts", .. } | DraftUnit::Counts
+    );
+    draft.other_peaks = peak_in_words(&text, counts).into_iter().collect();
     durations(&mut draft, &text, &reals, announcement);
     Ok(draft)
 }
@@ -157,8 +175,9 @@ fn instrument(
     (of, volts): (&'static str, Option<f64>),
     reals: &HeaderNumbers,
 ) -> Result<DraftUnit, GroundMotionError> {
-    if source.options.sensitivity.is_some() && volts.is_none() {
-        // The user knows better.
+    let of_user = source.options.sensitivity.is_some() && volts.is_none();
+    if of_user && quantity == Quantity::Acceleration {
+        // The user knows better, of accelerations.
         return Ok(DraftUnit::Counts);
     }
     let nonzero = |index: usize| reals.get(index).filter(|v| *v != 0.0 && v.is_finite());
@@ -216,8 +235,7 @@ fn durations(draft: &mut Draft, text: &[Line<'_>], reals: &HeaderNumbers, announ
         .collect();
     let in_words = text.iter().find_map(|line| {
         let lower = line.lower();
-        let (_, rest) = lower.split_once("record length")?;
-        Some((line.number, number::first_in(rest)?.0))
+        Some((line.number, number::stated(&lower, "record length")?.0))
     });
     if let Some((line, seconds)) = in_words.filter(|(_, seconds)| *seconds > 0.0) {
         let words = StatedDuration {
@@ -226,7 +244,7 @@ fn durations(draft: &mut Draft, text: &[Line<'_>], reals: &HeaderNumbers, announ
         };
         draft.state_in_words(words, reals.positive(RAW_LENGTH), own);
     }
-    let approximate = number::after(&announcement.lower(), "approx").map(|n| n.0);
+    let approximate = number::stated(&announcement.lower(), "approx").map(|n| n.0);
     let step = match draft.times {
         Times::Step(step) => step,
         Times::Each(_) => None,
@@ -310,9 +328,10 @@ fn unit(
         .and_then(|(_, rest)| number::after(rest, "("))
         .map(|n| n.0);
     let in_header = integers.get(3);
+    // 4 and 10 are two names of one unit.
+    let same = |a: f64, b: f64| a == b || unit_of(a).is_some() && unit_of(a) == unit_of(b);
     if let (Some(printed), Some(code)) = (printed, in_header)
-        && printed != code
-        && [printed, code].iter().any(|c| INSTRUMENT_CODES.contains(c))
+        && !same(printed, code)
     {
         return Err(source.error(
             line.number,
@@ -320,6 +339,20 @@ fn unit(
             format!(
                 "the unit code is {printed} here, but {code} in line {}",
                 integers.line_of(3)
+            ),
+            "the header contradicts itself: get the record again",
+        ));
+    }
+    if let (Some(word), Some(code)) = (unit_in_words(lower), printed.or(in_header))
+        && unit_of(code).is_some_and(|unit| unit != word)
+    {
+        return Err(source.error(
+            line.number,
+            0,
+            format!(
+                "the unit is {} in words here, but {} by its code {code}",
+                word.symbol,
+                unit_of(code).map_or("none", |unit| unit.symbol)
             ),
             "the header contradicts itself: get the record again",
         ));
@@ -348,20 +381,12 @@ fn unit(
             REMEDY,
         )),
     };
-    let unit = match code {
-        Some(2.0) => SeriesUnit::G,
-        Some(4.0 | 10.0) => SeriesUnit::CM_S2,
-        Some(5.0) => SeriesUnit::CM_S,
-        Some(6.0) => SeriesUnit::CM,
-        Some(7.0) => SeriesUnit::IN_S2,
-        Some(8.0) => SeriesUnit::IN_S,
-        Some(9.0) => SeriesUnit::IN,
-        Some(11.0) => SeriesUnit::MILLI_G,
-        Some(12.0) => SeriesUnit::MICRO_G,
-        Some(50.0) => return values("counts", None),
-        Some(51.0) => return values("V", Some(1.0)),
-        Some(52.0) => return values("mV", Some(1.0e-3)),
-        Some(other) => {
+    let unit = match (code, code.and_then(unit_of)) {
+        (_, Some(unit)) => unit,
+        (Some(50.0), _) => return values("counts", None),
+        (Some(51.0), _) => return values("V", Some(1.0)),
+        (Some(52.0), _) => return values("mV", Some(1.0e-3)),
+        (Some(other), None) => {
             return Err(source.error(
                 line.number,
                 0,
@@ -369,61 +394,153 @@ fn unit(
                 "use the V1 or V2 file of the same record",
             ));
         }
-        None => return Ok(DraftUnit::Unstated),
+        (None, None) => return Ok(DraftUnit::Unstated),
     };
     match said {
         Some(quantity) if quantity != unit.quantity => Err(source.error(
             line.number,
             0,
-            format!("{quantity} in {}", unit.symbol),
+            format!(
+                "the unit {} here is one of {}, but integer 2 in line {} says {quantity}",
+                unit.symbol,
+                unit.quantity,
+                integers.line_of(2)
+            ),
             "header and data contradict one another: get the record again",
         )),
         _ => Ok(DraftUnit::Stated(unit)),
     }
 }
 
+/// The unit of motion of a code (table 2 of the format).
+fn unit_of(code: f64) -> Option<SeriesUnit> {
+    Some(match code {
+        2.0 => SeriesUnit::G,
+        4.0 | 10.0 => SeriesUnit::CM_S2,
+        5.0 => SeriesUnit::CM_S,
+        6.0 => SeriesUnit::CM,
+        7.0 => SeriesUnit::IN_S2,
+        8.0 => SeriesUnit::IN_S,
+        9.0 => SeriesUnit::IN,
+        11.0 => SeriesUnit::MILLI_G,
+        12.0 => SeriesUnit::MICRO_G,
+        _ => return None,
+    })
+}
+
+/// `units=cm/sec2(04)` in the line before the data, in lower case.
+fn unit_in_words(lower: &str) -> Option<SeriesUnit> {
+    let (_, rest) = lower.split_once("units=")?;
+    SeriesUnit::parse(rest.split(['(', ',']).next()?.trim())
+}
+
 /// Unit codes of values that an instrument gives: counts, volts, millivolts.
 const INSTRUMENT_CODES: [f64; 3] = [50.0, 51.0, 52.0];
 
 /// What a raw record is of, where integer 2 does not say: the words of the line before the data,
-/// else the kind of the sensor, of which 1 to 999 feel acceleration and 1001 to 1999 velocity.
+/// else the kind of the sensor.
 fn sensor(lower: &str, integers: &HeaderNumbers) -> Option<Quantity> {
-    let words = [
-        ("accel", Quantity::Acceleration),
-        ("veloc", Quantity::Velocity),
-        ("displ", Quantity::Displacement),
-    ];
-    let in_words = words.into_iter().find(|(word, _)| lower.contains(word));
-    in_words
-        .map(|(_, quantity)| quantity)
-        .or_else(|| match integers.get(52)? {
-            kind if (1.0..1000.0).contains(&kind) => Some(Quantity::Acceleration),
-            kind if (1001.0..2000.0).contains(&kind) => Some(Quantity::Velocity),
-            _ => None,
-        })
+    let of_sensor = || by_sensor(integers).map(|named| named.quantity);
+    Quantity::in_words(lower).or_else(of_sensor)
 }
 
-/// Azimuth of integer 54, or the words of the header's line `Sta Chan`.
-fn component(text: &[Line<'_>], integers: &HeaderNumbers) -> String {
-    match integers.get(54) {
-        Some(400.0) => "Up".to_owned(),
-        Some(401.0) => "Down".to_owned(),
-        Some(402.0) => "Vertical".to_owned(),
-        Some(azimuth) if (1.0..=360.0).contains(&azimuth) => format!("{azimuth} deg"),
-        _ => text
-            .iter()
-            .map(Line::text)
-            .find(|l| l.starts_with("Sta Chan"))
-            .and_then(|l| {
-                l.get(8..)?
-                    .split_once(':')?
-                    .1
-                    .split('(')
-                    .next()
-                    .map(str::to_owned)
-            })
-            .unwrap_or_default()
-            .trim()
-            .to_owned(),
+/// Integer that holds the kind of the sensor.
+const SENSOR: usize = 52;
+
+/// What the sensor of a raw record feels: kinds 1 to 999 acceleration, 1001 to 1999 velocity.
+fn by_sensor(integers: &HeaderNumbers) -> Option<NamedQuantity> {
+    // A processed series need not be of what was felt.
+    let kind = integers
+        .get(SENSOR)
+        .filter(|_| integers.get(1) == Some(0.0))?;
+    let quantity = match kind {
+        kind if (1.0..1000.0).contains(&kind) => Quantity::Acceleration,
+        kind if (1001.0..2000.0).contains(&kind) => Quantity::Velocity,
+        _ => return None,
+    };
+    Some(NamedQuantity {
+        quantity,
+        text: format!("sensor of kind {kind}"),
+        line: integers.line_of(SENSOR),
+    })
+}
+
+/// The stage of the processing in the first line, which integer 1 repeats: 0 raw, 1 uncorrected,
+/// 2 corrected.
+fn stage_agrees(
+    source: &Source<'_>,
+    first: Line<'_>,
+    integers: &HeaderNumbers,
+) -> Result<(), GroundMotionError> {
+    let lower = first.lower();
+    let words = lower.trim_start();
+    let in_words = ["raw", "uncorrected", "corrected"]
+        .into_iter()
+        .zip([0.0, 1.0, 2.0])
+        .find(|(word, _)| words.starts_with(word));
+    match (in_words, integers.get(1)) {
+        (Some((word, stage)), Some(code)) if stage != code => source.contradiction(
+            first.number,
+            format!(
+                "the record is {word} here, but of stage {code} (0 raw, 1 uncorrected, 2 corrected) in line {}",
+                integers.line_of(1)
+            ),
+        ),
+        _ => Ok(()),
     }
+}
+
+/// `Max =  -6.852 cm/sec2 at 76.215 sec` on the line of the processing.
+fn peak_in_words(text: &[Line<'_>], of_counts: bool) -> Option<DraftPeak> {
+    let lines = text.iter().map(|l| (l.number, l.lower()));
+    let (line, lower) = lines
+        .into_iter()
+        .find(|(_, lower)| lower.starts_with("processed") && lower.contains("max ="))?;
+    let value = number::stated(&lower, "max =")?;
+    let unit = unit_of_number(&lower, "max =");
+    let counts = of_counts && lower.split_once("max =")?.1.contains("count");
+    (unit.is_some() || counts).then_some(DraftPeak {
+        value,
+        time: None,
+        unit,
+        shift: 0.0,
+        line: Some(line),
+        of_sign: false,
+    })
+}
+
+/// Integer that holds the azimuth, or a code above 360.
+const AZIMUTH: usize = 54;
+
+/// Azimuth of integer 54, or the words of the header's line `Sta Chan`, which say the same.
+fn component(
+    source: &Source<'_>,
+    text: &[Line<'_>],
+    integers: &HeaderNumbers,
+) -> Result<String, GroundMotionError> {
+    let of_channel = |line: &&Line<'_>| line.bytes.starts_with(b"Sta Chan");
+    let in_words = text.iter().find(of_channel).and_then(|line| {
+        let text = line.columns(8, line.bytes.len());
+        let name = text.split_once(':')?.1.split('(').next()?.trim().to_owned();
+        Some((line.number, name))
+    });
+    let in_numbers = match integers.get(AZIMUTH) {
+        Some(400.0) => Some("Up".to_owned()),
+        Some(401.0) => Some("Down".to_owned()),
+        Some(402.0) => Some("Vertical".to_owned()),
+        Some(azimuth) if (1.0..=360.0).contains(&azimuth) => Some(format!("{azimuth} deg")),
+        _ => None,
+    };
+    let (Some((line, words)), Some(numbers)) = (&in_words, &in_numbers) else {
+        let words = in_words.map(|(_, name)| name);
+        return Ok(in_numbers.or(words).unwrap_or_default());
+    };
+    if Direction::differ(words, numbers) {
+        let message = format!(
+            "the component is \"{words}\" here, but {numbers} by integer {AZIMUTH} in line {}",
+            integers.line_of(AZIMUTH)
+        );
+        source.contradiction(*line, message)?;
+    }
+    Ok(numbers.clone())
 }

@@ -86,6 +86,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         unit: None,
         shift: 0.0,
         line: None,
+        of_sign: false,
     });
     if header.late {
         draft

@@ -164,7 +164,7 @@ fn block(
     );
     draft.header_count = Some(count);
     // "Number of points  5800    Duration 115.98 sec", pads included.
-    let stated = number::after(&header.text[9].lower(), "duration").map(|n| n.0);
+    let stated = number::stated(&header.text[9].lower(), "duration").map(|n| n.0);
     draft.header_durations = stated
         .filter(|d| *d > 0.0)
         .map(|seconds| StatedDuration {
@@ -197,11 +197,12 @@ fn block(
         .find(|l| l.trim_start().starts_with(quantity.name()));
     draft.peak = lower.and_then(|l| {
         Some(DraftPeak {
-            value: number::after(&l, "peak")?,
-            time: number::after(&l, " at "),
+            value: number::stated(&l, "peak")?,
+            time: number::stated(&l, " at "),
             unit: None,
             shift: pad,
             line: None,
+            of_sign: false,
         })
     });
     let eleven = header.text[10].lower();

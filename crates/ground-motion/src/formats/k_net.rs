@@ -130,6 +130,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         unit: Some(SeriesUnit::CM_S2),
         shift: 0.0,
         line: None,
+        of_sign: false,
     });
     draft.processing = Processing::Raw;
     draft.title = format!("{}; earthquake of {}", header.station, header.origin_time);

@@ -1,5 +1,6 @@
 //! Readers, one format per file, and the detection of the format by content.
 
+use std::io::Read;
 use std::path::Path;
 
 use pounding_catalogue::{Descriptor, Registry};
@@ -115,14 +116,20 @@ impl Format {
     }
 }
 
+/// Bytes that the recognition of a format looks at.
+const START: usize = 1 << 20;
+/// Bytes that a record may have: an hour of twelve channels at 500 samples a second, in columns of
+/// ten characters, has less.
+const MOST_BYTES: u64 = 256 << 20;
+
 /// Reads every series of a file.
 ///
 /// # Errors
-/// A file that cannot be read, or whatever is wrong with its content, with file,
+/// A file that cannot be read or is larger than 256 MiB, or whatever is wrong with its content, with file,
 /// line and column (byte for binary formats) and remedy.
 pub fn read_all(path: &Path, options: &ReadOptions) -> Result<Recording, GroundMotionError> {
     let _span = tracing::info_span!("read_record", file = %path.display()).entered();
-    let (file, bytes) = load(path)?;
+    let (file, bytes) = load(path, options)?;
     every_series(&file, &bytes, options, Some(path))
 }
 
@@ -144,15 +151,9 @@ fn every_series(
     options: &ReadOptions,
     path: Option<&Path>,
 ) -> Result<Recording, GroundMotionError> {
+    not_too_large(file, bytes.len() as u64)?;
+    let format = format_of(file, bytes, options, path)?;
     let source = Source::new(file, bytes, options, path);
-    let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
-    let format =
-        options
-            .format
-            .or_else(detected)
-            .ok_or_else(|| GroundMotionError::UnknownFormat {
-                file: file.to_owned(),
-            })?;
     let mut series = (format.read)(&source)?;
     if series.is_empty() {
         return Err(source.error(
@@ -184,6 +185,22 @@ fn every_series(
     Ok(Recording { series })
 }
 
+/// The format that the options name, or that the start of the file shows.
+fn format_of(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+    path: Option<&Path>,
+) -> Result<&'static Format, GroundMotionError> {
+    let start = &bytes[..bytes.len().min(START)];
+    let source = Source::new(file, start, options, path);
+    let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
+    let format = options.format.or_else(detected);
+    format.ok_or_else(|| GroundMotionError::UnknownFormat {
+        file: file.to_owned(),
+    })
+}
+
 /// Reads the acceleration that the options choose.
 ///
 /// # Errors
@@ -191,7 +208,7 @@ fn every_series(
 /// and uneven samples without a step to resample to.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Accelerogram, GroundMotionError> {
     let _span = tracing::info_span!("read_record", file = %path.display()).entered();
-    let (file, bytes) = load(path)?;
+    let (file, bytes) = load(path, options)?;
     let recording = every_series(&file, &bytes, options, Some(path))?;
     select::excitation(&file, recording, options)
 }
@@ -209,13 +226,42 @@ pub fn read_bytes(
     select::excitation(file, read_all_bytes(file, bytes, options)?, options)
 }
 
-fn load(path: &Path) -> Result<(String, Vec<u8>), GroundMotionError> {
+/// The file's name and bytes. What is too large, or of no known format, is not read to its end.
+fn load(path: &Path, options: &ReadOptions) -> Result<(String, Vec<u8>), GroundMotionError> {
     let file = path.display().to_string();
     regular(path, &file)?;
-    match std::fs::read(path) {
-        Ok(bytes) => Ok((file, bytes)),
-        Err(source) => Err(GroundMotionError::Io { file, source }),
+    let failed = |source| GroundMotionError::Io {
+        file: file.clone(),
+        source,
+    };
+    let mut reader = std::fs::File::open(path).map_err(failed)?;
+    let size = reader.metadata().map_err(failed)?.len();
+    not_too_large(&file, size)?;
+    let mut bytes = Vec::with_capacity(START.min(size as usize));
+    let mut start = reader.by_ref().take(START as u64);
+    start.read_to_end(&mut bytes).map_err(failed)?;
+    format_of(&file, &bytes, options, Some(path))?;
+    bytes.reserve_exact((size as usize).saturating_sub(bytes.len()));
+    // It may grow meanwhile.
+    let mut rest = reader.take(MOST_BYTES);
+    rest.read_to_end(&mut bytes).map_err(failed)?;
+    Ok((file, bytes))
+}
+
+/// Refuses what is no record by its size.
+fn not_too_large(file: &str, size: u64) -> Result<(), GroundMotionError> {
+    if size <= MOST_BYTES {
+        return Ok(());
     }
+    Err(GroundMotionError::Unsupported {
+        file: file.to_owned(),
+        what: format!(
+            "the file has {} MiB, more than the {} of the largest records",
+            size >> 20,
+            MOST_BYTES >> 20
+        ),
+        remedy: "give the file of one record, or cut out the time and the components that are needed",
+    })
 }
 
 /// Refuses what is no regular file: a device or a pipe may never end.

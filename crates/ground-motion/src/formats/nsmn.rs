@@ -57,26 +57,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let room = room.min(header.count.unwrap_or(0));
     let mut columns: Vec<Vec<f64>> = (0..count).map(|_| Vec::with_capacity(room)).collect();
     for line in lines.by_ref().filter(|l| !l.is_blank()) {
-        let mut fields = line.fields();
-        for column in &mut columns {
-            let (at, field) = fields.next().ok_or_else(|| {
-                source.error(
-                    line.number,
-                    line.bytes.len(),
-                    format!("fewer than {count} numbers, one for each component"),
-                    "the file is damaged or truncated: get it again",
-                )
-            })?;
-            column.push(source.number(line, at, field)?);
-        }
-        if let Some((at, _)) = fields.next() {
-            return Err(source.error(
-                line.number,
-                at,
-                format!("more than {count} numbers, one for each component"),
-                REMEDY,
-            ));
-        }
+        row(source, line, &mut columns)?;
     }
     let mut series = Vec::new();
     for (k, samples) in columns.into_iter().enumerate() {
@@ -86,6 +67,97 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         series.push(draft.finish(source)?);
     }
     Ok(series)
+}
+
+/// Takes a row of one number for each column, with decimal points or commas.
+fn row(
+    source: &Source<'_>,
+    line: Line<'_>,
+    columns: &mut [Vec<f64>],
+) -> Result<(), GroundMotionError> {
+    let count = columns.len();
+    let has = |sign: u8| line.bytes.contains(&sign);
+    if has(b',') && has(b'.') {
+        let mut both = divided(line).filter(|f| f.contains(&b',') && f.contains(&b'.'));
+        // Where commas part nothing, a number that has both signs is none.
+        if let Some(field) = both.next().filter(|_| divided(line).count() == count) {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "\"{}\" has both a decimal point and a comma",
+                    number::shown(field)
+                ),
+                "write numbers with a decimal point alone",
+            ));
+        }
+    }
+    let pointed = if has(b',') && !has(b'.') {
+        Some(decimal_commas(source, line, count)?)
+    } else {
+        None
+    };
+    let pointed = pointed.as_deref().map_or(line, |bytes| Line {
+        number: line.number,
+        bytes,
+    });
+    let mut fields = pointed.fields();
+    for column in columns {
+        let (at, field) = fields.next().ok_or_else(|| {
+            source.error(
+                line.number,
+                line.bytes.len(),
+                format!("fewer than {count} numbers, one for each component"),
+                "the file is damaged or truncated: get it again",
+            )
+        })?;
+        column.push(source.number(line, at, field)?);
+    }
+    match fields.next() {
+        None => Ok(()),
+        Some((at, _)) => Err(source.error(
+            line.number,
+            at,
+            format!("more than {count} numbers, one for each component"),
+            REMEDY,
+        )),
+    }
+}
+
+/// What stands between blanks, tabs and semicolons.
+fn divided<'a>(line: Line<'a>) -> impl Iterator<Item = &'a [u8]> {
+    let divider = |b: &u8| matches!(b, b' ' | b'\t' | b';');
+    line.bytes.split(divider).filter(|f| !f.is_empty())
+}
+
+/// A row without decimal points, whose commas are taken for them where blanks, tabs or semicolons
+/// part as many numbers as there are components.
+fn decimal_commas(
+    source: &Source<'_>,
+    line: Line<'_>,
+    count: usize,
+) -> Result<Vec<u8>, GroundMotionError> {
+    let commas = |field: &[u8]| field.iter().filter(|b| **b == b',').count();
+    if divided(line).count() != count || divided(line).any(|field| commas(field) > 1) {
+        // Whole numbers between commas.
+        if line.fields().count() == count {
+            return Ok(line.bytes.to_vec());
+        }
+        return Err(source.error(
+            line.number,
+            line.bytes.iter().position(|b| *b == b',').unwrap_or(0),
+            format!("commas, no decimal point, and not {count} numbers: decimal commas, or commas between the numbers?"),
+            "write decimal points, or separate the columns by blanks or semicolons",
+        ));
+    }
+    source.warn("the numbers have decimal commas");
+    let point = |b: &u8| if *b == b',' { b'.' } else { *b };
+    Ok(line.bytes.iter().map(point).collect())
+}
+
+/// A header's value, whose comma is a decimal one: it lists nothing.
+fn with_point(value: &str) -> String {
+    value.replace(',', ".")
 }
 
 impl Header {
@@ -151,7 +223,7 @@ impl Header {
                 })?);
             }
             k if k.starts_with("SAMPLING INTERVAL") => {
-                let step = source.number(line, at, value.as_bytes())?;
+                let step = source.number(line, at, with_point(value).as_bytes())?;
                 let milli = k.contains("(MS") || k.contains("MSEC");
                 self.step = Some(if milli { 1.0e-3 * step } else { step });
             }
@@ -175,7 +247,7 @@ impl Header {
                 // `(N-S) 13.2 (E-W) 12.1 (U-D) 9.8`
                 for part in value.split('(').skip(1) {
                     if let Some((name, rest)) = part.split_once(')')
-                        && let Some(peak) = number::first_in(rest)
+                        && let Some(peak) = number::first_in(&with_point(rest))
                     {
                         self.peaks.push((name.trim().to_owned(), peak, line.number));
                     }
@@ -205,6 +277,7 @@ impl Header {
             unit: self.unit,
             shift: 0.0,
             line: Some(*line),
+            of_sign: false,
         });
     }
 }

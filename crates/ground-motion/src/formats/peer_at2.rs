@@ -180,10 +180,11 @@ fn peak(unit: &DraftUnit, text: &str) -> Option<DraftPeak> {
         Quantity::Displacement => "pgd=",
     };
     Some(DraftPeak {
-        value: number::after(text, key)?,
+        value: number::stated(text, key)?,
         time: None,
         unit: None,
         shift: 0.0,
         line: None,
+        of_sign: false,
     })
 }

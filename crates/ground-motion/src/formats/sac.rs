@@ -190,5 +190,6 @@ fn fill(words: &Words<'_>, draft: &mut Draft) {
         unit: None,
         shift: 0.0,
         line: None,
+        of_sign: false,
     });
 }

@@ -62,8 +62,9 @@ pub fn usc(written: i64) -> Vec<Fixture> {
 /// An uncorrected accelerogram with a rate: even steps. And film whose times have too few digits.
 pub fn smc_raw(written: i64) -> Vec<Fixture> {
     let header = |numbers: i64, rate: f64, most: Option<(f64, f64)>| {
-        let mut text = String::from(
-            "1 UNCORRECTED ACCELEROGRAM\n*\n0000\n     2018   5   4    2232 Made up\nMoment Mag= 6.9      Ms=          Ml=\nstation = HI:HI;Nowhere, FS              component= 90\nepicentral dist =     97.9       pk mot = 3.534E+1\ninst type=ETNA-      data source = USGS\n*\n*\n*\n",
+        let peak = most.map_or(String::new(), |(_, value)| format!("{:.3E}", value.abs()));
+        let mut text = format!(
+            "1 UNCORRECTED ACCELEROGRAM\n*\n0000\n     2018   5   4    2232 Made up\nMoment Mag= 6.9      Ms=          Ml=\nstation = HI:HI;Nowhere, FS              component= 90\nepicentral dist =     97.9       pk mot = {peak}\ninst type=ETNA-      data source = USGS\n*\n*\n*\n",
         );
         text.push_str(&integers(
             48,
@@ -168,7 +169,10 @@ pub fn cosmos_raw(written: i64) -> Vec<Fixture> {
         let most = peak(&printed);
         let velocity = quantity == Quantity::Velocity;
         let sensitivity = if velocity { 0.04 } else { 1.25 };
-        text.push_str("Raw acceleration counts   (Format v01.20 with 13 text lines)\n");
+        text.push_str(&format!(
+            "Raw {:<22}(Format v01.20 with 13 text lines)\n",
+            format!("{} counts", quantity.name())
+        ));
         for line in 2..13 {
             text.push_str(&format!("Text line {line}\n"));
         }

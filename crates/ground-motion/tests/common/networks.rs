@@ -30,7 +30,10 @@ pub fn cosmos(written: i64) -> Vec<Fixture> {
             (rows.collect(), printed)
         };
         let most = peak(&printed);
-        text.push_str("Corrected acceleration    (Format v01.20 with 13 text lines)\n");
+        text.push_str(&format!(
+            "Corrected {:<16}(Format v01.20 with 13 text lines)\n",
+            quantity.name()
+        ));
         for k in 2..13 {
             text.push_str(&format!("Text line {k}\n"));
         }

@@ -12,6 +12,7 @@ use pounding_hysteresis::{LawDescriptor, LawParameters};
 use serde::Serialize;
 
 use super::chosen::given;
+use crate::arguments::InputPath;
 use crate::columns::{Column, Source, unit_in};
 use crate::failure::Failure;
 use crate::tables::new_table;
@@ -26,9 +27,44 @@ pub struct Fitted {
     pub measured: Vec<(f64, f64)>,
 }
 
+/// Name of a curve in `--fit CURVE FILE`, and a header of its file.
+fn named(curve: MeasuredCurve) -> (&'static str, &'static str) {
+    match curve {
+        MeasuredCurve::Dissipation => ("dissipation", "amplitude_mm,dissipation_J"),
+        MeasuredCurve::Backbone => ("backbone", "deformation_mm,force_kN"),
+    }
+}
+
+/// Curve, if one is named, and file of `--fit [CURVE] FILE`.
+fn asked(words: &[InputPath]) -> Result<(Option<MeasuredCurve>, &Path), Failure> {
+    let curve = |word: &Path| {
+        [MeasuredCurve::Backbone, MeasuredCurve::Dissipation]
+            .into_iter()
+            .find(|curve| word.as_os_str() == named(*curve).0)
+    };
+    let help = "for example --fit backbone curve.csv, with a header such as deformation_mm,force_kN, or --fit dissipation curve.csv, with amplitude_mm,dissipation_J";
+    match words {
+        [file] => match curve(file) {
+            Some(curve) if !file.exists() => Err(Failure::input(
+                format!("--fit {} names no file", named(curve).0),
+                Some(help.to_owned()),
+            )),
+            _ => Ok((None, file)),
+        },
+        [word, file, ..] => match curve(word) {
+            Some(curve) => Ok((Some(curve), file)),
+            None => Err(Failure::input(
+                format!("--fit knows no curve \"{}\"", word.display()),
+                Some(help.to_owned()),
+            )),
+        },
+        [] => Err(Failure::input("--fit names no file", Some(help.to_owned()))),
+    }
+}
+
 /// Fits the density to the pairs of a file. Parameters of `--set` are where the fit sets
 /// out; `phi_1 = 0`, `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
-pub fn fit(law: &LawDescriptor, path: &Path, set: &[String]) -> Result<Fitted, Failure> {
+pub fn fit(law: &LawDescriptor, words: &[InputPath], set: &[String]) -> Result<Fitted, Failure> {
     if law.name != LAW {
         return Err(Failure::input(
             format!("--fit does not know law {}", law.name),
@@ -38,22 +74,56 @@ pub fn fit(law: &LawDescriptor, path: &Path, set: &[String]) -> Result<Fitted, F
         ));
     }
     let start = given(pounding_hysteresis::find(LAW)?, set)?;
-    let (curve, measured) = read(path, &start)?;
+    let (curve, path) = asked(words)?;
+    let (curve, measured) = read(path, curve, &start)?;
     let fit = fit_from_many(curve, &measured, &start, FitOptions::default())?;
     Ok(Fitted { fit, measured })
 }
 
 /// Pairs of amplitude (m) and energy of a cycle (J), or of deformation (m) and force (N) on first
-/// loading, all positive: the unit of the second column says which.
-fn read(path: &Path, start: &LawParameters) -> Result<(MeasuredCurve, Vec<(f64, f64)>), Failure> {
+/// loading, all positive: the unit of the second column says which, and is that of the curve asked
+/// for.
+fn read(
+    path: &Path,
+    asked: Option<MeasuredCurve>,
+    start: &LawParameters,
+) -> Result<(MeasuredCurve, Vec<(f64, f64)>), Failure> {
     let column = |name, dimension| Column { name, dimension };
     let force = column("force", Dimension::FORCE);
-    let source = Source::open_regular(path, "--fit", "amplitude_mm,dissipation_J")?;
+    let energy = column("dissipation", Dimension::ENERGY);
+    let example = named(asked.unwrap_or(MeasuredCurve::Dissipation)).1;
+    let source = Source::open_regular(path, "--fit", example)?;
     let header = source.lines().next();
     let second = header
         .as_ref()
         .and_then(|(_, fields)| unit_in(fields.get(1)?));
-    let is_backbone = second.is_some_and(|unit| force.size(unit).is_ok());
+    let is = |column: &Column| second.is_some_and(|unit| column.size(unit).is_ok());
+    let found = match (is(&force), is(&energy)) {
+        (true, _) => Some(MeasuredCurve::Backbone),
+        (_, true) => Some(MeasuredCurve::Dissipation),
+        _ => None,
+    };
+    if let (Some(asked), Some(found), Some((place, _))) = (asked, found, &header)
+        && asked != found
+    {
+        return Err(source.error(
+            place.clone(),
+            format!(
+                "--fit {} asks for a {}, but the second column is in \"{}\", as of a {}",
+                named(asked).0,
+                named(asked).0,
+                second.unwrap_or_default(),
+                named(found).0
+            ),
+            &format!(
+                "give --fit {}, or a file with a header such as {}",
+                named(found).0,
+                named(asked).1
+            ),
+        ));
+    }
+    // Another unit is none of the curve asked for.
+    let is_backbone = asked.or(found) == Some(MeasuredCurve::Backbone);
     let (curve, columns) = match is_backbone {
         true => (
             MeasuredCurve::Backbone,
@@ -61,10 +131,7 @@ fn read(path: &Path, start: &LawParameters) -> Result<(MeasuredCurve, Vec<(f64, 
         ),
         false => (
             MeasuredCurve::Dissipation,
-            [
-                column("amplitude", Dimension::LENGTH),
-                column("dissipation", Dimension::ENERGY),
-            ],
+            [column("amplitude", Dimension::LENGTH), energy],
         ),
     };
     let mut pairs: Vec<(f64, f64)> = Vec::new();

@@ -47,7 +47,7 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
     let moved = !arguments.cycles.is_empty()
         || arguments.history.is_some()
         || !arguments.dissipation.is_empty()
-        || arguments.fit.is_some();
+        || !arguments.fit.is_empty();
     if moved {
         return laboratory(law, arguments);
     }
@@ -58,7 +58,7 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
         return Err(Failure::input(
             format!("nothing moves the element of law {}", law.name),
             Some(
-                "add --cycles \"10 mm,20 mm\", --history FILE, --dissipation \"0.1 mm,10 mm\" or --fit FILE"
+                "add --cycles \"10 mm,20 mm\", --history FILE, --dissipation \"0.1 mm,10 mm\" or --fit backbone FILE"
                     .to_owned(),
             ),
         ));
@@ -79,13 +79,13 @@ fn list(as_json: bool) -> Result<(), Failure> {
 }
 
 fn laboratory(law: &'static LawDescriptor, arguments: &HysteresisArguments) -> Result<(), Failure> {
-    let (specimen, fitted) = match &arguments.fit {
-        Some(path) => {
-            let fitted = fit::fit(law, path, &arguments.set)?;
+    let (specimen, fitted) = match &arguments.fit[..] {
+        [] => (chosen::choose(law, &arguments.set)?, None),
+        words => {
+            let fitted = fit::fit(law, words, &arguments.set)?;
             let specimen = Specimen::of_density(law, &fitted.fit.density)?;
             (specimen, Some(fitted))
         }
-        None => (chosen::choose(law, &arguments.set)?, None),
     };
     let driven = match motion::path(law, arguments)? {
         Some((path, description)) => Some((Loop::drive(&specimen, &path)?, description)),

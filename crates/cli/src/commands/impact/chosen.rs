@@ -1,17 +1,20 @@
 //! Which models, with which parameters.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use pounding_assembly::parameter_dimension;
-use pounding_case::{Quantity, parse_quantity};
+use pounding_case::{Dimension, Quantity, parse_quantity};
 use pounding_catalogue::{Parameters, suggestion};
 use pounding_gap_element::laboratory::{Specimen, unit_of};
 use pounding_gap_element::{
-    GapElementError, ModelDescriptor, ParameterDescriptor, SeparationRule, registry,
+    GapElementError, ModelDescriptor, ModelParameters, ParameterDescriptor, SeparationRule,
+    registry,
 };
 use serde::Serialize;
 
 use crate::arguments::ImpactArguments;
+use crate::columns::{Column, Source};
 use crate::failure::Failure;
 
 /// One parameter as given.
@@ -30,11 +33,13 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Specimen>, Failure> {
         .iter()
         .map(|text| given(text, &descriptors))
         .collect::<Result<Vec<_>, _>>()?;
+    let spring = arguments.spring.as_deref().map(spring).transpose()?;
     let mut used = vec![false; given.len()];
     let mut chosen = Vec::new();
     for &descriptor in &descriptors {
         let values = values(descriptor, &given, &mut used)?;
-        let parameters = Parameters { values }.into();
+        let mut parameters: ModelParameters = Parameters { values }.into();
+        parameters.spring.clone_from(&spring);
         chosen.push(Specimen::new(descriptor, parameters));
     }
     if let Some(at) = used.iter().position(|used| !used) {
@@ -48,6 +53,41 @@ pub fn choose(arguments: &ImpactArguments) -> Result<Vec<Specimen>, Failure> {
         chosen.iter_mut().for_each(Specimen::fill_from_example);
     }
     Ok(chosen)
+}
+
+/// Penetrations (m) and forces (N) of the file of a spring.
+fn spring(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
+    let column = |name, dimension| Column { name, dimension };
+    let columns = [
+        column("penetration", Dimension::LENGTH),
+        column("force", Dimension::FORCE),
+    ];
+    let source = Source::open_regular(path, "--spring", "penetration_mm,force_kN")?;
+    let mut table: Vec<(f64, f64)> = Vec::new();
+    for (place, row) in source.rows(&[&columns])? {
+        let (penetration, force) = (row[0], row[1]);
+        // It begins at the origin.
+        if table.is_empty() && penetration == 0.0 && force == 0.0 {
+            continue;
+        }
+        let before = table.last().copied().unwrap_or((0.0, 0.0));
+        if !(penetration > before.0 && force > before.1) {
+            return Err(source.error(
+                place,
+                "penetration and force do not both increase here".to_owned(),
+                "give penetrations and forces that increase from zero on",
+            ));
+        }
+        table.push((penetration, force));
+    }
+    if table.is_empty() {
+        return Err(source.error(
+            0..0,
+            "there is no row of numbers above zero".to_owned(),
+            "give penetrations and forces that increase from zero on",
+        ));
+    }
+    Ok(table)
 }
 
 fn descriptors(arguments: &ImpactArguments) -> Result<Vec<&'static ModelDescriptor>, Failure> {

@@ -6,7 +6,7 @@ use super::header::Header;
 use super::rows;
 use crate::error::GroundMotionError;
 use crate::source::Source;
-use crate::text::Line;
+use crate::text::{Line, Lines};
 
 const REMEDY: &str = "write decimal points, or separate the columns by semicolons or tabs";
 
@@ -87,11 +87,13 @@ fn inner(three: &[u8]) -> bool {
 
 /// Offset of a line (from 1), whatever ends the lines.
 fn line_start(bytes: &[u8], line: usize) -> usize {
-    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-    let ends = bytes.iter().enumerate().filter(|(_, b)| **b == end);
+    let mut lines = Lines::new(bytes);
     match line.checked_sub(2) {
         None => 0,
-        Some(before) => ends.map(|(at, _)| at + 1).nth(before).unwrap_or(0),
+        Some(before) => match lines.nth(before) {
+            Some(_) => bytes.len() - lines.remaining(),
+            None => 0,
+        },
     }
 }
 

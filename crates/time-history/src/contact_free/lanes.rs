@@ -4,7 +4,7 @@
 //! (`multiversion`); without fused operations their bits are the same on all.
 
 use multiversion::multiversion;
-use std::ops::{Index, IndexMut};
+use std::ops::{Index, IndexMut, Range};
 
 use super::constants::ContactFree;
 
@@ -94,6 +94,24 @@ pub(crate) fn scale(factor: f64, a: Lane) -> Lane {
         out[l] = factor * a[l];
     }
     out
+}
+
+/// Sum of the products of values with these numbers.
+#[inline(always)]
+pub(super) fn sum_of_products(a: &[Lane], b: &[Lane], numbers: Range<usize>) -> f64 {
+    let (first, last) = (numbers.start.div_ceil(WIDTH), numbers.end / WIDTH);
+    if first >= last {
+        return numbers.map(|i| at(a, i) * at(b, i)).sum();
+    }
+    let mut sum = Lane::ZERO;
+    for (a, b) in a[first..last].iter().zip(&b[first..last]) {
+        for l in 0..WIDTH {
+            sum[l] += a[l] * b[l];
+        }
+    }
+    let edges = (numbers.start..first * WIDTH).chain(last * WIDTH..numbers.end);
+    let edges = edges.map(|i| at(a, i) * at(b, i));
+    sum.0.iter().sum::<f64>() + edges.sum::<f64>()
 }
 
 /// Constants of eight modes.

@@ -8,6 +8,7 @@ use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
 };
+use super::tall_block::{TallBlock, is_tall};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
@@ -116,6 +117,8 @@ pub(crate) struct ContactFreePhase {
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
     block: Block,
+    /// Blocks of tall buildings.
+    tall: Option<Box<TallBlock>>,
     pub(super) candidates: Candidates,
     /// The motion at the start of the block, for observers.
     block_start: Modal,
@@ -126,6 +129,7 @@ impl ContactFreePhase {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
         let sections = system.sections().len();
+        let tall = is_tall(system);
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
@@ -142,7 +146,8 @@ impl ContactFreePhase {
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
-            candidates: Candidates::new(lanes, 3 * dofs + sections),
+            tall: tall.then(|| Box::new(TallBlock::new(lanes))),
+            candidates: Candidates::new(lanes, 3 * dofs + sections, tall),
             block_start: Modal::new(lanes),
         }
     }
@@ -166,6 +171,7 @@ impl ContactFreePhase {
             start_energy: Vec::new(),
             drifted: Vec::new(),
             block: Block::none(),
+            tall: None,
             candidates: Candidates::none(),
             block_start: Modal::new(0),
         }
@@ -285,7 +291,12 @@ impl ContactFreePhase {
                 self.block.watch();
                 self.block_start.copy_from(&self.now);
             }
-            let advanced = self.propagate_block(constants, range, (sample, count));
+            let advanced = if count == BLOCK && self.propagate_tall_block(constants, range, sample)
+            {
+                BLOCK
+            } else {
+                self.propagate_block(constants, range, (sample, count))
+            };
             if !observers.is_empty() {
                 let samples = sample..sample + advanced;
                 self.show(
@@ -345,6 +356,9 @@ impl ContactFreePhase {
     }
 
     fn begin(&mut self, constants: &ContactFree) {
+        if let Some(tall) = &mut self.tall {
+            tall.forget();
+        }
         for field in [
             &mut self.now.input,
             &mut self.now.viscous,
@@ -389,6 +403,51 @@ impl ContactFreePhase {
                 self.acceleration.time[c][l] = p.acceleration_absolute.time;
             }
         }
+    }
+
+    /// Advances a block of samples of tall buildings, if it is sure that nothing closes in it.
+    /// Returns whether it did.
+    fn propagate_tall_block(
+        &mut self,
+        constants: &ContactFree,
+        range: &SampleRange<'_>,
+        sample: usize,
+    ) -> bool {
+        let Some(tall) = &mut self.tall else {
+            return false;
+        };
+        let mut samples = [0.0; BLOCK + 1];
+        samples.copy_from_slice(&range.system.ground().samples[sample..=sample + BLOCK]);
+        let peak = &self.acceleration.peak;
+        let low = tall.advance(constants, &self.now, &samples, peak, &mut self.block);
+        if !tall.is_open(range.system, range.contacts) {
+            tall.forget();
+            return false;
+        }
+        let levels = range.system.levels().iter().enumerate();
+        for ((l, level), penetration) in levels.zip(&mut self.penetration) {
+            let closing = tall.closing((level.left, level.right));
+            *penetration = closing - range.contacts.width(l);
+        }
+        let tracks = &mut [
+            &mut self.displacement,
+            &mut self.drift,
+            &mut self.acceleration,
+            &mut self.sections,
+        ];
+        let place = (constants, range.system);
+        self.candidates.make_room(place, tracks, 0);
+        let tracks = [
+            &mut self.displacement,
+            &mut self.drift,
+            &mut self.acceleration,
+        ];
+        let end = (sample + BLOCK) as f64 * constants.step;
+        let suspects = tall.take_end(constants, tracks, (end, low));
+        self.candidates.put_off((sample, &self.now), suspects);
+        self.acceleration_known = !low;
+        std::mem::swap(&mut self.now, &mut self.block.end);
+        true
     }
 
     /// Advances up to a block of samples. Returns how many it is sure that nothing closes

@@ -36,6 +36,59 @@ pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
     }
 }
 
+/// The first two of four transformations, in one pass over the mode shapes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
+    let [first, second, _, _] = floors;
+    to_floors_together(shapes, modal, [first, second]);
+}
+
+/// All four of them.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn transform_four(shapes: &[Shapes], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
+    to_floors_together(shapes, modal, floors.each_mut().map(Vec::as_mut_slice));
+}
+
+/// Several transformations with the bits of [`transform`].
+#[inline(always)]
+fn to_floors_together<const COUNT: usize>(
+    shapes: &[Shapes],
+    modal: [&[Lane]; COUNT],
+    mut floors: [&mut [Lane]; COUNT],
+) {
+    for floors in &mut floors {
+        floors.fill(Lane::ZERO);
+    }
+    for building in shapes {
+        let columns = building.columns.chunks_exact(building.modes.max(1));
+        for (k, columns) in columns.enumerate() {
+            let lane = building.first_lane + k;
+            let mut sums: [Lane; COUNT] = std::array::from_fn(|v| floors[v][lane]);
+            for (j, column) in columns.iter().enumerate() {
+                for (sum, modal) in sums.iter_mut().zip(modal) {
+                    let x = at(modal, building.first_mode + j);
+                    for l in 0..WIDTH {
+                        sum[l] += column[l] * x;
+                    }
+                }
+            }
+            for (floors, sum) in floors.iter_mut().zip(sums) {
+                floors[lane] = sum;
+            }
+        }
+    }
+}
+
 /// Four transformations that have their lanes of floors in common.
 pub(crate) struct Four<'a> {
     pub modal: [&'a [Lane]; 4],

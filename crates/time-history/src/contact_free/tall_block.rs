@@ -1,0 +1,411 @@
+//! Blocks of tall buildings, whose mode shapes are larger than the cache: a product with all of
+//! them for every sample would cost the square of the storeys.
+//!
+//! Floors are worked out at the ends of a block alone, with their rates. Inside, a floor is the
+//! cubic through both, which lies within the hull of its Bernstein coefficients, and what its modes
+//! deviate from theirs: no more than the largest deviation at a sample, which is known, and the
+//! overshoot between samples. What stays below its peak by this bound has no higher one in the
+//! block. The rest is put off, eight floors together, and looked at from the state at the start of
+//! the block ([`super::lane_candidates`]). Values at samples have the bits of [`super::block`].
+
+use multiversion::multiversion;
+
+use super::block::{BLOCK, Block, advance_all, bound_overshoots};
+use super::candidates::Quantity;
+use super::constants::ContactFree;
+use super::lanes::{
+    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, sum_of_products,
+};
+use super::transform::{transform_four, transform_two};
+use crate::contact::Contacts;
+use crate::system::System;
+
+/// Storeys of the tallest building from which this costs less than all floors at every sample.
+const TALL: usize = 24;
+
+/// Bernstein coefficients of a cubic.
+const CUBIC: usize = 4;
+
+/// Displacement and absolute acceleration at an end of the block, each followed by a third of the
+/// block times its rate.
+type End = [Vec<Lane>; 4];
+
+/// Work space.
+#[derive(Debug, Clone)]
+pub(super) struct TallBlock {
+    /// Of the modes at one end, and of the floors at both.
+    modes: End,
+    start: End,
+    end: End,
+    /// Whether displacements, and accelerations, at the start are those of the present time.
+    holds: [bool; 2],
+    /// Maximum deviation of every mode's displacement and absolute acceleration from the cubic.
+    deviation: [Vec<Lane>; 2],
+    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by.
+    beyond: [Vec<Lane>; 3],
+    /// What could have a peak in the block.
+    suspects: Vec<Suspect>,
+}
+
+/// Eight floors of which a function could have a peak in a block, with its bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Suspect {
+    pub quantity: Quantity,
+    pub lane: usize,
+    pub upper: Lane,
+}
+
+/// Whether a building of the system is so tall that these blocks are worth their while.
+pub(super) fn is_tall(system: &System) -> bool {
+    let tallest = system.buildings().iter().map(|b| b.storeys()).max();
+    tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
+}
+
+impl TallBlock {
+    pub(super) fn new(lanes: usize) -> Self {
+        let zeros = || vec![Lane::ZERO; lanes];
+        let end = || std::array::from_fn(|_| zeros());
+        Self {
+            modes: end(),
+            start: end(),
+            end: end(),
+            holds: [false; 2],
+            deviation: [zeros(), zeros()],
+            beyond: std::array::from_fn(|_| zeros()),
+            suspects: Vec::with_capacity(3 * lanes),
+        }
+    }
+
+    /// Forgets the floors: the motion goes on from elsewhere.
+    pub(super) fn forget(&mut self) {
+        self.holds = [false; 2];
+    }
+
+    /// Advances the modes over a block of samples, whose ground accelerations are `samples`, and
+    /// the floors to its end. Returns whether no acceleration can be a peak, so that they are not
+    /// worked out.
+    pub(super) fn advance(
+        &mut self,
+        constants: &ContactFree,
+        now: &Modal,
+        samples: &[f64; BLOCK + 1],
+        peak: &[Lane],
+        block: &mut Block,
+    ) -> bool {
+        let low = advance_modes(constants, (now, samples), peak, block, self);
+        let (q, p) = (&now.displacement, &now.velocity);
+        if !(self.holds[0] && (low || self.holds[1])) {
+            self.work_out_end(constants, (q, p, samples[0]), low);
+            std::mem::swap(&mut self.start, &mut self.end);
+        }
+        let (q, p) = (&block.end.displacement, &block.end.velocity);
+        self.work_out_end(constants, (q, p, samples[BLOCK]), low);
+        low
+    }
+
+    /// Works out the floors, from these displacements and velocities of the modes and this
+    /// ground acceleration.
+    fn work_out_end(
+        &mut self,
+        constants: &ContactFree,
+        (q, p, ground): (&[Lane], &[Lane], f64),
+        low: bool,
+    ) {
+        derive_end(constants, (q, p, ground), &mut self.modes);
+        let [_, rate, absolute, absolute_rate] = &self.modes;
+        let shapes = &constants.shapes;
+        if low {
+            transform_two(shapes, [q, rate], &mut self.end);
+        } else {
+            transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end);
+        }
+    }
+
+    /// Whether no gap can close in the block.
+    pub(super) fn is_open(&self, system: &System, contacts: &Contacts) -> bool {
+        let (start, end, beyond) = (&self.start, &self.end, &self.beyond[0]);
+        let floor = |i: Option<usize>| {
+            i.map_or(([0.0; CUBIC], 0.0), |i| {
+                let value = |lanes: &[Lane]| at(lanes, i);
+                let (a, b) = (value(&start[0]), value(&end[0]));
+                let cubic = [a, a + value(&start[1]), b - value(&end[1]), b];
+                (cubic, value(beyond))
+            })
+        };
+        system.levels().iter().enumerate().all(|(l, level)| {
+            let ((left, over), (right, under)) = (floor(level.left), floor(level.right));
+            let closing = left.iter().zip(right).map(|(a, b)| a - b);
+            closing.fold(f64::NEG_INFINITY, f64::max) + (over + under) <= contacts.width(l)
+        })
+    }
+
+    /// Closing of a level at the end (m).
+    pub(super) fn closing(&self, level: (Option<usize>, Option<usize>)) -> f64 {
+        let at_end = |i: Option<usize>| i.map_or(0.0, |i| at(&self.end[0], i));
+        at_end(level.0) - at_end(level.1)
+    }
+
+    /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
+    /// what could have higher peaks in the block.
+    pub(super) fn take_end(
+        &mut self,
+        constants: &ContactFree,
+        tracks: [&mut Track; 3],
+        (time, low): (f64, bool),
+    ) -> &[Suspect] {
+        compare(constants, self, tracks, (time, low));
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.holds = [true, !low];
+        &self.suspects
+    }
+}
+
+/// Advances all modes and bounds what floors may exceed the hull by. Returns whether no
+/// acceleration can be a peak.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn advance_modes(
+    constants: &ContactFree,
+    (now, samples): (&Modal, &[f64; BLOCK + 1]),
+    peak: &[Lane],
+    block: &mut Block,
+    tall: &mut TallBlock,
+) -> bool {
+    advance_all(constants, now, samples, block);
+    bound_overshoots(constants, block, [0], true);
+    let low = is_low(constants, (&block.over[0], block.largest.0), peak);
+    deviate(constants, (now, samples), block, low, tall);
+    add(&block.modal, &mut tall.deviation[0]);
+    if !low {
+        let (size, modal) = (&block.size, &mut block.modal);
+        modal_acceleration_overshoots(constants, size, block.largest, modal);
+        add(modal, &mut tall.deviation[1]);
+    }
+    let rows = &constants.rows;
+    for building in &constants.shapes {
+        let range = building.first_mode..building.first_mode + building.modes;
+        let quantities = [(&rows.size, 0), (&rows.drift_size, 0), (&rows.size, 1)];
+        for ((size, of), beyond) in quantities.into_iter().zip(&mut tall.beyond) {
+            let bound = sum_of_products(size, &tall.deviation[of], range.clone());
+            for i in range.clone() {
+                beyond[i / WIDTH][i % WIDTH] = bound;
+            }
+        }
+    }
+    low
+}
+
+#[inline(always)]
+fn add(more: &[Lane], to: &mut [Lane]) {
+    for (to, more) in to.iter_mut().zip(more) {
+        for l in 0..WIDTH {
+            to[l] += more[l];
+        }
+    }
+}
+
+/// Bernstein polynomials of degree 3 at the samples inside a block.
+const BERNSTEIN: [[f64; CUBIC]; BLOCK - 1] = {
+    let mut weights = [[0.0; CUBIC]; BLOCK - 1];
+    let mut k = 0;
+    while k < BLOCK - 1 {
+        let x = (k + 1) as f64 / BLOCK as f64;
+        let y = 1.0 - x;
+        weights[k] = [y * y * y, 3.0 * x * y * y, 3.0 * x * x * y, x * x * x];
+        k += 1;
+    }
+    weights
+};
+
+/// Maximum deviations of the modes from the cubics through values and rates at both ends.
+#[inline(always)]
+fn deviate(
+    constants: &ContactFree,
+    (now, samples): (&Modal, &[f64; BLOCK + 1]),
+    block: &Block,
+    low: bool,
+    tall: &mut TallBlock,
+) {
+    let third = third(constants);
+    let count = constants.modes.len();
+    let [displacement, acceleration] = &mut tall.deviation;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let ends = [
+            (now.displacement[c], now.velocity[c], samples[0]),
+            (
+                block.end.displacement[c],
+                block.end.velocity[c],
+                samples[BLOCK],
+            ),
+        ];
+        let mut cubic = [Lane::ZERO; CUBIC];
+        for l in 0..WIDTH {
+            let [(a, va, _), (b, vb, _)] = ends;
+            cubic[0][l] = a[l];
+            cubic[1][l] = a[l] + third * va[l];
+            cubic[2][l] = b[l] - third * vb[l];
+            cubic[3][l] = b[l];
+        }
+        displacement[c] = farthest(&cubic, |k| &block.displacement[k * count + c]);
+        if low {
+            continue;
+        }
+        for l in 0..WIDTH {
+            let [first, last] = ends.map(|(q, p, ground)| {
+                let absolute = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
+                let relative = absolute - m.participation[l] * ground;
+                let rate = -(m.damping[l] * relative + m.stiffness[l] * p[l]);
+                (absolute, third * rate)
+            });
+            cubic[0][l] = first.0;
+            cubic[1][l] = first.0 + first.1;
+            cubic[2][l] = last.0 - last.1;
+            cubic[3][l] = last.0;
+        }
+        acceleration[c] = farthest(&cubic, |k| &block.acceleration[k * count + c]);
+    }
+}
+
+/// Maximum distance of values at the samples inside a block from a cubic.
+#[inline(always)]
+fn farthest<'a>(cubic: &[Lane; CUBIC], value: impl Fn(usize) -> &'a Lane) -> Lane {
+    let mut most = Lane::ZERO;
+    for (k, weights) in BERNSTEIN.iter().enumerate() {
+        let value = value(k);
+        for l in 0..WIDTH {
+            let (a, b) = (
+                weights[0] * cubic[0][l] + weights[1] * cubic[1][l],
+                weights[2] * cubic[2][l] + weights[3] * cubic[3][l],
+            );
+            let distance = (value[l] - (a + b)).abs();
+            most[l] = if distance > most[l] {
+                distance
+            } else {
+                most[l]
+            };
+        }
+    }
+    most
+}
+
+/// A third of the block (s).
+fn third(constants: &ContactFree) -> f64 {
+    BLOCK as f64 * constants.step / 3.0
+}
+
+/// What is transformed to floors beside displacements.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn derive_end(
+    constants: &ContactFree,
+    (displacement, velocity, ground): (&[Lane], &[Lane], f64),
+    modes: &mut End,
+) {
+    let third = third(constants);
+    let [_, rates, absolutes, absolute_rates] = modes;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let (q, p) = (&displacement[c], &velocity[c]);
+        for l in 0..WIDTH {
+            let absolute = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
+            let relative = absolute - m.participation[l] * ground;
+            rates[c][l] = third * p[l];
+            absolutes[c][l] = absolute;
+            absolute_rates[c][l] = third * -(m.damping[l] * relative + m.stiffness[l] * p[l]);
+        }
+    }
+}
+
+/// Compares the hulls of all functions with their peaks, after those at the end were taken.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn compare(
+    constants: &ContactFree,
+    tall: &mut TallBlock,
+    [displacement, drift, acceleration]: [&mut Track; 3],
+    (time, low): (f64, bool),
+) {
+    let (start, end, suspects) = (&tall.start, &tall.end, &mut tall.suspects);
+    suspects.clear();
+    let mut last = [0.0; CUBIC];
+    for (c, above) in constants.above.iter().enumerate() {
+        let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
+        let mut drifts = [Lane::ZERO; CUBIC];
+        for k in 0..CUBIC {
+            let u = floors[k];
+            let mut below = [last[k]; WIDTH];
+            below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
+            last[k] = u[WIDTH - 1];
+            for l in 0..WIDTH {
+                drifts[k][l] = u[l] - above[l] * below[l];
+            }
+        }
+        let mut suspect = |quantity: Quantity, cubic: &[Lane; CUBIC], track: &mut Track| {
+            let beyond = &tall.beyond[quantity as usize][c];
+            let place = (&mut track.peak[c], &mut track.time[c]);
+            if let Some(upper) = exceeding(cubic, beyond, place, time) {
+                suspects.push(Suspect {
+                    quantity,
+                    lane: c,
+                    upper,
+                });
+            }
+            track.now[c] = cubic[CUBIC - 1];
+        };
+        suspect(Quantity::Displacement, &floors, displacement);
+        suspect(Quantity::Drift, &drifts, drift);
+        if !low {
+            let floors = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
+            suspect(Quantity::Acceleration, &floors, acceleration);
+        }
+    }
+}
+
+/// Bernstein coefficients from values and thirds of rates at both ends.
+#[inline(always)]
+fn cubic([a, third_a, b, third_b]: [&Lane; CUBIC]) -> [Lane; CUBIC] {
+    let mut out = [*a, Lane::ZERO, Lane::ZERO, *b];
+    for l in 0..WIDTH {
+        out[1][l] = a[l] + third_a[l];
+        out[2][l] = b[l] - third_b[l];
+    }
+    out
+}
+
+/// Takes the last coefficients as peaks at this time (s). Returns bounds of the functions if one
+/// could still be above its peak.
+#[inline(always)]
+fn exceeding(
+    cubic: &[Lane; CUBIC],
+    beyond: &Lane,
+    (peak, times): (&mut Lane, &mut Lane),
+    time: f64,
+) -> Option<Lane> {
+    let mut upper = Lane::ZERO;
+    let mut all_below = true;
+    for l in 0..WIDTH {
+        let value = cubic[CUBIC - 1][l].abs();
+        let higher = value > peak[l];
+        peak[l] = if higher { value } else { peak[l] };
+        times[l] = if higher { time } else { times[l] };
+        let mut top = value;
+        for coefficients in &cubic[..CUBIC - 1] {
+            let size = coefficients[l].abs();
+            top = if size > top { size } else { top };
+        }
+        upper[l] = top + beyond[l];
+        all_below &= upper[l] <= peak[l];
+    }
+    (!all_below).then_some(upper)
+}

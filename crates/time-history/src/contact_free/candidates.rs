@@ -50,6 +50,8 @@ pub(super) struct Candidates {
     /// States in use: the first ones.
     used: usize,
     scratch: Modal,
+    /// State that the scratch was reached from, and the sample that it has come to.
+    reached: Option<(usize, usize)>,
     bound: SampleBound,
     look: CloserLook,
     tall: Option<Box<OfTall>>,
@@ -70,7 +72,7 @@ struct OfTall {
 /// they wait, the fewer are left to be looked at.
 const CANDIDATES: usize = 512;
 const SNAPSHOTS: usize = 64;
-const TALL_SNAPSHOTS: usize = 256;
+const TALL_SNAPSHOTS: usize = 512;
 /// Lanes of floors for every state that tall buildings keep, of all that could be put off.
 const LANES_PUT_OFF: f64 = 0.25;
 
@@ -90,8 +92,9 @@ impl Candidates {
             states: vec![Lane::ZERO; snapshots * 2 * lanes],
             used: 0,
             scratch: Modal::new(lanes),
+            reached: None,
             bound: SampleBound::new(lanes),
-            look: CloserLook::new(lanes),
+            look: CloserLook::new(lanes, tall),
             tall: tall.then(|| Box::new(OfTall::new(lanes, put_off(3 * lanes)))),
         }
     }
@@ -105,8 +108,9 @@ impl Candidates {
             states: Vec::new(),
             used: 0,
             scratch: Modal::new(0),
+            reached: None,
             bound: SampleBound::new(0),
-            look: CloserLook::new(0),
+            look: CloserLook::new(0, false),
             tall: None,
         }
     }
@@ -291,6 +295,7 @@ impl Candidates {
     ) {
         let mut list = std::mem::take(&mut self.list);
         list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
+        self.reached = None;
         for group in list.chunk_by_mut(|a, b| a.sample == b.sample) {
             if group.iter().any(|c| is_above(c, tracks)) {
                 self.look_at((constants, system), group, tracks);
@@ -309,28 +314,40 @@ impl Candidates {
     ) {
         let first = group[0];
         let (sample, samples) = (first.sample, &system.ground().samples);
-        let before = &samples[self.samples[first.snapshot]..=sample];
-        let lanes = constants.modes.len();
-        let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
-        self.scratch.displacement.copy_from_slice(&state[..lanes]);
-        self.scratch.velocity.copy_from_slice(&state[lanes..]);
-        block::advance(constants, before, &mut self.scratch);
+        let from = self
+            .reached
+            .filter(|(snapshot, _)| *snapshot == first.snapshot);
+        let from = match from {
+            Some((_, reached)) => reached,
+            None => {
+                let lanes = constants.modes.len();
+                let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
+                self.scratch.displacement.copy_from_slice(&state[..lanes]);
+                self.scratch.velocity.copy_from_slice(&state[lanes..]);
+                self.samples[first.snapshot]
+            }
+        };
+        block::advance(constants, &samples[from..=sample], &mut self.scratch);
+        self.reached = Some((first.snapshot, sample));
         let (start, end) = (samples[sample], samples[sample + 1]);
         let whole = Ground {
             start,
             end,
             slope: (end - start) / constants.step,
         };
-        self.bound.take(constants, &self.scratch, whole);
-        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
-            let (quantity, floor) = (candidate.quantity, candidate.floor);
-            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
-            if self.bound.is_below(constants, (quantity, floor), peak) {
-                candidate.upper = f64::NEG_INFINITY;
+        // What tall buildings put off was bounded as well as this already.
+        if self.tall.is_none() {
+            self.bound.take(constants, &self.scratch, whole);
+            for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+                let (quantity, floor) = (candidate.quantity, candidate.floor);
+                let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+                if self.bound.is_below(constants, (quantity, floor), peak) {
+                    candidate.upper = f64::NEG_INFINITY;
+                }
             }
-        }
-        if !group.iter().any(|c| is_above(c, tracks)) {
-            return;
+            if !group.iter().any(|c| is_above(c, tracks)) {
+                return;
+            }
         }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));

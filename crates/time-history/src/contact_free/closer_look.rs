@@ -4,7 +4,7 @@
 use super::candidates::Quantity;
 use super::constants::{ContactFree, Fine};
 use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
-use super::transform::{Four, transform_fours};
+use super::transform::{Four, floor_of_eight, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
@@ -28,6 +28,9 @@ pub(super) struct CloserLook {
     fresh: bool,
     /// Lanes of floors whose displacements, or accelerations, are asked for.
     wanted: [Vec<bool>; 2],
+    /// Of tall buildings, where a few floors of all are looked at: all derivatives of the modes
+    /// at both ends, of displacements and of absolute accelerations, eight for every mode.
+    eights: Option<[Vec<Lane>; 2]>,
 }
 
 impl Point {
@@ -89,13 +92,15 @@ impl Point {
 }
 
 impl CloserLook {
-    pub(super) fn new(lanes: usize) -> Self {
+    pub(super) fn new(lanes: usize, tall: bool) -> Self {
+        let eights = || std::array::from_fn(|_| vec![Lane::ZERO; lanes * WIDTH]);
         Self {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
             fresh: false,
             wanted: [vec![false; lanes], vec![false; lanes]],
+            eights: tall.then(eights),
         }
     }
 
@@ -144,6 +149,12 @@ impl CloserLook {
         self.step = fine.step;
         let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
         let shapes = &constants.shapes;
+        if let Some([eights, _]) = &mut self.eights {
+            let [a, b, c, d, _] = &self.start.modes;
+            let [e, f, g, h, _] = &self.end.modes;
+            gather_eights([a, b, c, d, e, f, g, h], eights);
+            return;
+        }
         if !fresh {
             let [motion, _] = self.end.fours([moving, absolute]);
             transform_fours(shapes, &mut [motion]);
@@ -166,6 +177,16 @@ impl CloserLook {
 
     /// Absolute accelerations at both ends, where they are not known.
     fn derive_absolute(&mut self, constants: &ContactFree) {
+        if let Some([_, eights]) = &mut self.eights {
+            if !(self.start.absolute_known && self.end.absolute_known) {
+                self.start.derive_absolute(constants);
+                self.end.derive_absolute(constants);
+                let [a, b, c, d] = &self.start.restoring;
+                let [e, f, g, h] = &self.end.restoring;
+                gather_eights([a, b, c, d, e, f, g, h], eights);
+            }
+            return;
+        }
         let wanted = [&self.wanted[0], &self.wanted[1]].map(Vec::as_slice);
         for point in [&mut self.start, &mut self.end] {
             if !point.absolute_known {
@@ -176,9 +197,26 @@ impl CloserLook {
         }
     }
 
-    fn polynomial(&self, floor: usize) -> Polynomial {
+    /// Displacement of a floor.
+    fn polynomial(&self, constants: &ContactFree, floor: usize) -> Polynomial {
+        if let Some([eights, _]) = &self.eights {
+            return self.through(floor_of_eight(&constants.shapes, eights, floor));
+        }
         let at = |point: &Point| self.scaled(&point.floors, floor);
         septic(at(&self.start), at(&self.end))
+    }
+
+    /// The function with these derivatives at both ends.
+    fn through(&self, eight: Lane) -> Polynomial {
+        let end = |first: usize| {
+            let mut factor = 1.0;
+            std::array::from_fn(|k| {
+                let value = factor * eight[first + k];
+                factor *= self.step;
+                value
+            })
+        };
+        septic(end(0), end(WIDTH / 2))
     }
 
     /// Derivatives with respect to theta.
@@ -200,16 +238,22 @@ impl CloserLook {
         floor: usize,
     ) -> Polynomial {
         match quantity {
-            Quantity::Displacement => self.polynomial(floor),
+            Quantity::Displacement => self.polynomial(constants, floor),
             Quantity::Drift => {
                 let below = floor.checked_sub(1);
                 match below.filter(|b| constants.building[*b] == constants.building[floor]) {
-                    None => self.polynomial(floor),
-                    Some(b) => difference(&self.polynomial(floor), &self.polynomial(b)),
+                    None => self.polynomial(constants, floor),
+                    Some(b) => {
+                        let [upper, lower] = [floor, b].map(|i| self.polynomial(constants, i));
+                        difference(&upper, &lower)
+                    }
                 }
             }
             Quantity::Acceleration => {
                 self.derive_absolute(constants);
+                if let Some([_, eights]) = &self.eights {
+                    return self.through(floor_of_eight(&constants.shapes, eights, floor));
+                }
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
                 septic(at(&self.start), at(&self.end))
             }
@@ -225,6 +269,16 @@ impl CloserLook {
                 };
                 septic(at(&self.start), at(&self.end))
             }
+        }
+    }
+}
+
+/// Eight values for every mode, one after another.
+fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
+    for (c, eights) in eights.chunks_exact_mut(WIDTH).enumerate() {
+        let values = values.map(|values| values[c]);
+        for (l, eight) in eights.iter_mut().enumerate() {
+            *eight = Lane(values.map(|value| value[l]));
         }
     }
 }

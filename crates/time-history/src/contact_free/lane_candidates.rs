@@ -11,6 +11,7 @@ use super::lanes::{Ground, Lane, Track, WIDTH, step_modes, sum_of_products};
 
 /// Samples at which a block is looked at, its start included.
 const TIMES: usize = BLOCK + 1;
+const HALF: usize = TIMES.div_ceil(2);
 
 /// Eight floors of which a function could have a peak in a block.
 #[derive(Debug, Clone, Copy)]
@@ -175,10 +176,12 @@ impl BlockLook {
 ))]
 fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lane; TIMES]; 2] {
     let (row, count) = (&constants.floor_rows[lane], constants.modes.len());
-    [
-        products(row, modes[0], count),
-        products(row, modes[1], count),
-    ]
+    modes.map(|modes| {
+        // As many sums as stay in registers.
+        let first: [Lane; HALF] = products(row, modes, count);
+        let second: [Lane; TIMES - HALF] = products(row, &modes[HALF * count..], count);
+        std::array::from_fn(|s| if s < HALF { first[s] } else { second[s - HALF] })
+    })
 }
 
 /// Follows all modes over a block. The fourth derivatives swing freely between samples, so that

@@ -393,7 +393,7 @@ impl OfTall {
 
 /// Maximum ratio of what a lane of floors could reach to peaks that are lower; zero if none is.
 fn excess(candidate: &LaneCandidate, tracks: &AllTracks<'_>) -> f64 {
-    let peaks = &tracks[candidate.quantity as usize].peak[candidate.lane];
+    let peaks = tracks[candidate.quantity as usize].reach(candidate.lane);
     let ratios =
         peaks.0.iter().zip(candidate.upper.0).map(
             |(peak, upper)| {

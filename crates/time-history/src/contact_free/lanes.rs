@@ -182,6 +182,8 @@ pub(crate) struct Track {
     pub next: Vec<Lane>,
     pub peak: Vec<Lane>,
     pub time: Vec<Lane>,
+    /// What the peak is sure to reach once all that was put off has been looked at.
+    pub sure: Vec<Lane>,
     /// Bound of the overshoot between samples: `h^2 / 8` times that of the second
     /// derivative.
     pub overshoot: Vec<Lane>,
@@ -217,6 +219,12 @@ impl Modal {
 }
 
 impl Track {
+    /// What the peaks of a lane are sure to reach.
+    pub(super) fn reach(&self, lane: usize) -> Lane {
+        let (peak, sure) = (&self.peak[lane], &self.sure[lane]);
+        Lane::from_fn(|l| if sure[l] > peak[l] { sure[l] } else { peak[l] })
+    }
+
     /// Takes over another one of as many values.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.now.copy_from_slice(&other.now);
@@ -237,6 +245,7 @@ impl Track {
             next: zeros(),
             peak,
             time: zeros(),
+            sure: zeros(),
             overshoot: zeros(),
         }
     }

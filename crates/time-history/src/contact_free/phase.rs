@@ -104,6 +104,8 @@ pub(crate) struct ContactFreePhase {
     pub(super) sections: Track,
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
+    /// Whether they are only because blocks of tall buildings do without them.
+    acceleration_left_out: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
     /// Least and greatest displacements of all floors in the present sample, where they are
@@ -125,7 +127,7 @@ pub(crate) struct ContactFreePhase {
 }
 
 impl ContactFreePhase {
-    pub(crate) fn new(system: &System) -> Self {
+    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
         let sections = system.sections().len();
@@ -138,6 +140,7 @@ impl ContactFreePhase {
             acceleration: Track::new(dofs),
             sections: Track::new(sections),
             acceleration_known: false,
+            acceleration_left_out: false,
             penetration: vec![0.0; system.levels().len()],
             extent: None,
             holds_state: false,
@@ -146,7 +149,7 @@ impl ContactFreePhase {
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
-            tall: tall.then(|| Box::new(TallBlock::new(lanes))),
+            tall: tall.then(|| Box::new(TallBlock::new(constants))),
             candidates: Candidates::new(lanes, 3 * dofs + sections, tall),
             block_start: Modal::new(lanes),
         }
@@ -163,6 +166,7 @@ impl ContactFreePhase {
             acceleration: Track::new(dofs),
             sections: Track::new(0),
             acceleration_known: false,
+            acceleration_left_out: false,
             penetration: vec![0.0; levels],
             extent: Some([zeros(), zeros()]),
             holds_state: true,
@@ -317,6 +321,10 @@ impl ContactFreePhase {
                 break;
             }
         }
+        if std::mem::take(&mut self.acceleration_left_out) {
+            self.work_out_acceleration(constants);
+            self.acceleration_known = true;
+        }
         let layout = Layout::of(range.system);
         let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
         accounts.state[layout.input()] += sum(&self.now.input);
@@ -445,7 +453,9 @@ impl ContactFreePhase {
         let end = (sample + BLOCK) as f64 * constants.step;
         let suspects = tall.take_end(constants, tracks, (end, low));
         self.candidates.put_off((sample, &self.now), suspects);
-        self.acceleration_known = !low;
+        let exact = tall.is_exact();
+        self.acceleration_known = !low && exact;
+        self.acceleration_left_out = !low && !exact;
         std::mem::swap(&mut self.now, &mut self.block.end);
         true
     }
@@ -481,12 +491,11 @@ impl ContactFreePhase {
         let place = (constants, range.system);
         self.candidates.make_room(place, tracks, wanted);
         if !low && !self.acceleration_known {
-            let (q, p) = (&self.now.displacement, &self.now.velocity);
-            restoring(&constants.modes, q, p, &mut self.modal);
-            transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
+            self.work_out_acceleration(constants);
         }
         self.note_peaks(constants, (sample, clear), low);
         self.acceleration_known = !low;
+        self.acceleration_left_out = false;
         if clear == BLOCK {
             std::mem::swap(&mut self.now, &mut self.block.end);
         } else {
@@ -504,6 +513,13 @@ impl ContactFreePhase {
             *penetration = block.levels.after(clear, l) - range.contacts.width(l);
         }
         clear
+    }
+
+    /// Absolute accelerations of the floors now.
+    fn work_out_acceleration(&mut self, constants: &ContactFree) {
+        let (q, p) = (&self.now.displacement, &self.now.velocity);
+        restoring(&constants.modes, q, p, &mut self.modal);
+        transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
     }
 
     /// Takes the peaks at the first samples of the block, and notes where there could be

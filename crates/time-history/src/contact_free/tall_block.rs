@@ -14,9 +14,11 @@ use super::block::{BLOCK, Block, advance_all, bound_overshoots};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, sum_of_products,
+    Lane, Modal, Track, WIDTH, at, gather, is_low, modal_acceleration_overshoots, spread,
+    sum_of_products,
 };
 use super::transform::{transform_four, transform_two};
+use crate::bands::Bands;
 use crate::contact::Contacts;
 use crate::system::System;
 
@@ -45,7 +47,31 @@ pub(super) struct TallBlock {
     beyond: [Vec<Lane>; 3],
     /// What could have a peak in the block.
     suspects: Vec<Suspect>,
+    bands: Option<ByBands>,
 }
+
+/// Absolute accelerations from the floors' own displacements and velocities, where stiffness and
+/// damping are tridiagonal: they then cost a product with the mode shapes less, and agree with the
+/// modes' to round-off. Peaks are taken from the modes alone.
+#[derive(Debug, Clone)]
+struct ByBands {
+    /// Of all floors, one after another, with a zero before and after them: displacement,
+    /// velocity, and acceleration relative to the ground.
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// Absolute acceleration and its rate.
+    absolute: Vec<f64>,
+    rate: Vec<f64>,
+    /// Maximum sums of magnitudes in a row of stiffness and of damping, by the masses.
+    rows: [f64; 2],
+    /// Bound of what is lost in round-off at either end (m/s2).
+    lost: [f64; 2],
+}
+
+/// Part of the largest terms of an acceleration that is lost in round-off, at most: some thousand
+/// units in the last place.
+const ROUND_OFF: f64 = 1.0e-12;
 
 /// Eight floors of which a function could have a peak in a block, with its bounds.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +88,8 @@ pub(super) fn is_tall(system: &System) -> bool {
 }
 
 impl TallBlock {
-    pub(super) fn new(lanes: usize) -> Self {
+    pub(super) fn new(constants: &ContactFree) -> Self {
+        let (dofs, lanes) = (constants.building.len(), constants.modes.len());
         let zeros = || vec![Lane::ZERO; lanes];
         let end = || std::array::from_fn(|_| zeros());
         Self {
@@ -73,6 +100,15 @@ impl TallBlock {
             deviation: [zeros(), zeros()],
             beyond: std::array::from_fn(|_| zeros()),
             suspects: Vec::with_capacity(3 * lanes),
+            bands: constants.bands.as_ref().map(|bands| ByBands {
+                displacement: vec![0.0; dofs + 2],
+                velocity: vec![0.0; dofs + 2],
+                acceleration: vec![0.0; dofs + 2],
+                absolute: vec![0.0; dofs],
+                rate: vec![0.0; dofs],
+                rows: bands.largest_rows(),
+                lost: [0.0; 2],
+            }),
         }
     }
 
@@ -96,7 +132,7 @@ impl TallBlock {
         let (q, p) = (&now.displacement, &now.velocity);
         if !(self.holds[0] && (low || self.holds[1])) {
             self.work_out_end(constants, (q, p, samples[0]), low);
-            std::mem::swap(&mut self.start, &mut self.end);
+            self.go_on();
         }
         let (q, p) = (&block.end.displacement, &block.end.velocity);
         self.work_out_end(constants, (q, p, samples[BLOCK]), low);
@@ -114,10 +150,21 @@ impl TallBlock {
         derive_end(constants, (q, p, ground), &mut self.modes);
         let [_, rate, absolute, absolute_rate] = &self.modes;
         let shapes = &constants.shapes;
-        if low {
-            transform_two(shapes, [q, rate], &mut self.end);
-        } else {
-            transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end);
+        match (&constants.bands, &mut self.bands) {
+            _ if low => transform_two(shapes, [q, rate], &mut self.end),
+            (Some(bands), Some(by_bands)) => {
+                transform_two(shapes, [q, rate], &mut self.end);
+                accelerate(bands, by_bands, (ground, third(constants)), &mut self.end);
+            }
+            _ => transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end),
+        }
+    }
+
+    /// Makes the end the start.
+    fn go_on(&mut self) {
+        std::mem::swap(&mut self.start, &mut self.end);
+        if let Some(bands) = &mut self.bands {
+            bands.lost.swap(0, 1);
         }
     }
 
@@ -145,8 +192,14 @@ impl TallBlock {
         at_end(level.0) - at_end(level.1)
     }
 
+    /// Whether present accelerations, which are worked out, are those of the modes.
+    pub(super) fn is_exact(&self) -> bool {
+        self.bands.is_none()
+    }
+
     /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
-    /// what could have higher peaks in the block.
+    /// what could have higher peaks in the block: of accelerations that are not those of the
+    /// modes, what their peaks are sure to reach.
     pub(super) fn take_end(
         &mut self,
         constants: &ContactFree,
@@ -154,7 +207,7 @@ impl TallBlock {
         (time, low): (f64, bool),
     ) -> &[Suspect] {
         compare(constants, self, tracks, (time, low));
-        std::mem::swap(&mut self.start, &mut self.end);
+        self.go_on();
         self.holds = [true, !low];
         &self.suspects
     }
@@ -323,6 +376,38 @@ fn derive_end(
     }
 }
 
+/// Absolute accelerations of all floors with their rates, from displacements and velocities.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), end: &mut End) {
+    let [displacements, rates, absolutes, absolute_rates] = end;
+    let count = work.absolute.len();
+    let [u, v] = [&mut work.displacement, &mut work.velocity].map(|x| &mut x[1..=count]);
+    gather(displacements, u);
+    gather(rates, v);
+    let (mut farthest, mut fastest) = (0.0_f64, 0.0_f64);
+    for (u, v) in u.iter().zip(v) {
+        *v /= third;
+        farthest = farthest.max(u.abs());
+        fastest = fastest.max(v.abs());
+    }
+    work.lost[1] = ROUND_OFF * (work.rows[0] * farthest + work.rows[1] * fastest);
+    bands.resist(&work.displacement, &work.velocity, &mut work.absolute);
+    for (a, absolute) in work.acceleration[1..].iter_mut().zip(&work.absolute) {
+        *a = absolute - ground;
+    }
+    bands.resist(&work.velocity, &work.acceleration, &mut work.rate);
+    for rate in &mut work.rate {
+        *rate *= third;
+    }
+    spread(&work.absolute, absolutes);
+    spread(&work.rate, absolute_rates);
+}
+
 /// Compares the hulls of all functions with their peaks, after those at the end were taken.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
@@ -351,24 +436,43 @@ fn compare(
                 drifts[k][l] = u[l] - above[l] * below[l];
             }
         }
-        let mut suspect = |quantity: Quantity, cubic: &[Lane; CUBIC], track: &mut Track| {
-            let beyond = &tall.beyond[quantity as usize][c];
-            let place = (&mut track.peak[c], &mut track.time[c]);
-            if let Some(upper) = exceeding(cubic, beyond, place, time) {
-                suspects.push(Suspect {
-                    quantity,
-                    lane: c,
-                    upper,
-                });
-            }
-            track.now[c] = cubic[CUBIC - 1];
+        let mut suspect = |quantity: Quantity, upper: Option<Lane>| {
+            suspects.extend(upper.map(|upper| Suspect {
+                quantity,
+                lane: c,
+                upper,
+            }));
         };
-        suspect(Quantity::Displacement, &floors, displacement);
-        suspect(Quantity::Drift, &drifts, drift);
-        if !low {
-            let floors = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
-            suspect(Quantity::Acceleration, &floors, acceleration);
+        let [beyond, beyond_drift, beyond_acceleration] =
+            tall.beyond.each_ref().map(|beyond| &beyond[c]);
+        suspect(
+            Quantity::Displacement,
+            take_end(&floors, beyond, (displacement, c), time),
+        );
+        suspect(
+            Quantity::Drift,
+            take_end(&drifts, beyond_drift, (drift, c), time),
+        );
+        if low {
+            continue;
         }
+        let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
+        let beyond = beyond_acceleration;
+        let upper = match &tall.bands {
+            None => take_end(&cubic, beyond, (acceleration, c), time),
+            Some(bands) => {
+                let lost = bands.lost[0].max(bands.lost[1]);
+                let upper = upper(&cubic, beyond);
+                let upper = upper.map(|upper| upper + lost);
+                let sure = &mut acceleration.sure[c];
+                for l in 0..WIDTH {
+                    let value = cubic[CUBIC - 1][l].abs() - lost;
+                    sure[l] = if value > sure[l] { value } else { sure[l] };
+                }
+                unless_below(upper, &acceleration.reach(c))
+            }
+        };
+        suspect(Quantity::Acceleration, upper);
     }
 }
 
@@ -383,28 +487,46 @@ fn cubic([a, third_a, b, third_b]: [&Lane; CUBIC]) -> [Lane; CUBIC] {
     out
 }
 
-/// Takes the last coefficients as peaks at this time (s). Returns bounds of the functions if one
-/// could still be above its peak.
+/// Takes the last coefficients as present values and as peaks at this time (s). Returns bounds
+/// of the functions if one could still be above its peak.
 #[inline(always)]
-fn exceeding(
+fn take_end(
     cubic: &[Lane; CUBIC],
     beyond: &Lane,
-    (peak, times): (&mut Lane, &mut Lane),
+    (track, c): (&mut Track, usize),
     time: f64,
 ) -> Option<Lane> {
-    let mut upper = Lane::ZERO;
-    let mut all_below = true;
+    let (peak, times) = (&mut track.peak[c], &mut track.time[c]);
     for l in 0..WIDTH {
         let value = cubic[CUBIC - 1][l].abs();
         let higher = value > peak[l];
         peak[l] = if higher { value } else { peak[l] };
         times[l] = if higher { time } else { times[l] };
-        let mut top = value;
-        for coefficients in &cubic[..CUBIC - 1] {
+    }
+    track.now[c] = cubic[CUBIC - 1];
+    unless_below(upper(cubic, beyond), peak)
+}
+
+/// Bounds of functions in the block.
+#[inline(always)]
+fn upper(cubic: &[Lane; CUBIC], beyond: &Lane) -> Lane {
+    let mut upper = Lane::ZERO;
+    for l in 0..WIDTH {
+        let mut top = 0.0;
+        for coefficients in cubic {
             let size = coefficients[l].abs();
-            top = if size > top { size } else { top };
+            top = if size <= top { top } else { size };
         }
         upper[l] = top + beyond[l];
+    }
+    upper
+}
+
+/// These bounds, if one is not below its peak.
+#[inline(always)]
+fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
+    let mut all_below = true;
+    for l in 0..WIDTH {
         all_below &= upper[l] <= peak[l];
     }
     (!all_below).then_some(upper)

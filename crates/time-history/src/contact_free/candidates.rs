@@ -66,6 +66,9 @@ struct OfTall {
     most: usize,
     look: BlockLook,
     intervals: Vec<Interval>,
+    /// Blocks in the order in which they are looked at: how far they could exceed a peak, and
+    /// where their candidates begin and end.
+    blocks: Vec<(f64, usize, usize)>,
 }
 
 /// Candidates kept at least, and states at most, of which tall buildings keep more: the longer
@@ -193,7 +196,7 @@ impl Candidates {
     fn prune(&mut self, tracks: &AllTracks<'_>) {
         self.list.retain(|c| is_above(c, tracks));
         if let Some(tall) = &mut self.tall {
-            tall.list.retain(|c| excess(c, tracks) > 0.0);
+            tall.list.retain(|c| c.is_above(tracks));
         }
         let lanes = self.tall.as_ref().map_or(&[][..], |tall| &tall.list);
         let mut wanted = [false; TALL_SNAPSHOTS];
@@ -240,19 +243,18 @@ impl Candidates {
             return false;
         };
         let any = !tall.list.is_empty();
-        let mut blocks = [(0.0_f64, 0, 0); TALL_SNAPSHOTS];
         let (mut count, mut start) = (0, 0);
         for group in tall.list.chunk_by(|a, b| a.snapshot == b.snapshot) {
-            let most = group.iter().map(|c| excess(c, tracks));
-            blocks[count] = (most.fold(0.0, f64::max), start, start + group.len());
+            let most = group.iter().map(|c| c.relative_excess(tracks));
+            tall.blocks[count] = (most.fold(0.0, f64::max), start, start + group.len());
             count += 1;
             start += group.len();
         }
-        let blocks = &mut blocks[..count];
+        let blocks = &mut tall.blocks[..count];
         blocks.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         for (_, start, end) in &*blocks {
             let group = &tall.list[*start..*end];
-            if group.iter().all(|c| excess(c, tracks) == 0.0) {
+            if !group.iter().any(|c| c.is_above(tracks)) {
                 continue;
             }
             let snapshot = group[0].snapshot;
@@ -262,7 +264,7 @@ impl Candidates {
             let ground = &system.ground().samples[first..=first + BLOCK];
             tall.look.begin(constants, state, ground);
             for candidate in group {
-                if excess(candidate, tracks) == 0.0 {
+                if !candidate.is_above(tracks) {
                     continue;
                 }
                 let track = &mut *tracks[candidate.quantity as usize];
@@ -387,20 +389,33 @@ impl OfTall {
             most: 3 * lanes,
             look: BlockLook::new(lanes),
             intervals: Vec::with_capacity(BLOCK * WIDTH),
+            blocks: vec![(0.0, 0, 0); TALL_SNAPSHOTS],
         }
     }
 }
 
-/// Maximum ratio of what a lane of floors could reach to peaks that are lower; zero if none is.
-fn excess(candidate: &LaneCandidate, tracks: &AllTracks<'_>) -> f64 {
-    let peaks = tracks[candidate.quantity as usize].reach(candidate.lane);
-    let ratios =
-        peaks.0.iter().zip(candidate.upper.0).map(
-            |(peak, upper)| {
-                if upper <= *peak { 0.0 } else { upper / peak }
-            },
-        );
-    ratios.fold(0.0, f64::max)
+impl LaneCandidate {
+    /// Whether one of the floors could still be above its peak.
+    fn is_above(&self, tracks: &AllTracks<'_>) -> bool {
+        self.excess(tracks) > 0.0
+    }
+
+    /// What they could exceed them by in parts of the peak of the first floor.
+    fn relative_excess(&self, tracks: &AllTracks<'_>) -> f64 {
+        let first = tracks[self.quantity as usize].reach(self.lane)[0];
+        self.excess(tracks) / first.max(f64::MIN_POSITIVE)
+    }
+
+    /// What the floors could exceed their peaks by, at most.
+    fn excess(&self, tracks: &AllTracks<'_>) -> f64 {
+        let peaks = tracks[self.quantity as usize].reach(self.lane);
+        let mut most = 0.0;
+        for l in 0..WIDTH {
+            let excess = self.upper[l] - peaks[l];
+            most = if excess <= most { most } else { excess };
+        }
+        most
+    }
 }
 
 /// Whether a candidate could still be above its peak.

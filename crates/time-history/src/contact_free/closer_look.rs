@@ -1,9 +1,11 @@
 //! A closer look at one sample of contact-free motion: between points so dense that every
 //! floor moves on a polynomial of degree 7.
 
+use multiversion::multiversion;
+
 use super::candidates::Quantity;
 use super::constants::{ContactFree, Fine};
-use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
+use super::lanes::{Ground, Lane, Modal, ModeLanes, WIDTH, restoring};
 use super::transform::{Four, floor_of_eight, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
 
@@ -47,19 +49,8 @@ impl Point {
 
     /// Derivatives of the modes from their displacements and velocities by the equation of
     /// motion and its derivatives.
-    fn derive(&mut self, constants: &ContactFree, (ground, slope): (f64, f64)) {
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let (damping, gamma) = (m.damping[l], m.participation[l]);
-                let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
-                let (q, p) = (self.modes[0][c][l], self.modes[1][c][l]);
-                let second = -damping * p - stiffness * q - gamma * ground;
-                let third = -damping * second - stiffness * p - gamma * slope;
-                self.modes[2][c][l] = second;
-                self.modes[3][c][l] = third;
-                self.modes[4][c][l] = -damping * third - stiffness * second;
-            }
-        }
+    fn derive(&mut self, constants: &ContactFree, ground: (f64, f64)) {
+        derive(&constants.modes, ground, &mut self.modes);
         self.absolute_known = false;
     }
 
@@ -88,6 +79,31 @@ impl Point {
             wanted: absolute,
         };
         [motion, absolute]
+    }
+}
+
+/// Derivatives of the modes from their displacements and velocities.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn derive(modes: &[ModeLanes], (ground, slope): (f64, f64), point: &mut [Vec<Lane>; 5]) {
+    let [displacement, velocity, seconds, thirds, fourths] = point;
+    for (c, m) in modes.iter().enumerate() {
+        let (q, p) = (&displacement[c], &velocity[c]);
+        let (seconds, thirds) = (&mut seconds[c], &mut thirds[c]);
+        let fourths = &mut fourths[c];
+        for l in 0..WIDTH {
+            let (damping, gamma) = (m.damping[l], m.participation[l]);
+            let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
+            let second = -damping * p[l] - stiffness * q[l] - gamma * ground;
+            let third = -damping * second - stiffness * p[l] - gamma * slope;
+            seconds[l] = second;
+            thirds[l] = third;
+            fourths[l] = -damping * third - stiffness * second;
+        }
     }
 }
 
@@ -137,14 +153,9 @@ impl CloserLook {
             self.end.derive(constants, (ground.start, ground.slope));
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        for (c, m) in fine.modes.iter().enumerate() {
-            let (q, p) = (&self.start.modes[0][c], &self.start.modes[1][c]);
-            let (q, p) = (
-                step(&m.displacement, q, p, ground),
-                step(&m.velocity, q, p, ground),
-            );
-            (self.end.modes[0][c], self.end.modes[1][c]) = (q, p);
-        }
+        let [from, from_rate, ..] = &self.start.modes;
+        let [to, to_rate, ..] = &mut self.end.modes;
+        step(&fine.modes, ground, [from, from_rate], [to, to_rate]);
         self.end.derive(constants, (ground.end, ground.slope));
         self.step = fine.step;
         let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
@@ -273,7 +284,8 @@ impl CloserLook {
     }
 }
 
-/// Eight values for every mode, one after another.
+/// Eight values for every mode, one after another. (Not by wide registers, whose gathering
+/// loads take ten times as long.)
 fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
     for (c, eights) in eights.chunks_exact_mut(WIDTH).enumerate() {
         let values = values.map(|values| values[c]);
@@ -283,9 +295,22 @@ fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
     }
 }
 
-/// One component of all modes of a lane after a step.
-fn step(k: &[Lane; 4], q: &Lane, p: &Lane, ground: Ground) -> Lane {
-    Lane::from_fn(|l| {
-        k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
-    })
+/// Displacements and velocities of all modes after a step.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn step(modes: &[ModeLanes], ground: Ground, from: [&[Lane]; 2], to: [&mut [Lane]; 2]) {
+    let [displacement, velocity] = to;
+    for (c, m) in modes.iter().enumerate() {
+        let (q, p) = (&from[0][c], &from[1][c]);
+        let after = |k: &[Lane; 4]| {
+            Lane::from_fn(|l| {
+                k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
+            })
+        };
+        (displacement[c], velocity[c]) = (after(&m.displacement), after(&m.velocity));
+    }
 }

@@ -176,12 +176,15 @@ impl BlockLook {
 ))]
 fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lane; TIMES]; 2] {
     let (row, count) = (&constants.floor_rows[lane], constants.modes.len());
-    modes.map(|modes| {
+    let mut floors = [[Lane::ZERO; TIMES]; 2];
+    for (floors, modes) in floors.iter_mut().zip(modes) {
         // As many sums as stay in registers.
-        let first: [Lane; HALF] = products(row, modes, count);
-        let second: [Lane; TIMES - HALF] = products(row, &modes[HALF * count..], count);
-        std::array::from_fn(|s| if s < HALF { first[s] } else { second[s - HALF] })
-    })
+        let (first, second) = floors.split_at_mut(HALF);
+        first.copy_from_slice(&products::<HALF>(row, modes, count));
+        let modes = &modes[HALF * count..];
+        second.copy_from_slice(&products::<{ TIMES - HALF }>(row, modes, count));
+    }
+    floors
 }
 
 /// Follows all modes over a block. The fourth derivatives swing freely between samples, so that

@@ -220,6 +220,7 @@ impl Modal {
 
 impl Track {
     /// What the peaks of a lane are sure to reach.
+    #[inline(always)]
     pub(super) fn reach(&self, lane: usize) -> Lane {
         let (peak, sure) = (&self.peak[lane], &self.sure[lane]);
         Lane::from_fn(|l| if sure[l] > peak[l] { sure[l] } else { peak[l] })

@@ -104,8 +104,10 @@ pub(crate) struct ContactFreePhase {
     pub(super) sections: Track,
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
-    /// Whether they are only because blocks of tall buildings do without them.
+    /// Whether they, and the penetrations, are to be worked out at the end of the phase, as
+    /// blocks of tall buildings do without them.
     acceleration_left_out: bool,
+    penetration_left_out: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
     /// Least and greatest displacements of all floors in the present sample, where they are
@@ -141,6 +143,7 @@ impl ContactFreePhase {
             sections: Track::new(sections),
             acceleration_known: false,
             acceleration_left_out: false,
+            penetration_left_out: false,
             penetration: vec![0.0; system.levels().len()],
             extent: None,
             holds_state: false,
@@ -167,6 +170,7 @@ impl ContactFreePhase {
             sections: Track::new(0),
             acceleration_known: false,
             acceleration_left_out: false,
+            penetration_left_out: false,
             penetration: vec![0.0; levels],
             extent: Some([zeros(), zeros()]),
             holds_state: true,
@@ -325,6 +329,7 @@ impl ContactFreePhase {
             self.work_out_acceleration(constants);
             self.acceleration_known = true;
         }
+        self.measure_penetrations(range);
         let layout = Layout::of(range.system);
         let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
         accounts.state[layout.input()] += sum(&self.now.input);
@@ -430,12 +435,8 @@ impl ContactFreePhase {
         let low = tall.advance(constants, &self.now, &samples, peak, &mut self.block);
         if !tall.is_open(range.system, range.contacts) {
             tall.forget();
+            self.measure_penetrations(range);
             return false;
-        }
-        let levels = range.system.levels().iter().enumerate();
-        for ((l, level), penetration) in levels.zip(&mut self.penetration) {
-            let closing = tall.closing((level.left, level.right));
-            *penetration = closing - range.contacts.width(l);
         }
         let tracks = &mut [
             &mut self.displacement,
@@ -456,6 +457,7 @@ impl ContactFreePhase {
         let exact = tall.is_exact();
         self.acceleration_known = !low && exact;
         self.acceleration_left_out = !low && !exact;
+        self.penetration_left_out = true;
         std::mem::swap(&mut self.now, &mut self.block.end);
         true
     }
@@ -513,6 +515,20 @@ impl ContactFreePhase {
             *penetration = block.levels.after(clear, l) - range.contacts.width(l);
         }
         clear
+    }
+
+    /// Works out present penetrations, if they were left out.
+    fn measure_penetrations(&mut self, range: &SampleRange<'_>) {
+        if !std::mem::take(&mut self.penetration_left_out) {
+            return;
+        }
+        let floors = &self.displacement.now;
+        let floor = |i: Option<usize>| i.map_or(0.0, |i| at(floors, i));
+        let levels = range.system.levels().iter().enumerate();
+        for ((l, level), penetration) in levels.zip(&mut self.penetration) {
+            let closing = floor(level.left) - floor(level.right);
+            *penetration = closing - range.contacts.width(l);
+        }
     }
 
     /// Absolute accelerations of the floors now.

@@ -14,8 +14,7 @@ use super::block::{BLOCK, Block, advance_all, bound_overshoots};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, gather, is_low, modal_acceleration_overshoots, spread,
-    sum_of_products,
+    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, spread, sum_of_products,
 };
 use super::transform::{transform_four, transform_two};
 use crate::bands::Bands;
@@ -170,6 +169,10 @@ impl TallBlock {
 
     /// Whether no gap can close in the block.
     pub(super) fn is_open(&self, system: &System, contacts: &Contacts) -> bool {
+        let widths = contacts.widths().iter().copied();
+        if 2.0 * farthest(self) <= widths.fold(f64::INFINITY, f64::min) {
+            return true;
+        }
         let (start, end, beyond) = (&self.start, &self.end, &self.beyond[0]);
         let floor = |i: Option<usize>| {
             i.map_or(([0.0; CUBIC], 0.0), |i| {
@@ -184,12 +187,6 @@ impl TallBlock {
             let closing = left.iter().zip(right).map(|(a, b)| a - b);
             closing.fold(f64::NEG_INFINITY, f64::max) + (over + under) <= contacts.width(l)
         })
-    }
-
-    /// Closing of a level at the end (m).
-    pub(super) fn closing(&self, level: (Option<usize>, Option<usize>)) -> f64 {
-        let at_end = |i: Option<usize>| i.map_or(0.0, |i| at(&self.end[0], i));
-        at_end(level.0) - at_end(level.1)
     }
 
     /// Whether present accelerations, which are worked out, are those of the modes.
@@ -303,7 +300,7 @@ fn deviate(
             cubic[2][l] = b[l] - third * vb[l];
             cubic[3][l] = b[l];
         }
-        displacement[c] = farthest(&cubic, |k| &block.displacement[k * count + c]);
+        displacement[c] = farthest_from(&cubic, |k| &block.displacement[k * count + c]);
         if low {
             continue;
         }
@@ -319,13 +316,13 @@ fn deviate(
             cubic[2][l] = last.0 - last.1;
             cubic[3][l] = last.0;
         }
-        acceleration[c] = farthest(&cubic, |k| &block.acceleration[k * count + c]);
+        acceleration[c] = farthest_from(&cubic, |k| &block.acceleration[k * count + c]);
     }
 }
 
 /// Maximum distance of values at the samples inside a block from a cubic.
 #[inline(always)]
-fn farthest<'a>(cubic: &[Lane; CUBIC], value: impl Fn(usize) -> &'a Lane) -> Lane {
+fn farthest_from<'a>(cubic: &[Lane; CUBIC], value: impl Fn(usize) -> &'a Lane) -> Lane {
     let mut most = Lane::ZERO;
     for (k, weights) in BERNSTEIN.iter().enumerate() {
         let value = value(k);
@@ -386,14 +383,17 @@ fn derive_end(
 fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), end: &mut End) {
     let [displacements, rates, absolutes, absolute_rates] = end;
     let count = work.absolute.len();
-    let [u, v] = [&mut work.displacement, &mut work.velocity].map(|x| &mut x[1..=count]);
-    gather(displacements, u);
-    gather(rates, v);
+    let slower = 1.0 / third;
     let (mut farthest, mut fastest) = (0.0_f64, 0.0_f64);
-    for (u, v) in u.iter().zip(v) {
-        *v /= third;
-        farthest = farthest.max(u.abs());
-        fastest = fastest.max(v.abs());
+    let u = work.displacement[1..=count].chunks_mut(WIDTH);
+    let v = work.velocity[1..=count].chunks_mut(WIDTH);
+    for (((u, v), displacement), rate) in u.zip(v).zip(&*displacements).zip(&*rates) {
+        let floors = u.iter_mut().zip(v).zip(displacement.0).zip(rate.0);
+        for (((u, v), displacement), rate) in floors {
+            (*u, *v) = (displacement, slower * rate);
+            farthest = farthest.max(u.abs());
+            fastest = fastest.max(v.abs());
+        }
     }
     work.lost[1] = ROUND_OFF * (work.rows[0] * farthest + work.rows[1] * fastest);
     bands.resist(&work.displacement, &work.velocity, &mut work.absolute);
@@ -406,6 +406,32 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
     }
     spread(&work.absolute, absolutes);
     spread(&work.rate, absolute_rates);
+}
+
+/// Bound of the displacements of all floors in the block (m).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn farthest(tall: &TallBlock) -> f64 {
+    let (start, end) = (&tall.start, &tall.end);
+    let mut most = Lane::ZERO;
+    for (c, beyond) in tall.beyond[0].iter().enumerate() {
+        let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
+        let upper = upper(&floors, beyond);
+        for l in 0..WIDTH {
+            most[l] = if upper[l] <= most[l] {
+                most[l]
+            } else {
+                upper[l]
+            };
+        }
+    }
+    // A NaN is passed on.
+    let larger = |a: f64, b: f64| if b <= a { a } else { b };
+    most.0.into_iter().fold(0.0, larger)
 }
 
 /// Compares the hulls of all functions with their peaks, after those at the end were taken.

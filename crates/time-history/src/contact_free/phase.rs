@@ -122,7 +122,7 @@ pub(crate) struct ContactFreePhase {
     drifted: Vec<Lane>,
     block: Block,
     /// Blocks of tall buildings.
-    tall: Option<Box<TallBlock>>,
+    pub(super) tall: Option<Box<TallBlock>>,
     pub(super) candidates: Candidates,
     /// The motion at the start of the block, for observers.
     block_start: Modal,

@@ -557,3 +557,137 @@ fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
     }
     (!all_below).then_some(upper)
 }
+
+/// The property that all of this rests on: peaks have the bits of evaluating every floor at every
+/// sample, in blocks of [`super::block`], which know nothing of hulls.
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use pounding_gap_element::{ModelParameters, registry};
+    use pounding_shear_building::{Damping, ShearBuilding};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::contact_episode::LevelRows;
+    use crate::contact_free::candidates::Candidates;
+    use crate::contact_free::{ContactFreePhase, EnergyAccounts, SampleRange};
+    use crate::dense_output::Observers;
+    use crate::dynamics::Layout;
+    use crate::peaks::Peaks;
+    use crate::system::{Floor, GroundAcceleration};
+
+    const STEP: f64 = 0.01;
+
+    /// Two towers of these storeys with storeys of random mass and stiffness. Where `ratio` is
+    /// one, all modes have the same damping ratio, so that its matrix is full.
+    fn towers(storeys: [usize; 2], seed: f64, ratio: bool, gap: f64, samples: usize) -> System {
+        let vary = |i: usize, k: usize| (seed + 12.9898 * i as f64 + 78.233 * k as f64).sin();
+        let building = |b: usize, count: usize| {
+            let mass = (0..count).map(|i| 3.0e5 * (1.0 + 0.3 * vary(i, b)));
+            let stiffness = (0..count).map(|i| 6.0e8 * (1.0 + 0.4 * vary(i, b + 2)));
+            let damping = if ratio {
+                Damping::Modal { ratios: vec![0.03] }
+            } else {
+                Damping::RayleighRatio {
+                    ratio: 0.04,
+                    modes: [1, 5],
+                }
+            };
+            let (mass, stiffness) = (mass.collect(), stiffness.collect());
+            let heights = vec![3.0; count];
+            let name = format!("b{b}");
+            Arc::new(ShearBuilding::new(name, mass, stiffness, heights, damping).unwrap())
+        };
+        let buildings = vec![building(0, storeys[0]), building(1, storeys[1])];
+        // A swell of many frequencies that comes and goes.
+        let ground = (0..=samples).map(|s| {
+            let t = STEP * s as f64;
+            let waves = (1..=12).map(|k| {
+                let frequency = 2.3 * f64::from(k) * (1.0 + 0.1 * vary(k as usize, 7));
+                (frequency * t + 6.0 * vary(k as usize, 9)).sin()
+            });
+            let swell = (STEP * (samples - s) as f64).min(t).min(1.0);
+            swell * waves.sum::<f64>()
+        });
+        let ground = GroundAcceleration {
+            samples: ground.collect(),
+            time_step: STEP,
+        };
+        let mut system = System::new(buildings, ground);
+        let parameters = [("stiffness", 2.0e9), ("restitution", 0.65)];
+        let parameters = ModelParameters::from_pairs(&parameters);
+        let pairs = (0..storeys[0].min(storeys[1])).map(|i| {
+            let model = registry::build("anagnostopoulos_2004", &parameters).unwrap();
+            (Floor::Storey(0, i), Floor::Storey(1, i), gap, model.into())
+        });
+        let between = ["b0".to_owned(), "b1".to_owned()];
+        system.add_gap("gap", between, pairs.collect()).unwrap();
+        system
+    }
+
+    /// Peaks, works and state after the samples without contact, and their number.
+    fn advanced(system: &System, tall: bool) -> (usize, String) {
+        let constants = system.contact_free().unwrap();
+        let mut phase = ContactFreePhase::new(constants, system);
+        assert!(phase.tall.is_some());
+        if !tall {
+            phase.tall = None;
+            let dofs = system.degrees_of_freedom();
+            phase.candidates = Candidates::new(constants.modes.len(), 3 * dofs, false);
+        }
+        let contacts = Contacts::all_open(system);
+        let layout = Layout::of(system);
+        let mut peaks = Peaks::new(layout, system);
+        let mut state = vec![0.0; layout.dimension()];
+        phase.take_state(constants, (system, &contacts), &peaks, &state);
+        let range = SampleRange {
+            system,
+            contacts: &contacts,
+            from: 0,
+            to: system.ground().samples.len() - 1,
+        };
+        let mut largest_input = 0.0;
+        let mut accounts = EnergyAccounts {
+            state: &mut state,
+            largest_input: &mut largest_input,
+            residual: 0.0,
+        };
+        let rows = LevelRows::new(constants, system);
+        let mut nobody = Observers::new(system, &mut [], 1.0e3);
+        let watched = (&rows, &mut nobody);
+        let count = phase.propagate(constants, &range, &mut accounts, watched);
+        let residual = accounts.residual;
+        let penetration = phase.penetration.clone();
+        let acceleration = phase.acceleration.now.clone();
+        phase.return_state(constants, system, &mut peaks, &mut state);
+        phase.finish(constants, system, &mut peaks);
+        let known = phase.acceleration_known.then_some(acceleration);
+        let seen = format!(
+            "{:?} {state:?} {largest_input:?} {residual:?} {penetration:?} {known:?}",
+            peaks.storeys
+        );
+        (count.unwrap(), seen)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn peaks_have_the_bits_of_every_floor_at_every_sample(
+            storeys in [TALL..200, 1_usize..120],
+            seed in 0.0..100.0,
+            ratio in any::<bool>(),
+            gap in prop_oneof![Just(1.0e3), 0.05..0.4],
+            samples in 60_usize..700,
+        ) {
+            let system = towers(storeys, seed, ratio, gap, samples);
+            prop_assert_eq!(system.contact_free().unwrap().bands.is_some(), !ratio);
+            let (every, expected) = advanced(&system, false);
+            let (count, seen) = advanced(&system, true);
+            prop_assert_eq!(count, every);
+            prop_assert!(gap < 1.0 || count == samples);
+            prop_assert_eq!(seen, expected);
+        }
+    }
+}

@@ -592,7 +592,7 @@ mod tests {
             } else {
                 Damping::RayleighRatio {
                     ratio: 0.04,
-                    modes: [1, 5],
+                    modes: [1, 2],
                 }
             };
             let (mass, stiffness) = (mass.collect(), stiffness.collect());
@@ -675,7 +675,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(12))]
         #[test]
         fn peaks_have_the_bits_of_every_floor_at_every_sample(
-            storeys in [TALL..200, 1_usize..120],
+            storeys in [TALL..200, 2_usize..120],
             seed in 0.0..100.0,
             ratio in any::<bool>(),
             gap in prop_oneof![Just(1.0e3), 0.05..0.4],

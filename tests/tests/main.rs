@@ -20,5 +20,6 @@ mod rigid_impacts;
 mod separation_rules;
 mod sine_case;
 mod structures;
+mod towers;
 mod traps;
 mod yielding;

@@ -84,6 +84,16 @@ impl Bands {
         self.damping.divide(by);
     }
 
+    /// Maximum sums of magnitudes in a row of stiffness and of damping.
+    pub(crate) fn largest_rows(&self) -> [f64; 2] {
+        [&self.stiffness, &self.damping].map(|band| {
+            let rows = band.left.iter().zip(&band.diagonal).zip(&band.right);
+            let sums =
+                rows.map(|((left, diagonal), right)| left.abs() + diagonal.abs() + right.abs());
+            sums.fold(0.0, f64::max)
+        })
+    }
+
     /// `out = -(K u + C v)` and `damping = C v`.
     pub(crate) fn internal_forces(
         &self,

@@ -35,12 +35,12 @@ pub(super) struct Block {
     pub end: Modal,
     /// Displacements and absolute accelerations of the modes at every sample, sample
     /// after sample.
-    displacement: Vec<Lane>,
-    acceleration: Vec<Lane>,
+    pub displacement: Vec<Lane>,
+    pub acceleration: Vec<Lane>,
     /// Velocities and works of the modes at every sample, if somebody looks at them.
     watched: Option<[Vec<Lane>; 3]>,
     /// Maximum `|q'| + omega |q|` of every mode over the block.
-    size: Vec<Lane>,
+    pub size: Vec<Lane>,
     /// Maximum floor displacement and drift, and maximum closing of levels.
     pub floors: Extremes,
     pub drifts: Extremes,
@@ -56,8 +56,8 @@ pub(super) struct Block {
     pub over: [Vec<Lane>; 4],
     own: [bool; 4],
     /// Maximum ground acceleration and slope.
-    largest: (f64, f64),
-    modal: Vec<Lane>,
+    pub largest: (f64, f64),
+    pub modal: Vec<Lane>,
 }
 
 /// Maximum values over the block, and the values at every sample.
@@ -187,20 +187,10 @@ pub(super) fn propagate(
     block: &mut Block,
 ) -> bool {
     let count = constants.modes.len();
-    match (block.watched.is_some(), constants.swings) {
-        (true, true) => advance_all::<true, true>(constants, now, samples, block),
-        (true, false) => advance_all::<true, false>(constants, now, samples, block),
-        (false, true) => advance_all::<false, true>(constants, now, samples, block),
-        (false, false) => advance_all::<false, false>(constants, now, samples, block),
-    }
-    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-    let slope = samples
-        .windows(2)
-        .fold(0.0_f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
-    block.largest = (largest, slope / constants.step);
+    advance_all(constants, now, samples, block);
     let large = count > LARGE;
     bound_overshoots(constants, block, [0, 1], large);
-    let low = is_low(constants, (&block.over[0], largest), peak);
+    let low = is_low(constants, (&block.over[0], block.largest.0), peak);
     if !low {
         bound_overshoots(constants, block, [2], large);
     }
@@ -236,7 +226,7 @@ pub(super) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usiz
 
 /// Bounds overshoots over the block, for all floors of a building `together` or for each.
 #[inline(always)]
-fn bound_overshoots<const COUNT: usize>(
+pub(super) fn bound_overshoots<const COUNT: usize>(
     constants: &ContactFree,
     block: &mut Block,
     quantities: [usize; COUNT],
@@ -345,9 +335,30 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
-/// All modes over the block; if they are watched, the whole motion at every sample is kept.
+/// All modes over the block, whose ground accelerations are `samples`.
 #[inline(always)]
-fn advance_all<const WATCHED: bool, const SWINGS: bool>(
+pub(super) fn advance_all(
+    constants: &ContactFree,
+    now: &Modal,
+    samples: &[f64; BLOCK + 1],
+    block: &mut Block,
+) {
+    match (block.watched.is_some(), constants.swings) {
+        (true, true) => advance_each::<true, true>(constants, now, samples, block),
+        (true, false) => advance_each::<true, false>(constants, now, samples, block),
+        (false, true) => advance_each::<false, true>(constants, now, samples, block),
+        (false, false) => advance_each::<false, false>(constants, now, samples, block),
+    }
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let slope = samples
+        .windows(2)
+        .fold(0.0_f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
+    block.largest = (largest, slope / constants.step);
+}
+
+/// The same; if the modes are watched, the whole motion at every sample is kept.
+#[inline(always)]
+fn advance_each<const WATCHED: bool, const SWINGS: bool>(
     constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
@@ -434,17 +445,21 @@ fn rows(rows: &[Rows], block: &mut Block, accelerations: bool) {
     }
 }
 
-/// A lane of floors at every sample.
+/// A lane of floors at so many times, `stride` lanes of modes from one to the next.
 #[inline(always)]
-fn products(row: &Rows, modal: &[Lane], stride: usize) -> [Lane; BLOCK] {
-    let mut sums = [Lane::ZERO; BLOCK];
+pub(super) fn products<const TIMES: usize>(
+    row: &Rows,
+    modal: &[Lane],
+    stride: usize,
+) -> [Lane; TIMES] {
+    let mut sums = [Lane::ZERO; TIMES];
     let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
     let mut columns = row.columns.as_slice();
     while !columns.is_empty() {
         let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
-        let modes: [&Lane; BLOCK] = std::array::from_fn(|s| &modal[s * stride + lane]);
+        let modes: [&Lane; TIMES] = std::array::from_fn(|s| &modal[s * stride + lane]);
         for (place, column) in (place..WIDTH).zip(now) {
-            for s in 0..BLOCK {
+            for s in 0..TIMES {
                 let x = modes[s][place];
                 for l in 0..WIDTH {
                     sums[s][l] += column[l] * x;

@@ -8,8 +8,10 @@
 use super::block::{self, BLOCK};
 use super::closer_look::CloserLook;
 use super::constants::ContactFree;
+use super::lane_candidates::{BlockLook, Interval, LaneCandidate};
 use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use super::sample_bound::SampleBound;
+use super::tall_block::Suspect;
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
 
@@ -43,35 +45,60 @@ pub(super) struct Candidates {
     capacity: usize,
     /// Samples of the states that are kept, and the states: displacements of all modes, then
     /// velocities, one after another.
-    samples: [usize; SNAPSHOTS],
+    samples: Vec<usize>,
     states: Vec<Lane>,
     /// States in use: the first ones.
     used: usize,
     scratch: Modal,
+    /// State that the scratch was reached from, and the sample that it has come to.
+    reached: Option<(usize, usize)>,
     bound: SampleBound,
     look: CloserLook,
+    tall: Option<Box<OfTall>>,
 }
 
-/// Candidates kept at least, and states at most.
+/// What tall buildings put off, of eight floors over a whole block.
+#[derive(Debug, Clone)]
+struct OfTall {
+    list: Vec<LaneCandidate>,
+    capacity: usize,
+    /// Maximum number in one block.
+    most: usize,
+    look: BlockLook,
+    intervals: Vec<Interval>,
+    /// Blocks in the order in which they are looked at: how far they could exceed a peak, and
+    /// where their candidates begin and end.
+    blocks: Vec<(f64, usize, usize)>,
+}
+
+/// Candidates kept at least, and states at most, of which tall buildings keep more: the longer
+/// they wait, the fewer are left to be looked at.
 const CANDIDATES: usize = 512;
 const SNAPSHOTS: usize = 64;
+const TALL_SNAPSHOTS: usize = 512;
+/// Lanes of floors for every state that tall buildings keep, of all that could be put off.
+const LANES_PUT_OFF: f64 = 0.25;
 
 /// Tracks of displacement, drift, acceleration and forces in sections.
 pub(super) type AllTracks<'a> = [&'a mut Track; 4];
 
 impl Candidates {
-    /// For so many functions.
-    pub(super) fn new(lanes: usize, functions: usize) -> Self {
+    /// For so many functions, of `tall` buildings or not.
+    pub(super) fn new(lanes: usize, functions: usize, tall: bool) -> Self {
         let capacity = CANDIDATES.max(2 * BLOCK * functions);
+        let snapshots = if tall { TALL_SNAPSHOTS } else { SNAPSHOTS };
+        let put_off = |all: usize| all + (LANES_PUT_OFF * (snapshots * all) as f64) as usize;
         Self {
             list: Vec::with_capacity(capacity),
             capacity,
-            samples: [0; SNAPSHOTS],
-            states: vec![Lane::ZERO; SNAPSHOTS * 2 * lanes],
+            samples: vec![0; snapshots],
+            states: vec![Lane::ZERO; snapshots * 2 * lanes],
             used: 0,
             scratch: Modal::new(lanes),
+            reached: None,
             bound: SampleBound::new(lanes),
-            look: CloserLook::new(lanes),
+            look: CloserLook::new(lanes, tall),
+            tall: tall.then(|| Box::new(OfTall::new(lanes, put_off(3 * lanes)))),
         }
     }
 
@@ -80,12 +107,14 @@ impl Candidates {
         Self {
             list: Vec::new(),
             capacity: 0,
-            samples: [0; SNAPSHOTS],
+            samples: Vec::new(),
             states: Vec::new(),
             used: 0,
             scratch: Modal::new(0),
+            reached: None,
             bound: SampleBound::new(0),
-            look: CloserLook::new(0),
+            look: CloserLook::new(0, false),
+            tall: None,
         }
     }
 
@@ -96,35 +125,47 @@ impl Candidates {
         tracks: &mut AllTracks<'_>,
         wanted: usize,
     ) {
-        if self.list.len() + wanted <= self.capacity && self.used < SNAPSHOTS {
+        let full = |this: &Self| {
+            let tall = this.tall.as_ref();
+            this.list.len() + wanted > this.capacity
+                || tall.is_some_and(|tall| tall.list.len() + tall.most > tall.capacity)
+        };
+        if !full(self) && self.used < self.samples.len() {
             return;
         }
+        let many = |this: &Self| full(this) || this.used > this.samples.len() / 2;
         self.prune(tracks);
-        if self.list.len() + wanted > self.capacity || self.used > SNAPSHOTS / 2 {
+        if many(self) && self.settle_lanes((constants, system), tracks) {
+            self.prune(tracks);
+        }
+        if many(self) {
             self.settle((constants, system), tracks);
         }
+    }
+
+    /// Number of the state at the start of the block from this sample on.
+    fn snapshot(&mut self, (first, now): (usize, &Modal)) -> usize {
+        let last = self.used.checked_sub(1);
+        if let Some(snapshot) = last.filter(|s| self.samples[*s] == first) {
+            return snapshot;
+        }
+        let lanes = now.displacement.len();
+        self.samples[self.used] = first;
+        let state = &mut self.states[self.used * 2 * lanes..][..2 * lanes];
+        state[..lanes].copy_from_slice(&now.displacement);
+        state[lanes..].copy_from_slice(&now.velocity);
+        self.used += 1;
+        self.used - 1
     }
 
     /// Notes a candidate in a block that starts at `first` from the state `now`.
     pub(super) fn note(
         &mut self,
-        (first, now): (usize, &Modal),
+        start: (usize, &Modal),
         (quantity, floor): (Quantity, usize),
         (sample, upper): (usize, f64),
     ) {
-        let last = self.used.checked_sub(1);
-        let snapshot = match last.filter(|s| self.samples[*s] == first) {
-            Some(snapshot) => snapshot,
-            None => {
-                let lanes = now.displacement.len();
-                self.samples[self.used] = first;
-                let state = &mut self.states[self.used * 2 * lanes..][..2 * lanes];
-                state[..lanes].copy_from_slice(&now.displacement);
-                state[lanes..].copy_from_slice(&now.velocity);
-                self.used += 1;
-                self.used - 1
-            }
-        };
+        let snapshot = self.snapshot(start);
         self.list.push(Candidate {
             quantity,
             floor,
@@ -134,34 +175,129 @@ impl Candidates {
         });
     }
 
-    /// Drops what lies below the peaks by now.
+    /// Notes what could have a peak in a block of tall buildings that starts at this sample
+    /// from this state.
+    pub(super) fn put_off(&mut self, start: (usize, &Modal), suspects: &[Suspect]) {
+        if suspects.is_empty() {
+            return;
+        }
+        let snapshot = self.snapshot(start);
+        if let Some(tall) = &mut self.tall {
+            tall.list.extend(suspects.iter().map(|s| LaneCandidate {
+                quantity: s.quantity,
+                lane: s.lane,
+                upper: s.upper,
+                snapshot,
+            }));
+        }
+    }
+
+    /// Drops what lies below the peaks by now, and the states that nothing is reached from.
     fn prune(&mut self, tracks: &AllTracks<'_>) {
         self.list.retain(|c| is_above(c, tracks));
-        // Candidates are in order of their snapshots: close the gaps between those.
-        let (mut kept, mut last) = (0, usize::MAX);
-        let both = self.states.len() / SNAPSHOTS;
+        if let Some(tall) = &mut self.tall {
+            tall.list.retain(|c| c.is_above(tracks));
+        }
+        let lanes = self.tall.as_ref().map_or(&[][..], |tall| &tall.list);
+        let mut wanted = [false; TALL_SNAPSHOTS];
+        let of_lanes = lanes.iter().map(|c| c.snapshot);
+        for snapshot in self.list.iter().map(|c| c.snapshot).chain(of_lanes) {
+            wanted[snapshot] = true;
+        }
+        let both = self.states.len() / self.samples.len().max(1);
+        let (mut places, mut kept) = ([0; TALL_SNAPSHOTS], 0);
+        for snapshot in (0..self.used).filter(|s| wanted[*s]) {
+            self.samples[kept] = self.samples[snapshot];
+            let state = snapshot * both..(snapshot + 1) * both;
+            self.states.copy_within(state, kept * both);
+            places[snapshot] = kept;
+            kept += 1;
+        }
         for candidate in &mut self.list {
-            if candidate.snapshot != last {
-                last = candidate.snapshot;
-                self.samples[kept] = self.samples[last];
-                self.states
-                    .copy_within(last * both..(last + 1) * both, kept * both);
-                kept += 1;
+            candidate.snapshot = places[candidate.snapshot];
+        }
+        if let Some(tall) = &mut self.tall {
+            for candidate in &mut tall.list {
+                candidate.snapshot = places[candidate.snapshot];
             }
-            candidate.snapshot = kept - 1;
         }
         self.used = kept;
     }
 
-    /// Looks at all that are left, and forgets them: sample by sample, since a look shows
-    /// all floors.
-    pub(super) fn settle(
+    /// Looks at all that are left, and forgets them.
+    pub(super) fn settle(&mut self, place: (&ContactFree, &System), tracks: &mut AllTracks<'_>) {
+        self.settle_lanes(place, tracks);
+        self.settle_samples(place, tracks);
+        self.used = 0;
+    }
+
+    /// Looks at the lanes of floors that are left, those blocks first that could exceed the
+    /// peaks most, and keeps the samples that they could have peaks in. Returns whether there
+    /// were any.
+    fn settle_lanes(
+        &mut self,
+        (constants, system): (&ContactFree, &System),
+        tracks: &mut AllTracks<'_>,
+    ) -> bool {
+        let Some(mut tall) = self.tall.take() else {
+            return false;
+        };
+        let any = !tall.list.is_empty();
+        let (mut count, mut start) = (0, 0);
+        for group in tall.list.chunk_by(|a, b| a.snapshot == b.snapshot) {
+            let most = group.iter().map(|c| c.relative_excess(tracks));
+            tall.blocks[count] = (most.fold(0.0, f64::max), start, start + group.len());
+            count += 1;
+            start += group.len();
+        }
+        let blocks = &mut tall.blocks[..count];
+        blocks.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, start, end) in &*blocks {
+            let group = &tall.list[*start..*end];
+            if !group.iter().any(|c| c.is_above(tracks)) {
+                continue;
+            }
+            let snapshot = group[0].snapshot;
+            let first = self.samples[snapshot];
+            let lanes = constants.modes.len();
+            let state = self.states[snapshot * 2 * lanes..][..2 * lanes].split_at(lanes);
+            let ground = &system.ground().samples[first..=first + BLOCK];
+            tall.look.begin(constants, state, ground);
+            for candidate in group {
+                if !candidate.is_above(tracks) {
+                    continue;
+                }
+                let track = &mut *tracks[candidate.quantity as usize];
+                tall.intervals.clear();
+                let (look, intervals) = (&mut tall.look, &mut tall.intervals);
+                look.look_at(constants, candidate, (first, track), intervals);
+                if self.list.len() + intervals.len() > self.capacity {
+                    self.settle_samples((constants, system), tracks);
+                }
+                self.list.extend(tall.intervals.iter().map(|i| Candidate {
+                    quantity: candidate.quantity,
+                    floor: i.floor,
+                    sample: first + i.number,
+                    upper: i.upper,
+                    snapshot,
+                }));
+            }
+        }
+        tall.list.clear();
+        self.tall = Some(tall);
+        any
+    }
+
+    /// Looks at all samples that are left, and forgets them: sample by sample, since a look
+    /// shows all floors.
+    fn settle_samples(
         &mut self,
         (constants, system): (&ContactFree, &System),
         tracks: &mut AllTracks<'_>,
     ) {
         let mut list = std::mem::take(&mut self.list);
         list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
+        self.reached = None;
         for group in list.chunk_by_mut(|a, b| a.sample == b.sample) {
             if group.iter().any(|c| is_above(c, tracks)) {
                 self.look_at((constants, system), group, tracks);
@@ -169,7 +305,6 @@ impl Candidates {
         }
         list.clear();
         self.list = list;
-        self.used = 0;
     }
 
     /// Looks at the sample that these candidates have in common.
@@ -181,28 +316,40 @@ impl Candidates {
     ) {
         let first = group[0];
         let (sample, samples) = (first.sample, &system.ground().samples);
-        let before = &samples[self.samples[first.snapshot]..=sample];
-        let lanes = constants.modes.len();
-        let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
-        self.scratch.displacement.copy_from_slice(&state[..lanes]);
-        self.scratch.velocity.copy_from_slice(&state[lanes..]);
-        block::advance(constants, before, &mut self.scratch);
+        let from = self
+            .reached
+            .filter(|(snapshot, _)| *snapshot == first.snapshot);
+        let from = match from {
+            Some((_, reached)) => reached,
+            None => {
+                let lanes = constants.modes.len();
+                let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
+                self.scratch.displacement.copy_from_slice(&state[..lanes]);
+                self.scratch.velocity.copy_from_slice(&state[lanes..]);
+                self.samples[first.snapshot]
+            }
+        };
+        block::advance(constants, &samples[from..=sample], &mut self.scratch);
+        self.reached = Some((first.snapshot, sample));
         let (start, end) = (samples[sample], samples[sample + 1]);
         let whole = Ground {
             start,
             end,
             slope: (end - start) / constants.step,
         };
-        self.bound.take(constants, &self.scratch, whole);
-        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
-            let (quantity, floor) = (candidate.quantity, candidate.floor);
-            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
-            if self.bound.is_below(constants, (quantity, floor), peak) {
-                candidate.upper = f64::NEG_INFINITY;
+        // What tall buildings put off was bounded as well as this already.
+        if self.tall.is_none() {
+            self.bound.take(constants, &self.scratch, whole);
+            for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+                let (quantity, floor) = (candidate.quantity, candidate.floor);
+                let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+                if self.bound.is_below(constants, (quantity, floor), peak) {
+                    candidate.upper = f64::NEG_INFINITY;
+                }
             }
-        }
-        if !group.iter().any(|c| is_above(c, tracks)) {
-            return;
+            if !group.iter().any(|c| is_above(c, tracks)) {
+                return;
+            }
         }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));
@@ -231,6 +378,43 @@ impl Candidates {
                 }
             }
         }
+    }
+}
+
+impl OfTall {
+    fn new(lanes: usize, capacity: usize) -> Self {
+        Self {
+            list: Vec::with_capacity(capacity),
+            capacity,
+            most: 3 * lanes,
+            look: BlockLook::new(lanes),
+            intervals: Vec::with_capacity(BLOCK * WIDTH),
+            blocks: vec![(0.0, 0, 0); TALL_SNAPSHOTS],
+        }
+    }
+}
+
+impl LaneCandidate {
+    /// Whether one of the floors could still be above its peak.
+    fn is_above(&self, tracks: &AllTracks<'_>) -> bool {
+        self.excess(tracks) > 0.0
+    }
+
+    /// What they could exceed them by in parts of the peak of the first floor.
+    fn relative_excess(&self, tracks: &AllTracks<'_>) -> f64 {
+        let first = tracks[self.quantity as usize].reach(self.lane)[0];
+        self.excess(tracks) / first.max(f64::MIN_POSITIVE)
+    }
+
+    /// What the floors could exceed their peaks by, at most.
+    fn excess(&self, tracks: &AllTracks<'_>) -> f64 {
+        let peaks = tracks[self.quantity as usize].reach(self.lane);
+        let mut most = 0.0;
+        for l in 0..WIDTH {
+            let excess = self.upper[l] - peaks[l];
+            most = if excess <= most { most } else { excess };
+        }
+        most
     }
 }
 

@@ -1,10 +1,12 @@
 //! A closer look at one sample of contact-free motion: between points so dense that every
 //! floor moves on a polynomial of degree 7.
 
+use multiversion::multiversion;
+
 use super::candidates::Quantity;
 use super::constants::{ContactFree, Fine};
-use super::lanes::{Ground, Lane, Modal, WIDTH, restoring};
-use super::transform::{Four, transform_fours};
+use super::lanes::{Ground, Lane, Modal, ModeLanes, WIDTH, restoring};
+use super::transform::{Four, floor_of_eight, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
@@ -28,6 +30,9 @@ pub(super) struct CloserLook {
     fresh: bool,
     /// Lanes of floors whose displacements, or accelerations, are asked for.
     wanted: [Vec<bool>; 2],
+    /// Of tall buildings, where a few floors of all are looked at: all derivatives of the modes
+    /// at both ends, of displacements and of absolute accelerations, eight for every mode.
+    eights: Option<[Vec<Lane>; 2]>,
 }
 
 impl Point {
@@ -44,19 +49,8 @@ impl Point {
 
     /// Derivatives of the modes from their displacements and velocities by the equation of
     /// motion and its derivatives.
-    fn derive(&mut self, constants: &ContactFree, (ground, slope): (f64, f64)) {
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let (damping, gamma) = (m.damping[l], m.participation[l]);
-                let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
-                let (q, p) = (self.modes[0][c][l], self.modes[1][c][l]);
-                let second = -damping * p - stiffness * q - gamma * ground;
-                let third = -damping * second - stiffness * p - gamma * slope;
-                self.modes[2][c][l] = second;
-                self.modes[3][c][l] = third;
-                self.modes[4][c][l] = -damping * third - stiffness * second;
-            }
-        }
+    fn derive(&mut self, constants: &ContactFree, ground: (f64, f64)) {
+        derive(&constants.modes, ground, &mut self.modes);
         self.absolute_known = false;
     }
 
@@ -88,14 +82,41 @@ impl Point {
     }
 }
 
+/// Derivatives of the modes from their displacements and velocities.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn derive(modes: &[ModeLanes], (ground, slope): (f64, f64), point: &mut [Vec<Lane>; 5]) {
+    let [displacement, velocity, seconds, thirds, fourths] = point;
+    for (c, m) in modes.iter().enumerate() {
+        let (q, p) = (&displacement[c], &velocity[c]);
+        let (seconds, thirds) = (&mut seconds[c], &mut thirds[c]);
+        let fourths = &mut fourths[c];
+        for l in 0..WIDTH {
+            let (damping, gamma) = (m.damping[l], m.participation[l]);
+            let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
+            let second = -damping * p[l] - stiffness * q[l] - gamma * ground;
+            let third = -damping * second - stiffness * p[l] - gamma * slope;
+            seconds[l] = second;
+            thirds[l] = third;
+            fourths[l] = -damping * third - stiffness * second;
+        }
+    }
+}
+
 impl CloserLook {
-    pub(super) fn new(lanes: usize) -> Self {
+    pub(super) fn new(lanes: usize, tall: bool) -> Self {
+        let eights = || std::array::from_fn(|_| vec![Lane::ZERO; lanes * WIDTH]);
         Self {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
             fresh: false,
             wanted: [vec![false; lanes], vec![false; lanes]],
+            eights: tall.then(eights),
         }
     }
 
@@ -132,18 +153,19 @@ impl CloserLook {
             self.end.derive(constants, (ground.start, ground.slope));
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        for (c, m) in fine.modes.iter().enumerate() {
-            let (q, p) = (&self.start.modes[0][c], &self.start.modes[1][c]);
-            let (q, p) = (
-                step(&m.displacement, q, p, ground),
-                step(&m.velocity, q, p, ground),
-            );
-            (self.end.modes[0][c], self.end.modes[1][c]) = (q, p);
-        }
+        let [from, from_rate, ..] = &self.start.modes;
+        let [to, to_rate, ..] = &mut self.end.modes;
+        step(&fine.modes, ground, [from, from_rate], [to, to_rate]);
         self.end.derive(constants, (ground.end, ground.slope));
         self.step = fine.step;
         let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
         let shapes = &constants.shapes;
+        if let Some([eights, _]) = &mut self.eights {
+            let [a, b, c, d, _] = &self.start.modes;
+            let [e, f, g, h, _] = &self.end.modes;
+            gather_eights([a, b, c, d, e, f, g, h], eights);
+            return;
+        }
         if !fresh {
             let [motion, _] = self.end.fours([moving, absolute]);
             transform_fours(shapes, &mut [motion]);
@@ -166,6 +188,16 @@ impl CloserLook {
 
     /// Absolute accelerations at both ends, where they are not known.
     fn derive_absolute(&mut self, constants: &ContactFree) {
+        if let Some([_, eights]) = &mut self.eights {
+            if !(self.start.absolute_known && self.end.absolute_known) {
+                self.start.derive_absolute(constants);
+                self.end.derive_absolute(constants);
+                let [a, b, c, d] = &self.start.restoring;
+                let [e, f, g, h] = &self.end.restoring;
+                gather_eights([a, b, c, d, e, f, g, h], eights);
+            }
+            return;
+        }
         let wanted = [&self.wanted[0], &self.wanted[1]].map(Vec::as_slice);
         for point in [&mut self.start, &mut self.end] {
             if !point.absolute_known {
@@ -176,9 +208,26 @@ impl CloserLook {
         }
     }
 
-    fn polynomial(&self, floor: usize) -> Polynomial {
+    /// Displacement of a floor.
+    fn polynomial(&self, constants: &ContactFree, floor: usize) -> Polynomial {
+        if let Some([eights, _]) = &self.eights {
+            return self.through(floor_of_eight(&constants.shapes, eights, floor));
+        }
         let at = |point: &Point| self.scaled(&point.floors, floor);
         septic(at(&self.start), at(&self.end))
+    }
+
+    /// The function with these derivatives at both ends.
+    fn through(&self, eight: Lane) -> Polynomial {
+        let end = |first: usize| {
+            let mut factor = 1.0;
+            std::array::from_fn(|k| {
+                let value = factor * eight[first + k];
+                factor *= self.step;
+                value
+            })
+        };
+        septic(end(0), end(WIDTH / 2))
     }
 
     /// Derivatives with respect to theta.
@@ -200,16 +249,22 @@ impl CloserLook {
         floor: usize,
     ) -> Polynomial {
         match quantity {
-            Quantity::Displacement => self.polynomial(floor),
+            Quantity::Displacement => self.polynomial(constants, floor),
             Quantity::Drift => {
                 let below = floor.checked_sub(1);
                 match below.filter(|b| constants.building[*b] == constants.building[floor]) {
-                    None => self.polynomial(floor),
-                    Some(b) => difference(&self.polynomial(floor), &self.polynomial(b)),
+                    None => self.polynomial(constants, floor),
+                    Some(b) => {
+                        let [upper, lower] = [floor, b].map(|i| self.polynomial(constants, i));
+                        difference(&upper, &lower)
+                    }
                 }
             }
             Quantity::Acceleration => {
                 self.derive_absolute(constants);
+                if let Some([_, eights]) = &self.eights {
+                    return self.through(floor_of_eight(&constants.shapes, eights, floor));
+                }
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
                 septic(at(&self.start), at(&self.end))
             }
@@ -229,9 +284,33 @@ impl CloserLook {
     }
 }
 
-/// One component of all modes of a lane after a step.
-fn step(k: &[Lane; 4], q: &Lane, p: &Lane, ground: Ground) -> Lane {
-    Lane::from_fn(|l| {
-        k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
-    })
+/// Eight values for every mode, one after another. (Not by wide registers, whose gathering
+/// loads take ten times as long.)
+fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
+    for (c, eights) in eights.chunks_exact_mut(WIDTH).enumerate() {
+        let values = values.map(|values| values[c]);
+        for (l, eight) in eights.iter_mut().enumerate() {
+            *eight = Lane(values.map(|value| value[l]));
+        }
+    }
+}
+
+/// Displacements and velocities of all modes after a step.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn step(modes: &[ModeLanes], ground: Ground, from: [&[Lane]; 2], to: [&mut [Lane]; 2]) {
+    let [displacement, velocity] = to;
+    for (c, m) in modes.iter().enumerate() {
+        let (q, p) = (&from[0][c], &from[1][c]);
+        let after = |k: &[Lane; 4]| {
+            Lane::from_fn(|l| {
+                k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
+            })
+        };
+        (displacement[c], velocity[c]) = (after(&m.displacement), after(&m.velocity));
+    }
 }

@@ -5,6 +5,8 @@ use pounding_shear_building::ShearBuilding;
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
+use super::tall_block::is_tall;
+use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
 use crate::system::System;
@@ -37,6 +39,9 @@ pub(crate) struct ContactFree {
     pub section_rows: Vec<Rows>,
     /// One where a floor has another one below it.
     pub above: Vec<Lane>,
+    /// Stiffness and damping of tall buildings by the masses of the floors, where both are
+    /// tridiagonal.
+    pub bands: Option<Bands>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,
 }
@@ -66,6 +71,10 @@ impl ContactFree {
         this.fastest = fastest_rate(system.buildings());
         this.rows = FloorRows::new(&this, system);
         this.add_sections();
+        this.bands = system.bands().filter(|_| is_tall(system)).cloned();
+        if let Some(bands) = &mut this.bands {
+            bands.divide(system.mass());
+        }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {
             parts: parts as usize,
@@ -115,6 +124,7 @@ impl ContactFree {
             floor_rows: Vec::new(),
             section_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
+            bands: None,
             fine: Fine::default(),
         }
     }

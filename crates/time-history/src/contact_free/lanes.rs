@@ -4,7 +4,7 @@
 //! (`multiversion`); without fused operations their bits are the same on all.
 
 use multiversion::multiversion;
-use std::ops::{Index, IndexMut};
+use std::ops::{Index, IndexMut, Range};
 
 use super::constants::ContactFree;
 
@@ -96,6 +96,24 @@ pub(crate) fn scale(factor: f64, a: Lane) -> Lane {
     out
 }
 
+/// Sum of the products of values with these numbers.
+#[inline(always)]
+pub(super) fn sum_of_products(a: &[Lane], b: &[Lane], numbers: Range<usize>) -> f64 {
+    let (first, last) = (numbers.start.div_ceil(WIDTH), numbers.end / WIDTH);
+    if first >= last {
+        return numbers.map(|i| at(a, i) * at(b, i)).sum();
+    }
+    let mut sum = Lane::ZERO;
+    for (a, b) in a[first..last].iter().zip(&b[first..last]) {
+        for l in 0..WIDTH {
+            sum[l] += a[l] * b[l];
+        }
+    }
+    let edges = (numbers.start..first * WIDTH).chain(last * WIDTH..numbers.end);
+    let edges = edges.map(|i| at(a, i) * at(b, i));
+    sum.0.iter().sum::<f64>() + edges.sum::<f64>()
+}
+
 /// Constants of eight modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ModeLanes {
@@ -164,6 +182,8 @@ pub(crate) struct Track {
     pub next: Vec<Lane>,
     pub peak: Vec<Lane>,
     pub time: Vec<Lane>,
+    /// What the peak is sure to reach once all that was put off has been looked at.
+    pub sure: Vec<Lane>,
     /// Bound of the overshoot between samples: `h^2 / 8` times that of the second
     /// derivative.
     pub overshoot: Vec<Lane>,
@@ -199,6 +219,13 @@ impl Modal {
 }
 
 impl Track {
+    /// What the peaks of a lane are sure to reach.
+    #[inline(always)]
+    pub(super) fn reach(&self, lane: usize) -> Lane {
+        let (peak, sure) = (&self.peak[lane], &self.sure[lane]);
+        Lane::from_fn(|l| if sure[l] > peak[l] { sure[l] } else { peak[l] })
+    }
+
     /// Takes over another one of as many values.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.now.copy_from_slice(&other.now);
@@ -219,6 +246,7 @@ impl Track {
             next: zeros(),
             peak,
             time: zeros(),
+            sure: zeros(),
             overshoot: zeros(),
         }
     }

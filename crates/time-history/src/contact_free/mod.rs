@@ -14,11 +14,13 @@ mod candidates;
 mod closer_look;
 mod constants;
 mod free_sample;
+mod lane_candidates;
 mod lanes;
 mod mode_step;
 mod part;
 mod phase;
 mod sample_bound;
+mod tall_block;
 mod transform;
 
 pub(crate) use block::step_over;

@@ -60,6 +60,7 @@ impl ContactFree {
             floor_rows: Vec::new(),
             section_rows: Vec::new(),
             above: Vec::new(),
+            bands: None,
             fine: Fine::default(),
         }
     }

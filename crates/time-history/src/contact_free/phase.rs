@@ -8,6 +8,7 @@ use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
 };
+use super::tall_block::{TallBlock, is_tall};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
@@ -103,6 +104,10 @@ pub(crate) struct ContactFreePhase {
     pub(super) sections: Track,
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
+    /// Whether they, and the penetrations, are to be worked out at the end of the phase, as
+    /// blocks of tall buildings do without them.
+    acceleration_left_out: bool,
+    penetration_left_out: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
     /// Least and greatest displacements of all floors in the present sample, where they are
@@ -116,16 +121,19 @@ pub(crate) struct ContactFreePhase {
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
     block: Block,
+    /// Blocks of tall buildings.
+    pub(super) tall: Option<Box<TallBlock>>,
     pub(super) candidates: Candidates,
     /// The motion at the start of the block, for observers.
     block_start: Modal,
 }
 
 impl ContactFreePhase {
-    pub(crate) fn new(system: &System) -> Self {
+    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
         let dofs = system.degrees_of_freedom();
         let lanes = dofs.div_ceil(WIDTH);
         let sections = system.sections().len();
+        let tall = is_tall(system);
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
@@ -134,6 +142,8 @@ impl ContactFreePhase {
             acceleration: Track::new(dofs),
             sections: Track::new(sections),
             acceleration_known: false,
+            acceleration_left_out: false,
+            penetration_left_out: false,
             penetration: vec![0.0; system.levels().len()],
             extent: None,
             holds_state: false,
@@ -142,7 +152,8 @@ impl ContactFreePhase {
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
-            candidates: Candidates::new(lanes, 3 * dofs + sections),
+            tall: tall.then(|| Box::new(TallBlock::new(constants))),
+            candidates: Candidates::new(lanes, 3 * dofs + sections, tall),
             block_start: Modal::new(lanes),
         }
     }
@@ -158,6 +169,8 @@ impl ContactFreePhase {
             acceleration: Track::new(dofs),
             sections: Track::new(0),
             acceleration_known: false,
+            acceleration_left_out: false,
+            penetration_left_out: false,
             penetration: vec![0.0; levels],
             extent: Some([zeros(), zeros()]),
             holds_state: true,
@@ -166,6 +179,7 @@ impl ContactFreePhase {
             start_energy: Vec::new(),
             drifted: Vec::new(),
             block: Block::none(),
+            tall: None,
             candidates: Candidates::none(),
             block_start: Modal::new(0),
         }
@@ -285,7 +299,12 @@ impl ContactFreePhase {
                 self.block.watch();
                 self.block_start.copy_from(&self.now);
             }
-            let advanced = self.propagate_block(constants, range, (sample, count));
+            let advanced = if count == BLOCK && self.propagate_tall_block(constants, range, sample)
+            {
+                BLOCK
+            } else {
+                self.propagate_block(constants, range, (sample, count))
+            };
             if !observers.is_empty() {
                 let samples = sample..sample + advanced;
                 self.show(
@@ -306,6 +325,11 @@ impl ContactFreePhase {
                 break;
             }
         }
+        if std::mem::take(&mut self.acceleration_left_out) {
+            self.work_out_acceleration(constants);
+            self.acceleration_known = true;
+        }
+        self.measure_penetrations(range);
         let layout = Layout::of(range.system);
         let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
         accounts.state[layout.input()] += sum(&self.now.input);
@@ -345,6 +369,9 @@ impl ContactFreePhase {
     }
 
     fn begin(&mut self, constants: &ContactFree) {
+        if let Some(tall) = &mut self.tall {
+            tall.forget();
+        }
         for field in [
             &mut self.now.input,
             &mut self.now.viscous,
@@ -391,6 +418,50 @@ impl ContactFreePhase {
         }
     }
 
+    /// Advances a block of samples of tall buildings, if it is sure that nothing closes in it.
+    /// Returns whether it did.
+    fn propagate_tall_block(
+        &mut self,
+        constants: &ContactFree,
+        range: &SampleRange<'_>,
+        sample: usize,
+    ) -> bool {
+        let Some(tall) = &mut self.tall else {
+            return false;
+        };
+        let mut samples = [0.0; BLOCK + 1];
+        samples.copy_from_slice(&range.system.ground().samples[sample..=sample + BLOCK]);
+        let peak = &self.acceleration.peak;
+        let low = tall.advance(constants, &self.now, &samples, peak, &mut self.block);
+        if !tall.is_open(range.system, range.contacts) {
+            tall.forget();
+            self.measure_penetrations(range);
+            return false;
+        }
+        let tracks = &mut [
+            &mut self.displacement,
+            &mut self.drift,
+            &mut self.acceleration,
+            &mut self.sections,
+        ];
+        let place = (constants, range.system);
+        self.candidates.make_room(place, tracks, 0);
+        let tracks = [
+            &mut self.displacement,
+            &mut self.drift,
+            &mut self.acceleration,
+        ];
+        let end = (sample + BLOCK) as f64 * constants.step;
+        let suspects = tall.take_end(constants, tracks, (end, low));
+        self.candidates.put_off((sample, &self.now), suspects);
+        let exact = tall.is_exact();
+        self.acceleration_known = !low && exact;
+        self.acceleration_left_out = !low && !exact;
+        self.penetration_left_out = true;
+        std::mem::swap(&mut self.now, &mut self.block.end);
+        true
+    }
+
     /// Advances up to a block of samples. Returns how many it is sure that nothing closes
     /// in.
     fn propagate_block(
@@ -422,12 +493,11 @@ impl ContactFreePhase {
         let place = (constants, range.system);
         self.candidates.make_room(place, tracks, wanted);
         if !low && !self.acceleration_known {
-            let (q, p) = (&self.now.displacement, &self.now.velocity);
-            restoring(&constants.modes, q, p, &mut self.modal);
-            transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
+            self.work_out_acceleration(constants);
         }
         self.note_peaks(constants, (sample, clear), low);
         self.acceleration_known = !low;
+        self.acceleration_left_out = false;
         if clear == BLOCK {
             std::mem::swap(&mut self.now, &mut self.block.end);
         } else {
@@ -445,6 +515,27 @@ impl ContactFreePhase {
             *penetration = block.levels.after(clear, l) - range.contacts.width(l);
         }
         clear
+    }
+
+    /// Works out present penetrations, if they were left out.
+    fn measure_penetrations(&mut self, range: &SampleRange<'_>) {
+        if !std::mem::take(&mut self.penetration_left_out) {
+            return;
+        }
+        let floors = &self.displacement.now;
+        let floor = |i: Option<usize>| i.map_or(0.0, |i| at(floors, i));
+        let levels = range.system.levels().iter().enumerate();
+        for ((l, level), penetration) in levels.zip(&mut self.penetration) {
+            let closing = floor(level.left) - floor(level.right);
+            *penetration = closing - range.contacts.width(l);
+        }
+    }
+
+    /// Absolute accelerations of the floors now.
+    fn work_out_acceleration(&mut self, constants: &ContactFree) {
+        let (q, p) = (&self.now.displacement, &self.now.velocity);
+        restoring(&constants.modes, q, p, &mut self.modal);
+        transform(&constants.shapes, &self.modal, &mut self.acceleration.now);
     }
 
     /// Takes the peaks at the first samples of the block, and notes where there could be

@@ -36,6 +36,117 @@ pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
     }
 }
 
+/// The first two of four transformations, in one pass over the mode shapes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
+    let [first, second, _, _] = floors;
+    to_floors_together::<2, 2>(shapes, modal, [first, second]);
+}
+
+/// All four of them.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn transform_four(shapes: &[Shapes], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
+    let floors = floors.each_mut().map(Vec::as_mut_slice);
+    to_floors_together::<4, 1>(shapes, modal, floors);
+}
+
+/// Several transformations with the bits of [`transform`], `TILE` lanes of floors at once.
+#[inline(always)]
+fn to_floors_together<const COUNT: usize, const TILE: usize>(
+    shapes: &[Shapes],
+    modal: [&[Lane]; COUNT],
+    mut floors: [&mut [Lane]; COUNT],
+) {
+    for floors in &mut floors {
+        floors.fill(Lane::ZERO);
+    }
+    for building in shapes {
+        let tiles = building.lanes / TILE;
+        for tile in 0..tiles {
+            add_tile::<COUNT, TILE>(building, tile * TILE, modal, &mut floors);
+        }
+        for k in tiles * TILE..building.lanes {
+            add_tile::<COUNT, 1>(building, k, modal, &mut floors);
+        }
+    }
+}
+
+/// Adds all columns of a building to so many of its lanes from this one on.
+#[inline(always)]
+fn add_tile<const COUNT: usize, const TILE: usize>(
+    building: &Shapes,
+    first: usize,
+    modal: [&[Lane]; COUNT],
+    floors: &mut [&mut [Lane]; COUNT],
+) {
+    let count = building.modes;
+    let mut columns: [&[Lane]; TILE] =
+        std::array::from_fn(|t| &building.columns[(first + t) * count..][..count]);
+    let lane = building.first_lane + first;
+    let mut sums: [[Lane; COUNT]; TILE] =
+        std::array::from_fn(|t| std::array::from_fn(|v| floors[v][lane + t]));
+    let (mut from, mut place) = (building.first_mode / WIDTH, building.first_mode % WIDTH);
+    let mut left = count;
+    while left > 0 {
+        let now = left.min(WIDTH - place);
+        let modes: [&Lane; COUNT] = std::array::from_fn(|v| &modal[v][from]);
+        let these = columns.map(|columns| &columns[..now]);
+        for (j, place) in (place..WIDTH).take(now).enumerate() {
+            for t in 0..TILE {
+                let column = these[t][j];
+                for v in 0..COUNT {
+                    let x = modes[v][place];
+                    for l in 0..WIDTH {
+                        sums[t][v][l] += column[l] * x;
+                    }
+                }
+            }
+        }
+        columns = columns.map(|columns| &columns[now..]);
+        (from, place, left) = (from + 1, 0, left - now);
+    }
+    for (t, sums) in sums.iter().enumerate() {
+        for (floors, sum) in floors.iter_mut().zip(sums) {
+            floors[lane + t] = *sum;
+        }
+    }
+}
+
+/// One floor of eight transformations, with the bits of [`transform`], from eight values for
+/// every mode.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -> Lane {
+    let holds = |b: &&Shapes| (b.first_mode..b.first_mode + b.modes).contains(&floor);
+    let mut sum = Lane::ZERO;
+    let Some(building) = shapes.iter().find(holds) else {
+        return sum;
+    };
+    let (lane, place) = (floor / WIDTH - building.first_lane, floor % WIDTH);
+    let columns = &building.columns[lane * building.modes..][..building.modes];
+    for (column, eight) in columns.iter().zip(&eights[building.first_mode..]) {
+        let entry = column[place];
+        for l in 0..WIDTH {
+            sum[l] += entry * eight[l];
+        }
+    }
+    sum
+}
+
 /// Four transformations that have their lanes of floors in common.
 pub(crate) struct Four<'a> {
     pub modal: [&'a [Lane]; 4],

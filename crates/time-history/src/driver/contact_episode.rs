@@ -73,7 +73,7 @@ impl<'a> Open<'a> {
         let dofs = 0..system.degrees_of_freedom();
         let levels = (0..levels).collect();
         Some(Self {
-            phase: ContactFreePhase::new(system),
+            phase: ContactFreePhase::new(constants, system),
             contact_episode: ContactEpisode::new(rows, (dofs, lanes, levels), relative_tolerance),
             constants: Cow::Borrowed(constants),
         })

@@ -1,0 +1,242 @@
+//! A closer look at what tall buildings put off: eight floors over a block, at all of its samples,
+//! between which a function lies within the hull of the cubic through values and rates, and
+//! `h^4 / 384` times a bound of its fourth derivative.
+
+use multiversion::multiversion;
+
+use super::block::{BLOCK, products};
+use super::candidates::Quantity;
+use super::constants::ContactFree;
+use super::lanes::{Ground, Lane, Track, WIDTH, step_modes, sum_of_products};
+
+/// Samples at which a block is looked at, its start included.
+const TIMES: usize = BLOCK + 1;
+const HALF: usize = TIMES.div_ceil(2);
+
+/// Eight floors of which a function could have a peak in a block.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LaneCandidate {
+    pub quantity: Quantity,
+    pub lane: usize,
+    /// Bounds of the function in the block.
+    pub upper: Lane,
+    /// Index of the state at the start of the block.
+    pub snapshot: usize,
+}
+
+/// One floor's function between two samples.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interval {
+    pub floor: usize,
+    /// Number of the interval in the block.
+    pub number: usize,
+    pub upper: f64,
+}
+
+/// The modes at all samples of a block, and the floors that were asked for last.
+#[derive(Debug, Clone)]
+pub(super) struct BlockLook {
+    /// Displacement and velocity, absolute acceleration and its rate, sample after sample.
+    modes: [Vec<Lane>; 4],
+    /// Bounds of the fourth derivatives of displacement and absolute acceleration.
+    fourth: [Vec<Lane>; 2],
+    /// Lane whose displacements and velocities are known.
+    known: Option<usize>,
+    motion: [[Lane; TIMES]; 2],
+}
+
+impl BlockLook {
+    pub(super) fn new(lanes: usize) -> Self {
+        let zeros = |count: usize| vec![Lane::ZERO; count];
+        Self {
+            modes: std::array::from_fn(|_| zeros(lanes * TIMES)),
+            fourth: std::array::from_fn(|_| zeros(lanes)),
+            known: None,
+            motion: [[Lane::ZERO; TIMES]; 2],
+        }
+    }
+
+    /// Follows the modes from these displacements and velocities over a block.
+    pub(super) fn begin(
+        &mut self,
+        constants: &ContactFree,
+        state: (&[Lane], &[Lane]),
+        samples: &[f64],
+    ) {
+        self.known = None;
+        follow(constants, state, samples, self);
+    }
+
+    /// Takes the peaks of eight floors at the samples, of which the first has this number, and
+    /// notes the intervals in which there could be higher ones.
+    pub(super) fn look_at(
+        &mut self,
+        constants: &ContactFree,
+        candidate: &LaneCandidate,
+        (first, track): (usize, &mut Track),
+        intervals: &mut Vec<Interval>,
+    ) {
+        let functions = self.functions(constants, candidate);
+        let lane = candidate.lane;
+        let floors = lane * WIDTH..constants.building.len().min((lane + 1) * WIDTH);
+        let rows = &constants.rows;
+        let (size, fourth) = match candidate.quantity {
+            Quantity::Drift => (&rows.drift_size, &self.fourth[0]),
+            Quantity::Acceleration => (&rows.size, &self.fourth[1]),
+            Quantity::Displacement | Quantity::SectionForce => (&rows.size, &self.fourth[0]),
+        };
+        let (mut rest, mut of) = (0.0, None);
+        let third = constants.step / 3.0;
+        for (l, floor) in floors.enumerate() {
+            if candidate.upper[l] <= track.peak[lane][l] {
+                continue;
+            }
+            let building = constants.building[floor];
+            if of != Some(building) {
+                let shapes = &constants.shapes[building];
+                let modes = shapes.first_mode..shapes.first_mode + shapes.modes;
+                rest = constants.step.powi(4) / 384.0 * sum_of_products(size, fourth, modes);
+                of = Some(building);
+            }
+            let [values, rates] = functions.each_ref().map(|f| f.map(|lane| lane[l]));
+            let peak = &mut track.peak[lane][l];
+            for (number, value) in values.iter().enumerate().skip(1) {
+                if value.abs() > *peak {
+                    *peak = value.abs();
+                    track.time[lane][l] = (first + number) as f64 * constants.step;
+                }
+            }
+            for number in 0..BLOCK {
+                let (a, b) = (values[number], values[number + 1]);
+                let (out, back) = (a + third * rates[number], b - third * rates[number + 1]);
+                let hull = a.abs().max(b.abs()).max(out.abs()).max(back.abs());
+                let upper = hull + rest;
+                if upper > *peak {
+                    intervals.push(Interval {
+                        floor,
+                        number,
+                        upper,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Values and rates of eight floors' functions at all samples.
+    fn functions(
+        &mut self,
+        constants: &ContactFree,
+        candidate: &LaneCandidate,
+    ) -> [[Lane; TIMES]; 2] {
+        let lane = candidate.lane;
+        match candidate.quantity {
+            Quantity::Displacement | Quantity::SectionForce => self.motion_of(constants, lane),
+            Quantity::Acceleration => {
+                let [_, _, absolute, rate] = &self.modes;
+                floors_of(constants, lane, [absolute, rate])
+            }
+            Quantity::Drift => {
+                let above = constants.above[lane];
+                let before = match lane.checked_sub(1) {
+                    Some(before) if above[0] > 0.0 => self.motion_of(constants, before),
+                    _ => [[Lane::ZERO; TIMES]; 2],
+                };
+                let mut functions = self.motion_of(constants, lane);
+                for (function, before) in functions.iter_mut().zip(before) {
+                    for (u, before) in function.iter_mut().zip(before) {
+                        let mut below = [before[WIDTH - 1]; WIDTH];
+                        below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
+                        for l in 0..WIDTH {
+                            u[l] -= above[l] * below[l];
+                        }
+                    }
+                }
+                functions
+            }
+        }
+    }
+
+    /// Displacements and velocities of eight floors at all samples.
+    fn motion_of(&mut self, constants: &ContactFree, lane: usize) -> [[Lane; TIMES]; 2] {
+        if self.known != Some(lane) {
+            let [displacement, velocity, _, _] = &self.modes;
+            self.motion = floors_of(constants, lane, [displacement, velocity]);
+            self.known = Some(lane);
+        }
+        self.motion
+    }
+}
+
+/// A lane of floors from two functions of the modes, at all samples.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lane; TIMES]; 2] {
+    let (row, count) = (&constants.floor_rows[lane], constants.modes.len());
+    let mut floors = [[Lane::ZERO; TIMES]; 2];
+    for (floors, modes) in floors.iter_mut().zip(modes) {
+        // As many sums as stay in registers.
+        let (first, second) = floors.split_at_mut(HALF);
+        first.copy_from_slice(&products::<HALF>(row, modes, count));
+        let modes = &modes[HALF * count..];
+        second.copy_from_slice(&products::<{ TIMES - HALF }>(row, modes, count));
+    }
+    floors
+}
+
+/// Follows all modes over a block. The fourth derivatives swing freely between samples, so that
+/// `y'^2 + omega^2 y^2` of a derivative from the second on never grows, and
+/// `|y''| <= (omega + 2 zeta omega) (|y'| + omega |y|)`.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn follow(
+    constants: &ContactFree,
+    (displacement, velocity): (&[Lane], &[Lane]),
+    samples: &[f64],
+    look: &mut BlockLook,
+) {
+    let count = constants.modes.len();
+    let [displacements, velocities, absolutes, rates] = &mut look.modes;
+    let [fourth, sixth] = &mut look.fourth;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let mut state = [displacement[c], velocity[c], Lane::ZERO, Lane::ZERO];
+        let (mut of_displacement, mut of_acceleration) = (Lane::ZERO, Lane::ZERO);
+        for (s, start) in samples.iter().copied().enumerate() {
+            let end = samples.get(s + 1).copied().unwrap_or(start);
+            let ground = Ground {
+                start,
+                end,
+                slope: (end - start) / constants.step,
+            };
+            let [q, p, ..] = state;
+            let (mut absolute, mut rate) = (Lane::ZERO, Lane::ZERO);
+            for l in 0..WIDTH {
+                let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
+                let omega = m.circular_frequency[l];
+                absolute[l] = -(damping * p[l] + stiffness * q[l]);
+                let second = absolute[l] - m.participation[l] * ground.start;
+                rate[l] = -(damping * second + stiffness * p[l]);
+                let third = rate[l] - m.participation[l] * ground.slope;
+                let fourth = -(damping * third + stiffness * second);
+                let fifth = -(damping * fourth + stiffness * third);
+                let factor = omega + damping;
+                let bound = factor * (third.abs() + omega * second.abs());
+                of_displacement[l] = of_displacement[l].max(bound);
+                let bound = factor * (fifth.abs() + omega * fourth.abs());
+                of_acceleration[l] = of_acceleration[l].max(bound);
+            }
+            let place = s * count + c;
+            (displacements[place], velocities[place]) = (q, p);
+            (absolutes[place], rates[place]) = (absolute, rate);
+            (state, _) = step_modes::<false>(m, state, ground);
+        }
+        (fourth[c], sixth[c]) = (of_displacement, of_acceleration);
+    }
+}

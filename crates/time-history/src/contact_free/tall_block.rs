@@ -1,0 +1,693 @@
+//! Blocks of tall buildings, whose mode shapes are larger than the cache: a product with all of
+//! them for every sample would cost the square of the storeys.
+//!
+//! Floors are worked out at the ends of a block alone, with their rates. Inside, a floor is the
+//! cubic through both, which lies within the hull of its Bernstein coefficients, and what its modes
+//! deviate from theirs: no more than the largest deviation at a sample, which is known, and the
+//! overshoot between samples. What stays below its peak by this bound has no higher one in the
+//! block. The rest is put off, eight floors together, and looked at from the state at the start of
+//! the block ([`super::lane_candidates`]). Values at samples have the bits of [`super::block`].
+
+use multiversion::multiversion;
+
+use super::block::{BLOCK, Block, advance_all, bound_overshoots};
+use super::candidates::Quantity;
+use super::constants::ContactFree;
+use super::lanes::{
+    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, spread, sum_of_products,
+};
+use super::transform::{transform_four, transform_two};
+use crate::bands::Bands;
+use crate::contact::Contacts;
+use crate::system::System;
+
+/// Storeys of the tallest building from which this costs less than all floors at every sample.
+const TALL: usize = 24;
+
+/// Bernstein coefficients of a cubic.
+const CUBIC: usize = 4;
+
+/// Displacement and absolute acceleration at an end of the block, each followed by a third of the
+/// block times its rate.
+type End = [Vec<Lane>; 4];
+
+/// Work space.
+#[derive(Debug, Clone)]
+pub(super) struct TallBlock {
+    /// Of the modes at one end, and of the floors at both.
+    modes: End,
+    start: End,
+    end: End,
+    /// Whether displacements, and accelerations, at the start are those of the present time.
+    holds: [bool; 2],
+    /// Maximum deviation of every mode's displacement and absolute acceleration from the cubic.
+    deviation: [Vec<Lane>; 2],
+    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by.
+    beyond: [Vec<Lane>; 3],
+    /// What could have a peak in the block.
+    suspects: Vec<Suspect>,
+    bands: Option<ByBands>,
+}
+
+/// Absolute accelerations from the floors' own displacements and velocities, where stiffness and
+/// damping are tridiagonal: they then cost a product with the mode shapes less, and agree with the
+/// modes' to round-off. Peaks are taken from the modes alone.
+#[derive(Debug, Clone)]
+struct ByBands {
+    /// Of all floors, one after another, with a zero before and after them: displacement,
+    /// velocity, and acceleration relative to the ground.
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// Absolute acceleration and its rate.
+    absolute: Vec<f64>,
+    rate: Vec<f64>,
+    /// Maximum sums of magnitudes in a row of stiffness and of damping, by the masses.
+    rows: [f64; 2],
+    /// Bound of what is lost in round-off at either end (m/s2).
+    lost: [f64; 2],
+}
+
+/// Part of the largest terms of an acceleration that is lost in round-off, at most: some thousand
+/// units in the last place.
+const ROUND_OFF: f64 = 1.0e-12;
+
+/// Eight floors of which a function could have a peak in a block, with its bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Suspect {
+    pub quantity: Quantity,
+    pub lane: usize,
+    pub upper: Lane,
+}
+
+/// Whether a building of the system is so tall that these blocks are worth their while.
+pub(super) fn is_tall(system: &System) -> bool {
+    let tallest = system.buildings().iter().map(|b| b.storeys()).max();
+    tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
+}
+
+impl TallBlock {
+    pub(super) fn new(constants: &ContactFree) -> Self {
+        let (dofs, lanes) = (constants.building.len(), constants.modes.len());
+        let zeros = || vec![Lane::ZERO; lanes];
+        let end = || std::array::from_fn(|_| zeros());
+        Self {
+            modes: end(),
+            start: end(),
+            end: end(),
+            holds: [false; 2],
+            deviation: [zeros(), zeros()],
+            beyond: std::array::from_fn(|_| zeros()),
+            suspects: Vec::with_capacity(3 * lanes),
+            bands: constants.bands.as_ref().map(|bands| ByBands {
+                displacement: vec![0.0; dofs + 2],
+                velocity: vec![0.0; dofs + 2],
+                acceleration: vec![0.0; dofs + 2],
+                absolute: vec![0.0; dofs],
+                rate: vec![0.0; dofs],
+                rows: bands.largest_rows(),
+                lost: [0.0; 2],
+            }),
+        }
+    }
+
+    /// Forgets the floors: the motion goes on from elsewhere.
+    pub(super) fn forget(&mut self) {
+        self.holds = [false; 2];
+    }
+
+    /// Advances the modes over a block of samples, whose ground accelerations are `samples`, and
+    /// the floors to its end. Returns whether no acceleration can be a peak, so that they are not
+    /// worked out.
+    pub(super) fn advance(
+        &mut self,
+        constants: &ContactFree,
+        now: &Modal,
+        samples: &[f64; BLOCK + 1],
+        peak: &[Lane],
+        block: &mut Block,
+    ) -> bool {
+        let low = advance_modes(constants, (now, samples), peak, block, self);
+        let (q, p) = (&now.displacement, &now.velocity);
+        if !(self.holds[0] && (low || self.holds[1])) {
+            self.work_out_end(constants, (q, p, samples[0]), low);
+            self.go_on();
+        }
+        let (q, p) = (&block.end.displacement, &block.end.velocity);
+        self.work_out_end(constants, (q, p, samples[BLOCK]), low);
+        low
+    }
+
+    /// Works out the floors, from these displacements and velocities of the modes and this
+    /// ground acceleration.
+    fn work_out_end(
+        &mut self,
+        constants: &ContactFree,
+        (q, p, ground): (&[Lane], &[Lane], f64),
+        low: bool,
+    ) {
+        derive_end(constants, (q, p, ground), &mut self.modes);
+        let [_, rate, absolute, absolute_rate] = &self.modes;
+        let shapes = &constants.shapes;
+        match (&constants.bands, &mut self.bands) {
+            _ if low => transform_two(shapes, [q, rate], &mut self.end),
+            (Some(bands), Some(by_bands)) => {
+                transform_two(shapes, [q, rate], &mut self.end);
+                accelerate(bands, by_bands, (ground, third(constants)), &mut self.end);
+            }
+            _ => transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end),
+        }
+    }
+
+    /// Makes the end the start.
+    fn go_on(&mut self) {
+        std::mem::swap(&mut self.start, &mut self.end);
+        if let Some(bands) = &mut self.bands {
+            bands.lost.swap(0, 1);
+        }
+    }
+
+    /// Whether no gap can close in the block.
+    pub(super) fn is_open(&self, system: &System, contacts: &Contacts) -> bool {
+        let widths = contacts.widths().iter().copied();
+        if 2.0 * farthest(self) <= widths.fold(f64::INFINITY, f64::min) {
+            return true;
+        }
+        let (start, end, beyond) = (&self.start, &self.end, &self.beyond[0]);
+        let floor = |i: Option<usize>| {
+            i.map_or(([0.0; CUBIC], 0.0), |i| {
+                let value = |lanes: &[Lane]| at(lanes, i);
+                let (a, b) = (value(&start[0]), value(&end[0]));
+                let cubic = [a, a + value(&start[1]), b - value(&end[1]), b];
+                (cubic, value(beyond))
+            })
+        };
+        system.levels().iter().enumerate().all(|(l, level)| {
+            let ((left, over), (right, under)) = (floor(level.left), floor(level.right));
+            let closing = left.iter().zip(right).map(|(a, b)| a - b);
+            closing.fold(f64::NEG_INFINITY, f64::max) + (over + under) <= contacts.width(l)
+        })
+    }
+
+    /// Whether present accelerations, which are worked out, are those of the modes.
+    pub(super) fn is_exact(&self) -> bool {
+        self.bands.is_none()
+    }
+
+    /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
+    /// what could have higher peaks in the block: of accelerations that are not those of the
+    /// modes, what their peaks are sure to reach.
+    pub(super) fn take_end(
+        &mut self,
+        constants: &ContactFree,
+        tracks: [&mut Track; 3],
+        (time, low): (f64, bool),
+    ) -> &[Suspect] {
+        compare(constants, self, tracks, (time, low));
+        self.go_on();
+        self.holds = [true, !low];
+        &self.suspects
+    }
+}
+
+/// Advances all modes and bounds what floors may exceed the hull by. Returns whether no
+/// acceleration can be a peak.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn advance_modes(
+    constants: &ContactFree,
+    (now, samples): (&Modal, &[f64; BLOCK + 1]),
+    peak: &[Lane],
+    block: &mut Block,
+    tall: &mut TallBlock,
+) -> bool {
+    advance_all(constants, now, samples, block);
+    bound_overshoots(constants, block, [0], true);
+    let low = is_low(constants, (&block.over[0], block.largest.0), peak);
+    deviate(constants, (now, samples), block, low, tall);
+    add(&block.modal, &mut tall.deviation[0]);
+    if !low {
+        let (size, modal) = (&block.size, &mut block.modal);
+        modal_acceleration_overshoots(constants, size, block.largest, modal);
+        add(modal, &mut tall.deviation[1]);
+    }
+    let rows = &constants.rows;
+    for building in &constants.shapes {
+        let range = building.first_mode..building.first_mode + building.modes;
+        let quantities = [(&rows.size, 0), (&rows.drift_size, 0), (&rows.size, 1)];
+        for ((size, of), beyond) in quantities.into_iter().zip(&mut tall.beyond) {
+            let bound = sum_of_products(size, &tall.deviation[of], range.clone());
+            for i in range.clone() {
+                beyond[i / WIDTH][i % WIDTH] = bound;
+            }
+        }
+    }
+    low
+}
+
+#[inline(always)]
+fn add(more: &[Lane], to: &mut [Lane]) {
+    for (to, more) in to.iter_mut().zip(more) {
+        for l in 0..WIDTH {
+            to[l] += more[l];
+        }
+    }
+}
+
+/// Bernstein polynomials of degree 3 at the samples inside a block.
+const BERNSTEIN: [[f64; CUBIC]; BLOCK - 1] = {
+    let mut weights = [[0.0; CUBIC]; BLOCK - 1];
+    let mut k = 0;
+    while k < BLOCK - 1 {
+        let x = (k + 1) as f64 / BLOCK as f64;
+        let y = 1.0 - x;
+        weights[k] = [y * y * y, 3.0 * x * y * y, 3.0 * x * x * y, x * x * x];
+        k += 1;
+    }
+    weights
+};
+
+/// Maximum deviations of the modes from the cubics through values and rates at both ends.
+#[inline(always)]
+fn deviate(
+    constants: &ContactFree,
+    (now, samples): (&Modal, &[f64; BLOCK + 1]),
+    block: &Block,
+    low: bool,
+    tall: &mut TallBlock,
+) {
+    let third = third(constants);
+    let count = constants.modes.len();
+    let [displacement, acceleration] = &mut tall.deviation;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let ends = [
+            (now.displacement[c], now.velocity[c], samples[0]),
+            (
+                block.end.displacement[c],
+                block.end.velocity[c],
+                samples[BLOCK],
+            ),
+        ];
+        let mut cubic = [Lane::ZERO; CUBIC];
+        for l in 0..WIDTH {
+            let [(a, va, _), (b, vb, _)] = ends;
+            cubic[0][l] = a[l];
+            cubic[1][l] = a[l] + third * va[l];
+            cubic[2][l] = b[l] - third * vb[l];
+            cubic[3][l] = b[l];
+        }
+        displacement[c] = farthest_from(&cubic, |k| &block.displacement[k * count + c]);
+        if low {
+            continue;
+        }
+        for l in 0..WIDTH {
+            let [first, last] = ends.map(|(q, p, ground)| {
+                let absolute = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
+                let relative = absolute - m.participation[l] * ground;
+                let rate = -(m.damping[l] * relative + m.stiffness[l] * p[l]);
+                (absolute, third * rate)
+            });
+            cubic[0][l] = first.0;
+            cubic[1][l] = first.0 + first.1;
+            cubic[2][l] = last.0 - last.1;
+            cubic[3][l] = last.0;
+        }
+        acceleration[c] = farthest_from(&cubic, |k| &block.acceleration[k * count + c]);
+    }
+}
+
+/// Maximum distance of values at the samples inside a block from a cubic.
+#[inline(always)]
+fn farthest_from<'a>(cubic: &[Lane; CUBIC], value: impl Fn(usize) -> &'a Lane) -> Lane {
+    let mut most = Lane::ZERO;
+    for (k, weights) in BERNSTEIN.iter().enumerate() {
+        let value = value(k);
+        for l in 0..WIDTH {
+            let (a, b) = (
+                weights[0] * cubic[0][l] + weights[1] * cubic[1][l],
+                weights[2] * cubic[2][l] + weights[3] * cubic[3][l],
+            );
+            let distance = (value[l] - (a + b)).abs();
+            most[l] = if distance > most[l] {
+                distance
+            } else {
+                most[l]
+            };
+        }
+    }
+    most
+}
+
+/// A third of the block (s).
+fn third(constants: &ContactFree) -> f64 {
+    BLOCK as f64 * constants.step / 3.0
+}
+
+/// What is transformed to floors beside displacements.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn derive_end(
+    constants: &ContactFree,
+    (displacement, velocity, ground): (&[Lane], &[Lane], f64),
+    modes: &mut End,
+) {
+    let third = third(constants);
+    let [_, rates, absolutes, absolute_rates] = modes;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let (q, p) = (&displacement[c], &velocity[c]);
+        for l in 0..WIDTH {
+            let absolute = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
+            let relative = absolute - m.participation[l] * ground;
+            rates[c][l] = third * p[l];
+            absolutes[c][l] = absolute;
+            absolute_rates[c][l] = third * -(m.damping[l] * relative + m.stiffness[l] * p[l]);
+        }
+    }
+}
+
+/// Absolute accelerations of all floors with their rates, from displacements and velocities.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), end: &mut End) {
+    let [displacements, rates, absolutes, absolute_rates] = end;
+    let count = work.absolute.len();
+    let slower = 1.0 / third;
+    let (mut farthest, mut fastest) = (0.0_f64, 0.0_f64);
+    let u = work.displacement[1..=count].chunks_mut(WIDTH);
+    let v = work.velocity[1..=count].chunks_mut(WIDTH);
+    for (((u, v), displacement), rate) in u.zip(v).zip(&*displacements).zip(&*rates) {
+        let floors = u.iter_mut().zip(v).zip(displacement.0).zip(rate.0);
+        for (((u, v), displacement), rate) in floors {
+            (*u, *v) = (displacement, slower * rate);
+            farthest = farthest.max(u.abs());
+            fastest = fastest.max(v.abs());
+        }
+    }
+    work.lost[1] = ROUND_OFF * (work.rows[0] * farthest + work.rows[1] * fastest);
+    bands.resist(&work.displacement, &work.velocity, &mut work.absolute);
+    for (a, absolute) in work.acceleration[1..].iter_mut().zip(&work.absolute) {
+        *a = absolute - ground;
+    }
+    bands.resist(&work.velocity, &work.acceleration, &mut work.rate);
+    for rate in &mut work.rate {
+        *rate *= third;
+    }
+    spread(&work.absolute, absolutes);
+    spread(&work.rate, absolute_rates);
+}
+
+/// Bound of the displacements of all floors in the block (m).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn farthest(tall: &TallBlock) -> f64 {
+    let (start, end) = (&tall.start, &tall.end);
+    let mut most = Lane::ZERO;
+    for (c, beyond) in tall.beyond[0].iter().enumerate() {
+        let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
+        let upper = upper(&floors, beyond);
+        for l in 0..WIDTH {
+            most[l] = if upper[l] <= most[l] {
+                most[l]
+            } else {
+                upper[l]
+            };
+        }
+    }
+    // A NaN is passed on.
+    let larger = |a: f64, b: f64| if b <= a { a } else { b };
+    most.0.into_iter().fold(0.0, larger)
+}
+
+/// Compares the hulls of all functions with their peaks, after those at the end were taken.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn compare(
+    constants: &ContactFree,
+    tall: &mut TallBlock,
+    [displacement, drift, acceleration]: [&mut Track; 3],
+    (time, low): (f64, bool),
+) {
+    let (start, end, suspects) = (&tall.start, &tall.end, &mut tall.suspects);
+    suspects.clear();
+    let mut last = [0.0; CUBIC];
+    for (c, above) in constants.above.iter().enumerate() {
+        let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
+        let mut drifts = [Lane::ZERO; CUBIC];
+        for k in 0..CUBIC {
+            let u = floors[k];
+            let mut below = [last[k]; WIDTH];
+            below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
+            last[k] = u[WIDTH - 1];
+            for l in 0..WIDTH {
+                drifts[k][l] = u[l] - above[l] * below[l];
+            }
+        }
+        let mut suspect = |quantity: Quantity, upper: Option<Lane>| {
+            suspects.extend(upper.map(|upper| Suspect {
+                quantity,
+                lane: c,
+                upper,
+            }));
+        };
+        let [beyond, beyond_drift, beyond_acceleration] =
+            tall.beyond.each_ref().map(|beyond| &beyond[c]);
+        suspect(
+            Quantity::Displacement,
+            take_end(&floors, beyond, (displacement, c), time),
+        );
+        suspect(
+            Quantity::Drift,
+            take_end(&drifts, beyond_drift, (drift, c), time),
+        );
+        if low {
+            continue;
+        }
+        let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
+        let beyond = beyond_acceleration;
+        let upper = match &tall.bands {
+            None => take_end(&cubic, beyond, (acceleration, c), time),
+            Some(bands) => {
+                let lost = bands.lost[0].max(bands.lost[1]);
+                let upper = upper(&cubic, beyond);
+                let upper = upper.map(|upper| upper + lost);
+                let sure = &mut acceleration.sure[c];
+                for l in 0..WIDTH {
+                    let value = cubic[CUBIC - 1][l].abs() - lost;
+                    sure[l] = if value > sure[l] { value } else { sure[l] };
+                }
+                unless_below(upper, &acceleration.reach(c))
+            }
+        };
+        suspect(Quantity::Acceleration, upper);
+    }
+}
+
+/// Bernstein coefficients from values and thirds of rates at both ends.
+#[inline(always)]
+fn cubic([a, third_a, b, third_b]: [&Lane; CUBIC]) -> [Lane; CUBIC] {
+    let mut out = [*a, Lane::ZERO, Lane::ZERO, *b];
+    for l in 0..WIDTH {
+        out[1][l] = a[l] + third_a[l];
+        out[2][l] = b[l] - third_b[l];
+    }
+    out
+}
+
+/// Takes the last coefficients as present values and as peaks at this time (s). Returns bounds
+/// of the functions if one could still be above its peak.
+#[inline(always)]
+fn take_end(
+    cubic: &[Lane; CUBIC],
+    beyond: &Lane,
+    (track, c): (&mut Track, usize),
+    time: f64,
+) -> Option<Lane> {
+    let (peak, times) = (&mut track.peak[c], &mut track.time[c]);
+    for l in 0..WIDTH {
+        let value = cubic[CUBIC - 1][l].abs();
+        let higher = value > peak[l];
+        peak[l] = if higher { value } else { peak[l] };
+        times[l] = if higher { time } else { times[l] };
+    }
+    track.now[c] = cubic[CUBIC - 1];
+    unless_below(upper(cubic, beyond), peak)
+}
+
+/// Bounds of functions in the block.
+#[inline(always)]
+fn upper(cubic: &[Lane; CUBIC], beyond: &Lane) -> Lane {
+    let mut upper = Lane::ZERO;
+    for l in 0..WIDTH {
+        let mut top = 0.0;
+        for coefficients in cubic {
+            let size = coefficients[l].abs();
+            top = if size <= top { top } else { size };
+        }
+        upper[l] = top + beyond[l];
+    }
+    upper
+}
+
+/// These bounds, if one is not below its peak.
+#[inline(always)]
+fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
+    let mut all_below = true;
+    for l in 0..WIDTH {
+        all_below &= upper[l] <= peak[l];
+    }
+    (!all_below).then_some(upper)
+}
+
+/// The property that all of this rests on: peaks have the bits of evaluating every floor at every
+/// sample, in blocks of [`super::block`], which know nothing of hulls.
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use pounding_gap_element::{ModelParameters, registry};
+    use pounding_shear_building::{Damping, ShearBuilding};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::contact_episode::LevelRows;
+    use crate::contact_free::candidates::Candidates;
+    use crate::contact_free::{ContactFreePhase, EnergyAccounts, SampleRange};
+    use crate::dense_output::Observers;
+    use crate::dynamics::Layout;
+    use crate::peaks::Peaks;
+    use crate::system::{Floor, GroundAcceleration};
+
+    const STEP: f64 = 0.01;
+
+    /// Two towers of these storeys with storeys of random mass and stiffness. Where `ratio` is
+    /// one, all modes have the same damping ratio, so that its matrix is full.
+    fn towers(storeys: [usize; 2], seed: f64, ratio: bool, gap: f64, samples: usize) -> System {
+        let vary = |i: usize, k: usize| (seed + 12.9898 * i as f64 + 78.233 * k as f64).sin();
+        let building = |b: usize, count: usize| {
+            let mass = (0..count).map(|i| 3.0e5 * (1.0 + 0.3 * vary(i, b)));
+            let stiffness = (0..count).map(|i| 6.0e8 * (1.0 + 0.4 * vary(i, b + 2)));
+            let damping = if ratio {
+                Damping::Modal { ratios: vec![0.03] }
+            } else {
+                Damping::RayleighRatio {
+                    ratio: 0.04,
+                    modes: [1, 2],
+                }
+            };
+            let (mass, stiffness) = (mass.collect(), stiffness.collect());
+            let heights = vec![3.0; count];
+            let name = format!("b{b}");
+            Arc::new(ShearBuilding::new(name, mass, stiffness, heights, damping).unwrap())
+        };
+        let buildings = vec![building(0, storeys[0]), building(1, storeys[1])];
+        // A swell of many frequencies that comes and goes.
+        let ground = (0..=samples).map(|s| {
+            let t = STEP * s as f64;
+            let waves = (1..=12).map(|k| {
+                let frequency = 2.3 * f64::from(k) * (1.0 + 0.1 * vary(k as usize, 7));
+                (frequency * t + 6.0 * vary(k as usize, 9)).sin()
+            });
+            let swell = (STEP * (samples - s) as f64).min(t).min(1.0);
+            swell * waves.sum::<f64>()
+        });
+        let ground = GroundAcceleration {
+            samples: ground.collect(),
+            time_step: STEP,
+        };
+        let mut system = System::new(buildings, ground);
+        let parameters = [("stiffness", 2.0e9), ("restitution", 0.65)];
+        let parameters = ModelParameters::from_pairs(&parameters);
+        let pairs = (0..storeys[0].min(storeys[1])).map(|i| {
+            let model = registry::build("anagnostopoulos_2004", &parameters).unwrap();
+            (Floor::Storey(0, i), Floor::Storey(1, i), gap, model.into())
+        });
+        let between = ["b0".to_owned(), "b1".to_owned()];
+        system.add_gap("gap", between, pairs.collect()).unwrap();
+        system
+    }
+
+    /// Peaks, works and state after the samples without contact, and their number.
+    fn advanced(system: &System, tall: bool) -> (usize, String) {
+        let constants = system.contact_free().unwrap();
+        let mut phase = ContactFreePhase::new(constants, system);
+        assert!(phase.tall.is_some());
+        if !tall {
+            phase.tall = None;
+            let dofs = system.degrees_of_freedom();
+            phase.candidates = Candidates::new(constants.modes.len(), 3 * dofs, false);
+        }
+        let contacts = Contacts::all_open(system);
+        let layout = Layout::of(system);
+        let mut peaks = Peaks::new(layout, system);
+        let mut state = vec![0.0; layout.dimension()];
+        phase.take_state(constants, (system, &contacts), &peaks, &state);
+        let range = SampleRange {
+            system,
+            contacts: &contacts,
+            from: 0,
+            to: system.ground().samples.len() - 1,
+        };
+        let mut largest_input = 0.0;
+        let mut accounts = EnergyAccounts {
+            state: &mut state,
+            largest_input: &mut largest_input,
+            residual: 0.0,
+        };
+        let rows = LevelRows::new(constants, system);
+        let mut nobody = Observers::new(system, &mut [], 1.0e3);
+        let watched = (&rows, &mut nobody);
+        let count = phase.propagate(constants, &range, &mut accounts, watched);
+        let residual = accounts.residual;
+        let penetration = phase.penetration.clone();
+        let acceleration = phase.acceleration.now.clone();
+        phase.return_state(constants, system, &mut peaks, &mut state);
+        phase.finish(constants, system, &mut peaks);
+        let known = phase.acceleration_known.then_some(acceleration);
+        let seen = format!(
+            "{:?} {state:?} {largest_input:?} {residual:?} {penetration:?} {known:?}",
+            peaks.storeys
+        );
+        (count.unwrap(), seen)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn peaks_have_the_bits_of_every_floor_at_every_sample(
+            storeys in [TALL..200, 2_usize..120],
+            seed in 0.0..100.0,
+            ratio in any::<bool>(),
+            gap in prop_oneof![Just(1.0e3), 0.05..0.4],
+            samples in 60_usize..700,
+        ) {
+            let system = towers(storeys, seed, ratio, gap, samples);
+            prop_assert_eq!(system.contact_free().unwrap().bands.is_some(), !ratio);
+            let (every, expected) = advanced(&system, false);
+            let (count, seen) = advanced(&system, true);
+            prop_assert_eq!(count, every);
+            prop_assert!(gap < 1.0 || count == samples);
+            prop_assert_eq!(seen, expected);
+        }
+    }
+}

@@ -586,39 +586,46 @@ fn reaches(
 ) -> bool {
     let (third, remainder) = (h / 3.0, h.powi(4) / 144.0 * bound);
     let larger = |a: f64, b: f64| if a > b { a } else { b };
-    let starts = x0.as_chunks().0.iter().zip(v0.as_chunks().0);
-    let ends = x1.as_chunks().0.iter().zip(v1.as_chunks().0);
-    let own = mobility.as_chunks().0.iter().zip(peaks.as_chunks().0);
-    let all = starts.zip(ends).zip(own.zip(out.as_chunks_mut().0));
-    let mut above = [0_u64; NARROW];
-    for (((x0, v0), (x1, v1)), ((mobility, peaks), out)) in all {
-        // Values, so that nothing is read after something is written.
-        let (x0, v0, x1, v1): (Block, Block, Block, Block) = (*x0, *v0, *x1, *v1);
-        let (mobility, peaks): (Block, Block) = (*mobility, *peaks);
-        let mut reach: Block = [0.0; NARROW];
-        for i in 0..NARROW {
-            let (a, b) = (x0[i] + third * v0[i], x1[i] - third * v1[i]);
-            let error = remainder * mobility[i];
-            let ends = larger(x0[i].abs(), x1[i].abs());
-            let inner = larger(
-                (0.25 * x0[i] + 0.75 * a).abs(),
-                (0.25 * x1[i] + 0.75 * b).abs(),
-            );
-            let middle = (0.5 * (a + b)).abs() + error;
-            // The last term lets nothing pass that is not finite.
-            reach[i] = larger(larger(ends, inner), middle) + 0.0 * error;
-        }
-        for i in 0..NARROW {
-            // What is not a number is no proof.
-            above[i] |= u64::from(!(reach[i] <= peaks[i]));
-        }
-        *out = reach;
+    let (out, _) = out.as_chunks_mut();
+    let n = out.len();
+    let (x0, v0) = (&x0.as_chunks().0[..n], &v0.as_chunks().0[..n]);
+    let (x1, v1) = (&x1.as_chunks().0[..n], &v1.as_chunks().0[..n]);
+    let (mobility, peaks) = (&mobility.as_chunks().0[..n], &peaks.as_chunks().0[..n]);
+    let mut above = [0.0; NARROW];
+    // One operation on a block after another, so that each is one of the processor's.
+    for k in 0..n {
+        let a = by_pairs(x0[k], v0[k], |x, v| x + third * v);
+        let b = by_pairs(x1[k], v1[k], |x, v| x - third * v);
+        let error = by_pairs(mobility[k], mobility[k], |mobility, _| remainder * mobility);
+        let ends = by_pairs(x0[k], x1[k], |x, y| larger(x.abs(), y.abs()));
+        let first = by_pairs(x0[k], a, |x, a| (0.25 * x + 0.75 * a).abs());
+        let last = by_pairs(x1[k], b, |x, b| (0.25 * x + 0.75 * b).abs());
+        let inner = by_pairs(first, last, larger);
+        let middle = by_pairs(a, b, |a, b| (0.5 * (a + b)).abs());
+        let middle = by_pairs(middle, error, |middle, error| middle + error);
+        let reach = by_pairs(by_pairs(ends, inner, larger), middle, larger);
+        // The last term lets nothing pass that is not finite.
+        let reach = by_pairs(reach, error, |reach, error| reach + 0.0 * error);
+        // What is not a number is no proof.
+        let over = |reach, peak| if reach <= peak { 0.0 } else { 1.0 };
+        above = by_pairs(above, by_pairs(reach, peaks[k], over), |all, one| all + one);
+        out[k] = reach;
     }
-    above == [0; NARROW]
+    above == [0.0; NARROW]
 }
 
 /// As many values as are worked on side by side.
 type Block = [f64; NARROW];
+
+/// A function of two blocks, place by place.
+#[inline(always)]
+fn by_pairs(a: Block, b: Block, function: impl Fn(f64, f64) -> f64) -> Block {
+    let mut out = [0.0; NARROW];
+    for i in 0..NARROW {
+        out[i] = function(a[i], b[i]);
+    }
+    out
+}
 
 impl Function {
     /// All that has peaks while no contact is closed: those of buildings in groups, responses of

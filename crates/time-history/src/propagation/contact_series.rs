@@ -267,7 +267,10 @@ impl ContactSeries {
         for (place, i) in &self.dofs {
             let load = [system.load_on(*i, at), system.load_slope_on(*i, segment)];
             let ground = match pushed {
-                true => [system.ground_on(*i, at), system.ground_slope_on(*i, segment)],
+                true => [
+                    system.ground_on(*i, at),
+                    system.ground_slope_on(*i, segment),
+                ],
                 false => load,
             };
             self.loads[0][*place] = load[0];
@@ -349,11 +352,7 @@ impl ContactSeries {
     }
 
     /// Works out the motion at both ends up to the third derivative, and bounds up to order 6.
-    pub(super) fn lead(
-        &mut self,
-        (system, buildings): (&System, &[Building]),
-        ends: &mut Ends,
-    ) {
+    pub(super) fn lead(&mut self, (system, buildings): (&System, &[Building]), ends: &mut Ends) {
         let h = self.length;
         ends.length = h;
         // A step that is cut begins as it did, and what bounds it there still does.
@@ -616,10 +615,16 @@ fn largest(values: &[f64]) -> f64 {
 ))]
 fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) -> (f64, f64) {
     let force = &mut force[..y.len()];
-    building.stiffness.multiply_parts([&y[..building.dofs.len()], &[]], force);
+    building
+        .stiffness
+        .multiply_parts([&y[..building.dofs.len()], &[]], force);
     let (mut kinetic, mut strain) = ([0.0; NARROW], [0.0; NARROW]);
     let blocks = building.mass.as_chunks::<NARROW>().0.iter();
-    let motion = x.as_chunks::<NARROW>().0.iter().zip(y.as_chunks::<NARROW>().0);
+    let motion = x
+        .as_chunks::<NARROW>()
+        .0
+        .iter()
+        .zip(y.as_chunks::<NARROW>().0);
     let blocks = blocks.zip(motion).zip(force.as_chunks::<NARROW>().0);
     for ((mass, (x, y)), force) in blocks {
         for i in 0..NARROW {
@@ -643,7 +648,9 @@ fn viscous_power(buildings: &[Building], velocity: &[f64], force: &mut [f64]) ->
     for building in buildings {
         let own = &velocity[first..][..building.mass.len()];
         let force = &mut force[..own.len()];
-        building.damping.multiply_parts([&own[..building.dofs.len()], &[]], force);
+        building
+            .damping
+            .multiply_parts([&own[..building.dofs.len()], &[]], force);
         let blocks = own.as_chunks::<NARROW>().0.iter();
         for (v, f) in blocks.zip(force.as_chunks::<NARROW>().0) {
             for i in 0..NARROW {

@@ -98,11 +98,7 @@ pub(crate) struct RowBlocks {
 }
 
 impl RowBlocks {
-    pub(crate) fn new(
-        rows: usize,
-        columns: usize,
-        entry: impl Fn(usize, usize) -> f64,
-    ) -> Self {
+    pub(crate) fn new(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let all = padded(rows);
         let mut entries = Vec::with_capacity(all * columns);
         let mut first = 0;
@@ -173,24 +169,20 @@ fn take_block<'a, const ROWS: usize>(
     (entries, out)
 }
 
-/// Adds the columns of a block, two in a turn; returns what is left.
+/// Adds the columns of a block; returns what is left.
 #[inline(always)]
 fn add_columns<'a, const ROWS: usize>(
     entries: &'a [f64],
     x: &[f64],
     sums: &mut [f64; ROWS],
 ) -> &'a [f64] {
-    let (block, rest) = entries.split_at(ROWS * x.len());
-    let (pairs, last) = block.as_chunks::<ROWS>().0.as_chunks::<2>();
-    let (pairs_of_x, last_of_x) = x.as_chunks::<2>();
-    for ([a, b], [x, y]) in pairs.iter().zip(pairs_of_x) {
+    let n = x.len();
+    let (block, rest) = entries.split_at(ROWS * n);
+    let columns = &block.as_chunks::<ROWS>().0[..n];
+    for j in 0..n {
+        let (column, x) = (&columns[j], x[j]);
         for k in 0..ROWS {
-            sums[k] = (sums[k] + a[k] * x) + b[k] * y;
-        }
-    }
-    for (a, x) in last.iter().zip(last_of_x) {
-        for k in 0..ROWS {
-            sums[k] += a[k] * x;
+            sums[k] += column[k] * x;
         }
     }
     rest
@@ -203,22 +195,26 @@ fn add_columns<'a, const ROWS: usize>(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn dots(pairs: [(&[f64], &[f64]); 3]) -> [f64; 3] {
-    pairs.map(|(a, b)| {
-        let (a, rest_of_a) = a.as_chunks::<NARROW>();
-        let (b, rest_of_b) = b.as_chunks::<NARROW>();
-        let mut sums = [0.0; NARROW];
-        for (a, b) in a.iter().zip(b) {
-            for k in 0..NARROW {
-                sums[k] += a[k] * b[k];
-            }
+pub(crate) fn dots([a, b, c]: [(&[f64], &[f64]); 3]) -> [f64; 3] {
+    [dot(a), dot(b), dot(c)]
+}
+
+#[inline(always)]
+fn dot((a, b): (&[f64], &[f64])) -> f64 {
+    let (a, rest_of_a) = a.as_chunks::<NARROW>();
+    let (b, rest_of_b) = b.as_chunks::<NARROW>();
+    let (n, mut sums) = (a.len(), [0.0; NARROW]);
+    let b = &b[..n];
+    for k in 0..n {
+        for i in 0..NARROW {
+            sums[i] += a[k][i] * b[k][i];
         }
-        let mut rest = 0.0;
-        for (a, b) in rest_of_a.iter().zip(rest_of_b) {
-            rest += a * b;
-        }
-        sums[0] + sums[1] + (sums[2] + sums[3]) + rest
-    })
+    }
+    let mut rest = 0.0;
+    for (a, b) in rest_of_a.iter().zip(rest_of_b) {
+        rest += a * b;
+    }
+    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

@@ -64,7 +64,8 @@ impl WholeInterval {
             let mut all = DMatrix::zeros(count, columns);
             for (k, (rows, place)) in blocks.iter().zip(&places).enumerate() {
                 let of = motion.rows(k * n, n);
-                all.rows_mut(place.start, rows.nrows()).copy_from(&(*rows * of));
+                all.rows_mut(place.start, rows.nrows())
+                    .copy_from(&(*rows * of));
             }
             all
         };

@@ -539,7 +539,10 @@ impl System {
             Some(motions) => {
                 let (load, weight) = motions.loads[i];
                 let [value, slope] = motions.load(segment.interval, load);
-                (times.map(|tau| weight * (value + slope * tau)), weight * slope)
+                (
+                    times.map(|tau| weight * (value + slope * tau)),
+                    weight * slope,
+                )
             }
         }
     }

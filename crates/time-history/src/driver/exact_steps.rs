@@ -31,6 +31,8 @@ pub(super) struct ExactSteps {
     /// Whether the groups have other peaks than the run, and where the next step begins.
     pub stale: bool,
     pub begin: Begin,
+    /// Whether a gap may close in the interval that is next.
+    pub met: bool,
     /// Numbers of the functions that may have a peak in the present step.
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
@@ -56,8 +58,14 @@ pub(super) enum Advance {
 
 impl ExactSteps {
     pub(super) fn new(system: &System) -> Option<Self> {
-        let propagation = system.propagation()?.for_system(system);
+        let mut propagation = system.propagation()?.for_system(system);
         let (functions, groups) = Function::all(system);
+        for of_building in groups.chunk_by(|a, b| a.building() == b.building()) {
+            if let [of_displacement, of_acceleration] = of_building {
+                let rows = [of_displacement.rows(), of_acceleration.rows()];
+                propagation.follow(of_displacement.building(), rows);
+            }
+        }
         Some(Self {
             series: propagation.contact_series(system),
             doubtful: Vec::with_capacity(functions.len()),
@@ -65,6 +73,7 @@ impl ExactSteps {
             functions,
             groups,
             stale: true,
+            met: false,
             begin: Begin::Unknown,
             levels: system
                 .levels()
@@ -163,10 +172,13 @@ impl Driver<'_> {
             }
             tried = true;
             let part = (which, halvings);
-            exact
-                .propagation
-                .advance((system, segment), tau, part, &self.state);
-            if !self.holds_no_event(exact) {
+            // A whole interval in which a gap may close has been tried already.
+            let met = std::mem::take(&mut exact.met) && halvings == 0 && tau == 0.0;
+            if !met {
+                let propagation = &mut exact.propagation;
+                propagation.advance((system, segment), tau, part, &self.state, |_| true);
+            }
+            if met || !self.holds_no_event(exact) {
                 // A gap may close: the series tells when.
                 if !by_series {
                     let led = self.lead_by_series(exact, segment, tau);
@@ -181,6 +193,13 @@ impl Driver<'_> {
                 let next = tau + length;
                 let at_end = next >= segment.length - ROUND_OFF * unit;
                 return Advance::To(if at_end { segment.length } else { next });
+            }
+        }
+        if !tried {
+            // Less than the shortest part is left.
+            let led = self.lead_by_series(exact, segment, tau);
+            if !matches!(led, Advance::LeftToMethod(_)) {
+                return led;
             }
         }
         let end = tau + unit;
@@ -203,7 +222,7 @@ impl Driver<'_> {
             return left;
         }
         let whole = rest / parts;
-        exact.propagation.lead(&mut exact.series, system, place);
+        exact.propagation.lead(&mut exact.series, system);
         let scan = self.scan(exact);
         let clear = !matches!(scan, Scan::Unclear);
         if let Scan::First(event) = scan {
@@ -214,7 +233,7 @@ impl Driver<'_> {
                 exact.series.cut(0.5);
             }
             if shortenings > 0 || matches!(scan, Scan::First(_)) {
-                exact.propagation.lead(&mut exact.series, system, place);
+                exact.propagation.lead(&mut exact.series, system);
             }
             let passes = clear || self.holds_no_event(exact);
             if passes && self.takes_peaks(exact, segment, tau) {
@@ -381,23 +400,35 @@ impl Driver<'_> {
 
     /// Takes the end of the step.
     pub(super) fn take(&mut self, exact: &ExactSteps, segment: &Segment, next: f64) {
+        self.take_motion(exact);
+        let layout = self.dynamics.layout;
+        for contact in &exact.series.contacts {
+            self.state[layout.work(contact.level)] += contact.work;
+            self.state[layout.impulse(contact.level)] += contact.impulse;
+        }
+        let n = layout.dofs;
+        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
+        self.contacts.commit(self.system, u, v);
+        self.begin_anew();
+        self.last_ground = Some(segment.ground(next));
+    }
+
+    /// Takes motion and works of a step without contact.
+    pub(super) fn take_motion(&mut self, exact: &ExactSteps) {
         let ends = &exact.propagation.ends;
         let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
         self.state[..n].copy_from_slice(&ends.end[0]);
         self.state[n..2 * n].copy_from_slice(&ends.end[1]);
         self.state[layout.input()] += ends.input;
         self.state[layout.viscous()] += ends.viscous;
-        for contact in &exact.series.contacts {
-            self.state[layout.work(contact.level)] += contact.work;
-            self.state[layout.impulse(contact.level)] += contact.impulse;
-        }
-        let (u, v) = (&self.state[..n], &self.state[n..2 * n]);
-        self.contacts.commit(self.system, u, v);
-        self.method.restart(true);
         self.statistics.steps += 1;
+    }
+
+    /// Leaves behind what belonged to where steps began.
+    pub(super) fn begin_anew(&mut self) {
+        self.method.restart(true);
         self.at_once.fill(0);
         self.mute.fill(Mute::No);
         self.stalled = 0;
-        self.last_ground = Some(segment.ground(next));
     }
 }

@@ -2,6 +2,7 @@
 //! are.
 
 use multiversion::multiversion;
+use nalgebra::DMatrix;
 use std::ops::Range;
 
 use crate::contact::{Contact, Contacts};
@@ -10,7 +11,7 @@ use crate::outcome::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
 use crate::propagation::{
-    AffineContact, ContactSeries, EndMotion, Ends, SeriesTerms, multiply, pad, padded,
+    AffineContact, ContactSeries, Courses, Ends, NARROW, RowBlocks, SeriesTerms, padded,
 };
 use crate::system::{ContactLevel, SectionPlace, System};
 
@@ -26,6 +27,8 @@ const PLACED: f64 = 1.0e-9;
 #[derive(Debug)]
 pub(super) struct Row {
     terms: Vec<(usize, f64)>,
+    /// The terms where there are at most two, as the floors of a gap are.
+    pair: Option<[(usize, f64); 2]>,
     /// `sqrt(w' M^-1 w)` of each building: what multiplies its bounds.
     mobility: Vec<(usize, f64)>,
 }
@@ -98,7 +101,16 @@ impl Row {
                 mobility.push((building, square.sqrt()));
             }
         }
-        Self { terms, mobility }
+        let pair = match terms.as_slice() {
+            [one] => Some([*one, (one.0, 0.0)]),
+            [one, other] => Some([*one, *other]),
+            _ => None,
+        };
+        Self {
+            terms,
+            pair,
+            mobility,
+        }
     }
 
     /// The closing of a level.
@@ -110,7 +122,10 @@ impl Row {
     }
 
     fn sum(&self, x: &[f64]) -> f64 {
-        self.terms.iter().map(|(i, w)| w * x[*i]).sum()
+        match self.pair {
+            Some([(i, a), (j, b)]) => a * x[i] + b * x[j],
+            None => self.terms.iter().map(|(i, w)| w * x[*i]).sum(),
+        }
     }
 
     fn bound(&self, ends: &Ends, order: usize) -> f64 {
@@ -238,6 +253,17 @@ impl Course {
     pub(super) fn range(&self) -> (f64, f64) {
         let ([x0, v0], [x1, v1]) = (self.start, self.end);
         hermite_range([x0, v0, x1, v1], self.fourth, self.length)
+    }
+
+    /// Whether it is sure to stay below this.
+    pub(super) fn stays_below(&self, limit: f64) -> bool {
+        let ([x0, v0], [x1, v1], h) = (self.start, self.end, self.length);
+        let third = h / 3.0;
+        let (a, b) = (x0 + third * v0, x1 - third * v1);
+        let (first, last) = (0.25 * x0 + 0.75 * a, 0.25 * x1 + 0.75 * b);
+        let middle = 0.5 * (a + b) + h * h * h * h / 144.0 * self.fourth;
+        // What is not a number is no proof.
+        x0 < limit && x1 < limit && first < limit && last < limit && middle < limit
     }
 
     /// Whether it may have a maximum or minimum inside: whether the control points of its slope
@@ -386,8 +412,9 @@ pub(super) struct Group {
     of_acceleration: bool,
     /// Numbers of the functions.
     functions: Range<usize>,
+    rows: DMatrix<f64>,
     /// One column a degree of freedom.
-    weights: Vec<f64>,
+    weights: RowBlocks,
     mobility: Vec<f64>,
     peaks: Vec<f64>,
     motion: Vec<f64>,
@@ -403,14 +430,15 @@ impl Group {
             let terms = f.row.terms.iter();
             terms.filter(|(i, _)| *i == dof).map(|(_, w)| w).sum()
         };
-        let columns = dofs.iter().flat_map(|i| own.iter().map(|f| weight(f, *i)));
+        let weights = DMatrix::from_fn(own.len(), dofs.len(), |k, j| weight(&own[k], dofs[j]));
         let mobility = |f: &Function| f.row.mobility.iter().map(|(_, m)| m).sum();
         let zeros = || vec![0.0; padded(own.len())];
         let mut mobilities: Vec<f64> = own.iter().map(mobility).collect();
         mobilities.resize(padded(own.len()), 0.0);
         Self {
             building,
-            weights: pad(own.len(), columns),
+            weights: RowBlocks::new(own.len(), dofs.len(), |i, j| weights[(i, j)]),
+            rows: weights,
             mobility: mobilities,
             peaks: zeros(),
             values: std::array::from_fn(|_| zeros()),
@@ -429,28 +457,29 @@ impl Group {
         }
     }
 
-    /// Takes the motion at the start of whole intervals.
-    pub(super) fn begin_at(&mut self, motion: &EndMotion<'_>) {
-        let motion = motion_of(self.of_acceleration, motion);
-        for (values, motion) in self.values[2..].iter_mut().zip(motion) {
-            multiply(&self.weights, values.len(), motion, values);
-        }
+    /// Its functions as rows over the coordinates of the building.
+    pub(super) fn rows(&self) -> &DMatrix<f64> {
+        &self.rows
     }
 
-    /// Whether all functions are sure to stay below their peaks over a whole interval, from
-    /// where the last one ended, or from [`Group::begin_at`], to this motion.
-    pub(super) fn stay_below(&mut self, motion: &EndMotion<'_>, ends: &Ends) -> bool {
-        self.values.swap(0, 2);
-        self.values.swap(1, 3);
-        self.begin_at(motion);
-        let order = if self.of_acceleration { 6 } else { 4 };
-        let values = self.values.each_ref().map(Vec::as_slice);
-        let bound = ends.bounds[self.building][order];
+    /// Whether all functions are sure to stay below their peaks over a whole interval with
+    /// these courses.
+    pub(super) fn stay_below(&mut self, courses: &Courses<'_>, ends: &Ends) -> bool {
+        let ([x0, v0], [x1, v1]) = (courses.start, courses.end);
+        let bound = (self.mobility.as_slice(), self.bound(ends));
         let beyond = &mut self.beyond;
-        reaches(values, (&self.mobility, bound), ends.length, beyond);
-        // What is not a number is no proof.
-        let compared = self.beyond.iter().zip(&self.peaks);
-        compared.fold(true, |all, (beyond, peak)| all & (beyond <= peak))
+        reaches([x0, v0, x1, v1], bound, ends.length, (&self.peaks, beyond))
+    }
+
+    /// Bound of what the fourth derivatives of the functions are made of.
+    fn bound(&self, ends: &Ends) -> f64 {
+        let order = if self.of_acceleration { 6 } else { 4 };
+        ends.bounds[self.building][order]
+    }
+
+    /// Whether its functions are sums of absolute accelerations.
+    pub(super) fn of_acceleration(&self) -> bool {
+        self.of_acceleration
     }
 
     /// The bound of the function at a place in the group where it may not stay below.
@@ -466,12 +495,16 @@ impl Group {
     }
 
     /// Number and course of the function at a place in the group.
-    pub(super) fn course(&self, place: usize, ends: &Ends) -> (usize, Course) {
-        let order = if self.of_acceleration { 6 } else { 4 };
+    pub(super) fn course(
+        &self,
+        place: usize,
+        courses: &Courses<'_>,
+        ends: &Ends,
+    ) -> (usize, Course) {
         let course = Course {
-            start: [self.values[0][place], self.values[1][place]],
-            end: [self.values[2][place], self.values[3][place]],
-            fourth: self.mobility[place] * ends.bounds[self.building][order],
+            start: courses.start.map(|of| of[place]),
+            end: courses.end.map(|of| of[place]),
+            fourth: self.mobility[place] * self.bound(ends),
             length: ends.length,
         };
         (self.functions.start + place, course)
@@ -495,13 +528,10 @@ impl Group {
     /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
     /// last function of the group.
     pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
-        let bounds = &ends.bounds[self.building];
-        let (motion, bound) = match self.of_acceleration {
-            true => (
-                [&ends.absolute_start, &ends.absolute_end].map(|x| [&x[0], &x[1]]),
-                bounds[6],
-            ),
-            false => ([&ends.start, &ends.end].map(|x| [&x[0], &x[1]]), bounds[4]),
+        let bound = self.bound(ends);
+        let motion = match self.of_acceleration {
+            true => [&ends.absolute_start, &ends.absolute_end].map(|x| [&x[0], &x[1]]),
+            false => [&ends.start, &ends.end].map(|x| [&x[0], &x[1]]),
         };
         if begin == Begin::AtEnd {
             self.values.swap(0, 2);
@@ -520,15 +550,14 @@ impl Group {
             for (x, i) in self.motion.iter_mut().zip(&self.dofs) {
                 *x = motion[*i];
             }
-            multiply(&self.weights, values.len(), &self.motion, values);
+            self.weights.multiply(&self.motion, values);
         }
         let values = self.values.each_ref().map(Vec::as_slice);
-        reaches(
-            values,
-            (&self.mobility, bound),
-            ends.length,
-            &mut self.beyond,
-        );
+        let beyond = &mut self.beyond;
+        let bound = (self.mobility.as_slice(), bound);
+        if reaches(values, bound, ends.length, (&self.peaks, beyond)) {
+            return self.functions.end;
+        }
         let compared = self
             .beyond
             .iter()
@@ -541,17 +570,8 @@ impl Group {
     }
 }
 
-/// What the functions of a group are sums of, and its rate.
-fn motion_of<'a>(of_acceleration: bool, motion: &EndMotion<'a>) -> [&'a [f64]; 2] {
-    if of_acceleration {
-        [motion.acceleration, motion.acceleration_rate]
-    } else {
-        [motion.displacement, motion.velocity]
-    }
-}
-
 /// Bounds of the magnitudes of functions from values and slopes at the start and at the end, as
-/// [`hermite_range`] has them for one.
+/// [`hermite_range`] has them for one. Returns whether all are at most these peaks.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -562,25 +582,49 @@ fn reaches(
     [x0, v0, x1, v1]: [&[f64]; 4],
     (mobility, bound): (&[f64], f64),
     h: f64,
-    out: &mut [f64],
-) {
-    let n = out.len();
-    let (x0, v0, x1, v1) = (&x0[..n], &v0[..n], &x1[..n], &v1[..n]);
-    let mobility = &mobility[..n];
+    (peaks, out): (&[f64], &mut [f64]),
+) -> bool {
     let (third, remainder) = (h / 3.0, h.powi(4) / 144.0 * bound);
     let larger = |a: f64, b: f64| if a > b { a } else { b };
-    for i in 0..n {
-        let (a, b) = (x0[i] + third * v0[i], x1[i] - third * v1[i]);
-        let error = remainder * mobility[i];
-        let ends = larger(x0[i].abs(), x1[i].abs());
-        let inner = larger(
-            (0.25 * x0[i] + 0.75 * a).abs(),
-            (0.25 * x1[i] + 0.75 * b).abs(),
-        );
-        let middle = (0.5 * (a + b)).abs() + error;
+    let (out, _) = out.as_chunks_mut();
+    let n = out.len();
+    let (x0, v0) = (&x0.as_chunks().0[..n], &v0.as_chunks().0[..n]);
+    let (x1, v1) = (&x1.as_chunks().0[..n], &v1.as_chunks().0[..n]);
+    let (mobility, peaks) = (&mobility.as_chunks().0[..n], &peaks.as_chunks().0[..n]);
+    let mut above = [0.0; NARROW];
+    // One operation on a block after another, so that each is one of the processor's.
+    for k in 0..n {
+        let a = by_pairs(x0[k], v0[k], |x, v| x + third * v);
+        let b = by_pairs(x1[k], v1[k], |x, v| x - third * v);
+        let error = by_pairs(mobility[k], mobility[k], |mobility, _| remainder * mobility);
+        let ends = by_pairs(x0[k], x1[k], |x, y| larger(x.abs(), y.abs()));
+        let first = by_pairs(x0[k], a, |x, a| (0.25 * x + 0.75 * a).abs());
+        let last = by_pairs(x1[k], b, |x, b| (0.25 * x + 0.75 * b).abs());
+        let inner = by_pairs(first, last, larger);
+        let middle = by_pairs(a, b, |a, b| (0.5 * (a + b)).abs());
+        let middle = by_pairs(middle, error, |middle, error| middle + error);
+        let reach = by_pairs(by_pairs(ends, inner, larger), middle, larger);
         // The last term lets nothing pass that is not finite.
-        out[i] = larger(larger(ends, inner), middle) + 0.0 * error;
+        let reach = by_pairs(reach, error, |reach, error| reach + 0.0 * error);
+        // What is not a number is no proof.
+        let over = |reach, peak| if reach <= peak { 0.0 } else { 1.0 };
+        above = by_pairs(above, by_pairs(reach, peaks[k], over), |all, one| all + one);
+        out[k] = reach;
     }
+    above == [0.0; NARROW]
+}
+
+/// As many values as are worked on side by side.
+type Block = [f64; NARROW];
+
+/// A function of two blocks, place by place.
+#[inline(always)]
+fn by_pairs(a: Block, b: Block, function: impl Fn(f64, f64) -> f64) -> Block {
+    let mut out = [0.0; NARROW];
+    for i in 0..NARROW {
+        out[i] = function(a[i], b[i]);
+    }
+    out
 }
 
 impl Function {

@@ -166,8 +166,8 @@ impl Driver<'_> {
             for part in 0..parts {
                 let tau = segment.length * f64::from(part) / f64::from(parts);
                 let place = (which, halvings);
-                propagation.advance((self.system, segment), tau, place, inside);
                 let doubted = |b: usize| open.iter().any(|f| functions[*f].is_of(b));
+                propagation.advance((self.system, segment), tau, place, inside, doubted);
                 propagation.deepen(series, doubted);
                 let ends = &propagation.ends;
                 let now = Place {

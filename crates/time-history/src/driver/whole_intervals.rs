@@ -11,7 +11,7 @@ use crate::error::TimeHistoryError;
 use crate::recorder::Recorder;
 
 /// Intervals after which the energy is balanced.
-const BALANCED: usize = 8;
+const BALANCED: usize = 32;
 
 impl Driver<'_> {
     /// Advances from the start of an interval. Returns the number of intervals advanced.
@@ -28,6 +28,7 @@ impl Driver<'_> {
         let Some(mut exact) = self.exact.take() else {
             return Ok(0);
         };
+        exact.met = false;
         let mut advanced = 0;
         let mut end = 0.0;
         if !exact.propagation.is_pushed() {
@@ -39,12 +40,16 @@ impl Driver<'_> {
                 end = segment.start + segment.length;
                 let last = end >= duration * (1.0 - 1e-12);
                 self.show(&mut exact, &segment, (0.0, segment.length), last, recorders)?;
-                self.take(&exact, &segment, segment.length);
+                self.take_motion(&exact);
+                self.last_ground = Some(segment.ground(segment.length));
                 advanced += 1;
                 if advanced % BALANCED == 0 {
                     self.balance(end)?;
                 }
             }
+        }
+        if advanced > 0 {
+            self.begin_anew();
         }
         exact.begin = Begin::Unknown;
         self.exact = Some(exact);
@@ -56,8 +61,14 @@ impl Driver<'_> {
 
     /// Leads the run over an interval; false if that is no proof that no gap closes in it.
     fn whole_interval(&mut self, exact: &mut ExactSteps, segment: &Segment, fresh: bool) -> bool {
-        let (system, ground) = (self.system, segment.ground(0.0));
-        let jumps = !(self.last_ground).is_some_and(|last| system.same_ground(ground, last));
+        let system = self.system;
+        let jumps = match fresh {
+            true => {
+                let ground = segment.ground(0.0);
+                !(self.last_ground).is_some_and(|last| system.same_ground(ground, last))
+            }
+            false => system.jumps_into(segment, self.last_ground),
+        };
         let ExactSteps {
             propagation,
             series,
@@ -65,6 +76,7 @@ impl Driver<'_> {
             groups,
             stale,
             levels,
+            met,
             put_off,
             ..
         } = exact;
@@ -79,21 +91,19 @@ impl Driver<'_> {
         }
         if fresh {
             series.contacts.clear();
-            propagation.end_at((system, segment), &self.state);
-            for group in groups.iter_mut() {
-                group.begin_at(&propagation.end_motion(group.building()));
-            }
+            propagation.begin_whole((system, segment), &self.state);
         }
         propagation.advance_whole((system, segment), which, &self.state);
         let ends = &propagation.ends;
         let n = self.dynamics.layout.dofs;
         let start = (&self.state[..n], &self.state[n..2 * n]);
-        // What is not a number is no proof.
-        let open = levels.iter().enumerate().all(|(l, row)| {
-            let (_, most) = row.over(start, ends).range();
-            most < self.contacts.width(l)
+        let mut numbered = levels.iter().enumerate();
+        let open = numbered.all(|(l, row)| {
+            let course = row.over(start, ends);
+            course.stays_below(self.contacts.width(l))
         });
         if !open {
+            *met = true;
             return false;
         }
         let end = segment.start + segment.length;
@@ -112,9 +122,9 @@ impl Driver<'_> {
         };
         let mut grouped = 0;
         for group in groups.iter_mut() {
-            let motion = propagation.end_motion(group.building());
+            let courses = propagation.courses(group.building(), group.of_acceleration());
             grouped = group.functions_end();
-            if group.stay_below(&motion, ends) {
+            if group.stay_below(&courses, ends) {
                 continue;
             }
             for place in 0..group.len() {
@@ -124,7 +134,7 @@ impl Driver<'_> {
                 if !upper.is_finite() {
                     return false;
                 }
-                let (number, course) = group.course(place, ends);
+                let (number, course) = group.course(place, &courses, ends);
                 let peak = take(number, &course, upper);
                 group.set_peak(place, peak);
             }

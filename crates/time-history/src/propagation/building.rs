@@ -2,7 +2,11 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::{BOUNDED, Ends, HALVINGS, NARROW, WIDE, multiply, pad, padded};
+use std::ops::Range;
+
+use super::product::{RowBlocks, dots, multiply, pad, padded};
+use super::whole_interval::{Courses, OfLength, WholeInterval};
+use super::{BOUNDED, Ends, HALVINGS};
 use crate::dynamics::Segment;
 use crate::polynomial::GAUSS;
 use crate::system::{Grounds, System};
@@ -20,27 +24,31 @@ const ALL: usize = BOUNDED.end;
 
 #[derive(Debug, Clone)]
 pub(super) struct Building {
-    /// Degrees of freedom.
+    /// Degrees of freedom: floors, and the other coordinates.
     pub dofs: Vec<usize>,
+    parts: [Range<usize>; 2],
+    /// Masses, filled up with zeros as all rows are.
     pub mass: Vec<f64>,
-    /// Stiffness and damping over the masses, with their signs changed: column after column,
-    /// filled up with zeros.
-    pub restoring: [Vec<f64>; 2],
-    /// Stiffness and damping, columns filled up with zeros.
-    pub stiffness: Vec<f64>,
-    pub damping: Vec<f64>,
+    /// Accelerations by displacements, then by velocities, without contacts and loads.
+    pub restoring: RowBlocks,
+    pub stiffness: RowBlocks,
+    pub damping: RowBlocks,
+    /// Maximum eigenvalues of `M^-1 K` (1/s2) and `M^-1 C` (1/s).
+    pub stiffest: f64,
+    pub damped: f64,
     /// Degrees of freedom whose ground accelerations, less those of forces, are the loads, one for each that differs.
     loads: Vec<usize>,
-    /// Load of every coordinate.
-    load_of: Vec<usize>,
+    /// Load of every coordinate that has one.
+    load_of: Vec<Option<usize>>,
     /// From displacements, velocities, and acceleration and slope of every load to the
     /// derivatives of order two to six; the third and fifth times the root of the stiffness;
     /// the derivatives of order seven and more.
     derive: Vec<f64>,
-    /// For whole intervals, by length: the rows of the step; what is squared in the bounds of
-    /// orders 4 and 6, the derivative of that order times the roots of the masses, and the one
-    /// before times the root of the stiffness; absolute accelerations at the end, and their rates.
-    whole: Vec<Vec<f64>>,
+    /// For whole intervals: the motion at the start, what comes of it by length, and that with
+    /// functions.
+    at_start: DMatrix<f64>,
+    lengths: Vec<OfLength>,
+    whole: WholeInterval,
     /// Whether forces push it, so that its loads are not its ground accelerations.
     pushed: bool,
     /// By length, then by the number of halvings.
@@ -50,19 +58,7 @@ pub(super) struct Building {
     end: Vec<f64>,
     led: Vec<f64>,
     derived: Vec<f64>,
-    /// What comes of a whole interval, and absolute accelerations with their rates at its end.
-    led_whole: Vec<f64>,
-    absolute: Vec<f64>,
     force: Vec<f64>,
-}
-
-/// The motion of a building at the end of a step: displacements, velocities, absolute
-/// accelerations and their rates.
-pub(crate) struct EndMotion<'a> {
-    pub displacement: &'a [f64],
-    pub velocity: &'a [f64],
-    pub acceleration: &'a [f64],
-    pub acceleration_rate: &'a [f64],
 }
 
 /// Matrices for one length, column after column.
@@ -96,19 +92,22 @@ impl Building {
         };
         // The bounds rest on both.
         let (soft, stiff) = values(scaled(&stiffness));
-        let (driven, damped) = values(scaled(&damping));
-        if !(soft > 0.0) || driven < -1.0e-9 * damped.max(f64::MIN_POSITIVE) {
+        let (driven, most_damped) = values(scaled(&damping));
+        if !(soft > 0.0) || driven < -1.0e-9 * most_damped.max(f64::MIN_POSITIVE) {
             return None;
         }
         let mut loads: Vec<usize> = Vec::new();
         let load_of = dofs.iter().map(|i| {
+            if !system.has_load(*i) {
+                return None;
+            }
             let known = loads.iter().position(|j| system.same_load(*i, *j));
-            known.unwrap_or_else(|| {
+            Some(known.unwrap_or_else(|| {
                 loads.push(*i);
                 loads.len() - 1
-            })
+            }))
         });
-        let load_of: Vec<usize> = load_of.collect();
+        let load_of: Vec<Option<usize>> = load_of.collect();
         let columns = 2 * (n + loads.len());
         let over_mass =
             |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / mass[i]);
@@ -117,23 +116,29 @@ impl Building {
         let derive = derivatives((&soft, &damped, &root), &load_of, columns);
         let mut this = Self {
             dofs,
-            restoring: [-&soft, -&damped].map(|m| pad(n, m.iter().copied())),
-            stiffness: pad(n, stiffness.iter().copied()),
-            damping: pad(n, damping.iter().copied()),
+            stiffest: stiff,
+            damped: most_damped,
+            parts: system.parts(index),
+            restoring: RowBlocks::new(n, 2 * n, |i, j| match j.checked_sub(n) {
+                None => -soft[(i, j)],
+                Some(j) => -damped[(i, j)],
+            }),
+            stiffness: RowBlocks::new(n, n, |i, j| stiffness[(i, j)]),
+            damping: RowBlocks::new(n, n, |i, j| damping[(i, j)]),
             loads,
             load_of,
             derive: pad(ALL * n, derive.iter().copied()),
-            whole: Vec::new(),
+            at_start: DMatrix::zeros(0, 0),
+            lengths: Vec::new(),
+            whole: WholeInterval::default(),
             pushed: !system.forces().is_empty(),
             steps: Vec::new(),
             start: vec![0.0; columns],
             end: vec![0.0; columns],
             led: vec![0.0; padded(3 * n + columns)],
             derived: vec![0.0; padded(ALL * n)],
-            led_whole: vec![0.0; (9 * n + columns).next_multiple_of(WIDE)],
-            absolute: vec![0.0; 2 * n],
             force: vec![0.0; padded(n)],
-            mass,
+            mass: pad(n, mass.into_iter()),
         };
         for length in lengths {
             let steps = this.steps(*length, stiff.sqrt(), (&soft, &damped));
@@ -141,10 +146,11 @@ impl Building {
             if !steps.iter().all(finite) {
                 return None;
             }
-            let whole = this.whole(&steps[0], *length, &derive);
-            this.whole.push(whole);
+            let of_length = this.of_length(&steps[0], *length, &derive);
+            this.lengths.push(of_length);
             this.steps.push(steps);
         }
+        this.at_start = this.motion(&DMatrix::identity(columns, columns), &derive);
         Some(this)
     }
 
@@ -168,7 +174,9 @@ impl Building {
                 a[(n + i, j)] = -stiffness[(i, j)] / rate;
                 a[(n + i, n + j)] = -damping[(i, j)];
             }
-            a[(n + i, 2 * n + 2 * self.load_of[i])] = -1.0;
+            if let Some(load) = self.load_of[i] {
+                a[(n + i, 2 * n + 2 * load)] = -1.0;
+            }
         }
         for load in 0..self.loads.len() {
             a[(2 * n + 2 * load, 2 * n + 2 * load + 1)] = 1.0;
@@ -234,11 +242,13 @@ impl Building {
         let second = &mut self.derived[..padded(2 * n)];
         multiply(&self.derive, rows, &self.end, second);
         self.hand_out(2, &mut ends.end);
-        self.add_ground((system, segment), instants[1], &mut ends.absolute_end);
+        let there = (instants[1], &self.end[2 * n..]);
+        self.add_ground((system, segment), there, &mut ends.absolute_end);
         let first = &mut self.derived[..padded((FIRST + 2) * n)];
         multiply(&self.derive, rows, &self.start, first);
         self.hand_out(2, &mut ends.start);
-        self.add_ground((system, segment), instants[0], &mut ends.absolute_start);
+        let there = (instants[0], &self.start[2 * n..]);
+        self.add_ground((system, segment), there, &mut ends.absolute_start);
         for (order, place) in [(4, FIRST * n), (6, (FIRST + 1) * n)] {
             let (y, x) = (&self.derived[place..][..n], self.derivative(order));
             let mut sum = 0.0;
@@ -249,104 +259,124 @@ impl Building {
         }
     }
 
-    /// Rows for whole intervals of this length (s).
-    fn whole(&self, step: &Step, length: f64, derive: &DMatrix<f64>) -> Vec<f64> {
+    /// Displacements, velocities, absolute accelerations and their rates where displacements,
+    /// velocities and loads are these.
+    fn motion(&self, there: &DMatrix<f64>, derive: &DMatrix<f64>) -> DMatrix<f64> {
         let (n, columns) = (self.dofs.len(), self.start.len());
-        let (led, rows) = (3 * n + columns, self.led_whole.len());
+        // The ground's acceleration is a part of the absolute one.
+        let mut absolute = derive.rows(0, 2 * n).into_owned();
+        for (k, load) in self.load_of.iter().enumerate() {
+            if let Some(load) = load {
+                absolute[(k, 2 * n + 2 * load)] += 1.0;
+                absolute[(n + k, 2 * n + 2 * load + 1)] += 1.0;
+            }
+        }
+        let mut motion = DMatrix::zeros(4 * n, columns);
+        motion.rows_mut(0, 2 * n).copy_from(&there.rows(0, 2 * n));
+        motion.rows_mut(2 * n, 2 * n).copy_from(&(absolute * there));
+        motion
+    }
+
+    /// What comes of whole intervals of this length (s). Bounds of orders 4 and 6 square the
+    /// derivative of that order times the roots of the masses, and the one before times the
+    /// root of the stiffness.
+    fn of_length(&self, step: &Step, length: f64, derive: &DMatrix<f64>) -> OfLength {
+        let (n, columns, loads) = (self.dofs.len(), self.start.len(), self.loads.len());
         let stride = self.led.len();
+        let led = |row: usize, column: usize| step.rows[column * stride + row];
         let moved = DMatrix::from_fn(columns, columns, |i, j| {
             if i < 2 * n {
-                return step.rows[j * stride + i];
+                return led(i, j);
             }
             let slope = (i - 2 * n).is_multiple_of(2) && j == i + 1;
             f64::from(u8::from(i == j)) + if slope { length } else { 0.0 }
         });
-        // The ground's acceleration is a part of the absolute one.
-        let mut absolute = derive.rows(0, 2 * n).into_owned();
-        for (k, load) in self.load_of.iter().enumerate() {
-            absolute[(k, 2 * n + 2 * load)] += 1.0;
-            absolute[(n + k, 2 * n + 2 * load + 1)] += 1.0;
-        }
-        let absolute = absolute * moved;
+        let masses = self.masses();
         let squared = [(2, true), (FIRST, false), (4, true), (FIRST + 1, false)];
-        let all = DMatrix::from_fn(rows, columns, |row, column| {
-            if row < led {
-                return step.rows[column * stride + row];
+        let others = DMatrix::from_fn(2 * loads + columns + 4 * n, columns, |row, column| {
+            if row < 2 * loads {
+                let first = if row % 2 == 0 { 0 } else { 2 * n };
+                let weighed = (0..n).map(|i| masses[(row / 2, i)] * led(first + i, column));
+                return weighed.sum();
             }
-            let (block, i) = ((row - led) / n, (row - led) % n);
-            match squared.get(block) {
-                Some((place, true)) => self.mass[i].sqrt() * derive[(place * n + i, column)],
-                Some((place, false)) => derive[(place * n + i, column)],
-                None if block < 6 => absolute[(row - led - 4 * n, column)],
-                None => 0.0,
+            let row = row - 2 * loads;
+            if row < columns {
+                return led(3 * n + row, column);
             }
+            let (block, i) = ((row - columns) / n, (row - columns) % n);
+            let (place, by_mass) = squared[block];
+            let root = if by_mass { self.mass[i].sqrt() } else { 1.0 };
+            root * derive[(place * n + i, column)]
         });
-        all.as_slice().to_vec()
+        OfLength {
+            motion: self.motion(&moved, derive),
+            others,
+        }
     }
 
-    /// Leads the building over a whole interval, with bounds of orders 4 and 6 and no more of
-    /// the motion than [`Building::end_motion`] needs.
+    /// Masses of the coordinates that have a load, by load.
+    fn masses(&self) -> DMatrix<f64> {
+        DMatrix::from_fn(self.loads.len(), self.dofs.len(), |load, i| {
+            let own = self.load_of[i] == Some(load);
+            if own { self.mass[i] } else { 0.0 }
+        })
+    }
+
+    /// Takes the functions, rows over the coordinates, whose courses whole intervals tell: of
+    /// displacements, and of absolute accelerations.
+    pub(super) fn follow(&mut self, functions: [&DMatrix<f64>; 2]) {
+        self.whole = WholeInterval::new(&self.at_start, &self.lengths, functions, self.masses());
+    }
+
+    /// Leads the building over a whole interval, from where the last one ended or from
+    /// [`Building::begin_whole`]: the motion at the end, works, bounds of orders 4 and 6, and
+    /// courses.
     pub(super) fn advance_whole(
         &mut self,
         (system, segment): (&System, &Segment),
         which: usize,
-        state: (&[f64], usize),
         (index, ends): (usize, &mut Ends),
     ) {
-        let (n, columns) = (self.dofs.len(), self.start.len());
-        let instants = [segment.ground(0.0), segment.ground(segment.length)];
-        self.begin_at((system, segment), instants, state);
-        let rows = self.led_whole.len();
-        multiply(&self.whole[which], rows, &self.start, &mut self.led_whole);
-        let (led, rest) = self.led_whole.split_at(3 * n + columns);
-        self.end[..2 * n].copy_from_slice(&led[..2 * n]);
-        let (squared, absolute) = rest.split_at(4 * n);
-        for (order, size) in [4, 6].into_iter().zip(squared.chunks_exact(2 * n)) {
-            ends.bounds[index][order] = norm(size);
+        let (n, loads, columns) = (self.dofs.len(), self.loads.len(), self.start.len());
+        self.take_loads(system, segment, [0.0, segment.length]);
+        self.whole.advance(which, &mut self.start);
+        let [before, now] = self.whole.others();
+        let motion = &now[..2 * n];
+        for load in 0..loads {
+            let at = 2 * (n + load);
+            let (a, slope, b) = (self.start[at], self.start[at + 1], self.end[at]);
+            ends.input -= now[at] * b - before[at] * a - slope * now[at + 1];
         }
-        self.absolute.copy_from_slice(&absolute[..2 * n]);
-        self.add_works(led, ends);
+        let (form, squared) = now[2 * (n + loads)..].split_at(columns);
+        let (fourth, sixth) = squared[..4 * n].split_at(2 * n);
+        let [work, fourth, sixth] = dots([(form, &self.start), (fourth, fourth), (sixth, sixth)]);
+        ends.viscous += work;
+        ends.bounds[index][4] = fourth.sqrt();
+        ends.bounds[index][6] = sixth.sqrt();
+        let [floors, further] = &self.parts;
         let [u, v, ..] = &mut ends.end;
-        let (displacement, velocity) = self.end[..2 * n].split_at(n);
-        let motion = displacement.iter().zip(velocity);
-        for ((displacement, velocity), i) in motion.zip(&self.dofs) {
-            (u[*i], v[*i]) = (*displacement, *velocity);
+        for (out, motion) in [u, v].into_iter().zip(motion.chunks_exact(n)) {
+            let (of_floors, of_others) = motion.split_at(floors.len());
+            out[floors.clone()].copy_from_slice(of_floors);
+            out[further.clone()].copy_from_slice(of_others);
         }
     }
 
-    /// Takes a state as the end of a step, for [`Building::end_motion`].
-    pub(super) fn end_at(
+    /// Takes the state at the start of a whole interval.
+    pub(super) fn begin_whole(
         &mut self,
         (system, segment): (&System, &Segment),
-        tau: f64,
-        (state, dofs): (&[f64], usize),
+        state: (&[f64], usize),
     ) {
-        let (n, instant) = (self.dofs.len(), segment.ground(tau));
-        for (k, i) in self.dofs.iter().enumerate() {
-            self.end[k] = state[*i];
-            self.end[n + k] = state[dofs + *i];
-        }
-        for (k, i) in self.loads.iter().enumerate() {
-            self.end[2 * n + 2 * k] = system.load_on(*i, instant);
-            self.end[2 * n + 2 * k + 1] = system.load_slope_on(*i, segment);
-        }
-        let rows = self.derived.len();
-        let second = &mut self.derived[..padded(2 * n)];
-        multiply(&self.derive, rows, &self.end, second);
-        for (k, load) in self.load_of.iter().enumerate() {
-            self.absolute[k] = self.derived[k] + self.end[2 * n + 2 * load];
-            self.absolute[n + k] = self.derived[n + k] + self.end[2 * n + 2 * load + 1];
-        }
+        self.take_state(state);
+        self.take_loads(system, segment, [0.0, segment.length]);
+        self.whole.begin(&self.start);
     }
 
-    pub(super) fn end_motion(&self) -> EndMotion<'_> {
-        let n = self.dofs.len();
-        EndMotion {
-            displacement: &self.end[..n],
-            velocity: &self.end[n..2 * n],
-            acceleration: &self.absolute[..n],
-            acceleration_rate: &self.absolute[n..],
-        }
+    /// Courses over the last whole interval of the functions of displacements, or of those of
+    /// absolute accelerations.
+    pub(super) fn courses(&self, of_acceleration: bool) -> Courses<'_> {
+        self.whole.courses(of_acceleration)
     }
 
     /// Whether forces push the building.
@@ -365,7 +395,8 @@ impl Building {
     ) -> [Grounds; 2] {
         let n = self.dofs.len();
         let instants = [segment.ground(tau), segment.ground(tau + h)];
-        self.begin_at((system, segment), instants, state);
+        self.take_state(state);
+        self.take_loads(system, segment, [tau, tau + h]);
         let step = &self.steps[which][halvings];
         multiply(&step.rows, self.led.len(), &self.start, &mut self.led);
         self.end[..2 * n].copy_from_slice(&self.led[..2 * n]);
@@ -373,24 +404,26 @@ impl Building {
         instants
     }
 
-    /// Takes the state at the start of a step, and the loads at both ends.
-    fn begin_at(
-        &mut self,
-        (system, segment): (&System, &Segment),
-        instants: [Grounds; 2],
-        (state, dofs): (&[f64], usize),
-    ) {
+    /// Takes the state at the start of a step.
+    fn take_state(&mut self, (state, dofs): (&[f64], usize)) {
         let n = self.dofs.len();
-        let (u, v) = self.start.split_at_mut(n);
-        for ((u, v), i) in u.iter_mut().zip(v).zip(&self.dofs) {
-            (*u, *v) = (state[*i], state[dofs + *i]);
+        let (u, v) = self.start[..2 * n].split_at_mut(n);
+        for (out, given) in [u, v].into_iter().zip([&state[..dofs], &state[dofs..]]) {
+            let [floors, further] = &self.parts;
+            let (of_floors, of_others) = out.split_at_mut(floors.len());
+            of_floors.copy_from_slice(&given[floors.clone()]);
+            of_others.copy_from_slice(&given[further.clone()]);
         }
-        for (k, i) in self.loads.iter().enumerate() {
-            let place = 2 * n + 2 * k;
-            let slope = system.load_slope_on(*i, segment);
-            self.start[place] = system.load_on(*i, instants[0]);
-            self.end[place] = system.load_on(*i, instants[1]);
-            (self.start[place + 1], self.end[place + 1]) = (slope, slope);
+    }
+
+    /// Takes the loads at these times (s) in an interval, where a step begins and ends.
+    fn take_loads(&mut self, system: &System, segment: &Segment, times: [f64; 2]) {
+        let first = 2 * self.dofs.len();
+        let places = self.start[first..].as_chunks_mut::<2>().0.iter_mut();
+        let places = places.zip(self.end[first..].as_chunks_mut::<2>().0);
+        for (i, (start, end)) in self.loads.iter().zip(places) {
+            let ([a, b], slope) = system.load_over(*i, segment, times);
+            (*start, *end) = ([a, slope], [b, slope]);
         }
     }
 
@@ -403,6 +436,7 @@ impl Building {
         let motion = start[..n].iter().zip(&end[..n]).zip(&led[2 * n..3 * n]);
         let mut input = 0.0;
         for ((((u, after), integral), mass), load) in motion.zip(&self.mass).zip(&self.load_of) {
+            let Some(load) = load else { continue };
             let load = 2 * n + 2 * load;
             let moved = after * end[load] - u * start[load] - start[load + 1] * integral;
             input += mass * moved;
@@ -417,31 +451,26 @@ impl Building {
         &self.derived[place * n..][..n]
     }
 
-    /// Absolute acceleration and its rate at one end.
+    /// Absolute acceleration and its rate at one end, where the ground and its loads are these.
     fn add_ground(
         &self,
         (system, segment): (&System, &Segment),
-        ground: Grounds,
+        (ground, loads): (Grounds, &[f64]),
         out: &mut [Vec<f64>; 2],
     ) {
         let n = self.dofs.len();
-        if !self.pushed {
-            // Loads are the ground's accelerations.
-            for load in 0..self.loads.len() {
-                let dof = self.loads[load];
-                let now = system.load_on(dof, ground);
-                let slope = system.load_slope_on(dof, segment);
-                let own = self.dofs.iter().zip(&self.load_of).enumerate();
-                for (k, (i, _)) in own.filter(|(_, (_, of))| **of == load) {
-                    out[0][*i] = self.derived[k] + now;
-                    out[1][*i] = self.derived[n + k] + slope;
-                }
-            }
-            return;
-        }
         for (k, i) in self.dofs.iter().enumerate() {
-            out[0][*i] = self.derived[k] + system.ground_on(*i, ground);
-            out[1][*i] = self.derived[n + k] + system.ground_slope_on(*i, segment);
+            let [now, slope] = match self.load_of[k] {
+                // Loads are the ground's accelerations.
+                Some(load) if !self.pushed => [loads[2 * load], loads[2 * load + 1]],
+                None => [0.0; 2],
+                Some(_) => {
+                    let slope = system.ground_slope_on(*i, segment);
+                    [system.ground_on(*i, ground), slope]
+                }
+            };
+            out[0][*i] = self.derived[k] + now;
+            out[1][*i] = self.derived[n + k] + slope;
         }
     }
 
@@ -457,7 +486,7 @@ impl Building {
         for order in BOUNDED {
             let mut force = std::mem::take(&mut self.force);
             let (y, x) = (self.derivative(order - 1), self.derivative(order));
-            multiply(&self.stiffness, force.len(), y, &mut force);
+            self.stiffness.multiply(y, &mut force);
             let mut sum = 0.0;
             for i in 0..n {
                 sum += self.mass[i] * x[i] * x[i] + y[i] * force[i];
@@ -478,23 +507,10 @@ impl Building {
     }
 }
 
-/// Root of a sum of squares, in chains that do not wait for each other.
-fn norm(x: &[f64]) -> f64 {
-    let mut sums = [0.0; NARROW];
-    let blocks = x.chunks_exact(NARROW);
-    let rest: f64 = blocks.remainder().iter().map(|x| x * x).sum();
-    for block in blocks {
-        for (sum, x) in sums.iter_mut().zip(block) {
-            *sum += x * x;
-        }
-    }
-    (sums[0] + sums[1] + (sums[2] + sums[3]) + rest).sqrt()
-}
-
 /// Rows of the derivatives of order two and more.
 fn derivatives(
     (stiffness, damping, root): (&DMatrix<f64>, &DMatrix<f64>, &DMatrix<f64>),
-    load_of: &[usize],
+    load_of: &[Option<usize>],
     columns: usize,
 ) -> DMatrix<f64> {
     let n = load_of.len();
@@ -502,7 +518,8 @@ fn derivatives(
         |first: usize| DMatrix::from_fn(n, columns, |i, j| f64::from(u8::from(j == first + i)));
     let load = |place: usize| {
         DMatrix::from_fn(n, columns, |i, j| {
-            f64::from(u8::from(j == 2 * n + 2 * load_of[i] + place))
+            let own = load_of[i].map(|load| 2 * n + 2 * load + place);
+            f64::from(u8::from(own == Some(j)))
         })
     };
     let (mut y, mut x) = (unit(0), unit(n));

@@ -4,7 +4,8 @@
 use multiversion::multiversion;
 
 use super::building::Building;
-use super::{BOUNDED, Ends, NARROW, ORDERS, add_product, multiply, padded};
+use super::product::{NARROW, multiply, padded};
+use super::{BOUNDED, Ends, ORDERS};
 use crate::contact::Contacts;
 use crate::dynamics::Segment;
 use crate::system::System;
@@ -15,8 +16,8 @@ const FEWEST: usize = BOUNDED.end;
 /// Terms smaller than this (m, m/s) end the series.
 const NEGLIGIBLE: (f64, f64) = (1.0e-18, 1.0e-17);
 /// Maximum product of rate and step: terms then stay below ten times what they sum to, and
-/// the works, of twice the rate, are met by Gauss's rule.
-const REACH: f64 = 3.0;
+/// Gauss's rule errs in the work of the fastest motion, of twice the rate, by less than 1e-13 of it.
+const REACH: f64 = 3.6;
 
 /// Half of Gauss's rule with ten points on (-1, 1), exact to degree 19.
 const GAUSS: [(f64, f64); 5] = [
@@ -26,6 +27,39 @@ const GAUSS: [(f64, f64); 5] = [
     (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
     (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
 ];
+
+/// Powers of the places of that rule in a step from zero to one, by place.
+static POWERS: [[f64; MOST + 1]; 2 * GAUSS.len()] = {
+    let mut all = [[1.0; MOST + 1]; 2 * GAUSS.len()];
+    let mut place = 0;
+    while place < all.len() {
+        let sign = if place % 2 == 0 { -1.0 } else { 1.0 };
+        let theta = 0.5 * (1.0 + sign * GAUSS[place / 2].0);
+        let mut k = 1;
+        while k <= MOST {
+            all[place][k] = theta * all[place][k - 1];
+            k += 1;
+        }
+        place += 1;
+    }
+    all
+};
+
+/// What the terms of a series are multiplied by in its derivatives at the end, by order and
+/// term.
+static FALLING: [[f64; MOST + 1]; ORDERS] = {
+    let mut all = [[1.0; MOST + 1]; ORDERS];
+    let mut order = 1;
+    while order < ORDERS {
+        let mut k = 0;
+        while k <= MOST {
+            all[order][k] = all[order - 1][k] * (k as f64 - (order - 1) as f64);
+            k += 1;
+        }
+        order += 1;
+    }
+    all
+};
 
 /// A closed contact with the force `at_rest + stiffness u + dashpot v` along its row.
 #[derive(Debug, Clone, Copy)]
@@ -65,8 +99,9 @@ pub(crate) struct ContactSeries {
     rows: Vec<Vec<Entry>>,
     moves_ground: Vec<bool>,
     pub contacts: Vec<AffineContact>,
-    /// Bound of the rate of the buildings (1/s).
-    fastest: f64,
+    /// Maximum eigenvalues of `M^-1 K` (1/s2) and `M^-1 C` (1/s) of the buildings.
+    stiffest: f64,
+    damped: f64,
     length: f64,
     last: usize,
     /// Whether both ends have been worked out since the motion was expanded.
@@ -79,6 +114,10 @@ pub(crate) struct ContactSeries {
     sum: Vec<f64>,
     both: Vec<f64>,
     acceleration: Vec<f64>,
+    /// By place at the start of the step: loads and their slopes times its length, then the
+    /// ground's acceleration and its slope.
+    loads: [Vec<f64>; 2],
+    ground: [Vec<f64>; 2],
     /// Derivatives at the start, order after order.
     derived: Vec<f64>,
     force: Vec<f64>,
@@ -119,7 +158,8 @@ impl ContactSeries {
             rows: levels.iter().map(row).collect(),
             moves_ground: levels.iter().map(|l| !l.terms.ground.is_empty()).collect(),
             contacts: Vec::with_capacity(levels.len()),
-            fastest: crate::rates::fastest_rate(system.buildings()),
+            stiffest: buildings.iter().map(|b| b.stiffest).fold(0.0, f64::max),
+            damped: buildings.iter().map(|b| b.damped).fold(0.0, f64::max),
             length: 0.0,
             last: 0,
             led: false,
@@ -129,6 +169,8 @@ impl ContactSeries {
             sum: vec![0.0; n],
             both: vec![0.0; 2 * n],
             acceleration: vec![0.0; n],
+            loads: [vec![0.0; n], vec![0.0; n]],
+            ground: [vec![0.0; n], vec![0.0; n]],
             derived: vec![0.0; BOUNDED.end * n],
             force: vec![0.0; n],
             dofs,
@@ -164,15 +206,16 @@ impl ContactSeries {
         true
     }
 
-    /// Longest step (s).
+    /// Longest step (s). An eigenvalue `s` of the motion solves `s^2 + c s + w = 0` with the Rayleigh
+    /// quotients of its vector: `|s|` is `sqrt(w)`, or at most `c`.
     pub(crate) fn longest(&self, system: &System) -> f64 {
-        let (mut squares, mut damping) = (self.fastest * self.fastest, 0.0);
+        let (mut squares, mut damping) = (self.stiffest, self.damped);
         for contact in &self.contacts {
             let mass = system.levels()[contact.level].effective_mass;
             squares += contact.stiffness / mass;
             damping += contact.dashpot / mass;
         }
-        REACH / (squares.sqrt() + damping)
+        REACH / squares.sqrt().max(damping)
     }
 
     /// Length (s).
@@ -196,29 +239,44 @@ impl ContactSeries {
             self.displacement[*k] = state[*i];
             self.velocity[*k] = state[all + *i];
         }
-        let at = segment.ground(tau);
+        self.take_loads(system, (segment, tau));
         for k in 1..=MOST {
             let (u, u_next) = self.displacement[(k - 1) * n..(k + 1) * n].split_at_mut(n);
             let (v, v_next) = self.velocity[(k - 1) * n..(k + 1) * n].split_at_mut(n);
-            let contacts = (self.contacts.as_slice(), self.rows.as_slice());
-            accelerate(buildings, contacts, k, (u, v), &mut self.acceleration);
-            if k <= 2 {
-                for (place, i) in &self.dofs {
-                    self.acceleration[*place] -= match k {
-                        1 => system.load_on(*i, at),
-                        _ => length * system.load_slope_on(*i, segment),
-                    };
-                }
-            }
+            let forces = Forces {
+                buildings,
+                contacts: &self.contacts,
+                rows: &self.rows,
+                loads: self.loads.get(k - 1).map(Vec::as_slice),
+                at_rest: k == 1,
+            };
             let scale = length / k as f64;
-            let terms = (u_next, v_next);
-            let (farthest, fastest) = next_terms(scale, v, &self.acceleration, terms);
-            if k >= FEWEST && farthest < NEGLIGIBLE.0 && fastest < NEGLIGIBLE.1 {
+            let terms = (&mut *u_next, &mut *v_next);
+            next_terms(&forces, (scale, u, v), &mut self.acceleration, terms);
+            if k >= FEWEST && largest(v_next) < NEGLIGIBLE.1 && largest(u_next) < NEGLIGIBLE.0 {
                 self.last = k;
                 return true;
             }
         }
         false
+    }
+
+    /// Takes loads and ground at the start of a step.
+    fn take_loads(&mut self, system: &System, (segment, tau): (&Segment, f64)) {
+        let (at, pushed) = (segment.ground(tau), !system.forces().is_empty());
+        for (place, i) in &self.dofs {
+            let load = [system.load_on(*i, at), system.load_slope_on(*i, segment)];
+            let ground = match pushed {
+                true => [
+                    system.ground_on(*i, at),
+                    system.ground_slope_on(*i, segment),
+                ],
+                false => load,
+            };
+            self.loads[0][*place] = load[0];
+            self.loads[1][*place] = self.length * load[1];
+            (self.ground[0][*place], self.ground[1][*place]) = (ground[0], ground[1]);
+        }
     }
 
     /// Terms of a sum over degrees of freedom, or of its second derivative.
@@ -294,12 +352,7 @@ impl ContactSeries {
     }
 
     /// Works out the motion at both ends up to the third derivative, and bounds up to order 6.
-    pub(super) fn lead(
-        &mut self,
-        (system, buildings): (&System, &[Building]),
-        (segment, tau): (&Segment, f64),
-        ends: &mut Ends,
-    ) {
+    pub(super) fn lead(&mut self, (system, buildings): (&System, &[Building]), ends: &mut Ends) {
         let h = self.length;
         ends.length = h;
         // A step that is cut begins as it did, and what bounds it there still does.
@@ -310,15 +363,15 @@ impl ContactSeries {
         }
         self.hand_out(0..4, with_start, ends);
         let ends_of_step = [
-            (tau, &ends.start, &mut ends.absolute_start),
-            (tau + h, &ends.end, &mut ends.absolute_end),
+            (0.0, &ends.start, &mut ends.absolute_start),
+            (h, &ends.end, &mut ends.absolute_end),
         ];
         let wanted = if with_start { 0 } else { 1 };
-        for (at, relative, absolute) in ends_of_step.into_iter().skip(wanted) {
-            let ground = segment.ground(at);
-            for (_, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
-                absolute[0][*i] = relative[2][*i] + system.ground_on(*i, ground);
-                absolute[1][*i] = relative[3][*i] + system.ground_slope_on(*i, segment);
+        for (since, relative, absolute) in ends_of_step.into_iter().skip(wanted) {
+            for (place, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
+                let (ground, slope) = (self.ground[0][*place], self.ground[1][*place]);
+                absolute[0][*i] = relative[2][*i] + (ground + slope * since);
+                absolute[1][*i] = relative[3][*i] + slope;
             }
         }
         if with_start {
@@ -359,14 +412,11 @@ impl ContactSeries {
                 0 => (&self.displacement, 0),
                 _ => (&self.velocity, order - 1),
             };
+            let factors = &FALLING[lower][..=self.last];
+            multiply(terms, n, factors, &mut self.sum);
             let scale = h.powi(-(lower as i32));
-            for (k, factor) in self.factors[..=self.last].iter_mut().enumerate() {
-                let falling = (0..lower).map(|j| k as f64 - j as f64);
-                *factor = scale * falling.product::<f64>();
-            }
-            multiply(terms, n, &self.factors[..=self.last], &mut self.sum);
             for (k, i) in &self.dofs {
-                ends.end[order][*i] = self.sum[*k];
+                ends.end[order][*i] = scale * self.sum[*k];
             }
             if with_start {
                 let start = &self.derived[order * n..][..n];
@@ -402,15 +452,11 @@ impl ContactSeries {
         let (mut kinetic, mut strain) = (0.0, 0.0);
         let mut first = 0;
         for building in buildings {
-            let count = building.dofs.len();
-            let rows = padded(count);
-            let force = &mut self.force[..rows];
-            multiply(&building.stiffness, rows, &y[first..first + count], force);
-            for i in 0..count {
-                kinetic += building.mass[i] * x[first + i] * x[first + i];
-                strain += y[first + i] * force[i];
-            }
-            first += rows;
+            let own = first..first + building.mass.len();
+            let (y, x) = (&y[own.clone()], &x[own.clone()]);
+            let of_building = energies(building, (y, x), &mut self.force);
+            (kinetic, strain) = (kinetic + of_building.0, strain + of_building.1);
+            first = own.end;
         }
         for contact in &self.contacts {
             let row = self.rows[contact.level].iter();
@@ -456,42 +502,25 @@ impl ContactSeries {
             contact.work = (contact.at_rest + 0.5 * contact.stiffness * (after + before)) * change;
         }
         let grounded = contacts.iter().any(|c| self.moves_ground[c.level]);
-        for (place, weight) in GAUSS {
-            for theta in [0.5 * (1.0 - place), 0.5 * (1.0 + place)] {
-                let weight = 0.5 * h * weight;
-                let mut power = 1.0;
-                for factor in &mut self.factors[..=self.last] {
-                    *factor = power;
-                    power *= theta;
-                }
-                let powers = &self.factors[..=self.last];
-                multiply(&self.velocity, n, powers, &mut self.both[n..]);
-                if grounded {
-                    multiply(&self.displacement, n, powers, &mut self.both[..n]);
-                }
-                let (u, v) = self.both.split_at(n);
-                let mut first = 0;
-                for building in buildings {
-                    let rows = padded(building.dofs.len());
-                    let v = &v[first..first + building.dofs.len()];
-                    let force = &mut self.force[..rows];
-                    multiply(&building.damping, rows, v, force);
-                    let power: f64 = v.iter().zip(&*force).map(|(v, f)| v * f).sum();
-                    ends.viscous += weight * power;
-                    first += rows;
-                }
-                for contact in &mut contacts {
-                    let row = &self.rows[contact.level];
-                    let rate: f64 = row.iter().map(|e| e.weight * v[e.place]).sum();
-                    contact.work += weight * contact.dashpot * rate * rate;
-                    if self.moves_ground[contact.level] {
-                        let delta: f64 = row.iter().map(|e| e.weight * u[e.place]).sum();
-                        let force =
-                            contact.at_rest + contact.stiffness * delta + contact.dashpot * rate;
-                        let of_ground = row.iter().filter(|e| e.push == 0.0);
-                        let moved: f64 = of_ground.map(|e| e.weight * v[e.place]).sum();
-                        ends.input += weight * force * moved;
-                    }
+        for (powers, (_, weight)) in POWERS.iter().zip(GAUSS.iter().flat_map(|g| [g; 2])) {
+            let (weight, powers) = (0.5 * h * weight, &powers[..=self.last]);
+            multiply(&self.velocity, n, powers, &mut self.both[n..]);
+            if grounded {
+                multiply(&self.displacement, n, powers, &mut self.both[..n]);
+            }
+            let (u, v) = self.both.split_at(n);
+            ends.viscous += weight * viscous_power(buildings, v, &mut self.force);
+            for contact in &mut contacts {
+                let row = &self.rows[contact.level];
+                let rate: f64 = row.iter().map(|e| e.weight * v[e.place]).sum();
+                contact.work += weight * contact.dashpot * rate * rate;
+                if self.moves_ground[contact.level] {
+                    let delta: f64 = row.iter().map(|e| e.weight * u[e.place]).sum();
+                    let force =
+                        contact.at_rest + contact.stiffness * delta + contact.dashpot * rate;
+                    let of_ground = row.iter().filter(|e| e.push == 0.0);
+                    let moved: f64 = of_ground.map(|e| e.weight * v[e.place]).sum();
+                    ends.input += weight * force * moved;
                 }
             }
         }
@@ -499,47 +528,18 @@ impl ContactSeries {
     }
 }
 
-/// Accelerations by term `k - 1` of the motion, without those of the ground.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn accelerate(
-    buildings: &[Building],
-    (contacts, rows): (&[AffineContact], &[Vec<Entry>]),
-    k: usize,
-    (u, v): (&[f64], &[f64]),
-    acceleration: &mut [f64],
-) {
-    acceleration.fill(0.0);
-    let mut first = 0;
-    for building in buildings {
-        let (count, rows) = (building.dofs.len(), padded(building.dofs.len()));
-        let out = &mut acceleration[first..first + rows];
-        let own = first..first + count;
-        let [by_displacement, by_velocity] = &building.restoring;
-        add_product(by_displacement, rows, &u[own.clone()], out);
-        add_product(by_velocity, rows, &v[own], out);
-        first += rows;
-    }
-    for contact in contacts {
-        let row = &rows[contact.level];
-        let (mut delta, mut rate) = (0.0, 0.0);
-        for entry in row {
-            delta += entry.weight * u[entry.place];
-            rate += entry.weight * v[entry.place];
-        }
-        let constant = if k == 1 { contact.at_rest } else { 0.0 };
-        let force = constant + contact.stiffness * delta + contact.dashpot * rate;
-        for entry in row {
-            acceleration[entry.place] -= entry.push * force;
-        }
-    }
+/// What accelerates the coordinates by one term of the motion.
+struct Forces<'a> {
+    buildings: &'a [Building],
+    contacts: &'a [AffineContact],
+    rows: &'a [Vec<Entry>],
+    /// Of the first two terms alone.
+    loads: Option<&'a [f64]>,
+    /// Whether what the contacts have at rest counts.
+    at_rest: bool,
 }
 
-/// The next terms of displacements and velocities, and the largest of each.
+/// The next terms of displacements and velocities.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -547,24 +547,117 @@ fn accelerate(
     "aarch64+neon"
 ))]
 fn next_terms(
-    scale: f64,
-    velocity: &[f64],
-    acceleration: &[f64],
-    (u, v): (&mut [f64], &mut [f64]),
-) -> (f64, f64) {
-    let mut largest = [[0.0_f64; NARROW]; 2];
-    let before = velocity.chunks_exact(NARROW);
-    let before = before.zip(acceleration.chunks_exact(NARROW));
-    let next = u.chunks_exact_mut(NARROW).zip(v.chunks_exact_mut(NARROW));
-    for ((velocity, acceleration), (u, v)) in before.zip(next) {
-        for i in 0..NARROW {
-            (u[i], v[i]) = (scale * velocity[i], scale * acceleration[i]);
-            let sizes = [u[i].abs(), v[i].abs()];
-            for (largest, size) in largest.iter_mut().zip(sizes) {
-                largest[i] = if size > largest[i] { size } else { largest[i] };
-            }
+    forces: &Forces<'_>,
+    (scale, u, v): (f64, &[f64], &[f64]),
+    acceleration: &mut [f64],
+    (u_next, v_next): (&mut [f64], &mut [f64]),
+) {
+    let mut first = 0;
+    for building in forces.buildings {
+        let (count, rows) = (building.dofs.len(), building.mass.len());
+        let own = [&u[first..][..count], &v[first..][..count]];
+        let out = &mut acceleration[first..][..rows];
+        building.restoring.multiply_parts(own, out);
+        first += rows;
+    }
+    acceleration[first..].fill(0.0);
+    for contact in forces.contacts {
+        let row = &forces.rows[contact.level];
+        let (mut delta, mut rate) = (0.0, 0.0);
+        for entry in row {
+            delta += entry.weight * u[entry.place];
+            rate += entry.weight * v[entry.place];
+        }
+        let constant = if forces.at_rest { contact.at_rest } else { 0.0 };
+        let force = constant + contact.stiffness * delta + contact.dashpot * rate;
+        for entry in row {
+            acceleration[entry.place] -= entry.push * force;
         }
     }
-    let [u, v] = largest.map(|x| x[0].max(x[1]).max(x[2].max(x[3])));
-    (u, v)
+    if let Some(loads) = forces.loads {
+        for (acceleration, load) in acceleration.iter_mut().zip(loads) {
+            *acceleration -= load;
+        }
+    }
+    for (next, before) in [(&mut *u_next, v), (&mut *v_next, &*acceleration)] {
+        let next = next.as_chunks_mut::<NARROW>().0.iter_mut();
+        for (next, before) in next.zip(before.as_chunks::<NARROW>().0) {
+            *next = before.map(|x| scale * x);
+        }
+    }
+}
+
+/// The largest magnitude.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn largest(values: &[f64]) -> f64 {
+    let mut largest = [0.0_f64; NARROW];
+    for block in values.as_chunks::<NARROW>().0 {
+        for i in 0..NARROW {
+            let size = block[i].abs();
+            largest[i] = if size > largest[i] { size } else { largest[i] };
+        }
+    }
+    let [a, b, c, d] = largest;
+    a.max(b).max(c.max(d))
+}
+
+/// `x' M x` and `y' K y` of a building; all are filled up with zeros.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) -> (f64, f64) {
+    let force = &mut force[..y.len()];
+    building
+        .stiffness
+        .multiply_parts([&y[..building.dofs.len()], &[]], force);
+    let (mut kinetic, mut strain) = ([0.0; NARROW], [0.0; NARROW]);
+    let blocks = building.mass.as_chunks::<NARROW>().0.iter();
+    let motion = x
+        .as_chunks::<NARROW>()
+        .0
+        .iter()
+        .zip(y.as_chunks::<NARROW>().0);
+    let blocks = blocks.zip(motion).zip(force.as_chunks::<NARROW>().0);
+    for ((mass, (x, y)), force) in blocks {
+        for i in 0..NARROW {
+            kinetic[i] += mass[i] * x[i] * x[i];
+            strain[i] += y[i] * force[i];
+        }
+    }
+    let sum = |of: [f64; NARROW]| of[0] + of[1] + (of[2] + of[3]);
+    (sum(kinetic), sum(strain))
+}
+
+/// Power of the damping (W) at these velocities, filled up with zeros.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn viscous_power(buildings: &[Building], velocity: &[f64], force: &mut [f64]) -> f64 {
+    let (mut sums, mut first) = ([0.0; NARROW], 0);
+    for building in buildings {
+        let own = &velocity[first..][..building.mass.len()];
+        let force = &mut force[..own.len()];
+        building
+            .damping
+            .multiply_parts([&own[..building.dofs.len()], &[]], force);
+        let blocks = own.as_chunks::<NARROW>().0.iter();
+        for (v, f) in blocks.zip(force.as_chunks::<NARROW>().0) {
+            for i in 0..NARROW {
+                sums[i] += v[i] * f[i];
+            }
+        }
+        first += own.len();
+    }
+    sums[0] + sums[1] + (sums[2] + sums[3])
 }

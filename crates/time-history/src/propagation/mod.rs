@@ -16,14 +16,17 @@
 
 mod building;
 mod contact_series;
+mod product;
+mod whole_interval;
 
-use multiversion::multiversion;
+use nalgebra::DMatrix;
 
 use crate::dynamics::Segment;
 use crate::system::System;
 use building::Building;
-pub(crate) use building::EndMotion;
 pub(crate) use contact_series::{AffineContact, ContactSeries, SeriesTerms};
+pub(crate) use product::{NARROW, RowBlocks, padded};
+pub(crate) use whole_interval::Courses;
 
 /// Lengths of intervals for which matrices are kept.
 const LENGTHS: usize = 4;
@@ -125,13 +128,14 @@ impl Propagation {
     }
 
     /// Leads the state from `tau` (s) in an interval over as much of it as is left after so many
-    /// halvings. Works out bounds of orders 4 and 6.
+    /// halvings: of the buildings that are asked for alone. Works out bounds of orders 4 and 6.
     pub(crate) fn advance(
         &mut self,
         (system, segment): (&System, &Segment),
         tau: f64,
         (which, halvings): (usize, usize),
         state: &[f64],
+        of: impl Fn(usize) -> bool,
     ) {
         let n = system.degrees_of_freedom();
         let h = segment.length / f64::from(1_u32 << halvings);
@@ -139,44 +143,51 @@ impl Propagation {
         let ends = &mut self.ends;
         ends.length = h;
         (ends.input, ends.viscous) = (0.0, 0.0);
-        for (index, building) in self.buildings.iter_mut().enumerate() {
+        let buildings = self.buildings.iter_mut().enumerate();
+        for (index, building) in buildings.filter(|(index, _)| of(*index)) {
             let place = (tau, h, which, halvings);
             building.advance((system, segment), place, (state, n), (index, ends));
         }
         ground((system, segment), (tau, h), state, ends);
     }
 
-    /// Leads the state over a whole interval, with nothing but its end in [`Ends::end`] up to
-    /// the velocities, works, and bounds of orders 4 and 6.
+    /// Leads the state over a whole interval from where the last one ended, or from
+    /// [`Propagation::begin_whole`], with nothing but its end in [`Ends::end`] up to the
+    /// velocities, works, and bounds of orders 4 and 6. The state is that of the ground alone.
     pub(crate) fn advance_whole(
         &mut self,
         (system, segment): (&System, &Segment),
         which: usize,
         state: &[f64],
     ) {
-        let n = system.degrees_of_freedom();
         self.by_series = false;
         let ends = &mut self.ends;
         ends.length = segment.length;
         (ends.input, ends.viscous) = (0.0, 0.0);
         for (index, building) in self.buildings.iter_mut().enumerate() {
-            building.advance_whole((system, segment), which, (state, n), (index, ends));
+            building.advance_whole((system, segment), which, (index, ends));
         }
         ground((system, segment), (0.0, segment.length), state, ends);
     }
 
-    /// Takes a state at the start of an interval for [`Propagation::end_motion`].
-    pub(crate) fn end_at(&mut self, (system, segment): (&System, &Segment), state: &[f64]) {
+    /// Takes the functions of a building, rows over its coordinates, whose courses whole
+    /// intervals tell: of displacements, and of absolute accelerations.
+    pub(crate) fn follow(&mut self, building: usize, functions: [&DMatrix<f64>; 2]) {
+        self.buildings[building].follow(functions);
+    }
+
+    /// Takes the state at the start of a whole interval that does not begin where the last one
+    /// ended.
+    pub(crate) fn begin_whole(&mut self, (system, segment): (&System, &Segment), state: &[f64]) {
         let n = system.degrees_of_freedom();
         for building in &mut self.buildings {
-            building.end_at((system, segment), 0.0, (state, n));
+            building.begin_whole((system, segment), (state, n));
         }
     }
 
-    /// The motion of a building at the end of the last whole interval, or where
-    /// [`Propagation::end_at`] was.
-    pub(crate) fn end_motion(&self, building: usize) -> EndMotion<'_> {
-        self.buildings[building].end_motion()
+    /// Courses over the last whole interval of the functions of a building.
+    pub(crate) fn courses(&self, building: usize, of_acceleration: bool) -> Courses<'_> {
+        self.buildings[building].courses(of_acceleration)
     }
 
     /// Whether the last step was one by a series.
@@ -217,14 +228,9 @@ impl Propagation {
     }
 
     /// Takes both ends of a series, and bounds of orders 4 to 6.
-    pub(crate) fn lead(
-        &mut self,
-        series: &mut ContactSeries,
-        system: &System,
-        place: (&Segment, f64),
-    ) {
+    pub(crate) fn lead(&mut self, series: &mut ContactSeries, system: &System) {
         self.by_series = true;
-        series.lead((system, &self.buildings), place, &mut self.ends);
+        series.lead((system, &self.buildings), &mut self.ends);
     }
 
     /// Works out what works over a series.
@@ -275,90 +281,4 @@ fn lengths(system: &System) -> Vec<f64> {
     }
     found.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.total_cmp(&b.0)));
     found.into_iter().take(LENGTHS).map(|(l, _)| l).collect()
-}
-
-/// Rows that are summed side by side; outputs of a multiple of the least one need no others.
-const WIDEST: usize = 32;
-const WIDE: usize = 16;
-const MIDDLE: usize = 8;
-const NARROW: usize = 4;
-
-/// Rows with what fills them up to a multiple of the narrow block.
-pub(crate) fn padded(rows: usize) -> usize {
-    rows.next_multiple_of(NARROW)
-}
-
-/// Columns filled up with zeros to the padded number of rows, one after another.
-pub(crate) fn pad(rows: usize, columns: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut all = Vec::new();
-    for (k, x) in columns.enumerate() {
-        all.push(x);
-        if k % rows == rows - 1 {
-            all.resize(all.len() - rows + padded(rows), 0.0);
-        }
-    }
-    all
-}
-
-/// Product of the first `out.len()` rows of a matrix, whose columns of `rows` entries stand one
-/// after another.
-pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
-    out.fill(0.0);
-    accumulate(matrix, rows, x, out);
-}
-
-/// Adds that product.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
-    add_product(matrix, rows, x, out);
-}
-
-/// The same for callers that are compiled for several instruction sets themselves.
-#[inline(always)]
-fn add_product(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
-    let mut first = 0;
-    while first + WIDEST <= out.len() {
-        block::<WIDEST>(matrix, (rows, first), x, out);
-        first += WIDEST;
-    }
-    if first + WIDE <= out.len() {
-        block::<WIDE>(matrix, (rows, first), x, out);
-        first += WIDE;
-    }
-    if first + MIDDLE <= out.len() {
-        block::<MIDDLE>(matrix, (rows, first), x, out);
-        first += MIDDLE;
-    }
-    if first + NARROW <= out.len() {
-        block::<NARROW>(matrix, (rows, first), x, out);
-        first += NARROW;
-    }
-    while first < out.len() {
-        block::<1>(matrix, (rows, first), x, out);
-        first += 1;
-    }
-}
-
-#[inline(always)]
-fn block<const ROWS: usize>(
-    matrix: &[f64],
-    (rows, first): (usize, usize),
-    x: &[f64],
-    out: &mut [f64],
-) {
-    let out = &mut out[first..first + ROWS];
-    let mut sums = [0.0; ROWS];
-    sums.copy_from_slice(out);
-    for (column, x) in matrix.chunks_exact(rows).zip(x) {
-        let entries = &column[first..first + ROWS];
-        for k in 0..ROWS {
-            sums[k] += entries[k] * x;
-        }
-    }
-    out.copy_from_slice(&sums);
 }

@@ -671,18 +671,20 @@ impl System {
             let mut below = 0.0;
             let [range, further] = self.parts(index);
             if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
-                let parts = [&u[range.clone()], &u[further]];
+                // Above the diagonal the matrix holds all of it.
+                let (floors, others) = (&u[range], &u[further]);
                 let columns = k.as_slice().chunks_exact(k.nrows());
-                for (column, x) in columns.zip(parts.into_iter().flatten()) {
-                    let (of_floors, of_others) = column.split_at(range.len());
+                for (j, (column, x)) in columns.zip(floors.iter().chain(others)).enumerate() {
+                    let (above, diagonal) = (&column[..j], column[j]);
+                    let (of_floors, of_others) = above.split_at(j.min(floors.len()));
                     let mut force = 0.0;
-                    for (k, u) in of_floors.iter().zip(parts[0]) {
+                    for (k, u) in of_floors.iter().zip(floors) {
                         force += k * u;
                     }
-                    for (k, u) in of_others.iter().zip(parts[1]) {
+                    for (k, u) in of_others.iter().zip(others) {
                         force += k * u;
                     }
-                    sum += 0.5 * force * x;
+                    sum += (force + 0.5 * diagonal * x) * x;
                 }
                 continue;
             }

@@ -170,6 +170,8 @@ pub(crate) struct Interval {
     /// Acceleration at the start (m/s2) and slope (m/s3) of every motion, then of every degree
     /// of freedom with forces.
     pub loads: Vec<[f64; 2]>,
+    /// Whether any of them jumps where it begins.
+    pub jumps: bool,
 }
 
 /// Several motions, forces, or coordinates that do not all follow the one motion there is.
@@ -396,9 +398,17 @@ impl Motions {
                 start,
                 length,
                 loads: self.loads_over(start, middle, SAME * least),
+                jumps: false,
             }
         };
-        let intervals = times.windows(2).map(over).collect();
+        let mut intervals: Vec<Interval> = times.windows(2).map(over).collect();
+        for k in 1..intervals.len() {
+            let (before, now) = intervals.split_at_mut(k);
+            let (before, now) = (&before[k - 1], &mut now[0]);
+            let end = |[a, slope]: &[f64; 2]| a + slope * before.length;
+            let mut both = before.loads.iter().map(end).zip(&now.loads);
+            now.jumps = both.any(|(a, [b, _])| !same(a, *b));
+        }
         let end = times.last().copied().unwrap_or(0.0);
         let after = self.loads_over(end, 2.0 * LONGEST_DELAY + end, 0.0);
         self.after = after.iter().map(|load| load[0]).collect();
@@ -421,6 +431,11 @@ impl Motions {
         }
         loads
     }
+}
+
+/// Whether two accelerations are one but for round-off.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
 }
 
 impl Motions {
@@ -511,6 +526,27 @@ impl System {
         }
     }
 
+    /// The same at two times (s) in an interval, and its slope (m/s3).
+    #[inline]
+    pub(crate) fn load_over(
+        &self,
+        i: usize,
+        segment: &Segment,
+        times: [f64; 2],
+    ) -> ([f64; 2], f64) {
+        match &self.motions {
+            None => (times.map(|tau| segment.acceleration_at(tau)), segment.slope),
+            Some(motions) => {
+                let (load, weight) = motions.loads[i];
+                let [value, slope] = motions.load(segment.interval, load);
+                (
+                    times.map(|tau| weight * (value + slope * tau)),
+                    weight * slope,
+                )
+            }
+        }
+    }
+
     /// Slope of the same (m/s3).
     pub(crate) fn load_slope_on(&self, i: usize, segment: &Segment) -> f64 {
         match &self.motions {
@@ -596,8 +632,19 @@ impl System {
             None => a.first == b.first,
             Some(motions) => (0..motions.after.len()).all(|load| {
                 let [a, b] = [a, b].map(|at| motions.acceleration((load, 1.0), at));
-                (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
+                same(a, b)
             }),
+        }
+    }
+
+    /// Whether a ground acceleration jumps where an interval begins; `last` is what the one
+    /// before ended with.
+    pub(crate) fn jumps_into(&self, segment: &Segment, last: Option<Grounds>) -> bool {
+        let known = self.motions.as_ref();
+        let known = known.and_then(|motions| motions.intervals.get(segment.interval));
+        match known {
+            Some(interval) => interval.jumps,
+            None => !last.is_some_and(|last| self.same_ground(segment.ground(0.0), last)),
         }
     }
 
@@ -666,6 +713,12 @@ impl System {
             None => vec![self.ground.time_step],
             Some(motions) => motions.intervals.iter().map(|i| i.length).collect(),
         }
+    }
+
+    /// Whether a load ever acts on a degree of freedom.
+    pub(crate) fn has_load(&self, i: usize) -> bool {
+        let motions = self.motions.as_ref();
+        motions.is_none_or(|motions| motions.loads[i].1 != 0.0)
     }
 
     /// Whether two degrees of freedom are relative to the same ground.

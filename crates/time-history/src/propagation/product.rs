@@ -1,0 +1,237 @@
+//! Products of matrices with vectors. Every sum runs over the columns in their order, so that
+//! the bits of a row depend neither on the processor nor on the rows beside it.
+
+use multiversion::multiversion;
+
+/// Rows that are summed side by side; outputs of a multiple of the least one need no others.
+const WIDEST: usize = 32;
+const WIDE: usize = 16;
+const MIDDLE: usize = 8;
+pub(crate) const NARROW: usize = 4;
+
+/// Rows with what fills them up to a multiple of the narrow block.
+pub(crate) fn padded(rows: usize) -> usize {
+    rows.next_multiple_of(NARROW)
+}
+
+/// Columns filled up with zeros to the padded number of rows, one after another.
+pub(crate) fn pad(rows: usize, columns: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut all = Vec::new();
+    for (k, x) in columns.enumerate() {
+        all.push(x);
+        if k % rows == rows - 1 {
+            all.resize(all.len() - rows + padded(rows), 0.0);
+        }
+    }
+    all
+}
+
+/// Product of the first `out.len()` rows of a matrix, whose columns of `rows` entries stand one
+/// after another.
+pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    accumulate(matrix, rows, x, out);
+}
+
+/// Adds that product.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    add_product(matrix, rows, x, out);
+}
+
+/// The same for callers that are compiled for several instruction sets themselves.
+#[inline(always)]
+pub(crate) fn add_product(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    let mut first = 0;
+    while first + WIDEST <= out.len() {
+        block::<WIDEST>(matrix, (rows, first), x, out);
+        first += WIDEST;
+    }
+    if first + WIDE <= out.len() {
+        block::<WIDE>(matrix, (rows, first), x, out);
+        first += WIDE;
+    }
+    if first + MIDDLE <= out.len() {
+        block::<MIDDLE>(matrix, (rows, first), x, out);
+        first += MIDDLE;
+    }
+    if first + NARROW <= out.len() {
+        block::<NARROW>(matrix, (rows, first), x, out);
+        first += NARROW;
+    }
+    while first < out.len() {
+        block::<1>(matrix, (rows, first), x, out);
+        first += 1;
+    }
+}
+
+#[inline(always)]
+fn block<const ROWS: usize>(
+    matrix: &[f64],
+    (rows, first): (usize, usize),
+    x: &[f64],
+    out: &mut [f64],
+) {
+    let out = &mut out[first..first + ROWS];
+    let mut sums = [0.0; ROWS];
+    sums.copy_from_slice(out);
+    for (column, x) in matrix.chunks_exact(rows).zip(x) {
+        let entries = &column[first..first + ROWS];
+        for k in 0..ROWS {
+            sums[k] += entries[k] * x;
+        }
+    }
+    out.copy_from_slice(&sums);
+}
+
+/// A matrix for products of all its rows: in blocks of rows that are summed side by side, each
+/// column after column, filled up with zeros to the padded number of rows.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct RowBlocks {
+    columns: usize,
+    entries: Vec<f64>,
+}
+
+impl RowBlocks {
+    pub(crate) fn new(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+        let all = padded(rows);
+        let mut entries = Vec::with_capacity(all * columns);
+        let mut first = 0;
+        while first < all {
+            let widths = [WIDEST, WIDE, MIDDLE, NARROW];
+            let width = widths.into_iter().find(|w| first + w <= all);
+            let width = width.unwrap_or(NARROW);
+            for column in 0..columns {
+                let own = first..first + width;
+                entries.extend(own.map(|row| if row < rows { entry(row, column) } else { 0.0 }));
+            }
+            first += width;
+        }
+        Self { columns, entries }
+    }
+
+    /// The product with a vector; `out` takes the padded number of rows.
+    pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
+        multiply_blocks(&self.entries, &x[..self.columns], out);
+    }
+
+    /// The product with a vector in two parts, for callers that are compiled for several
+    /// instruction sets themselves.
+    #[inline(always)]
+    pub(crate) fn multiply_parts(&self, x: [&[f64]; 2], out: &mut [f64]) {
+        blocks(&self.entries, x, out);
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn multiply_blocks(entries: &[f64], x: &[f64], out: &mut [f64]) {
+    blocks(entries, [x, &[]], out);
+}
+
+#[inline(always)]
+fn blocks(entries: &[f64], x: [&[f64]; 2], out: &mut [f64]) {
+    let mut left = (entries, out);
+    while left.1.len() >= WIDEST {
+        left = take_block::<WIDEST>(left, x);
+    }
+    if left.1.len() >= WIDE {
+        left = take_block::<WIDE>(left, x);
+    }
+    if left.1.len() >= MIDDLE {
+        left = take_block::<MIDDLE>(left, x);
+    }
+    if left.1.len() >= NARROW {
+        take_block::<NARROW>(left, x);
+    }
+}
+
+/// The first block of rows; returns what is left.
+#[inline(always)]
+fn take_block<'a, const ROWS: usize>(
+    (entries, out): (&'a [f64], &'a mut [f64]),
+    x: [&[f64]; 2],
+) -> (&'a [f64], &'a mut [f64]) {
+    let (own, out) = out.split_at_mut(ROWS);
+    let mut sums = [0.0; ROWS];
+    let entries = add_columns(entries, x[0], &mut sums);
+    let entries = add_columns(entries, x[1], &mut sums);
+    own.copy_from_slice(&sums);
+    (entries, out)
+}
+
+/// Adds the columns of a block; returns what is left.
+#[inline(always)]
+fn add_columns<'a, const ROWS: usize>(
+    entries: &'a [f64],
+    x: &[f64],
+    sums: &mut [f64; ROWS],
+) -> &'a [f64] {
+    let n = x.len();
+    let (block, rest) = entries.split_at(ROWS * n);
+    let columns = &block.as_chunks::<ROWS>().0[..n];
+    for j in 0..n {
+        let (column, x) = (&columns[j], x[j]);
+        for k in 0..ROWS {
+            sums[k] += column[k] * x;
+        }
+    }
+    rest
+}
+
+/// Products of vectors, in sums that do not wait for each other.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn dots([a, b, c]: [(&[f64], &[f64]); 3]) -> [f64; 3] {
+    [dot(a), dot(b), dot(c)]
+}
+
+#[inline(always)]
+fn dot((a, b): (&[f64], &[f64])) -> f64 {
+    let (a, rest_of_a) = a.as_chunks::<NARROW>();
+    let (b, rest_of_b) = b.as_chunks::<NARROW>();
+    let (n, mut sums) = (a.len(), [0.0; NARROW]);
+    let b = &b[..n];
+    for k in 0..n {
+        for i in 0..NARROW {
+            sums[i] += a[k][i] * b[k][i];
+        }
+    }
+    let mut rest = 0.0;
+    for (a, b) in rest_of_a.iter().zip(rest_of_b) {
+        rest += a * b;
+    }
+    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_of_rows_give_the_bits_of_columns() {
+        for rows in [1, 4, 7, 12, 29, 64, 83] {
+            let entry = |i: usize, j: usize| ((i * 7 + j * 3) as f64).sin();
+            let x: Vec<f64> = (0..9).map(|j| (j as f64).cos()).collect();
+            let columns = (0..9).flat_map(|j| (0..rows).map(move |i| entry(i, j)));
+            let mut by_columns = vec![1.0; padded(rows)];
+            multiply(&pad(rows, columns), padded(rows), &x, &mut by_columns);
+            let mut by_blocks = vec![2.0; padded(rows)];
+            RowBlocks::new(rows, 9, entry).multiply(&x, &mut by_blocks);
+            assert_eq!(by_columns, by_blocks, "{rows} rows");
+        }
+    }
+}

@@ -387,10 +387,10 @@ impl<S: HistorySink + ?Sized> HistorySink for &mut S {
     }
 }
 
-/// Rows that a sink is given at once, at most, and their bytes: they stay in the cache meanwhile.
-/// Numbers of rows are powers of two, so that chunks of files are whole blocks.
-const BLOCK_ROWS: usize = 256;
-const BLOCK_BYTES: usize = 256 << 10;
+/// Rows that a sink is given at once, at most, and their bytes. Numbers of rows are powers of two,
+/// so that blocks are whole chunks of a file.
+const BLOCK_ROWS: usize = 1024;
+const BLOCK_BYTES: usize = 4 << 20;
 
 /// Gives responses on an even grid of times, from zero to the end of the run, to a sink: to a
 /// [`History`] in memory, or to what writes them to a file.

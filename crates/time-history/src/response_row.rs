@@ -143,15 +143,14 @@ impl ShearRows {
             rows.force[force + l] = forces[l];
         }
         let (mut kinetic, mut strain, mut last) = (0.0, 0.0, 0.0);
-        let floors = self.floors.iter().zip(u.iter().zip(v));
-        rows.storey_shear.extend(floors.map(|(floor, (u, v))| {
+        for (floor, (u, v)) in self.floors.iter().zip(u.iter().zip(v)) {
             let below = if floor.is_first { 0.0 } else { last };
             last = *u;
             let drift = u - below;
             kinetic += floor.half_mass * v * v;
             strain += floor.half_spring * drift * drift;
-            floor.stiffness * drift
-        }));
+            rows.storey_shear.push(floor.stiffness * drift);
+        }
         let stored = ledger::stored_energies(system, contacts, u);
         let energies = (kinetic, strain + stored, 0.0);
         let energy = ledger::balance(layout, state, energies, stored);

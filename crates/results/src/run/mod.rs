@@ -166,8 +166,7 @@ impl<'a> RunWriter<'a> {
 
 impl HistorySink for RunWriter<'_> {
     fn take(&mut self, rows: &mut History) -> std::result::Result<(), TimeHistoryError> {
-        self.tables.block.append(rows);
-        self.tables.write_if_full().map_err(|e| {
+        self.tables.take(rows).map_err(|e| {
             let failure = self.failure.insert(reason_of(&e));
             TimeHistoryError::Recorder(failure.clone())
         })

@@ -82,13 +82,14 @@ impl<'a> BlockMotion<'a> {
     /// The motion at a time (s) if that is the end of a sample but for `close` (s), with the
     /// ground acceleration (m/s2) then.
     pub(crate) fn at_end_of_sample(&self, time: f64, close: f64) -> Option<(ModalState<'a>, f64)> {
-        let number = self.number_at(time);
-        let end = (self.first + number) as f64 * self.step + self.step;
-        if end - time > close {
+        // Signed numbers become floating-point ones in one instruction.
+        let ended = (time / self.step + 0.5) as i64;
+        let number = usize::try_from(ended - self.first as i64).ok()?;
+        let end = (ended - 1) as f64 * self.step + self.step;
+        if (end - time).abs() > close || number == 0 || number > self.len() {
             return None;
         }
-        let motion = self.block.motion_after(number + 1)?;
-        Some((motion, self.ground[number + 1]))
+        Some((self.block.motion_after(number)?, self.ground[number]))
     }
 
     /// Number of the sample that holds a time (s): at an instant between two, that before it.

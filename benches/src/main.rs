@@ -54,6 +54,9 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         ["prototype"] => report::prototype(&reference, &ground),
         ["scaling"] => report::only_scaling(reference, &ground),
         ["recording", only @ ..] => recording::ratios(&reference, &ground, only),
+        ["recorded", case, model, kind] => {
+            recording::child(&reference, &ground, [case, model, kind])
+        }
         ["python", interpreter] => python::beside_the_library(interpreter),
         ["sweeps"] => report::only_sweeps(&reference, &ground),
         ["sweep", runs] => report::one_sweep(&reference, &ground, runs.parse()?),

@@ -1,10 +1,11 @@
 //! What recording all responses costs beside the run alone.
 
 use std::fmt::Write as _;
+use std::process::Command;
 
 use pounding_time_history::{
-    GridRecorder, GroundAcceleration, History, MethodChoice, Recorder, RunOptions, Sample,
-    SampleSink, System, TimeHistoryError, run,
+    GridRecorder, GroundAcceleration, History, HistorySink, MethodChoice, RunOptions, System,
+    TimeHistoryError, run,
 };
 use verification::{Failure, REFERENCE_MODELS, ReferenceCases, reference_system};
 
@@ -15,64 +16,128 @@ const RUNS: usize = 15;
 /// Step of the output grid (s): that of the examples.
 const GRID: f64 = 0.01;
 
-/// Responses in blocks, as what writes them to a file takes them.
-#[derive(Default)]
-struct Blocks(History);
+/// Takes blocks of responses where a file would be written.
+struct Nowhere;
 
-impl SampleSink for Blocks {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        self.0.push(sample);
-        if self.0.len() == 1024 {
-            self.0.clear();
-        }
+impl HistorySink for Nowhere {
+    fn take(&mut self, _rows: &mut History) -> Result<(), TimeHistoryError> {
         Ok(())
     }
 }
 
-/// Time of a run with all histories but their writing over that of the run alone, for every
-/// case and model, or for those that are named.
+/// A case of the reference, and which of them are wanted.
+struct Runs<'a> {
+    reference: &'a ReferenceCases,
+    ground: &'a GroundAcceleration,
+    only: &'a [&'a str],
+}
+
+impl Runs<'_> {
+    /// A line for every case and model that is wanted: what a run costs alone and with all
+    /// histories.
+    fn table(
+        &self,
+        unit: &str,
+        mut costs: impl FnMut(&str, &str, &System) -> Result<(f64, f64), Failure>,
+    ) -> Result<String, Failure> {
+        let wanted = |place: usize, name: &str| self.only.get(place).is_none_or(|o| *o == name);
+        let mut text = format!(
+            "| case | model | run ({unit}) | with histories ({unit}) | ratio |\n|---|---|---|---|---|\n"
+        );
+        for (name, case) in self.reference.cases.iter().filter(|c| wanted(0, c.0)) {
+            for model in REFERENCE_MODELS.into_iter().filter(|m| wanted(1, m)) {
+                let system = reference_system(case, model, self.ground.clone(), 1.0)?;
+                let (alone, recorded) = costs(name, model, &system)?;
+                let ratio = recorded / alone;
+                writeln!(
+                    text,
+                    "| {name} | {model} | {alone:.3} | {recorded:.3} | {ratio:.2} |"
+                )?;
+            }
+        }
+        Ok(text)
+    }
+}
+
+/// What a run with all histories, but without their writing, costs beside the run alone, for every
+/// case and model or for those that are named: time, or with `instructions` before them the
+/// instructions that callgrind counts.
 pub(crate) fn ratios(
     reference: &ReferenceCases,
     ground: &GroundAcceleration,
     only: &[&str],
 ) -> Result<String, Failure> {
-    let wanted = |place: usize, name: &str| only.get(place).is_none_or(|o| *o == name);
-    let mut text = String::from(
-        "| case | model | run (ms) | with histories (ms) | ratio |\n|---|---|---|---|---|\n",
-    );
-    for (name, case) in reference.cases.iter().filter(|c| wanted(0, c.0)) {
-        for model in REFERENCE_MODELS.into_iter().filter(|m| wanted(1, m)) {
-            let system = reference_system(case, model, ground.clone(), 1.0)?;
-            let (alone, recorded) = times(&system)?;
-            writeln!(
-                text,
-                "| {name} | {model} | {:.3} | {:.3} | {:.2} |",
-                1e3 * alone,
-                1e3 * recorded,
-                recorded / alone
-            )?;
+    let runs = |only| Runs {
+        reference,
+        ground,
+        only,
+    };
+    match only {
+        ["instructions", only @ ..] => {
+            runs(only).table("million instructions", |case, model, _| {
+                let of = |kind: &str| instructions([case, model, kind]);
+                Ok((of("alone")?, of("recorded")?))
+            })
         }
+        _ => runs(only).table("ms", |_, _, system| times(system)),
     }
-    Ok(text)
 }
 
 fn times(system: &System) -> Result<(f64, f64), Failure> {
+    let (mut alone, mut recorded) = (Vec::new(), Vec::new());
+    for _ in 0..RUNS {
+        let start = thread_seconds();
+        once(system, "alone")?;
+        alone.push(1e3 * (thread_seconds() - start));
+        let start = thread_seconds();
+        once(system, "recorded")?;
+        recorded.push(1e3 * (thread_seconds() - start));
+    }
+    Ok((median(&alone), median(&recorded)))
+}
+
+/// Instructions (millions) of one run in a process of its own.
+fn instructions(words: [&str; 3]) -> Result<f64, Failure> {
+    let mut command = Command::new("valgrind");
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
+    command.arg("--toggle-collect=*recording*once*");
+    command
+        .arg(std::env::current_exe()?)
+        .arg("recorded")
+        .args(words);
+    let output = command.output().map_err(|e| format!("valgrind: {e}"))?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let counted = said.lines().find_map(|line| line.split_once("Collected :"));
+    let (_, count) = counted.ok_or_else(|| format!("callgrind counts nothing: {said}"))?;
+    Ok(1e-6 * count.trim().parse::<f64>()?)
+}
+
+/// One run of a case and a model, `alone` or with all histories: what callgrind looks at.
+pub(crate) fn child(
+    reference: &ReferenceCases,
+    ground: &GroundAcceleration,
+    [case, model, kind]: [&str; 3],
+) -> Result<String, Failure> {
+    let case = reference.cases.get(case).ok_or("no such case")?;
+    let system = reference_system(case, model, ground.clone(), 1.0)?;
+    once(&system, kind)?;
+    Ok(String::new())
+}
+
+/// A function of its own, by whose name callgrind counts.
+#[inline(never)]
+fn once(system: &System, kind: &str) -> Result<(), Failure> {
     let options = RunOptions {
         method: MethodChoice::EventDriven {
             relative_tolerance: 1e-10,
         },
         ..RunOptions::default()
     };
-    let (mut alone, mut recorded) = (Vec::new(), Vec::new());
-    for _ in 0..RUNS {
-        let start = thread_seconds();
+    if kind == "alone" {
         run(system, &options, &mut [], &mut |_| {})?;
-        alone.push(thread_seconds() - start);
-        let start = thread_seconds();
-        let mut recorder = GridRecorder::into_sink(GRID, Blocks::default())?;
-        let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
-        run(system, &options, &mut recorders, &mut |_| {})?;
-        recorded.push(thread_seconds() - start);
+        return Ok(());
     }
-    Ok((median(&alone), median(&recorded)))
+    let mut recorder = GridRecorder::into_sink(GRID, Nowhere)?;
+    run(system, &options, &mut [&mut recorder], &mut |_| {})?;
+    Ok(())
 }

@@ -118,7 +118,10 @@ fn shards_take_no_outputs() {
             );
             let told = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
             assert_eq!(output.status.code(), Some(2), "{told}");
-            assert!(told.contains("--shard makes a part of the runs and no answer"), "{told}");
+            assert!(
+                told.contains("--shard makes a part of the runs and no answer"),
+                "{told}"
+            );
             assert!(told.contains("with --merge"), "{told}");
         }
     }

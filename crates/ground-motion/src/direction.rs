@@ -123,7 +123,9 @@ mod tests {
             assert_eq!(Direction::parse(name), Some(Direction::Up), "{name}");
         }
         assert_eq!(Direction::parse("Down"), Some(Direction::Down));
-        for name in ["", "L", "HNE", "361", "NE", "S-N", "-90", "Other", "N00", "1e1"] {
+        for name in [
+            "", "L", "HNE", "361", "NE", "S-N", "-90", "Other", "N00", "1e1",
+        ] {
             assert_eq!(Direction::parse(name), None, "{name}");
         }
         assert!(!Direction::differ("360 deg", "N00E"));

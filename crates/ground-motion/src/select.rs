@@ -1,7 +1,7 @@
 //! The series that excites the buildings.
 
-use crate::direction::Direction;
 use crate::accelerogram::{Accelerogram, Processing};
+use crate::direction::Direction;
 use crate::error::GroundMotionError;
 use crate::options::{Offset, ReadOptions};
 use crate::quantity::Quantity;
@@ -141,7 +141,8 @@ fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
     let direction = Direction::parse(wanted);
     let points_there = |s: &Series| {
         let own = Direction::parse(&s.component);
-        own.zip(direction).is_some_and(|(own, wanted)| own.is(wanted))
+        own.zip(direction)
+            .is_some_and(|(own, wanted)| own.is(wanted))
     };
     let tests: [&dyn Fn(&Series) -> bool; 5] = [&full, &first, &channel, &word, &points_there];
     let Some(test) = tests.into_iter().find(|t| possible.iter().any(t)) else {

@@ -26,7 +26,10 @@ fn integer_layout(lines: &Lines<'_>) -> Layout {
     let narrow = match rows {
         Some(rows) if rows == lines_of(NARROW_INTEGERS) => true,
         Some(rows) if rows == lines_of(INTEGERS) => false,
-        _ => lines.clone().take(lines_of(NARROW_INTEGERS)).any(|l| touching(&l)),
+        _ => lines
+            .clone()
+            .take(lines_of(NARROW_INTEGERS))
+            .any(|l| touching(&l)),
     };
     if narrow { NARROW_INTEGERS } else { INTEGERS }
 }

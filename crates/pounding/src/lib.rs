@@ -198,8 +198,7 @@ pub mod prelude {
         Damping, Isolator, IsolatorKind, LateralStiffness, PostYield, Strength,
     };
     pub use pounding_time_history::{
-        ForceHistory, GridRecorder, History, MethodChoice, Outcome, Recorder, Sample, SampleSink,
-        Summary,
+        ForceHistory, GridRecorder, History, HistorySink, MethodChoice, Outcome, Recorder, Summary,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};

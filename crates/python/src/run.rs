@@ -13,8 +13,8 @@ use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
 use pounding_results::{RunEnding, RunHead, check_size, image, run_in_memory, write_run};
 use pounding_time_history::{
-    Energy, GridRecorder, History, Impact, Outcome, Recorder, Sample, SampleSink, Summary,
-    TimeHistoryError, in_parallel, run as integrate,
+    Energy, GridRecorder, History, Impact, Outcome, Recorder, Summary, TimeHistoryError,
+    in_parallel, run as integrate,
 };
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -22,12 +22,10 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::case::{PyCase, json};
 use crate::errors::Problem;
-use crate::watch::{Watch, watched};
+use crate::watch::{Stop, Watch, watched};
 
 /// Thousandths of a run, for its progress.
 const WHOLE: usize = 1000;
-/// How often (s of the motion) a run without responses looks whether it has to end.
-const LOOK: f64 = 0.25;
 
 /// A run that has ended.
 #[pyclass(frozen, name = "Run", module = "pounding._native")]
@@ -50,24 +48,6 @@ struct Wanted {
     isolated: bool,
 }
 
-/// Takes responses until the work is stopped.
-struct Responses<'w> {
-    history: Option<History>,
-    watch: &'w Watch,
-}
-
-impl SampleSink for Responses<'_> {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        if self.watch.stopped() {
-            return Err(TimeHistoryError::Recorder("stopped".to_owned()));
-        }
-        if let Some(history) = &mut self.history {
-            history.push(sample);
-        }
-        Ok(())
-    }
-}
-
 impl Run {
     fn of(
         (case, files): (&PyCase, &RecordFiles),
@@ -82,32 +62,22 @@ impl Run {
                 .map_err(|e| Problem::from(Failure::from(e)))?;
         }
         let started = Instant::now();
-        let step = match wanted.histories {
-            true => assembly.output_step,
-            false => LOOK,
-        };
-        let responses = Responses {
-            history: wanted.histories.then(History::default),
-            watch,
-        };
-        let mut recorder = GridRecorder::into_sink(step, responses).map_err(failed)?;
+        let recorder = || GridRecorder::new(assembly.output_step).map_err(failed);
+        let mut recorder = wanted.histories.then(recorder).transpose()?;
         let mut without = wanted.isolated.then(|| system.isolated());
         let (outcome, isolated) = std::thread::scope(|scope| {
             // Neither run depends on the other.
             let beside = without.as_mut().map(|system| {
                 let system = &*system;
                 let work = move || {
-                    let responses = Responses {
-                        history: None,
-                        watch,
-                    };
-                    let mut looking = GridRecorder::into_sink(LOOK, responses)?;
-                    let mut recorders: [&mut dyn Recorder; 1] = [&mut looking];
-                    integrate(system, options, &mut recorders, &mut |_| {})
+                    let mut stop = Stop(watch);
+                    integrate(system, options, &mut [&mut stop], &mut |_| {})
                 };
                 scope.spawn(work)
             });
-            let mut recorders: [&mut dyn Recorder; 1] = [&mut recorder];
+            let mut stop = Stop(watch);
+            let mut recorders: Vec<&mut dyn Recorder> = vec![&mut stop];
+            recorders.extend(recorder.as_mut().map(|r| r as &mut dyn Recorder));
             let outcome = integrate(system, options, &mut recorders, &mut |part| told(part));
             let isolated = beside.map(|thread| match thread.join() {
                 Ok(isolated) => isolated,
@@ -133,7 +103,7 @@ impl Run {
             isolated,
             warnings,
             wall_time: started.elapsed().as_secs_f64(),
-            history: recorder.responses.history,
+            history: recorder.map(|recorder| recorder.responses),
             assembly,
         })
     }
@@ -280,21 +250,11 @@ impl Run {
 
     /// Energies over time (J): arrays by name.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        type Pick = fn(&Energy) -> f64;
-        let parts: [(&str, Pick); 7] = [
-            ("input", |e| e.input),
-            ("kinetic", |e| e.kinetic),
-            ("strain", |e| e.strain),
-            ("viscous", |e| e.viscous),
-            ("hysteretic", |e| e.hysteretic),
-            ("impact", |e| e.impact),
-            ("residual", |e| e.residual),
-        ];
         let history = self.history()?;
         let columns = PyDict::new(py);
-        for (name, part) in parts {
-            let values: Vec<f64> = history.energy.iter().map(part).collect();
-            columns.set_item(name, values.into_pyarray(py))?;
+        for part in Energy::PARTS {
+            let values: Vec<f64> = history.energy.iter().map(part.value).collect();
+            columns.set_item(part.name, values.into_pyarray(py))?;
         }
         Ok(columns)
     }

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
+use pounding_time_history::{History, Recorder, StepView, System, TimeHistoryError};
 use pyo3::prelude::*;
 
 /// How often signals and progress are looked at.
@@ -27,6 +28,37 @@ impl Watch {
     pub fn tell(&self, done: usize, total: usize) {
         self.done.store(done, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
+    }
+}
+
+/// A recorder that ends the run when the work has to end. It is asked before every step, and
+/// shown none until then.
+#[derive(Debug)]
+pub struct Stop<'w>(pub &'w Watch);
+
+impl Stop<'_> {
+    fn checked(&self) -> Result<(), TimeHistoryError> {
+        match self.0.stopped() {
+            false => Ok(()),
+            true => Err(TimeHistoryError::Recorder("stopped".to_owned())),
+        }
+    }
+}
+
+impl Recorder for Stop<'_> {
+    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
+        self.checked()
+    }
+
+    fn next_time(&self) -> f64 {
+        match self.0.stopped() {
+            false => f64::INFINITY,
+            true => f64::NEG_INFINITY,
+        }
+    }
+
+    fn step(&mut self, _step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
+        self.checked()
     }
 }
 

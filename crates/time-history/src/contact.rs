@@ -105,6 +105,12 @@ impl Contacts {
         }
     }
 
+    /// Whether floors stick together anywhere.
+    pub(crate) fn any_stuck(&self) -> bool {
+        let mut closed = self.closed.iter();
+        closed.any(|l| self.contact(*l).is_some_and(Contact::is_stuck))
+    }
+
     pub(crate) fn set_phase(&mut self, level: usize, phase: Phase) {
         if let Mode::Closed(contact) = &mut self.modes[level] {
             contact.phase = phase;

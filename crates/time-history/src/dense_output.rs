@@ -3,15 +3,19 @@
 //! never change which steps are taken.
 
 use crate::contact::Contacts;
-use crate::contact_episode::{LevelRows, ModalRow, Scene, Series, SeriesStep, Span, Touch};
+use crate::contact_episode::{
+    LevelRows, ModalRow, Pair, Scene, Series, SeriesEnd, SeriesStep, Span, Touch,
+};
 use crate::contact_free::{
-    BlockMotion, ContactFree, Four, Ground, Lane, ModeLanes, SampleMotion, WIDTH, at as lane_at,
-    gather, restoring, step_over, transform_fours,
+    BlockMotion, ContactFree, Floors, Four, Ground, Lane, ModeLanes, STRIP, SampleMotion, WIDTH,
+    at as lane_at, gather, restoring, step_over, transform_fours, transform_free, transform_three,
 };
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
+use crate::ledger;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
-use crate::recorder::{Recorder, Sample, StepView, fill};
+use crate::recorder::{History, Recorder, StepView, wants};
+use crate::response_row::{ShearRows, append_motion};
 use crate::system::System;
 
 /// Lengths of parts of a sample whose exact steps are kept.
@@ -21,6 +25,8 @@ const PARTS: usize = 64;
 pub(crate) const AT_ONCE: usize = 4;
 /// Displacement, velocity and absolute acceleration.
 const QUANTITIES: usize = 3;
+/// Times this much of them apart are one, but for round-off.
+const CLOSE: f64 = 8.0 * f64::EPSILON;
 
 /// What observers of a run need beside the step: space, and who they are.
 pub(crate) struct Observers<'a, 'b> {
@@ -33,14 +39,16 @@ pub(crate) struct Observers<'a, 'b> {
 /// Work space.
 #[derive(Debug)]
 pub(crate) struct Workspace {
-    /// Modal displacements, velocities and absolute accelerations at the time asked for.
-    displacement: Vec<Lane>,
-    velocity: Vec<Lane>,
-    absolute: Vec<Lane>,
-    /// What is to be filled in for the times asked for, and the floors' motion then.
-    kept: [Kept; AT_ONCE],
+    layout: Layout,
+    /// Whether mode shapes of all buildings stay in the cache by themselves.
+    small: bool,
+    /// The motion at the times asked for, and that of the floors then.
+    places: [Place; AT_ONCE],
     floors: [[Vec<Lane>; 4]; QUANTITIES],
     all: Vec<bool>,
+    flat: Floors,
+    /// Rows of shear buildings alone.
+    shear_rows: Option<ShearRows>,
     /// The whole state.
     state: Vec<f64>,
     /// Contact forces of all levels (N).
@@ -48,19 +56,41 @@ pub(crate) struct Workspace {
     /// A series cut short, and that of contact-free motion.
     series: Series,
     free: Series,
+    polynomials: Polynomials,
     /// Exact steps over parts of a sample: length (s) and constants of the modes.
     parts: Vec<(f64, Vec<ModeLanes>)>,
     /// Place of the part that is replaced next.
     oldest: usize,
 }
 
-/// Motion of the modes, works and contact forces at one time.
+/// Displacements and velocities of the modes over a step of the pair.
 #[derive(Debug)]
-struct Kept {
-    modal: [Vec<Lane>; QUANTITIES],
-    works: Vec<f64>,
-    forces: Vec<f64>,
+struct Polynomials {
+    displacement: Vec<[Polynomial; WIDTH]>,
+    velocity: Vec<[Polynomial; WIDTH]>,
+}
+
+/// The motion of the modes at one time.
+#[derive(Debug)]
+struct Place {
+    displacement: Vec<Lane>,
+    velocity: Vec<Lane>,
+    absolute: Vec<Lane>,
+    /// Ground acceleration (m/s2).
     ground: f64,
+    /// Works of ground motion and damping (J) from those of the run's state on.
+    works: (f64, f64),
+    contacts: Vec<ContactPlace>,
+}
+
+/// A closed level at one time.
+#[derive(Debug, Clone, Copy)]
+struct ContactPlace {
+    level: usize,
+    /// Force (N).
+    force: f64,
+    /// Work (J) from that of the run's state on.
+    work: f64,
 }
 
 impl Workspace {
@@ -69,21 +99,28 @@ impl Workspace {
         let lanes = layout.dofs.div_ceil(WIDTH);
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
-            displacement: zeros(),
-            velocity: zeros(),
-            absolute: zeros(),
-            kept: std::array::from_fn(|_| Kept {
-                modal: std::array::from_fn(|_| zeros()),
-                works: vec![0.0; layout.dimension() - 2 * layout.dofs],
-                forces: vec![0.0; layout.levels],
+            layout,
+            small: system.buildings().iter().all(|b| b.storeys() <= STRIP),
+            places: std::array::from_fn(|_| Place {
+                displacement: zeros(),
+                velocity: zeros(),
+                absolute: zeros(),
                 ground: 0.0,
+                works: (0.0, 0.0),
+                contacts: Vec::with_capacity(layout.levels),
             }),
             floors: std::array::from_fn(|_| std::array::from_fn(|_| zeros())),
             all: vec![true; lanes],
+            flat: std::array::from_fn(|_| vec![0.0; lanes * WIDTH]),
+            shear_rows: ShearRows::new(system),
             state: vec![0.0; layout.dimension()],
             forces: vec![0.0; layout.levels],
             series: Series::new(lanes, layout.levels),
             free: Series::new(lanes, 0),
+            polynomials: Polynomials {
+                displacement: vec![[Polynomial::default(); WIDTH]; lanes],
+                velocity: vec![[Polynomial::default(); WIDTH]; lanes],
+            },
             parts: Vec::with_capacity(PARTS),
             oldest: 0,
         }
@@ -95,10 +132,13 @@ impl Workspace {
 pub(crate) enum Motion<'a> {
     /// Without contact, over some samples.
     Free(BlockMotion<'a>),
-    /// As a series.
-    Series(&'a Series),
-    /// Between two points of the pair.
-    Pair(&'a Scene<'a>, &'a Span<'a>),
+    /// As a series, with its end.
+    Series(&'a Series, SeriesEnd<'a>),
+    /// Between two points of the pair, whose works are over the whole step.
+    Pair(&'a Scene<'a>, &'a Span<'a>, &'a Pair),
+    /// A single instant: displacements and velocities of the modes, and the ground
+    /// acceleration (m/s2).
+    Instant([&'a [Lane]; 2], f64),
 }
 
 /// A step in the coordinates of the modes.
@@ -135,19 +175,26 @@ impl<'a, 'b> Observers<'a, 'b> {
         self.recorders.is_empty()
     }
 
-    /// Whether anybody wants to see a time up to this one (s).
-    pub(crate) fn want(&self, end: f64) -> bool {
-        self.recorders.iter().any(|r| r.next_time() <= end)
+    /// Whether anybody wants to see a time before this one (s).
+    pub(crate) fn want_before(&self, end: f64) -> bool {
+        let end = end * (1.0 - CLOSE);
+        self.recorders.iter().any(|r| r.next_time() < end)
+    }
+
+    /// Whether the run ends at this time (s).
+    fn is_last(&self, end: f64) -> bool {
+        end >= self.end * (1.0 - 1.0e-12)
     }
 
     /// Shows a step to all.
     pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
-        let last = step.start + step.length >= self.end * (1.0 - 1.0e-12);
+        let end = step.end();
+        let last = self.is_last(end);
         if let Some(workspace) = &mut self.workspace {
-            let end = step.start + step.length;
-            let wanting = self.recorders.iter_mut().filter(|r| r.next_time() <= end);
-            for recorder in wanting {
-                recorder.step(&mut StepView::of_modes(step, workspace, last))?;
+            for recorder in self.recorders.iter_mut() {
+                if wants(&**recorder, end, last) {
+                    recorder.step(&mut StepView::of_modes(step, workspace, last))?;
+                }
             }
         }
         Ok(())
@@ -155,54 +202,115 @@ impl<'a, 'b> Observers<'a, 'b> {
 }
 
 impl ModalStep<'_> {
-    /// Responses at times inside the step.
-    pub(crate) fn samples(&self, times: &[f64], workspace: &mut Workspace, out: &mut [Sample]) {
-        let groups = times.chunks(AT_ONCE).zip(out.chunks_mut(AT_ONCE));
-        for (times, out) in groups {
-            self.few_samples(times, workspace, out);
+    /// End of the step (s), with what round-off may add.
+    pub(crate) fn end(&self) -> f64 {
+        (self.start + self.length) * (1.0 + CLOSE)
+    }
+
+    /// Appends responses at times inside the step.
+    pub(crate) fn append(&self, times: &[f64], workspace: &mut Workspace, rows: &mut History) {
+        let works = workspace.layout.motion();
+        workspace.state[works..].copy_from_slice(&self.state[works..]);
+        if workspace.small {
+            for time in times {
+                self.append_small(*time, workspace, rows);
+            }
+            return;
+        }
+        for times in times.chunks(AT_ONCE) {
+            for (number, time) in times.iter().enumerate() {
+                self.move_to(*time, number, workspace);
+            }
+            self.to_floors(times.len(), workspace);
+            for (number, time) in times.iter().enumerate() {
+                for (quantity, flat) in workspace.flat.iter_mut().enumerate() {
+                    let column = number * QUANTITIES + quantity;
+                    gather(&workspace.floors[column / 4][column % 4], flat);
+                }
+                self.append_row((*time, number), workspace, rows);
+            }
         }
     }
 
-    /// The same at [`AT_ONCE`] times at most, with one pass over the mode shapes.
-    fn few_samples(&self, times: &[f64], workspace: &mut Workspace, out: &mut [Sample]) {
-        let n = Layout::of(self.system).dofs;
-        for (k, time) in times.iter().enumerate() {
-            let ground = self.move_to(*time, workspace);
-            let kept = &mut workspace.kept[k];
-            let [q, p, a] = &mut kept.modal;
-            std::mem::swap(q, &mut workspace.displacement);
-            std::mem::swap(p, &mut workspace.velocity);
-            std::mem::swap(a, &mut workspace.absolute);
-            kept.works.copy_from_slice(&workspace.state[2 * n..]);
-            kept.forces.copy_from_slice(&workspace.forces);
-            kept.ground = ground;
+    /// The same of one time, where mode shapes stay in the cache by themselves.
+    fn append_small(&self, time: f64, workspace: &mut Workspace, rows: &mut History) {
+        let shapes = &self.constants.floor_rows;
+        let close = CLOSE * (self.start + self.length);
+        if let Motion::Free(block) = &self.motion
+            && let Some((motion, ground)) = block.at_end_of_sample(time, close)
+        {
+            let place = &mut workspace.places[0];
+            place.contacts.clear();
+            place.ground = ground;
+            place.works = (sum(motion.input), sum(motion.viscous));
+            let constants = (self.constants.modes.as_slice(), shapes.as_slice());
+            let modal = [motion.displacement, motion.velocity];
+            transform_free(constants, modal, &mut place.absolute, &mut workspace.flat);
+        } else {
+            self.move_to(time, 0, workspace);
+            let place = &workspace.places[0];
+            let modal: [&[Lane]; QUANTITIES] =
+                [&place.displacement, &place.velocity, &place.absolute];
+            transform_three(shapes, modal, &mut workspace.flat);
         }
-        self.to_floors(times.len(), workspace);
-        for (k, (time, out)) in times.iter().zip(out).enumerate() {
-            let [displacement, velocity, absolute] = std::array::from_fn(|quantity| {
-                let column = k * QUANTITIES + quantity;
-                &workspace.floors[column / 4][column % 4]
-            });
-            gather(displacement, &mut workspace.state[..n]);
-            gather(velocity, &mut workspace.state[n..2 * n]);
-            out.acceleration_absolute.resize(n, 0.0);
-            gather(absolute, &mut out.acceleration_absolute);
-            let kept = &workspace.kept[k];
-            workspace.state[2 * n..].copy_from_slice(&kept.works);
-            let ground = kept.ground;
-            let motion = (workspace.state.as_slice(), kept.forces.as_slice());
-            fill(self.system, self.contacts, (*time, ground), motion, out);
+        self.append_row((time, 0), workspace, rows);
+    }
+
+    /// Appends the row of a time from its place, and from the motion of the floors then.
+    fn append_row(
+        &self,
+        (time, number): (f64, usize),
+        workspace: &mut Workspace,
+        rows: &mut History,
+    ) {
+        let Workspace {
+            layout,
+            places,
+            flat,
+            state,
+            forces,
+            shear_rows,
+            ..
+        } = workspace;
+        let (layout, n, place) = (*layout, layout.dofs, &places[number]);
+        let [u, v, absolute] = flat;
+        state[layout.input()] = self.state[layout.input()] + place.works.0;
+        state[layout.viscous()] = self.state[layout.viscous()] + place.works.1;
+        for contact in &place.contacts {
+            let work = layout.work(contact.level);
+            state[work] = self.state[work] + contact.work;
+            forces[contact.level] = contact.force;
         }
+        // Buildings with modes have no degrees of freedom but their floors.
+        rows.acceleration_absolute.extend_from_slice(&absolute[..n]);
+        let (row, now) = ((self.system, layout, self.contacts), (time, place.ground));
+        if let Some(shear_rows) = shear_rows {
+            shear_rows.append(row, now, [u, v], (state, forces), rows);
+            return;
+        }
+        state[..n].copy_from_slice(&u[..n]);
+        state[n..2 * n].copy_from_slice(&v[..n]);
+        append_motion(row, now, (state, forces), rows);
+        let energy = ledger::energy(self.system, layout, self.contacts, state, None);
+        rows.energy.push(energy);
     }
 
     fn offset(&self, time: f64) -> f64 {
         (time - self.start).clamp(0.0, self.length)
     }
 
-    /// The floors' motion at so many of the times that are kept.
+    /// Whether an offset (s) into the step is its end.
+    fn is_end(&self, offset: f64) -> bool {
+        self.length - offset <= CLOSE * (self.start + self.length)
+    }
+
+    /// The floors' motion at so many of the times.
     fn to_floors(&self, times: usize, workspace: &mut Workspace) {
         let Workspace {
-            kept, floors, all, ..
+            places,
+            floors,
+            all,
+            ..
         } = workspace;
         let last = times * QUANTITIES - 1;
         let [first, second, third] = floors;
@@ -210,7 +318,9 @@ impl ModalStep<'_> {
             modal: std::array::from_fn(|v| {
                 // What is left of the last four repeats the last column.
                 let column = (4 * number + v).min(last);
-                kept[column / QUANTITIES].modal[column % QUANTITIES].as_slice()
+                let place = &places[column / QUANTITIES];
+                [&place.displacement, &place.velocity, &place.absolute][column % QUANTITIES]
+                    .as_slice()
             }),
             floors,
             wanted: all,
@@ -219,34 +329,46 @@ impl ModalStep<'_> {
         transform_fours(&self.constants.shapes, &mut fours[..=last / 4]);
     }
 
-    /// Motion of the modes, works and contact forces at a time (s). Returns the ground
-    /// acceleration then (m/s2).
-    fn move_to(&self, time: f64, workspace: &mut Workspace) -> f64 {
-        let layout = Layout::of(self.system);
-        let n = layout.dofs;
-        workspace.state[2 * n..].copy_from_slice(&self.state[2 * n..]);
-        workspace.forces.fill(0.0);
-        let offset = self.offset(time);
-        let at = |ground: (f64, f64), offset: f64| ground.0 + ground.1 * offset;
-        let (works, ground) = match self.motion {
+    /// Moves a place of the work space to a time (s).
+    fn move_to(&self, time: f64, number: usize, workspace: &mut Workspace) {
+        let place = &mut workspace.places[number];
+        place.contacts.clear();
+        match self.motion {
             Motion::Free(block) => {
-                let sample = block.sample_at(time);
-                let offset = (time - sample.time).clamp(0.0, self.constants.step);
-                let works = self.free(&sample, offset, workspace);
-                (works, at(sample.ground, offset))
+                let kept = (&mut workspace.parts, &mut workspace.oldest);
+                self.free(&block, time, place, kept);
             }
-            Motion::Series(series) => {
-                let works = self.series(series, offset, workspace);
-                (works, at(series.ground(), offset))
+            Motion::Series(series, end) => {
+                let offset = self.offset(time);
+                if self.is_end(offset) {
+                    place.displacement.copy_from_slice(end.displacement);
+                    place.velocity.copy_from_slice(end.velocity);
+                    place.absolute.copy_from_slice(end.absolute);
+                    place.works = (end.works.input, end.works.viscous);
+                    for touch in &series.touches {
+                        place.contacts.push(ContactPlace {
+                            level: touch.level,
+                            force: series.at(&touch.force, 1.0).0,
+                            work: touch.works.0,
+                        });
+                    }
+                } else {
+                    self.series(series, offset, place, &mut workspace.series);
+                }
+                let ground = series.ground();
+                place.ground = ground.0 + ground.1 * offset;
             }
-            Motion::Pair(scene, span) => {
-                let works = self.pair(scene, span, offset, workspace);
-                (works, at(scene.ground, offset))
+            Motion::Pair(scene, span, pair) => {
+                let offset = self.offset(time);
+                place.ground = scene.ground.0 + scene.ground.1 * offset;
+                if self.is_end(offset) {
+                    self.end_of_pair(scene, pair, place);
+                } else {
+                    self.pair(scene, span, offset, (place, &mut workspace.polynomials));
+                }
             }
-        };
-        workspace.state[layout.input()] += works.0;
-        workspace.state[layout.viscous()] += works.1;
-        ground
+            Motion::Instant(motion, ground) => self.instant(motion, ground, place),
+        }
     }
 
     /// Maximum value above `floor` that the displacement of the left floor less that of the
@@ -260,7 +382,7 @@ impl ModalStep<'_> {
         let rows = &self.constants.rows.floors;
         let [left, right] = [floors.0, floors.1].map(|i| i.map(|i| &rows[i]));
         match self.motion {
-            Motion::Series(series) => {
+            Motion::Series(series, _) => {
                 let found = series.maximum_of_difference((left, right), floor);
                 found.map(|(theta, top)| (self.start + theta * self.length, top))
             }
@@ -284,7 +406,12 @@ impl ModalStep<'_> {
                 }
                 best
             }
-            Motion::Pair(_, span) => {
+            Motion::Instant([q, _], _) => {
+                let at = |row: Option<&ModalRow>| row.map_or(0.0, |r| r.dot(q));
+                let value = at(left) - at(right);
+                (value > floor).then_some((self.start, value))
+            }
+            Motion::Pair(_, span, _) => {
                 let of = |row: Option<&ModalRow>| {
                     row.map_or(Polynomial::default(), |row| {
                         let (a, b) = span.row(row, 0.0);
@@ -309,148 +436,199 @@ impl ModalStep<'_> {
         let parts = (length / Series::longest(rate)).ceil().max(1.0);
         let step = length / parts;
         let [start, _] = sample.ends;
-        workspace.displacement.copy_from_slice(start.displacement);
-        workspace.velocity.copy_from_slice(start.velocity);
+        let Workspace {
+            places: [place, ..],
+            free: series,
+            ..
+        } = workspace;
+        place.displacement.copy_from_slice(start.displacement);
+        place.velocity.copy_from_slice(start.velocity);
         let (mut best, mut above) = (None, floor);
         for part in 0..parts as usize {
             let offset = part as f64 * step;
             let from = SeriesStep {
-                displacement: &workspace.displacement,
-                velocity: &workspace.velocity,
+                displacement: &place.displacement,
+                velocity: &place.velocity,
                 ground: (sample.ground.0 + sample.ground.1 * offset, sample.ground.1),
                 step,
                 rate,
                 terms: 0,
             };
-            workspace.free.expand(self.constants, self.rows, &[], &from);
-            if let Some((theta, top)) = workspace.free.maximum_of_difference(rows, above) {
+            series.expand(self.constants, self.rows, &[], &from);
+            if let Some((theta, top)) = series.maximum_of_difference(rows, above) {
                 above = top;
                 best = Some((sample.time + offset + theta * step, top));
             }
             let modes = &self.constants.modes;
-            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
-            workspace.free.end(modes, q, p, &mut workspace.absolute);
+            let (q, p) = (&mut place.displacement, &mut place.velocity);
+            series.end(modes, q, p, &mut place.absolute);
         }
         best
     }
 
-    /// Motion without contact after `offset` (s). Returns the works of ground motion and
-    /// damping (J) from those of the run's state on.
+    /// Motion without contact.
     fn free(
         &self,
-        sample: &SampleMotion<'_>,
-        offset: f64,
-        workspace: &mut Workspace,
-    ) -> (f64, f64) {
-        let modes = &self.constants.modes;
-        let Workspace {
-            displacement,
-            velocity,
-            absolute,
-            parts,
-            oldest,
-            ..
-        } = workspace;
-        // Times this close are one, but for round-off.
+        block: &BlockMotion<'_>,
+        time: f64,
+        place: &mut Place,
+        kept: (&mut Vec<(f64, Vec<ModeLanes>)>, &mut usize),
+    ) {
+        let sample = block.sample(block.number_at(time));
         let length = self.constants.step;
-        let close = 8.0 * f64::EPSILON * (sample.time + length);
+        let offset = (time - sample.time).clamp(0.0, length);
+        let close = CLOSE * (sample.time + length);
         let at_end = length - offset <= close;
         let from = sample.ends[usize::from(at_end)];
-        displacement.copy_from_slice(from.displacement);
-        velocity.copy_from_slice(from.velocity);
-        let works = [from.input, from.viscous].map(sum);
-        let works = if at_end || offset <= close {
-            works
-        } else {
-            let part = self.kept((offset, close), (parts, oldest));
+        let (q, p) = (&mut place.displacement, &mut place.velocity);
+        q.copy_from_slice(from.displacement);
+        p.copy_from_slice(from.velocity);
+        place.works = (sum(from.input), sum(from.viscous));
+        place.ground = sample.ground.0 + sample.ground.1 * offset;
+        if !at_end && offset > close {
+            let part = self.kept((offset, close), kept);
             let ground = Ground {
                 start: sample.ground.0,
-                end: sample.ground.0 + sample.ground.1 * offset,
+                end: place.ground,
                 slope: sample.ground.1,
             };
-            let done = step_over(part, ground, displacement, velocity);
-            [works[0] + done.0, works[1] + done.1]
-        };
-        restoring(modes, displacement, velocity, absolute);
-        (works[0], works[1])
+            let done = step_over(part, ground, q, p);
+            place.works = (place.works.0 + done.0, place.works.1 + done.1);
+        }
+        restoring(&self.constants.modes, q, p, &mut place.absolute);
     }
 
-    fn series(&self, series: &Series, offset: f64, workspace: &mut Workspace) -> (f64, f64) {
-        let layout = Layout::of(self.system);
+    /// Motion of a series before its end; `cut` is space for a part of it.
+    fn series(&self, series: &Series, offset: f64, place: &mut Place, cut: &mut Series) {
         let theta = (offset / self.length).clamp(0.0, 1.0);
-        let cut = &mut workspace.series;
+        let modes = &self.constants.modes;
+        let (q, p, absolute) = (
+            &mut place.displacement,
+            &mut place.velocity,
+            &mut place.absolute,
+        );
+        place.works = (0.0, 0.0);
+        if !(theta > 0.0) {
+            series.start(q, p);
+            series.start_acceleration(modes, absolute);
+            for touch in &series.touches {
+                let (level, force) = (touch.level, touch.force[0]);
+                let work = 0.0;
+                place.contacts.push(ContactPlace { level, force, work });
+            }
+            return;
+        }
         cut.copy_from(series);
-        if theta < 1.0 && theta > 0.0 {
+        if theta < 1.0 {
             cut.shorten(theta);
         }
-        let modes = &self.constants.modes;
-        let mut works = (0.0, 0.0);
-        if theta > 0.0 {
-            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
-            cut.end(modes, q, p, &mut workspace.absolute);
-            let done = cut.works(modes);
-            works = (done.input, done.viscous);
-            cut.contact_works();
-        } else {
-            let (q, p) = (&mut workspace.displacement, &mut workspace.velocity);
-            cut.start(q, p);
-            cut.start_acceleration(modes, &mut workspace.absolute);
+        cut.end(modes, q, p, absolute);
+        let done = cut.works(modes);
+        place.works = (done.input, done.viscous);
+        cut.contact_works();
+        for touch in &cut.touches {
+            place.contacts.push(ContactPlace {
+                level: touch.level,
+                force: cut.at(&touch.force, 1.0).0,
+                work: touch.works.0,
+            });
         }
-        for touch in &workspace.series.touches {
-            if theta > 0.0 {
-                workspace.state[layout.work(touch.level)] += touch.works.0;
-                workspace.forces[touch.level] = workspace.series.at(&touch.force, 1.0).0;
-            } else {
-                workspace.forces[touch.level] = touch.force[0];
-            }
-        }
-        works
     }
 
+    /// Motion at the end of a step of the pair.
+    fn end_of_pair(&self, scene: &Scene<'_>, pair: &Pair, place: &mut Place) {
+        let [q, p, ..] = &pair.end.motion;
+        place.displacement.copy_from_slice(q);
+        place.velocity.copy_from_slice(p);
+        place.works = (pair.works.input, pair.works.viscous);
+        restoring(&self.constants.modes, q, p, &mut place.absolute);
+        let ends = pair.end.touches.iter().zip(&pair.contact_works);
+        for (touch, (end, (work, _))) in scene.touches.iter().zip(ends) {
+            let row = &self.rows.levels[touch.level];
+            row.add(-end.force, &mut place.absolute);
+            place.contacts.push(ContactPlace {
+                level: touch.level,
+                force: end.force,
+                work: *work,
+            });
+        }
+    }
+
+    /// Motion of the pair before the end of the step; the polynomials are space for those of the
+    /// modes.
     fn pair(
         &self,
         scene: &Scene<'_>,
         span: &Span<'_>,
         offset: f64,
-        workspace: &mut Workspace,
-    ) -> (f64, f64) {
-        let layout = Layout::of(self.system);
+        (place, polynomials): (&mut Place, &mut Polynomials),
+    ) {
+        polynomials.take(span);
         let theta = span.clock.place_of(offset);
+        let contacts = scene.touches.iter().map(|touch| ContactPlace {
+            level: touch.level,
+            force: 0.0,
+            work: 0.0,
+        });
+        place.contacts.extend(contacts);
         let (mut input, mut viscous) = (0.0, 0.0);
         // Works by Gauss's rule in the variable of the step.
         for (node, weight) in GAUSS {
-            let place = node * theta;
-            let time = weight * theta * span.clock.span() * span.clock.rate(place);
-            self.within(span, place, workspace);
-            let ground = scene.ground.0 + scene.ground.1 * span.clock.offset(place);
-            for (c, m) in self.constants.modes.iter().enumerate() {
+            let at = node * theta;
+            let time = weight * theta * span.clock.span() * span.clock.rate(at);
+            polynomials.at(at, place);
+            let ground = scene.ground.0 + scene.ground.1 * span.clock.offset(at);
+            for (p, m) in place.velocity.iter().zip(&self.constants.modes) {
                 for l in 0..WIDTH {
-                    let p = workspace.velocity[c][l];
-                    input -= time * m.participation[l] * ground * p;
-                    viscous += time * m.damping[l] * p * p;
+                    input -= time * m.participation[l] * ground * p[l];
+                    viscous += time * m.damping[l] * p[l] * p[l];
                 }
             }
-            for touch in scene.touches {
-                let (force, rate) = self.force(touch, workspace);
-                workspace.state[layout.work(touch.level)] += time * force * rate;
+            for (k, touch) in scene.touches.iter().enumerate() {
+                let (force, rate) = self.force(touch, place);
+                place.contacts[k].work += time * force * rate;
             }
         }
-        self.within(span, theta, workspace);
-        let (q, p) = (&workspace.displacement, &workspace.velocity);
-        restoring(&self.constants.modes, q, p, &mut workspace.absolute);
-        for touch in scene.touches {
-            let (force, _) = self.force(touch, workspace);
-            self.rows.levels[touch.level].add(-force, &mut workspace.absolute);
-            workspace.forces[touch.level] = force;
+        place.works = (input, viscous);
+        polynomials.at(theta, place);
+        let (q, p) = (&place.displacement, &place.velocity);
+        restoring(&self.constants.modes, q, p, &mut place.absolute);
+        for (k, touch) in scene.touches.iter().enumerate() {
+            let (force, _) = self.force(touch, place);
+            self.rows.levels[touch.level].add(-force, &mut place.absolute);
+            place.contacts[k].force = force;
         }
-        (input, viscous)
     }
 
-    /// Force (N) and rate of penetration (m/s) of a closed level at the motion in `workspace`.
-    fn force(&self, touch: &Touch, workspace: &Workspace) -> (f64, f64) {
+    /// Motion at an instant, with the forces of all closed levels by their laws.
+    fn instant(&self, [q, p]: [&[Lane]; 2], ground: f64, place: &mut Place) {
+        place.displacement.copy_from_slice(q);
+        place.velocity.copy_from_slice(p);
+        (place.works, place.ground) = ((0.0, 0.0), ground);
+        restoring(&self.constants.modes, q, p, &mut place.absolute);
+        for &level in self.contacts.closed() {
+            let Some(contact) = self.contacts.contact(level) else {
+                continue;
+            };
+            let width = self.contacts.width(level);
+            let contact = *contact;
+            let touch = Touch {
+                level,
+                contact,
+                width,
+            };
+            let (force, _) = self.force(&touch, place);
+            self.rows.levels[level].add(-force, &mut place.absolute);
+            let work = 0.0;
+            place.contacts.push(ContactPlace { level, force, work });
+        }
+    }
+
+    /// Force (N) and rate of penetration (m/s) of a closed level.
+    fn force(&self, touch: &Touch, place: &Place) -> (f64, f64) {
         let row = &self.rows.levels[touch.level];
-        let delta = row.dot(&workspace.displacement) - touch.width;
-        let rate = row.dot(&workspace.velocity);
+        let delta = row.dot(&place.displacement) - touch.width;
+        let rate = row.dot(&place.velocity);
         let level = &self.system.levels()[touch.level];
         (touch.contact.force(level, delta, rate).value, rate)
     }
@@ -474,23 +652,41 @@ impl ModalStep<'_> {
         });
         &parts[place].1
     }
+}
 
-    /// Displacements and velocities of the modes at `theta` of a step of the pair.
-    fn within(&self, span: &Span<'_>, theta: f64, workspace: &mut Workspace) {
-        for c in 0..self.constants.modes.len() {
+impl Polynomials {
+    /// Those of a step.
+    fn take(&mut self, span: &Span<'_>) {
+        for c in 0..self.displacement.len() {
             for l in 0..WIDTH {
                 let at = |motion: &[Vec<Lane>; 4]| -> [f64; 4] {
                     std::array::from_fn(|k| motion[k][c][l])
                 };
                 let (a, b) = (at(&span.start.motion), at(&span.end.motion));
-                workspace.displacement[c][l] = value(&span.displacement(a, b), theta);
-                workspace.velocity[c][l] = value(&span.velocity(a, b), theta);
+                self.displacement[c][l] = span.displacement(a, b);
+                self.velocity[c][l] = span.velocity(a, b);
             }
+        }
+    }
+
+    /// Displacements and velocities of the modes at `theta`.
+    fn at(&self, theta: f64, place: &mut Place) {
+        for (lane, polynomials) in place.displacement.iter_mut().zip(&self.displacement) {
+            *lane = Lane::from_fn(|l| value(&polynomials[l], theta));
+        }
+        for (lane, polynomials) in place.velocity.iter_mut().zip(&self.velocity) {
+            *lane = Lane::from_fn(|l| value(&polynomials[l], theta));
         }
     }
 }
 
 /// Sum over all lanes.
 fn sum(lanes: &[Lane]) -> f64 {
-    lanes.iter().flat_map(|l| l.0).sum()
+    let mut sum = 0.0;
+    for lane in lanes {
+        for l in 0..WIDTH {
+            sum += lane[l];
+        }
+    }
+    sum
 }

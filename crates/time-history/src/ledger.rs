@@ -22,17 +22,27 @@ pub(crate) fn energy(
 ) -> Energy {
     let n = layout.dofs;
     let (u, v) = (&state[..n], &state[n..2 * n]);
-    let stored: f64 = contacts
-        .closed()
-        .iter()
-        .map(|&l| stored_energy(system, contacts, l, u))
-        .sum();
     let (elastic, hysteretic) = contacts.elements.energy((system, layout), state, elapsed);
+    let stored = stored_energies(system, contacts, u);
+    let kinetic = system.kinetic_energy(v);
+    let strain = system.strain_energy(u) + stored + elastic;
+    balance(layout, state, (kinetic, strain, hysteretic), stored)
+}
+
+/// The ledger of works that stand in the state, and of kinetic energy, energy of strain and
+/// hysteresis; what contacts store counts as strain, not as impact.
+#[inline]
+pub(crate) fn balance(
+    layout: Layout,
+    state: &[f64],
+    (kinetic, strain, hysteretic): (f64, f64, f64),
+    stored: f64,
+) -> Energy {
     let work: f64 = (0..layout.levels).map(|l| state[layout.work(l)]).sum();
     let mut energy = Energy {
         input: state[layout.input()],
-        kinetic: system.kinetic_energy(v),
-        strain: system.strain_energy(u) + stored + elastic,
+        kinetic,
+        strain,
         viscous: state[layout.viscous()],
         hysteretic,
         impact: work - stored,
@@ -42,6 +52,13 @@ pub(crate) fn energy(
         energy.kinetic + energy.strain + energy.viscous + energy.hysteretic + energy.impact
             - energy.input;
     energy
+}
+
+/// Recoverable energy of all closed levels (J).
+#[inline]
+pub(crate) fn stored_energies(system: &System, contacts: &Contacts, u: &[f64]) -> f64 {
+    let closed = contacts.closed().iter();
+    closed.map(|l| stored_energy(system, contacts, *l, u)).sum()
 }
 
 /// Recoverable energy of one level (J).

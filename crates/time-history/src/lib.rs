@@ -28,6 +28,7 @@ mod propagation;
 mod rates;
 mod recorder;
 mod relative_displacement;
+mod response_row;
 mod small_solver;
 #[cfg(feature = "serde")]
 mod summary;
@@ -42,7 +43,7 @@ pub use estimate::{MAXIMUM_STEPS, StepEstimate, StepLimit, short};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
-pub use recorder::{GridRecorder, History, Recorder, Sample, SampleSink, StepView};
+pub use recorder::{GridRecorder, History, HistorySink, Recorder, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand};
 #[cfg(feature = "serde")]
 pub use summary::Summary;

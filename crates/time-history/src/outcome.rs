@@ -306,6 +306,59 @@ pub struct Energy {
     pub residual: f64,
 }
 
+/// A part of the energy ledger, as results name it.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct EnergyPart {
+    /// Name, that of the field.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub description: &'static str,
+    /// Its value (J).
+    pub value: fn(&Energy) -> f64,
+}
+
+impl Energy {
+    /// All parts of the ledger.
+    pub const PARTS: [EnergyPart; 7] = [
+        EnergyPart {
+            name: "input",
+            description: "work of the ground motion, relative formulation, and of forces",
+            value: |e| e.input,
+        },
+        EnergyPart {
+            name: "kinetic",
+            description: "kinetic energy relative to the ground",
+            value: |e| e.kinetic,
+        },
+        EnergyPart {
+            name: "strain",
+            description: "recoverable energy of storeys, links and contacts",
+            value: |e| e.strain,
+        },
+        EnergyPart {
+            name: "viscous",
+            description: "dissipated by viscous damping",
+            value: |e| e.viscous,
+        },
+        EnergyPart {
+            name: "hysteretic",
+            description: "dissipated by storeys with laws and by links",
+            value: |e| e.hysteretic,
+        },
+        EnergyPart {
+            name: "impact",
+            description: "dissipated in contacts",
+            value: |e| e.impact,
+        },
+        EnergyPart {
+            name: "residual",
+            description: "what the ledger misses",
+            value: |e| e.residual,
+        },
+    ];
+}
+
 /// The closed ledger of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -2,57 +2,16 @@
 
 use std::ops::Range;
 
-use crate::contact::Contacts;
 use crate::dense_output::{AT_ONCE, ModalStep, Workspace};
-use crate::dynamics::{Dynamics, Instant, Layout};
+use crate::dynamics::{Dynamics, Instant};
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::methods::{Context, Method};
 use crate::outcome::{Energy, Impact};
 use crate::polynomial::{Polynomial, difference, maximum_above, value};
+use crate::response_row::append_motion;
 use crate::system::{SectionPlace, System, Terms};
-use pounding_shear_building::ResponseKind;
-
-/// Responses at one time.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Sample {
-    /// Time (s).
-    pub time: f64,
-    /// Ground acceleration (m/s2).
-    pub ground_acceleration: f64,
-    /// Floor displacements relative to the ground (m), buildings from the left.
-    pub displacement: Vec<f64>,
-    /// Floor velocities relative to the ground (m/s).
-    pub velocity: Vec<f64>,
-    /// Absolute floor accelerations (m/s2).
-    pub acceleration_absolute: Vec<f64>,
-    /// Penetration of every contact level (m), negative while open.
-    pub penetration: Vec<f64>,
-    /// Contact force of every level (N), zero while open.
-    pub force: Vec<f64>,
-    /// Storey shears (N), of the law where a storey has one, else elastic; buildings
-    /// from the left.
-    pub storey_shear: Vec<f64>,
-    /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
-    /// the left.
-    pub base_moment: Vec<f64>,
-    /// Drift of every storey (m) of buildings whose drifts are not the differences of their
-    /// floors ([`pounding_shear_building::ShearBuilding::drifts`]), from the left.
-    pub drift: Vec<f64>,
-    /// Responses with names of all buildings, from the left
-    /// ([`pounding_shear_building::ShearBuilding::responses`]), then those of all contact levels
-    /// in the order in which they were added ([`System::add_level_response`]).
-    pub response: Vec<f64>,
-    /// Deformation of every element (m), in the order of [`System::elements`].
-    pub element_deformation: Vec<f64>,
-    /// Force of every element (N).
-    pub element_force: Vec<f64>,
-    /// Energy that every element has dissipated so far (J).
-    pub element_dissipated: Vec<f64>,
-    /// Energy ledger.
-    pub energy: Energy,
-}
 
 /// An accepted step, open to interpolation.
 pub struct StepView<'a, 'b, 'c> {
@@ -101,12 +60,12 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
         }
     }
 
-    /// End of the step (s).
+    /// End of the step (s). Times that are the end but for round-off count as the end.
     #[must_use]
     pub fn end(&self) -> f64 {
         match &self.source {
             Source::Method(step) => step.start() + step.step,
-            Source::Modes(step, _) => step.start + step.length,
+            Source::Modes(step, _) => step.end(),
         }
     }
 
@@ -116,22 +75,17 @@ impl<'a, 'b, 'c> StepView<'a, 'b, 'c> {
         self.last
     }
 
-    /// Responses at a time inside the step, by the method's interpolant;
-    /// accelerations and forces by the equations of motion there.
-    pub fn sample(&mut self, time: f64, out: &mut Sample) {
-        self.samples(&[time], std::slice::from_mut(out));
-    }
-
-    /// The same at several times, into as many samples: less work than one after another
-    /// where buildings are tall.
-    pub fn samples(&mut self, times: &[f64], out: &mut [Sample]) {
+    /// Appends responses at times inside the step, a row each, by the method's interpolant;
+    /// accelerations and forces by the equations of motion there. Several times at once are less
+    /// work than one after another where buildings are tall.
+    pub fn append(&mut self, times: &[f64], rows: &mut History) {
         match &mut self.source {
             Source::Method(step) => {
-                for (time, out) in times.iter().zip(out) {
-                    step.sample(*time, out);
+                for time in times {
+                    step.append(*time, rows);
                 }
             }
-            Source::Modes(step, workspace) => step.samples(times, workspace, out),
+            Source::Modes(step, workspace) => step.append(times, workspace, rows),
         }
     }
 
@@ -163,7 +117,7 @@ impl MethodStep<'_, '_, '_> {
         self.context.segment.start + self.tau
     }
 
-    fn sample(&mut self, time: f64, out: &mut Sample) {
+    fn append(&mut self, time: f64, rows: &mut History) {
         let offset = (time - self.start()).clamp(0.0, self.step);
         let theta = if self.step > 0.0 {
             offset / self.step
@@ -175,139 +129,83 @@ impl MethodStep<'_, '_, '_> {
         }
         let ground = self.context.segment.ground(self.tau + offset);
         let now = Instant::within(ground, self.method.information().implicit, offset);
-        fill_sample(self.context, time, now, self.state, out);
+        append_state(self.context, time, now, self.state, rows);
     }
 }
 
-/// Fills a sample from a full state.
-pub(crate) fn fill_sample(
+/// Appends the responses of a full state.
+pub(crate) fn append_state(
     context: &mut Context<'_, '_>,
     time: f64,
     now: Instant,
     state: &[f64],
-    out: &mut Sample,
+    rows: &mut History,
 ) {
     let Dynamics { system, layout, .. } = *context.dynamics;
-    let mut absolute = std::mem::take(&mut out.acceleration_absolute);
-    absolute.resize(layout.dofs, 0.0);
     let ground = now.ground;
+    let first = rows.acceleration_absolute.len();
+    let mut absolute = std::mem::take(&mut rows.acceleration_absolute);
+    absolute.resize(first + layout.dofs, 0.0);
+    let own = &mut absolute[first..];
     context
         .dynamics
-        .accelerations(context.contacts, now, state, &mut absolute);
-    for (i, a) in absolute.iter_mut().enumerate() {
+        .accelerations(context.contacts, now, state, own);
+    for (i, a) in own.iter_mut().enumerate() {
         *a += system.ground_on(i, ground);
     }
+    let response = rows.response.len();
     let motion = (state, context.dynamics.forces.as_slice());
-    fill(system, context.contacts, (time, ground.first), motion, out);
+    let place = (system, layout, context.contacts);
+    append_motion(place, (time, ground.first), motion, rows);
     for row in system.acceleration_rows() {
         let SectionPlace::Named(number) = row.place else {
             continue;
         };
-        out.response[number] = row.terms().map(|(i, w)| w * absolute[i]).sum();
+        rows.response[response + number] = row.terms().map(|(i, w)| w * own[i]).sum();
     }
-    absolute.truncate(system.floors());
-    out.acceleration_absolute = absolute;
+    absolute.truncate(first + system.floors());
+    rows.acceleration_absolute = absolute;
     if !system.elements().is_empty() {
-        elements(context, now.elapsed, state, out);
-        out.energy = ledger::energy(system, layout, context.contacts, state, now.elapsed);
+        append_elements(context, now.elapsed, state, rows);
     }
+    let energy = ledger::energy(system, layout, context.contacts, state, now.elapsed);
+    rows.energy.push(energy);
 }
 
-/// Fills a sample of linear buildings, but for accelerations, from a full state and the contact
-/// forces of all levels, of which those that are closed count.
-pub(crate) fn fill(
-    system: &System,
-    contacts: &Contacts,
-    (time, ground): (f64, f64),
-    (state, forces): (&[f64], &[f64]),
-    out: &mut Sample,
+/// Appends what elements do, and replaces shears of storeys that follow a law.
+fn append_elements(
+    context: &mut Context<'_, '_>,
+    elapsed: Option<f64>,
+    state: &[f64],
+    rows: &mut History,
 ) {
-    let layout = Layout::of(system);
-    let n = layout.dofs;
-    let (u, v) = (&state[..n], &state[n..2 * n]);
-    (out.time, out.ground_acceleration) = (time, ground);
-    out.displacement.clear();
-    out.displacement.extend_from_slice(&u[..system.floors()]);
-    out.velocity.clear();
-    out.velocity.extend_from_slice(&v[..system.floors()]);
-    out.penetration.clear();
-    let penetration = |l| contacts.penetration(system, l, u);
-    out.penetration.extend((0..layout.levels).map(penetration));
-    out.force.clear();
-    out.force.resize(layout.levels, 0.0);
-    for &l in contacts.closed() {
-        out.force[l] = forces[l];
-    }
-    out.storey_shear.clear();
-    out.base_moment.clear();
-    out.drift.clear();
-    out.response.clear();
-    out.response.resize(system.named_responses(), 0.0);
-    for row in system.level_rows() {
-        let sum: f64 = row.terms.iter().map(|(i, w)| w * u[*i]).sum();
-        out.response.push(sum + row.by_force * out.force[row.level]);
-    }
-    let mut sections = system.sections().iter();
-    for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
-        let mut below = 0.0;
-        if building.stiffness().is_empty() {
-            let shears = sections.by_ref().take(building.storeys());
-            out.storey_shear.extend(shears.map(|s| s.at(u)));
-            out.base_moment.extend(sections.next().map(|s| s.at(u)));
-            let rows = building.drifts().map_or(0, <[_]>::len);
-            let drifts = sections.by_ref().take(rows);
-            out.drift.extend(drifts.map(|s| s.at(u)));
-            let named = building.responses().iter();
-            let named = named
-                .filter(|r| r.kind == ResponseKind::Displacement)
-                .count();
-            for row in sections.by_ref().take(named) {
-                if let SectionPlace::Named(number) = row.place {
-                    out.response[number] = row.at(u);
-                }
-            }
-            continue;
-        }
-        for (k, u) in building.stiffness().iter().zip(&u[range[0]..range[1]]) {
-            out.storey_shear.push(k * (u - below));
-            below = *u;
-        }
-    }
-    if system.elements().is_empty() {
-        out.energy = ledger::energy(system, layout, contacts, state, None);
-    }
-}
-
-/// What elements do, and shears of storeys that follow a law.
-fn elements(context: &mut Context<'_, '_>, elapsed: Option<f64>, state: &[f64], out: &mut Sample) {
     let Dynamics { system, layout, .. } = *context.dynamics;
-    out.element_deformation.clear();
-    out.element_force.clear();
-    out.element_dissipated.clear();
+    let shear = rows.storey_shear.len() - system.floors();
     for (index, element) in system.elements().iter().enumerate() {
         let force = context
             .dynamics
             .element_force(context.contacts, index, state, elapsed);
         let memory = &context.contacts.elements;
         let (_, dissipated) = memory.energy_of(index, (system, layout), state, elapsed);
-        out.element_deformation.push(element.relative(state));
-        out.element_force.push(force);
-        out.element_dissipated.push(dissipated);
+        rows.element_deformation.push(element.relative(state));
+        rows.element_force.push(force);
+        rows.element_dissipated.push(dissipated);
         if let (ElementPlace::Storey { .. }, Some(dof)) = (element.place, element.far) {
-            out.storey_shear[dof] = force;
+            rows.storey_shear[shear + dof] = force;
         }
     }
 }
 
 /// A sink for responses.
 pub trait Recorder {
-    /// Called once with the state at time zero.
+    /// Called once with the responses at time zero, a single row.
     ///
     /// # Errors
     /// Whatever keeps the recorder from recording; it ends the run.
-    fn begin(&mut self, system: &System, start: &Sample) -> Result<(), TimeHistoryError>;
+    fn begin(&mut self, system: &System, start: &History) -> Result<(), TimeHistoryError>;
 
-    /// Time (s) up to which steps need not be shown: those that end before it are left out.
+    /// First time (s) at which the motion is wanted: steps that end before it are left out, but
+    /// for the last one of the run.
     fn next_time(&self) -> f64 {
         f64::NEG_INFINITY
     }
@@ -328,11 +226,24 @@ pub trait Recorder {
         let _ = impact;
         Ok(())
     }
+
+    /// Called once after the last step and the last impact, also of a run that failed.
+    ///
+    /// # Errors
+    /// Whatever keeps the recorder from recording; it is the error of a run that had none.
+    fn end(&mut self) -> Result<(), TimeHistoryError> {
+        Ok(())
+    }
+}
+
+/// Whether a recorder wants something of a step that ends at this time (s).
+pub(crate) fn wants(recorder: &dyn Recorder, end: f64, last: bool) -> bool {
+    last || recorder.next_time() <= end
 }
 
 /// Responses at many times: one list per quantity, row after row in order of time. A row of
 /// floors holds the buildings from the left, one of levels or elements their order in the
-/// [`System`]. Units are those of [`Sample`].
+/// [`System`].
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct History {
@@ -348,16 +259,19 @@ pub struct History {
     pub acceleration_absolute: Vec<f64>,
     /// Penetration of every contact level (m), negative while open.
     pub penetration: Vec<f64>,
-    /// Contact force of every level (N).
+    /// Contact force of every level (N), zero while open.
     pub force: Vec<f64>,
-    /// Storey shears (N).
+    /// Storey shears (N), of the law where a storey has one, else elastic.
     pub storey_shear: Vec<f64>,
     /// Overturning moment at the base (N m) of every building with a stiffness matrix, from
     /// the left.
     pub base_moment: Vec<f64>,
-    /// Drift of every storey (m) of buildings whose drifts are rows of their own.
+    /// Drift of every storey (m) of buildings whose drifts are not the differences of their
+    /// floors ([`pounding_shear_building::ShearBuilding::drifts`]), from the left.
     pub drift: Vec<f64>,
-    /// Responses with names of all buildings, then of all contact levels.
+    /// Responses with names of all buildings, from the left
+    /// ([`pounding_shear_building::ShearBuilding::responses`]), then those of all contact levels
+    /// in the order in which they were added ([`System::add_level_response`]).
     pub response: Vec<f64>,
     /// Deformation of every element (m).
     pub element_deformation: Vec<f64>,
@@ -382,9 +296,9 @@ impl History {
         self.time.is_empty()
     }
 
-    /// Removes all rows; what they took of memory is kept for others.
-    pub fn clear(&mut self) {
-        for list in [
+    /// All lists of numbers.
+    fn lists(&mut self) -> [&mut Vec<f64>; 14] {
+        [
             &mut self.time,
             &mut self.ground_acceleration,
             &mut self.displacement,
@@ -399,10 +313,37 @@ impl History {
             &mut self.element_deformation,
             &mut self.element_force,
             &mut self.element_dissipated,
-        ] {
+        ]
+    }
+
+    /// Removes all rows; what they took of memory is kept for others.
+    pub fn clear(&mut self) {
+        for list in self.lists() {
             list.clear();
         }
         self.energy.clear();
+    }
+
+    /// Moves all rows of another history behind these.
+    pub fn append(&mut self, other: &mut Self) {
+        for (list, rows) in self.lists().into_iter().zip(other.lists()) {
+            list.append(rows);
+        }
+        self.energy.append(&mut other.energy);
+    }
+
+    /// Bytes of its rows.
+    fn bytes(&mut self) -> usize {
+        let numbers: usize = self.lists().iter().map(|list| list.len()).sum();
+        numbers * size_of::<f64>() + self.energy.len() * size_of::<Energy>()
+    }
+
+    /// Makes room for so many times the rows that it has.
+    fn reserve(&mut self, times: usize) {
+        for list in self.lists() {
+            list.reserve_exact(times * list.len());
+        }
+        self.energy.reserve_exact(times * self.energy.len());
     }
 
     /// Some columns of one of the lists, row after row.
@@ -422,55 +363,34 @@ impl History {
     pub fn column(&self, values: &[f64], index: usize) -> Vec<f64> {
         self.columns(values, index..index + 1)
     }
-
-    /// Appends a row to every list.
-    pub fn push(&mut self, sample: &Sample) {
-        self.time.push(sample.time);
-        self.ground_acceleration.push(sample.ground_acceleration);
-        for (list, row) in [
-            (&mut self.displacement, &sample.displacement),
-            (&mut self.velocity, &sample.velocity),
-            (
-                &mut self.acceleration_absolute,
-                &sample.acceleration_absolute,
-            ),
-            (&mut self.penetration, &sample.penetration),
-            (&mut self.force, &sample.force),
-            (&mut self.storey_shear, &sample.storey_shear),
-            (&mut self.base_moment, &sample.base_moment),
-            (&mut self.drift, &sample.drift),
-            (&mut self.response, &sample.response),
-            (&mut self.element_deformation, &sample.element_deformation),
-            (&mut self.element_force, &sample.element_force),
-            (&mut self.element_dissipated, &sample.element_dissipated),
-        ] {
-            list.extend_from_slice(row);
-        }
-        self.energy.push(sample.energy);
-    }
 }
 
-/// What takes responses one after another, in order of time.
-pub trait SampleSink {
-    /// Takes the next one.
+/// What takes responses some rows at a time, in order of time.
+pub trait HistorySink {
+    /// Takes the next rows, at least one. What it leaves of them is dropped.
     ///
     /// # Errors
-    /// Whatever keeps the sink from taking it; it ends the run.
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError>;
+    /// Whatever keeps the sink from taking them; it ends the run.
+    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError>;
 }
 
-impl SampleSink for History {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        self.push(sample);
+impl HistorySink for History {
+    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
+        self.append(rows);
         Ok(())
     }
 }
 
-impl<S: SampleSink + ?Sized> SampleSink for &mut S {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        (**self).take(sample)
+impl<S: HistorySink + ?Sized> HistorySink for &mut S {
+    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
+        (**self).take(rows)
     }
 }
+
+/// Rows that a sink is given at once, at most, and their bytes. Numbers of rows are powers of two,
+/// so that blocks are whole chunks of a file.
+const BLOCK_ROWS: usize = 1024;
+const BLOCK_BYTES: usize = 4 << 20;
 
 /// Gives responses on an even grid of times, from zero to the end of the run, to a sink: to a
 /// [`History`] in memory, or to what writes them to a file.
@@ -479,10 +399,11 @@ pub struct GridRecorder<S = History> {
     step: f64,
     /// Responses taken.
     count: usize,
-    /// What takes them.
+    /// What takes them: of the last rows not before the run has ended.
     pub responses: S,
-    /// Work space for a few of them.
-    samples: [Sample; AT_ONCE],
+    /// Rows that it has not been given yet, and how many it is given at once.
+    block: History,
+    rows: usize,
 }
 
 impl GridRecorder {
@@ -495,7 +416,7 @@ impl GridRecorder {
     }
 }
 
-impl<S: SampleSink> GridRecorder<S> {
+impl<S: HistorySink> GridRecorder<S> {
     /// A recorder with this output step (s) into a sink.
     ///
     /// # Errors
@@ -506,7 +427,8 @@ impl<S: SampleSink> GridRecorder<S> {
                 step,
                 count: 0,
                 responses: sink,
-                samples: Default::default(),
+                block: History::default(),
+                rows: BLOCK_ROWS,
             })
         } else {
             Err(TimeHistoryError::Option {
@@ -516,17 +438,36 @@ impl<S: SampleSink> GridRecorder<S> {
             })
         }
     }
+
+    /// Gives the sink what it has not been given yet.
+    fn hand_over(&mut self) -> Result<(), TimeHistoryError> {
+        if self.block.is_empty() {
+            return Ok(());
+        }
+        let taken = self.responses.take(&mut self.block);
+        self.block.clear();
+        taken
+    }
 }
 
-impl<S: SampleSink> Recorder for GridRecorder<S> {
-    fn begin(&mut self, _system: &System, start: &Sample) -> Result<(), TimeHistoryError> {
+impl<S: HistorySink> Recorder for GridRecorder<S> {
+    fn begin(&mut self, _system: &System, start: &History) -> Result<(), TimeHistoryError> {
         self.count = 1;
-        self.responses.take(start)
+        self.block.append(&mut start.clone());
+        let bytes = self.block.bytes();
+        self.rows = BLOCK_ROWS;
+        while self.rows > 1 && self.rows * bytes > BLOCK_BYTES {
+            self.rows /= 2;
+        }
+        self.block.reserve(self.rows - 1);
+        if self.rows == 1 {
+            return self.hand_over();
+        }
+        Ok(())
     }
 
     fn next_time(&self) -> f64 {
-        // The end of the run is met but for round-off.
-        (self.count as f64 - 1.0e-9) * self.step
+        self.count as f64 * self.step
     }
 
     fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
@@ -539,18 +480,33 @@ impl<S: SampleSink> Recorder for GridRecorder<S> {
         };
         let end = step.end() + slack;
         loop {
-            let next = self.count;
-            let times: [f64; AT_ONCE] = std::array::from_fn(|k| (next + k) as f64 * self.step);
-            let within = times.iter().take_while(|time| !(**time > end)).count();
+            let room = (self.rows - self.block.len()).min(AT_ONCE);
+            let mut times = [0.0; AT_ONCE];
+            let mut within = 0;
+            while within < room {
+                let time = (self.count + within) as f64 * self.step;
+                // What is not a number is never reached.
+                if !(time <= end) {
+                    break;
+                }
+                times[within] = time;
+                within += 1;
+            }
             if within == 0 {
                 return Ok(());
             }
-            let samples = &mut self.samples[..within];
-            step.samples(&times[..within], samples);
+            step.append(&times[..within], &mut self.block);
             self.count += within;
-            for sample in samples {
-                self.responses.take(sample)?;
+            if self.block.len() == self.rows {
+                self.hand_over()?;
+            }
+            if within < room {
+                return Ok(());
             }
         }
+    }
+
+    fn end(&mut self) -> Result<(), TimeHistoryError> {
+        self.hand_over()
     }
 }

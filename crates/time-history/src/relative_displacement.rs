@@ -4,7 +4,7 @@ use crate::driver::run;
 use crate::error::TimeHistoryError;
 use crate::options::RunOptions;
 use crate::outcome::{Outcome, Peak};
-use crate::recorder::{Recorder, Sample, StepView};
+use crate::recorder::{History, Recorder, StepView};
 use crate::system::{System, Terms};
 
 /// Maximum approach of each pair of floors, left displacement minus right displacement
@@ -43,7 +43,7 @@ impl RelativeDisplacement {
 }
 
 impl Recorder for RelativeDisplacement {
-    fn begin(&mut self, _system: &System, _start: &Sample) -> Result<(), TimeHistoryError> {
+    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
         let at = |floor: Option<usize>| floor.map_or(0.0, |i| self.start[i]);
         for ((left, right, terms), peak) in self.pairs.iter().zip(&mut self.peaks) {
             let further = terms.sum_of(|i| self.start[i]);

@@ -9,7 +9,7 @@ use pounding_files::FileUse;
 use pounding_report::pictures::run::Responses;
 use pounding_results::{RunEnding, RunHead, RunWriter};
 use pounding_time_history::{
-    GridRecorder, Outcome, Recorder, SampleSink, Summary, TimeHistoryError, run as integrate,
+    GridRecorder, HistorySink, Outcome, Recorder, Summary, TimeHistoryError, run as integrate,
 };
 
 use crate::arguments::RunArguments;
@@ -112,7 +112,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
 }
 
 /// A recorder on the grid of the case for a sink, if there is one.
-fn recorder<S: SampleSink>(
+fn recorder<S: HistorySink>(
     assembly: &Assembly,
     sink: Option<S>,
 ) -> Result<Option<GridRecorder<S>>, TimeHistoryError> {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use pounding_time_history::{Impact, Recorder, Sample, StepView, System, TimeHistoryError};
+use pounding_time_history::{History, Impact, Recorder, StepView, System, TimeHistoryError};
 use web_time::Instant;
 
 use crate::limits::PATIENCE;
@@ -48,7 +48,7 @@ impl Deadline {
 }
 
 impl Recorder for Deadline {
-    fn begin(&mut self, _system: &System, _start: &Sample) -> Result<(), TimeHistoryError> {
+    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
         self.is_over();
         self.checked()
     }

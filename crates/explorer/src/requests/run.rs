@@ -154,15 +154,6 @@ fn impacts(answer: &mut Answer, system: &System, impacts: &[Impact]) {
 
 /// Responses on a grid of times, row after row.
 fn motion(answer: &mut Answer, history: &History) {
-    type Pick = fn(&Energy) -> f64;
-    let energies: [(&str, Pick); 6] = [
-        ("input", |e| e.input),
-        ("kinetic", |e| e.kinetic),
-        ("strain", |e| e.strain),
-        ("viscous", |e| e.viscous),
-        ("hysteretic", |e| e.hysteretic),
-        ("impact", |e| e.impact),
-    ];
     let columns = [
         ("time", &history.time),
         ("ground_acceleration", &history.ground_acceleration),
@@ -173,7 +164,8 @@ fn motion(answer: &mut Answer, history: &History) {
     for (name, values) in columns {
         answer.add_column(name, values.iter().copied());
     }
-    for (name, part) in energies {
-        answer.add_column(&format!("energy_{name}"), history.energy.iter().map(part));
+    for part in Energy::PARTS.iter().filter(|p| p.name != "residual") {
+        let values = history.energy.iter().map(part.value);
+        answer.add_column(&format!("energy_{}", part.name), values);
     }
 }

@@ -293,7 +293,9 @@ impl Header {
             .into_iter()
             .collect();
         let place = self.peak_places.number(k).map(|((place, _), _)| place);
-        let time = place.zip(step).map(|(place, step)| ((place - 1.0) * step, 0.0));
+        let time = place
+            .zip(step)
+            .map(|(place, step)| ((place - 1.0) * step, 0.0));
         draft.peak = self.peaks.number(k).map(|(value, line)| DraftPeak {
             value,
             time: time.filter(|(time, _)| *time >= 0.0),
@@ -415,9 +417,8 @@ impl Header {
     ) -> Result<(), GroundMotionError> {
         if let Some((words, line)) = &self.column_numbers {
             let number = |word: &String| number::first_in(word).map(|n| n.0.abs());
-            let in_order = |(k, word): (usize, &String)| {
-                number(word).is_none_or(|n| n == (k + 1) as f64)
-            };
+            let in_order =
+                |(k, word): (usize, &String)| number(word).is_none_or(|n| n == (k + 1) as f64);
             if !words.iter().enumerate().all(in_order) {
                 let message = format!(
                     "the columns are {} here, not in the order of the channels in the header",

@@ -1,6 +1,6 @@
 //! Runs.
 
-use pounding_time_history::{Sample, SampleSink, System, TimeHistoryError};
+use pounding_time_history::{History, HistorySink, System, TimeHistoryError};
 
 use super::panel;
 use crate::chart::Chart;
@@ -145,14 +145,21 @@ fn drawn(system: &System) -> impl Iterator<Item = usize> {
     gaps.map(|g| g.first_level + g.levels - 1)
 }
 
-impl SampleSink for Responses<'_> {
-    fn take(&mut self, sample: &Sample) -> Result<(), TimeHistoryError> {
-        let ends = &self.system.offsets()[1..];
+impl HistorySink for Responses<'_> {
+    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
+        let (system, times) = (self.system, &rows.time);
+        let ends = &system.offsets()[1..];
         for (curve, end) in self.roofs.iter_mut().zip(ends) {
-            curve.push((sample.time, 1e3 * sample.displacement[end - 1]));
+            let row = rows.displacement.chunks_exact(system.floors());
+            for (time, row) in times.iter().zip(row) {
+                curve.push((*time, 1e3 * row[end - 1]));
+            }
         }
-        for (curve, level) in self.forces.iter_mut().zip(drawn(self.system)) {
-            curve.push((sample.time, 1e-3 * sample.force[level]));
+        for (curve, level) in self.forces.iter_mut().zip(drawn(system)) {
+            let row = rows.force.chunks_exact(system.levels().len());
+            for (time, row) in times.iter().zip(row) {
+                curve.push((*time, 1e-3 * row[level]));
+            }
         }
         Ok(())
     }

@@ -19,9 +19,7 @@ use std::path::{Path, PathBuf};
 use hdf5::Group;
 use pounding_files::{PartFile, checksum};
 use pounding_ground_motion::Accelerogram;
-use pounding_time_history::{
-    Energy, History, Outcome, Sample, SampleSink, System, TimeHistoryError,
-};
+use pounding_time_history::{Energy, History, HistorySink, Outcome, System, TimeHistoryError};
 use sha2::{Digest, Sha256};
 
 use crate::attributes::{self, text};
@@ -82,7 +80,7 @@ impl WriteError {
 
 type Result<T> = hdf5::Result<T>;
 
-/// Writes the result of a run: responses while it goes on, as the [`SampleSink`] of a
+/// Writes the result of a run: responses while it goes on, as the [`HistorySink`] of a
 /// [`GridRecorder`](pounding_time_history::GridRecorder), all else at its end.
 ///
 /// Dropped before [`finish`](Self::finish), it leaves nothing behind, and what stood under
@@ -119,7 +117,7 @@ impl<'a> RunWriter<'a> {
         })
     }
 
-    /// What kept a sample from being written, and so ended the run.
+    /// What kept responses from being written, and so ended the run.
     #[must_use]
     pub fn failure(&self) -> Option<WriteError> {
         let reason = self.failure.clone()?;
@@ -166,10 +164,9 @@ impl<'a> RunWriter<'a> {
     }
 }
 
-impl SampleSink for RunWriter<'_> {
-    fn take(&mut self, sample: &Sample) -> std::result::Result<(), TimeHistoryError> {
-        self.tables.block.push(sample);
-        self.tables.write_if_full().map_err(|e| {
+impl HistorySink for RunWriter<'_> {
+    fn take(&mut self, rows: &mut History) -> std::result::Result<(), TimeHistoryError> {
+        self.tables.take(rows).map_err(|e| {
             let failure = self.failure.insert(reason_of(&e));
             TimeHistoryError::Recorder(failure.clone())
         })
@@ -222,32 +219,9 @@ fn begin_in(file: &hdf5::File, head: &RunHead<'_>) -> Result<Tables> {
     elements::begin_links(file, system, &mut tables, &time)?;
     let energy = file.create_group("energy")?;
     share_time(&energy)?;
-    type Pick = fn(&Energy) -> f64;
-    let parts: [(&str, &str, Pick); 7] = [
-        (
-            "input",
-            "work of the ground motion, relative formulation, and of forces",
-            |e| e.input,
-        ),
-        ("kinetic", "kinetic energy relative to the ground", |e| {
-            e.kinetic
-        }),
-        (
-            "strain",
-            "recoverable energy of storeys, links and contacts",
-            |e| e.strain,
-        ),
-        ("viscous", "dissipated by viscous damping", |e| e.viscous),
-        (
-            "hysteretic",
-            "dissipated by storeys with laws and by links",
-            |e| e.hysteretic,
-        ),
-        ("impact", "dissipated in contacts", |e| e.impact),
-        ("residual", "what the ledger misses", |e| e.residual),
-    ];
-    for (name, long_name, part) in parts {
-        let data = tables.add(&energy, (name, "J", long_name), Content::Energy(part))?;
+    for part in Energy::PARTS {
+        let names = (part.name, "J", part.description);
+        let data = tables.add(&energy, names, Content::Energy(part.value))?;
         dimension_scales::attach(&data, &time, 0)?;
     }
     Ok(tables)

@@ -46,7 +46,7 @@ struct Table {
 /// The datasets, and the block of rows that is written next.
 pub(super) struct Tables {
     all: Vec<Table>,
-    pub(super) block: History,
+    block: History,
     /// Rows of a block; chunks divide it.
     rows: usize,
     written: usize,
@@ -88,8 +88,12 @@ impl Tables {
         Ok(handle)
     }
 
-    /// Writes the block when it is full.
-    pub(super) fn write_if_full(&mut self) -> Result<()> {
+    /// Takes rows: whole blocks are written at once, others when a block is full.
+    pub(super) fn take(&mut self, rows: &mut History) -> Result<()> {
+        if self.block.is_empty() && rows.len().is_multiple_of(self.rows) {
+            return self.write_rows(rows);
+        }
+        self.block.append(rows);
         if self.block.len() < self.rows {
             return Ok(());
         }

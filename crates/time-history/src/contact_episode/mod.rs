@@ -32,7 +32,7 @@ pub(crate) use peaks::{
 pub(crate) use reach::NEAR;
 pub(crate) use rows::{FloorRows, LevelRows, ModalRow, closings, stored};
 pub(crate) use search::{in_series, in_span, soon_after};
-pub(crate) use series::{Series, SeriesStep};
+pub(crate) use series::{Series, SeriesEnd, SeriesStep, Works};
 pub(crate) use span::Span;
 pub(crate) use step_length::{Proposal, StepLength};
 pub(crate) use touch::{Touch, are_affine, are_powers, list, refresh};

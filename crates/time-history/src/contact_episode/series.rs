@@ -49,6 +49,16 @@ pub(crate) struct Works {
     pub viscous: f64,
 }
 
+/// The motion at the end of a step, and the works over it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeriesEnd<'a> {
+    pub displacement: &'a [Lane],
+    pub velocity: &'a [Lane],
+    /// Absolute accelerations.
+    pub absolute: &'a [Lane],
+    pub works: Works,
+}
+
 /// Terms of the series over a step, in theta = time over step.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {

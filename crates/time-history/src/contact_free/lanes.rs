@@ -445,7 +445,14 @@ pub(crate) fn balance(
     "aarch64+neon"
 ))]
 pub(crate) fn restoring(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
-    for (c, m) in modes.iter().enumerate() {
+    restore(modes, q, p, out);
+}
+
+#[inline(always)]
+pub(super) fn restore(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
+    let count = modes.len().min(out.len());
+    let (q, p, out) = (&q[..count], &p[..count], &mut out[..count]);
+    for (c, m) in modes[..count].iter().enumerate() {
         for l in 0..WIDTH {
             let omega = m.circular_frequency[l];
             out[c][l] = -(m.damping[l] * p[c][l] + omega * omega * q[c][l]);

@@ -32,4 +32,6 @@ pub(crate) use lanes::{
 };
 pub(crate) use part::{put_part, take_part};
 pub(crate) use phase::{BlockMotion, ContactFreePhase, EnergyAccounts, SampleMotion, SampleRange};
-pub(crate) use transform::{Four, to_floors, transform, transform_fours};
+pub(crate) use transform::{
+    Floors, Four, STRIP, to_floors, transform, transform_fours, transform_free, transform_three,
+};

@@ -80,12 +80,32 @@ impl<'a> BlockMotion<'a> {
         }
     }
 
-    /// The sample that holds a time (s).
-    pub(crate) fn sample_at(&self, time: f64) -> SampleMotion<'a> {
+    /// The motion at a time (s) if that is the end of a sample but for `close` (s), with the
+    /// ground acceleration (m/s2) then.
+    pub(crate) fn at_end_of_sample(&self, time: f64, close: f64) -> Option<(ModalState<'a>, f64)> {
+        // Signed numbers become floating-point ones in one instruction.
+        let ended = (time / self.step + 0.5) as i64;
+        let number = usize::try_from(ended - self.first as i64).ok()?;
+        let end = (ended - 1) as f64 * self.step + self.step;
+        if (end - time).abs() > close || number == 0 || number > self.len() {
+            return None;
+        }
+        Some((self.block.motion_after(number)?, self.ground[number]))
+    }
+
+    /// Number of the sample that holds a time (s): at an instant between two, that before it.
+    pub(crate) fn number_at(&self, time: f64) -> usize {
         let end = |number: usize| (self.first + number) as f64 * self.step + self.step;
         let last = self.len() - 1;
-        let number = (0..last).find(|k| time <= end(*k)).unwrap_or(last);
-        self.sample(number)
+        let guess = (time / self.step) as usize;
+        let mut number = guess.saturating_sub(self.first).min(last);
+        while number > 0 && time <= end(number - 1) {
+            number -= 1;
+        }
+        while number < last && time > end(number) {
+            number += 1;
+        }
+        number
     }
 
     /// What the displacement of every floor may exceed its values at samples by (m).

@@ -2,7 +2,8 @@
 
 use multiversion::multiversion;
 
-use super::lanes::{Lane, Shapes, WIDTH, at};
+use super::block::Rows;
+use super::lanes::{Lane, ModeLanes, Shapes, WIDTH, at, restore};
 
 /// Floors from modes: `u = Phi q`.
 #[multiversion(targets(
@@ -147,6 +148,64 @@ pub(super) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -
     sum
 }
 
+/// Displacements, velocities and accelerations of floors, eight after eight.
+pub(crate) type Floors = [Vec<f64>; 3];
+
+/// Three transformations in one pass, each with the bits of [`transform`].
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn transform_three(rows: &[Rows], modal: [&[Lane]; 3], floors: &mut Floors) {
+    three(rows, modal, floors);
+}
+
+/// The same of displacements and velocities of the modes without contact, with the accelerations
+/// that follow from them: they are left in `absolute`.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn transform_free(
+    (modes, rows): (&[ModeLanes], &[Rows]),
+    [q, p]: [&[Lane]; 2],
+    absolute: &mut [Lane],
+    floors: &mut Floors,
+) {
+    restore(modes, q, p, absolute);
+    three(rows, [q, p, absolute], floors);
+}
+
+#[inline(always)]
+fn three(rows: &[Rows], modal: [&[Lane]; 3], [u, v, w]: &mut Floors) {
+    let out = u.as_chunks_mut::<WIDTH>().0.iter_mut();
+    let out = out.zip(v.as_chunks_mut::<WIDTH>().0);
+    let out = out.zip(w.as_chunks_mut::<WIDTH>().0);
+    for (row, ((u, v), w)) in rows.iter().zip(out) {
+        let mut sums = [Lane::ZERO; 3];
+        let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
+        let mut columns = row.columns.as_slice();
+        while !columns.is_empty() {
+            let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
+            let modes = modal.map(|modal| &modal[lane].0[place..]);
+            for (j, column) in now.iter().enumerate() {
+                for q in 0..3 {
+                    let x = modes[q][j];
+                    for l in 0..WIDTH {
+                        sums[q][l] += column[l] * x;
+                    }
+                }
+            }
+            (columns, lane, place) = (later, lane + 1, 0);
+        }
+        (*u, *v, *w) = (sums[0].0, sums[1].0, sums[2].0);
+    }
+}
+
 /// Four transformations that have their lanes of floors in common.
 pub(crate) struct Four<'a> {
     pub modal: [&'a [Lane]; 4],
@@ -159,7 +218,7 @@ pub(crate) struct Four<'a> {
 const FOURS: usize = 4;
 /// Modes that all floors take before the next ones: their columns then stay in the cache
 /// until all fours have them.
-const STRIP: usize = 64;
+pub(crate) const STRIP: usize = 64;
 
 /// Modal values of a strip, four after four for every mode.
 type Packed = [[[f64; 4]; FOURS]; STRIP];

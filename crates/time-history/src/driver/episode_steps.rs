@@ -3,8 +3,8 @@
 use super::contact_episode::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
 use crate::contact_episode::{
-    Clock, NEAR, Pair, Proposal, Scene, Series, SeriesStep, Span, StepLength, begin_acceleration,
-    closings, in_series, in_span, note_floors_of_series, note_floors_of_span,
+    Clock, NEAR, Pair, Proposal, Scene, Series, SeriesEnd, SeriesStep, Span, StepLength, Works,
+    begin_acceleration, closings, in_series, in_span, note_floors_of_series, note_floors_of_span,
     note_sections_of_series, note_sections_of_span, soon_after,
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
@@ -106,7 +106,16 @@ impl Driver<'_> {
                 closings(&e.rows, &e.levels, q, &mut e.closings);
             }
         }
+        let works = e.series.works(modes);
+        e.series.contact_works();
         if !observers.is_empty() {
+            let [displacement, velocity, ..] = &e.pair.end.motion;
+            let end = SeriesEnd {
+                displacement,
+                velocity,
+                absolute: &e.absolute,
+                works,
+            };
             observers.show(&ModalStep {
                 system: self.system,
                 constants,
@@ -115,10 +124,10 @@ impl Driver<'_> {
                 state: &self.state,
                 start,
                 length: step,
-                motion: Motion::Series(&e.series),
+                motion: Motion::Series(&e.series, end),
             })?;
         }
-        self.note_series(open, start);
+        self.note_series(open, start, works);
         let e = &mut open.contact_episode;
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         e.derived = false;
@@ -129,14 +138,13 @@ impl Driver<'_> {
     }
 
     /// Takes works and peaks of the series as it now is, from its start (s) on.
-    fn note_series(&mut self, open: &mut Open<'_>, start: f64) {
+    fn note_series(&mut self, open: &mut Open<'_>, start: f64, works: Works) {
         let Open {
             constants,
             phase,
             contact_episode: e,
         } = open;
         let constants: &ContactFree = constants;
-        let works = e.series.works(&constants.modes);
         let layout = self.dynamics.layout;
         self.state[layout.input()] += works.input;
         self.state[layout.viscous()] += works.viscous;
@@ -151,7 +159,6 @@ impl Driver<'_> {
         let end = &e.pair.end.motion[0];
         note_sections_of_series(sections, &e.series, end, phase.sections(), start);
         phase.acceleration_known = true;
-        e.series.contact_works();
         for touch in &e.series.touches {
             let (work, impulse) = touch.works;
             self.state[layout.work(touch.level)] += work;
@@ -238,7 +245,7 @@ impl Driver<'_> {
                 state: &self.state,
                 start,
                 length: step,
-                motion: Motion::Pair(&scene, &span),
+                motion: Motion::Pair(&scene, &span, &e.pair),
             })?;
         }
         note_floors_of_span(&scene, &span, &mut e.rates, &mut phase.tracks(), start);

@@ -12,7 +12,7 @@ use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::methods::Context;
 use crate::propagation::{ContactSeries, HALVINGS, Propagation};
-use crate::recorder::Recorder;
+use crate::recorder::{Recorder, wants};
 use crate::system::System;
 
 /// How often a series is halved before the step is left to the method.
@@ -369,7 +369,7 @@ impl Driver<'_> {
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<(), TimeHistoryError> {
         let end = segment.start + to;
-        if !recorders.iter().any(|r| r.next_time() <= end) {
+        if !recorders.iter().any(|r| wants(&**r, end, last)) {
             return Ok(());
         }
         exact.saved.clone_from(&self.state);

@@ -30,7 +30,7 @@ use crate::methods::{Context, Method, Verdict};
 use crate::options::RunOptions;
 use crate::outcome::{Ledger, Outcome, Statistics};
 use crate::peaks::Peaks;
-use crate::recorder::{MethodStep, Recorder, Sample, StepView, fill_sample};
+use crate::recorder::{History as Responses, MethodStep, Recorder, StepView, append_state, wants};
 use crate::relative_displacement::RelativeDisplacement;
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
@@ -106,6 +106,17 @@ fn integrate(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome, TimeHistoryError> {
     let duration = options.check(system)?;
+    let outcome = follow(system, (options, duration), recorders, progress);
+    let ended = recorders.iter_mut().try_for_each(|r| r.end());
+    outcome.and_then(|outcome| ended.map(|()| outcome))
+}
+
+fn follow(
+    system: &System,
+    (options, duration): (&RunOptions, f64),
+    recorders: &mut [&mut dyn Recorder],
+    progress: &mut dyn FnMut(f64),
+) -> Result<Outcome, TimeHistoryError> {
     let mut driver = Driver::new(system, options);
     let mut observers = Observers::new(system, recorders, duration);
     driver.begin(observers.recorders)?;
@@ -274,11 +285,11 @@ impl<'a> Driver<'a> {
             segment: &segment,
         };
         self.peaks.begin(&mut context, &self.state);
-        let mut sample = Sample::default();
+        let mut start = Responses::default();
         let now = Instant::committed(ground);
-        fill_sample(&mut context, 0.0, now, &self.state, &mut sample);
+        append_state(&mut context, 0.0, now, &self.state, &mut start);
         for recorder in recorders {
-            recorder.begin(self.system, &sample)?;
+            recorder.begin(self.system, &start)?;
         }
         Ok(())
     }
@@ -460,7 +471,7 @@ impl<'a> Driver<'a> {
             segment,
         };
         let end = segment.start + tau + step;
-        for recorder in recorders.iter_mut().filter(|r| r.next_time() <= end) {
+        for recorder in recorders.iter_mut().filter(|r| wants(&***r, end, last)) {
             let step = MethodStep {
                 context: &mut context,
                 method: self.method.as_ref(),

@@ -18,7 +18,7 @@ use crate::contact_episode::{StepLength, stored};
 use crate::contact_free::{
     ContactFree, ContactFreePhase, FreeSample, SampleRange, Track, WIDTH, put_part, take_part,
 };
-use crate::dense_output::Observers;
+use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::impacts::{LevelMark, LogMark};
@@ -355,7 +355,8 @@ impl Driver<'_> {
             parts.acceleration_known.fill(open.phase.acceleration_known);
             parts.whole = false;
         }
-        if observers.want(segment.start + segment.length) {
+        let end = segment.start + segment.length;
+        if observers.want_before(end) {
             self.show_whole(parts, open, segment, observers)?;
             shown = true;
             let [q, p, ..] = &open.contact_episode.pair.start.motion;
@@ -364,7 +365,8 @@ impl Driver<'_> {
         }
         loop {
             self.mark(parts);
-            let done = self.follow_parts(parts, open, segment);
+            // Floors that stick are left to the step of all buildings.
+            let done = self.follow_parts(parts, open, segment) && !self.contacts.any_stuck();
             let widths = |l: usize| self.contacts.width(l);
             if done && !parts.join_what_met(&open.phase, system, widths) {
                 break;
@@ -376,6 +378,19 @@ impl Driver<'_> {
         }
         self.forget_marks();
         self.join_parts(parts, open, (sample, to));
+        if !shown && !observers.is_empty() {
+            let now = &open.phase.now;
+            observers.show(&ModalStep {
+                system,
+                constants: &open.constants,
+                rows: &open.contact_episode.rows,
+                contacts: &self.contacts,
+                state: &self.state,
+                start: end,
+                length: 0.0,
+                motion: Motion::Instant([&now.displacement, &now.velocity], ends.1),
+            })?;
+        }
         Ok(Sample::ByParts)
     }
 
@@ -410,7 +425,7 @@ impl Driver<'_> {
     }
 
     /// Shows observers the sample as all buildings together take it, and goes back to its
-    /// start.
+    /// start: parts have no steps in common that could be shown, but for their ends.
     fn show_whole(
         &mut self,
         parts: &mut Parts,

@@ -697,6 +697,11 @@ impl System {
         sum
     }
 
+    /// Stiffness of the storey below every floor, with that of gravity (N/m).
+    pub(crate) fn springs(&self) -> &[f64] {
+        &self.spring
+    }
+
     /// Kinetic energy relative to the ground (J).
     pub(crate) fn kinetic_energy(&self, v: &[f64]) -> f64 {
         let mass = &self.mass[..self.with_mass()];

@@ -337,19 +337,16 @@ impl Candidates {
             end,
             slope: (end - start) / constants.step,
         };
-        // What tall buildings put off was bounded as well as this already.
-        if self.tall.is_none() {
-            self.bound.take(constants, &self.scratch, whole);
-            for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
-                let (quantity, floor) = (candidate.quantity, candidate.floor);
-                let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
-                if self.bound.is_below(constants, (quantity, floor), peak) {
-                    candidate.upper = f64::NEG_INFINITY;
-                }
+        self.bound.take(constants, &self.scratch, whole);
+        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+            let (quantity, floor) = (candidate.quantity, candidate.floor);
+            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+            if self.bound.is_below(constants, (quantity, floor), peak) {
+                candidate.upper = f64::NEG_INFINITY;
             }
-            if !group.iter().any(|c| is_above(c, tracks)) {
-                return;
-            }
+        }
+        if !group.iter().any(|c| is_above(c, tracks)) {
+            return;
         }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));

@@ -583,7 +583,7 @@ mod tests {
     /// Two towers of these storeys with storeys of random mass and stiffness. Where `ratio` is
     /// one, all modes have the same damping ratio, so that its matrix is full.
     fn towers(storeys: [usize; 2], seed: f64, ratio: bool, gap: f64, samples: usize) -> System {
-        let vary = |i: usize, k: usize| (seed + 12.9898 * i as f64 + 78.233 * k as f64).sin();
+        let vary = |i: usize, k: usize| libm::sin(seed + 12.9898 * i as f64 + 78.233 * k as f64);
         let building = |b: usize, count: usize| {
             let mass = (0..count).map(|i| 3.0e5 * (1.0 + 0.3 * vary(i, b)));
             let stiffness = (0..count).map(|i| 6.0e8 * (1.0 + 0.4 * vary(i, b + 2)));
@@ -606,7 +606,7 @@ mod tests {
             let t = STEP * s as f64;
             let waves = (1..=12).map(|k| {
                 let frequency = 2.3 * f64::from(k) * (1.0 + 0.1 * vary(k as usize, 7));
-                (frequency * t + 6.0 * vary(k as usize, 9)).sin()
+                libm::sin(frequency * t + 6.0 * vary(k as usize, 9))
             });
             let swell = (STEP * (samples - s) as f64).min(t).min(1.0);
             swell * waves.sum::<f64>()

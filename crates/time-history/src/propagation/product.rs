@@ -224,8 +224,8 @@ mod tests {
     #[test]
     fn blocks_of_rows_give_the_bits_of_columns() {
         for rows in [1, 4, 7, 12, 29, 64, 83] {
-            let entry = |i: usize, j: usize| ((i * 7 + j * 3) as f64).sin();
-            let x: Vec<f64> = (0..9).map(|j| (j as f64).cos()).collect();
+            let entry = |i: usize, j: usize| libm::sin((i * 7 + j * 3) as f64);
+            let x: Vec<f64> = (0..9).map(|j| libm::cos(j as f64)).collect();
             let columns = (0..9).flat_map(|j| (0..rows).map(move |i| entry(i, j)));
             let mut by_columns = vec![1.0; padded(rows)];
             multiply(&pad(rows, columns), padded(rows), &x, &mut by_columns);

@@ -495,7 +495,7 @@ fn rules_of_the_reader() {
         let provisions = check["gaps"][0]["provisions"].as_array().unwrap().iter();
         let theirs = provisions
             .filter(|p| p["name"] == name.as_str())
-            .last()
+            .next_back()
             .unwrap();
         let levels = theirs["records"][0]["levels"].as_array().unwrap();
         let widest = levels

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use std::ops::Range;
 
-use super::product::{RowBlocks, dots, multiply, pad, padded};
+use super::product::{RowBlocks, multiply, pad, padded, product_and_squares};
 use super::whole_interval::{Courses, OfLength, WholeInterval};
 use super::{BOUNDED, Ends, HALVINGS};
 use crate::dynamics::Segment;
@@ -292,7 +292,7 @@ impl Building {
             f64::from(u8::from(i == j)) + if slope { length } else { 0.0 }
         });
         let masses = self.masses();
-        let squared = [(2, true), (FIRST, false), (4, true), (FIRST + 1, false)];
+        let squared = [[(2, true), (FIRST, false)], [(4, true), (FIRST + 1, false)]];
         let others = DMatrix::from_fn(2 * loads + columns + 4 * n, columns, |row, column| {
             if row < 2 * loads {
                 let first = if row % 2 == 0 { 0 } else { 2 * n };
@@ -303,8 +303,10 @@ impl Building {
             if row < columns {
                 return led(3 * n + row, column);
             }
-            let (block, i) = ((row - columns) / n, (row - columns) % n);
-            let (place, by_mass) = squared[block];
+            // Two rows of the one bound and two of the other, in turn: so they are summed.
+            let (pair, lane) = ((row - columns) / 4, (row - columns) % 4);
+            let (block, i) = ((2 * pair + lane % 2) / n, (2 * pair + lane % 2) % n);
+            let (place, by_mass) = squared[lane / 2][block];
             let root = if by_mass { self.mass[i].sqrt() } else { 1.0 };
             root * derive[(place * n + i, column)]
         });
@@ -348,8 +350,7 @@ impl Building {
             ends.input -= now[at] * b - before[at] * a - slope * now[at + 1];
         }
         let (form, squared) = now[2 * (n + loads)..].split_at(columns);
-        let (fourth, sixth) = squared[..4 * n].split_at(2 * n);
-        let [work, fourth, sixth] = dots([(form, &self.start), (fourth, fourth), (sixth, sixth)]);
+        let (work, [fourth, sixth]) = product_and_squares((form, &self.start), &squared[..4 * n]);
         ends.viscous += work;
         ends.bounds[index][4] = fourth.sqrt();
         ends.bounds[index][6] = sixth.sqrt();

@@ -188,19 +188,15 @@ fn add_columns<'a, const ROWS: usize>(
     rest
 }
 
-/// Products of vectors, in sums that do not wait for each other.
+/// The product of two vectors, and sums of squares of values of which two belong to the one and
+/// two to the other sum, in turn.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(crate) fn dots([a, b, c]: [(&[f64], &[f64]); 3]) -> [f64; 3] {
-    [dot(a), dot(b), dot(c)]
-}
-
-#[inline(always)]
-fn dot((a, b): (&[f64], &[f64])) -> f64 {
+pub(crate) fn product_and_squares((a, b): (&[f64], &[f64]), squared: &[f64]) -> (f64, [f64; 2]) {
     let (a, rest_of_a) = a.as_chunks::<NARROW>();
     let (b, rest_of_b) = b.as_chunks::<NARROW>();
     let (n, mut sums) = (a.len(), [0.0; NARROW]);
@@ -211,10 +207,17 @@ fn dot((a, b): (&[f64], &[f64])) -> f64 {
         }
     }
     let mut rest = 0.0;
-    for (a, b) in rest_of_a.iter().zip(rest_of_b) {
-        rest += a * b;
+    for k in 0..rest_of_a.len().min(rest_of_b.len()) {
+        rest += rest_of_a[k] * rest_of_b[k];
     }
-    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+    let product = sums[0] + sums[1] + (sums[2] + sums[3]) + rest;
+    let mut sums = [0.0; NARROW];
+    for block in squared.as_chunks::<NARROW>().0 {
+        for i in 0..NARROW {
+            sums[i] += block[i] * block[i];
+        }
+    }
+    (product, [sums[0] + sums[1], sums[2] + sums[3]])
 }
 
 #[cfg(test)]

@@ -13,7 +13,8 @@ pub(super) struct OfLength {
     /// Displacements, velocities, absolute accelerations and their rates at the end.
     pub motion: DMatrix<f64>,
     /// By load, the displacements times masses at the end and their integral over the interval;
-    /// the quadratic form of the damping's work; what is squared in the bounds of orders 4 and 6.
+    /// the quadratic form of the damping's work; what is squared in the bounds of orders 4 and 6,
+    /// two rows of each in turn.
     pub others: DMatrix<f64>,
 }
 

@@ -121,6 +121,7 @@ impl Row {
         Self::new(system, ends.chain(further.copied()).collect())
     }
 
+    #[inline]
     fn sum(&self, x: &[f64]) -> f64 {
         match self.pair {
             Some([(i, a), (j, b)]) => a * x[i] + b * x[j],
@@ -128,6 +129,7 @@ impl Row {
         }
     }
 
+    #[inline]
     fn bound(&self, ends: &Ends, order: usize) -> f64 {
         let of = self.mobility.iter();
         of.map(|(b, m)| m * ends.bounds[*b][order]).sum()
@@ -138,11 +140,19 @@ impl Row {
         (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
     }
 
-    /// Its course over a whole interval from the state at its start to the end.
-    pub(super) fn over(&self, (u, v): (&[f64], &[f64]), ends: &Ends) -> Course {
+    /// Its value and rate in a state.
+    #[inline]
+    pub(super) fn at(&self, [u, v]: [&[f64]; 2]) -> [f64; 2] {
+        [self.sum(u), self.sum(v)]
+    }
+
+    /// Its course over a whole interval from its value and rate at the start to the end.
+    #[inline]
+    pub(super) fn over(&self, start: [f64; 2], ends: &Ends) -> Course {
+        let [u, v, ..] = &ends.end;
         Course {
-            start: [self.sum(u), self.sum(v)],
-            end: [self.sum(&ends.end[0]), self.sum(&ends.end[1])],
+            start,
+            end: self.at([u, v]),
             fourth: self.bound(ends, 4),
             length: ends.length,
         }
@@ -775,8 +785,8 @@ impl Function {
     }
 
     /// A response of a level over a whole interval without contact, from this state on.
-    pub(super) fn over(&self, start: (&[f64], &[f64]), ends: &Ends) -> Course {
-        self.row.over(start, ends)
+    pub(super) fn over(&self, start: [&[f64]; 2], ends: &Ends) -> Course {
+        self.row.over(self.row.at(start), ends)
     }
 
     /// Takes its peak; false if it is not sure where there is one.

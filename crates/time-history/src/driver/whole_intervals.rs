@@ -76,6 +76,7 @@ impl Driver<'_> {
             groups,
             stale,
             levels,
+            closings,
             met,
             put_off,
             ..
@@ -96,10 +97,15 @@ impl Driver<'_> {
         propagation.advance_whole((system, segment), which, &self.state);
         let ends = &propagation.ends;
         let n = self.dynamics.layout.dofs;
-        let start = (&self.state[..n], &self.state[n..2 * n]);
-        let mut numbered = levels.iter().enumerate();
-        let open = numbered.all(|(l, row)| {
-            let course = row.over(start, ends);
+        let start = [&self.state[..n], &self.state[n..2 * n]];
+        if fresh {
+            closings.clear();
+            closings.extend(levels.iter().map(|row| row.at(start)));
+        }
+        let mut numbered = levels.iter().zip(closings).enumerate();
+        let open = numbered.all(|(l, (row, closing))| {
+            let course = row.over(*closing, ends);
+            *closing = course.end;
             course.stays_below(self.contacts.width(l))
         });
         if !open {

@@ -29,7 +29,7 @@ pub(super) struct Building {
     parts: [Range<usize>; 2],
     /// Masses, filled up with zeros as all rows are.
     pub mass: Vec<f64>,
-    /// Accelerations by displacements, then by velocities, without contacts and loads.
+    /// Accelerations by displacements and velocities in turn, without contacts and loads.
     pub restoring: RowBlocks,
     pub stiffness: RowBlocks,
     pub damping: RowBlocks,
@@ -119,9 +119,9 @@ impl Building {
             stiffest: stiff,
             damped: most_damped,
             parts: system.parts(index),
-            restoring: RowBlocks::new(n, 2 * n, |i, j| match j.checked_sub(n) {
-                None => -soft[(i, j)],
-                Some(j) => -damped[(i, j)],
+            restoring: RowBlocks::new(n, 2 * n, |i, j| match j % 2 {
+                0 => -soft[(i, j / 2)],
+                _ => -damped[(i, j / 2)],
             }),
             stiffness: RowBlocks::new(n, n, |i, j| stiffness[(i, j)]),
             damping: RowBlocks::new(n, n, |i, j| damping[(i, j)]),

@@ -602,7 +602,7 @@ fn next_terms(
         let (count, rows) = (building.dofs.len(), building.mass.len());
         let own = [&u[first..][..count], &v[first..][..count]];
         let out = &mut acceleration[first..][..rows];
-        building.restoring.multiply_parts(own, out);
+        building.restoring.multiply_in_turn(own, out);
         first += rows;
     }
     acceleration[first..].fill(0.0);
@@ -630,13 +630,18 @@ fn next_terms(
     let (v_next, v) = (&mut v_next[..n], &v.as_chunks::<NARROW>().0[..n]);
     let acceleration = &acceleration.as_chunks::<NARROW>().0[..n];
     for k in 0..n {
-        for i in 0..NARROW {
-            u_next[k][i] = scale * v[k][i];
-        }
-        for i in 0..NARROW {
-            v_next[k][i] = scale * acceleration[k][i];
-        }
+        u_next[k] = scaled(scale, v[k]);
+        v_next[k] = scaled(scale, acceleration[k]);
     }
+}
+
+/// A block of values times a factor.
+#[inline(always)]
+fn scaled(factor: f64, mut block: [f64; NARROW]) -> [f64; NARROW] {
+    for i in 0..NARROW {
+        block[i] *= factor;
+    }
+    block
 }
 
 /// The largest magnitude.
@@ -669,7 +674,7 @@ fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) ->
     let force = &mut force[..y.len()];
     building
         .stiffness
-        .multiply_parts([&y[..building.dofs.len()], &[]], force);
+        .multiply_inline(&y[..building.dofs.len()], force);
     let (mut kinetic, mut strain) = ([0.0; NARROW], [0.0; NARROW]);
     let blocks = building.mass.as_chunks::<NARROW>().0.iter();
     let motion = x
@@ -702,7 +707,7 @@ fn viscous_power(buildings: &[Building], velocity: &[f64], force: &mut [f64]) ->
         let force = &mut force[..own.len()];
         building
             .damping
-            .multiply_parts([&own[..building.dofs.len()], &[]], force);
+            .multiply_inline(&own[..building.dofs.len()], force);
         let blocks = own.as_chunks::<NARROW>().0.iter();
         for (v, f) in blocks.zip(force.as_chunks::<NARROW>().0) {
             for i in 0..NARROW {

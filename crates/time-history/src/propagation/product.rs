@@ -120,10 +120,15 @@ impl RowBlocks {
         multiply_blocks(&self.entries, &x[..self.columns], out);
     }
 
-    /// The product with a vector in two parts, for callers that are compiled for several
-    /// instruction sets themselves.
+    /// The same for callers that are compiled for several instruction sets themselves.
     #[inline(always)]
-    pub(crate) fn multiply_parts(&self, x: [&[f64]; 2], out: &mut [f64]) {
+    pub(crate) fn multiply_inline(&self, x: &[f64], out: &mut [f64]) {
+        blocks(&self.entries, x, out);
+    }
+
+    /// The product with two vectors whose elements stand in turn.
+    #[inline(always)]
+    pub(crate) fn multiply_in_turn(&self, x: [&[f64]; 2], out: &mut [f64]) {
         blocks(&self.entries, x, out);
     }
 }
@@ -135,11 +140,17 @@ impl RowBlocks {
     "aarch64+neon"
 ))]
 fn multiply_blocks(entries: &[f64], x: &[f64], out: &mut [f64]) {
-    blocks(entries, [x, &[]], out);
+    blocks(entries, x, out);
+}
+
+/// What the columns of a matrix are multiplied by.
+trait Columns: Copy {
+    /// Adds the columns of a block; returns what is left.
+    fn add<'a, const ROWS: usize>(self, entries: &'a [f64], sums: &mut [f64; ROWS]) -> &'a [f64];
 }
 
 #[inline(always)]
-fn blocks(entries: &[f64], x: [&[f64]; 2], out: &mut [f64]) {
+fn blocks(entries: &[f64], x: impl Columns, out: &mut [f64]) {
     let mut left = (entries, out);
     while left.1.len() >= WIDEST {
         left = take_block::<WIDEST>(left, x);
@@ -159,33 +170,49 @@ fn blocks(entries: &[f64], x: [&[f64]; 2], out: &mut [f64]) {
 #[inline(always)]
 fn take_block<'a, const ROWS: usize>(
     (entries, out): (&'a [f64], &'a mut [f64]),
-    x: [&[f64]; 2],
+    x: impl Columns,
 ) -> (&'a [f64], &'a mut [f64]) {
     let (own, out) = out.split_at_mut(ROWS);
     let mut sums = [0.0; ROWS];
-    let entries = add_columns(entries, x[0], &mut sums);
-    let entries = add_columns(entries, x[1], &mut sums);
+    let entries = x.add(entries, &mut sums);
     own.copy_from_slice(&sums);
     (entries, out)
 }
 
-/// Adds the columns of a block; returns what is left.
-#[inline(always)]
-fn add_columns<'a, const ROWS: usize>(
-    entries: &'a [f64],
-    x: &[f64],
-    sums: &mut [f64; ROWS],
-) -> &'a [f64] {
-    let n = x.len();
-    let (block, rest) = entries.split_at(ROWS * n);
-    let columns = &block.as_chunks::<ROWS>().0[..n];
-    for j in 0..n {
-        let (column, x) = (&columns[j], x[j]);
-        for k in 0..ROWS {
-            sums[k] += column[k] * x;
+impl Columns for &[f64] {
+    #[inline(always)]
+    fn add<'a, const ROWS: usize>(self, entries: &'a [f64], sums: &mut [f64; ROWS]) -> &'a [f64] {
+        let n = self.len();
+        let (block, rest) = entries.split_at(ROWS * n);
+        let columns = &block.as_chunks::<ROWS>().0[..n];
+        for j in 0..n {
+            let (column, x) = (&columns[j], self[j]);
+            for k in 0..ROWS {
+                sums[k] += column[k] * x;
+            }
         }
+        rest
     }
-    rest
+}
+
+impl Columns for [&[f64]; 2] {
+    #[inline(always)]
+    fn add<'a, const ROWS: usize>(self, entries: &'a [f64], sums: &mut [f64; ROWS]) -> &'a [f64] {
+        let n = self[0].len();
+        let (block, rest) = entries.split_at(2 * ROWS * n);
+        let columns = &block.as_chunks::<ROWS>().0.as_chunks::<2>().0[..n];
+        let (x, y) = (self[0], &self[1][..n]);
+        for j in 0..n {
+            let ([a, b], x, y) = (&columns[j], x[j], y[j]);
+            for k in 0..ROWS {
+                sums[k] += a[k] * x;
+            }
+            for k in 0..ROWS {
+                sums[k] += b[k] * y;
+            }
+        }
+        rest
+    }
 }
 
 /// The product of two vectors, and sums of squares of values of which two belong to the one and
@@ -226,14 +253,20 @@ mod tests {
 
     #[test]
     fn blocks_of_rows_give_the_bits_of_columns() {
-        for rows in [1, 4, 7, 12, 29, 64, 83] {
+        for rows in [1, 4, 7, 12, 29, 44, 64, 83, 92] {
             let entry = |i: usize, j: usize| libm::sin((i * 7 + j * 3) as f64);
             let x: Vec<f64> = (0..9).map(|j| libm::cos(j as f64)).collect();
             let columns = (0..9).flat_map(|j| (0..rows).map(move |i| entry(i, j)));
             let mut by_columns = vec![1.0; padded(rows)];
-            multiply(&pad(rows, columns), padded(rows), &x, &mut by_columns);
+            let matrix = pad(rows, columns);
+            multiply(&matrix, padded(rows), &x, &mut by_columns);
             let mut by_blocks = vec![2.0; padded(rows)];
             RowBlocks::new(rows, 9, entry).multiply(&x, &mut by_blocks);
+            assert_eq!(by_columns, by_blocks, "{rows} rows");
+            let in_turn = RowBlocks::new(rows, 8, entry);
+            let halves = [0, 1].map(|odd| [0, 2, 4, 6].map(|j| x[j + odd]));
+            multiply(&matrix, padded(rows), &x[..8], &mut by_columns);
+            in_turn.multiply_in_turn(halves.each_ref().map(<[f64; 4]>::as_slice), &mut by_blocks);
             assert_eq!(by_columns, by_blocks, "{rows} rows");
         }
     }

@@ -62,11 +62,8 @@ impl ExactSteps {
     pub(super) fn new(system: &System) -> Option<Self> {
         let mut propagation = system.propagation()?.for_system(system);
         let (functions, groups) = Function::all(system);
-        for of_building in groups.chunk_by(|a, b| a.building() == b.building()) {
-            if let [of_displacement, of_acceleration] = of_building {
-                let rows = [of_displacement.rows(), of_acceleration.rows()];
-                propagation.follow(of_displacement.building(), rows);
-            }
+        for group in &groups {
+            propagation.follow(group.building(), group.rows());
         }
         Some(Self {
             series: propagation.contact_series(system),

@@ -413,18 +413,21 @@ pub(super) enum Begin {
     Unknown,
 }
 
-/// Functions of one building that are sums of displacements, or of absolute accelerations: one
-/// product tells the values of all.
+/// Functions of one building that are sums of displacements, and those that are sums of absolute
+/// accelerations: a product for each tells the values of all. They stand one kind after the other,
+/// each filled up to whole blocks.
 #[derive(Debug)]
 pub(super) struct Group {
     building: usize,
     dofs: Vec<usize>,
-    of_acceleration: bool,
-    /// Numbers of the functions.
+    /// Numbers of the functions, and their places among the values.
     functions: Range<usize>,
-    rows: DMatrix<f64>,
-    /// One column a degree of freedom.
-    weights: RowBlocks,
+    places: Vec<usize>,
+    /// Where those of absolute accelerations begin.
+    of_accelerations: usize,
+    /// By kind: one column a degree of freedom.
+    rows: [DMatrix<f64>; 2],
+    weights: [RowBlocks; 2],
     mobility: Vec<f64>,
     peaks: Vec<f64>,
     motion: Vec<f64>,
@@ -433,67 +436,74 @@ pub(super) struct Group {
 }
 
 impl Group {
-    fn new(system: &System, building: usize, functions: Range<usize>, all: &[Function]) -> Self {
+    /// Functions from a number on, as many as there are, those of displacements first.
+    fn new(system: &System, building: usize, first: usize, all: &[Function]) -> Self {
         let dofs: Vec<usize> = system.parts(building).into_iter().flatten().collect();
-        let own = &all[functions.clone()];
+        let own = &all[first..];
+        let kinds = own.split_at(own.partition_point(|f| f.order() == 0));
         let weight = |f: &Function, dof: usize| -> f64 {
             let terms = f.row.terms.iter();
             terms.filter(|(i, _)| *i == dof).map(|(_, w)| w).sum()
         };
-        let weights = DMatrix::from_fn(own.len(), dofs.len(), |k, j| weight(&own[k], dofs[j]));
-        let mobility = |f: &Function| f.row.mobility.iter().map(|(_, m)| m).sum();
-        let zeros = || vec![0.0; padded(own.len())];
-        let mut mobilities: Vec<f64> = own.iter().map(mobility).collect();
-        mobilities.resize(padded(own.len()), 0.0);
+        let rows = [kinds.0, kinds.1]
+            .map(|own| DMatrix::from_fn(own.len(), dofs.len(), |k, j| weight(&own[k], dofs[j])));
+        let of_accelerations = padded(kinds.0.len());
+        let later = (0..kinds.1.len()).map(|k| of_accelerations + k);
+        let places: Vec<usize> = (0..kinds.0.len()).chain(later).collect();
+        let zeros = || vec![0.0; of_accelerations + padded(kinds.1.len())];
+        let mut mobility = zeros();
+        for (place, function) in places.iter().zip(own) {
+            mobility[*place] = function.row.mobility.iter().map(|(_, m)| m).sum();
+        }
         Self {
             building,
-            weights: RowBlocks::new(own.len(), dofs.len(), |i, j| weights[(i, j)]),
-            rows: weights,
-            mobility: mobilities,
+            weights: (rows.each_ref())
+                .map(|rows| RowBlocks::new(rows.nrows(), dofs.len(), |i, j| rows[(i, j)])),
+            rows,
+            mobility,
             peaks: zeros(),
             values: std::array::from_fn(|_| zeros()),
             beyond: zeros(),
-            of_acceleration: own.first().is_some_and(|f| f.order() == 2),
+            of_accelerations,
             motion: vec![0.0; dofs.len()],
-            functions,
+            functions: first..all.len(),
+            places,
             dofs,
         }
     }
 
     /// Takes the present peaks.
     pub(super) fn refresh(&mut self, all: &[Function], peaks: &Peaks) {
-        for (peak, function) in self.peaks.iter_mut().zip(&all[self.functions.clone()]) {
-            *peak = function.peak(peaks).0;
+        for (place, function) in self.places.iter().zip(&all[self.functions.clone()]) {
+            self.peaks[*place] = function.peak(peaks).0;
         }
     }
 
-    /// Its functions as rows over the coordinates of the building.
-    pub(super) fn rows(&self) -> &DMatrix<f64> {
-        &self.rows
+    /// Its functions as rows over the coordinates of the building: of displacements, and of
+    /// absolute accelerations.
+    pub(super) fn rows(&self) -> [&DMatrix<f64>; 2] {
+        self.rows.each_ref()
     }
 
     /// Whether all functions are sure to stay below their peaks over a whole interval with
     /// these courses.
     pub(super) fn stay_below(&mut self, courses: &Courses<'_>, ends: &Ends) -> bool {
         let ([x0, v0], [x1, v1]) = (courses.start, courses.end);
-        let bound = (self.mobility.as_slice(), self.bound(ends));
-        let beyond = &mut self.beyond;
-        reaches([x0, v0, x1, v1], bound, ends.length, (&self.peaks, beyond))
+        let bounds = (self.mobility.as_slice(), self.bounds(ends));
+        let (beyond, second) = (&mut self.beyond, self.of_accelerations);
+        let (values, limits) = ([x0, v0, x1, v1], (self.peaks.as_slice(), &mut beyond[..]));
+        reaches(values, bounds, (ends.length, second), limits)
     }
 
-    /// Bound of what the fourth derivatives of the functions are made of.
-    fn bound(&self, ends: &Ends) -> f64 {
-        let order = if self.of_acceleration { 6 } else { 4 };
-        ends.bounds[self.building][order]
+    /// Bounds of what the fourth derivatives of the functions are made of, by kind.
+    fn bounds(&self, ends: &Ends) -> [f64; 2] {
+        let bounds = &ends.bounds[self.building];
+        [bounds[4], bounds[6]]
     }
 
-    /// Whether its functions are sums of absolute accelerations.
-    pub(super) fn of_acceleration(&self) -> bool {
-        self.of_acceleration
-    }
-
-    /// The bound of the function at a place in the group where it may not stay below.
-    pub(super) fn above(&self, place: usize) -> Option<f64> {
+    /// The bound of a function, by its number in the group, where it may not stay below.
+    pub(super) fn above(&self, number: usize) -> Option<f64> {
+        let place = self.places[number];
         let beyond = self.beyond[place];
         // What is not a number is no proof.
         (!(beyond <= self.peaks[place])).then_some(beyond)
@@ -504,25 +514,31 @@ impl Group {
         self.functions.len()
     }
 
-    /// Number and course of the function at a place in the group.
+    /// Number among all functions, and course, of one by its number in the group.
     pub(super) fn course(
         &self,
-        place: usize,
+        number: usize,
         courses: &Courses<'_>,
         ends: &Ends,
     ) -> (usize, Course) {
+        let place = self.places[number];
+        let [of_displacements, of_accelerations] = self.bounds(ends);
+        let bound = match place < self.of_accelerations {
+            true => of_displacements,
+            false => of_accelerations,
+        };
         let course = Course {
             start: courses.start.map(|of| of[place]),
             end: courses.end.map(|of| of[place]),
-            fourth: self.mobility[place] * self.bound(ends),
+            fourth: self.mobility[place] * bound,
             length: ends.length,
         };
-        (self.functions.start + place, course)
+        (self.functions.start + number, course)
     }
 
-    /// Sets the peak of the function at a place in the group.
-    pub(super) fn set_peak(&mut self, place: usize, peak: f64) {
-        self.peaks[place] = peak;
+    /// Sets the peak of a function by its number in the group.
+    pub(super) fn set_peak(&mut self, number: usize, peak: f64) {
+        self.peaks[self.places[number]] = peak;
     }
 
     /// Number after its last function.
@@ -538,50 +554,50 @@ impl Group {
     /// Adds the numbers of functions that may exceed their peaks. Returns the number after the
     /// last function of the group.
     pub(super) fn doubt(&mut self, ends: &Ends, begin: Begin, doubtful: &mut Vec<usize>) -> usize {
-        let bound = self.bound(ends);
-        let motion = match self.of_acceleration {
-            true => [&ends.absolute_start, &ends.absolute_end].map(|x| [&x[0], &x[1]]),
-            false => [&ends.start, &ends.end].map(|x| [&x[0], &x[1]]),
-        };
         if begin == Begin::AtEnd {
             self.values.swap(0, 2);
             self.values.swap(1, 3);
         }
-        // The rate of the ground's acceleration jumps from interval to interval.
-        let known = match begin {
-            Begin::Unknown => [false; 2],
-            Begin::AtEnd => [true, !self.of_acceleration],
-            Begin::AtStart => [true; 2],
-        };
-        let known = known.into_iter().chain([false; 2]);
-        let motion = motion.as_flattened().iter().zip(known);
-        let wanted = self.values.iter_mut().zip(motion);
-        for (values, (motion, _)) in wanted.filter(|(_, (_, known))| !known) {
-            for (x, i) in self.motion.iter_mut().zip(&self.dofs) {
-                *x = motion[*i];
+        let of_displacements = [&ends.start, &ends.end].map(|x| [&x[0], &x[1]]);
+        let of_accelerations = [&ends.absolute_start, &ends.absolute_end].map(|x| [&x[0], &x[1]]);
+        let all = self.mobility.len();
+        let kinds = [
+            (0..self.of_accelerations, of_displacements, true),
+            // The rate of the ground's acceleration jumps from interval to interval.
+            (self.of_accelerations..all, of_accelerations, false),
+        ];
+        for ((own, motion, steady), weights) in kinds.into_iter().zip(&self.weights) {
+            let known = match begin {
+                Begin::Unknown => [false; 2],
+                Begin::AtEnd => [true, steady],
+                Begin::AtStart => [true; 2],
+            };
+            let known = known.into_iter().chain([false; 2]);
+            let motion = motion.as_flattened().iter().zip(known);
+            let wanted = self.values.iter_mut().zip(motion);
+            for (values, (motion, _)) in wanted.filter(|(_, (_, known))| !known) {
+                for (x, i) in self.motion.iter_mut().zip(&self.dofs) {
+                    *x = motion[*i];
+                }
+                weights.multiply(&self.motion, &mut values[own.clone()]);
             }
-            self.weights.multiply(&self.motion, values);
         }
         let values = self.values.each_ref().map(Vec::as_slice);
-        let beyond = &mut self.beyond;
-        let bound = (self.mobility.as_slice(), bound);
-        if reaches(values, bound, ends.length, (&self.peaks, beyond)) {
+        let bounds = (self.mobility.as_slice(), self.bounds(ends));
+        let second = self.of_accelerations;
+        let limits = (self.peaks.as_slice(), self.beyond.as_mut_slice());
+        if reaches(values, bounds, (ends.length, second), limits) {
             return self.functions.end;
         }
-        let compared = self
-            .beyond
-            .iter()
-            .zip(&self.peaks)
-            .zip(self.functions.clone());
-        // What is not a number is no proof.
-        let above = compared.filter(|((beyond, peak), _)| !(*beyond <= *peak));
-        doubtful.extend(above.map(|(_, number)| number));
+        let above = (0..self.len()).filter(|number| self.above(*number).is_some());
+        doubtful.extend(above.map(|number| self.functions.start + number));
         self.functions.end
     }
 }
 
 /// Bounds of the magnitudes of functions from values and slopes at the start and at the end, as
-/// [`hermite_range`] has them for one. Returns whether all are at most these peaks.
+/// [`hermite_range`] has them for one, with one bound for those before a place and another from there
+/// on. Returns whether all are at most these peaks.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -590,11 +606,12 @@ impl Group {
 ))]
 fn reaches(
     [x0, v0, x1, v1]: [&[f64]; 4],
-    (mobility, bound): (&[f64], f64),
-    h: f64,
+    (mobility, [first, second]): (&[f64], [f64; 2]),
+    (h, place): (f64, usize),
     (peaks, out): (&[f64], &mut [f64]),
 ) -> bool {
-    let (third, remainder) = (h / 3.0, h.powi(4) / 144.0 * bound);
+    let (third, fourth) = (h / 3.0, h.powi(4) / 144.0);
+    let (first, second, place) = (fourth * first, fourth * second, place / NARROW);
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let (out, _) = out.as_chunks_mut();
     let n = out.len();
@@ -604,13 +621,14 @@ fn reaches(
     let mut above = [0.0; NARROW];
     // One operation on a block after another, so that each is one of the processor's.
     for k in 0..n {
+        let remainder = if k < place { first } else { second };
         let a = by_pairs(x0[k], v0[k], |x, v| x + third * v);
         let b = by_pairs(x1[k], v1[k], |x, v| x - third * v);
         let error = by_pairs(mobility[k], mobility[k], |mobility, _| remainder * mobility);
         let ends = by_pairs(x0[k], x1[k], |x, y| larger(x.abs(), y.abs()));
-        let first = by_pairs(x0[k], a, |x, a| (0.25 * x + 0.75 * a).abs());
-        let last = by_pairs(x1[k], b, |x, b| (0.25 * x + 0.75 * b).abs());
-        let inner = by_pairs(first, last, larger);
+        let early = by_pairs(x0[k], a, |x, a| (0.25 * x + 0.75 * a).abs());
+        let late = by_pairs(x1[k], b, |x, b| (0.25 * x + 0.75 * b).abs());
+        let inner = by_pairs(early, late, larger);
         let middle = by_pairs(a, b, |a, b| (0.5 * (a + b)).abs());
         let middle = by_pairs(middle, error, |middle, error| middle + error);
         let reach = by_pairs(by_pairs(ends, inner, larger), middle, larger);
@@ -674,8 +692,6 @@ impl Function {
                     all.push(new(What::Section(section.place), terms));
                 }
             }
-            groups.push(Group::new(system, b, first..all.len(), &all));
-            let first = all.len();
             for i in parts[0].clone() {
                 all.push(new(What::Acceleration(i), vec![(i, 1.0)]));
             }
@@ -685,7 +701,7 @@ impl Function {
                     all.push(new(What::Accelerations(row.place), terms));
                 }
             }
-            groups.push(Group::new(system, b, first..all.len(), &all));
+            groups.push(Group::new(system, b, first, &all));
         }
         for (number, row) in system.level_rows().iter().enumerate() {
             let force = (row.level, row.by_force);

@@ -128,21 +128,21 @@ impl Driver<'_> {
         };
         let mut grouped = 0;
         for group in groups.iter_mut() {
-            let courses = propagation.courses(group.building(), group.of_acceleration());
+            let courses = propagation.courses(group.building());
             grouped = group.functions_end();
             if group.stay_below(&courses, ends) {
                 continue;
             }
-            for place in 0..group.len() {
-                let Some(upper) = group.above(place) else {
+            for own in 0..group.len() {
+                let Some(upper) = group.above(own) else {
                     continue;
                 };
                 if !upper.is_finite() {
                     return false;
                 }
-                let (number, course) = group.course(place, &courses, ends);
+                let (number, course) = group.course(own, &courses, ends);
                 let peak = take(number, &course, upper);
-                group.set_peak(place, peak);
+                group.set_peak(own, peak);
             }
         }
         for number in grouped..functions.len() {

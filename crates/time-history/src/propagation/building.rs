@@ -374,10 +374,10 @@ impl Building {
         self.whole.begin(&self.start);
     }
 
-    /// Courses over the last whole interval of the functions of displacements, or of those of
+    /// Courses over the last whole interval of the functions of displacements, then of those of
     /// absolute accelerations.
-    pub(super) fn courses(&self, of_acceleration: bool) -> Courses<'_> {
-        self.whole.courses(of_acceleration)
+    pub(super) fn courses(&self) -> Courses<'_> {
+        self.whole.courses()
     }
 
     /// Whether forces push the building.

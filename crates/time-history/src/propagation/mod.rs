@@ -186,8 +186,8 @@ impl Propagation {
     }
 
     /// Courses over the last whole interval of the functions of a building.
-    pub(crate) fn courses(&self, building: usize, of_acceleration: bool) -> Courses<'_> {
-        self.buildings[building].courses(of_acceleration)
+    pub(crate) fn courses(&self, building: usize) -> Courses<'_> {
+        self.buildings[building].courses()
     }
 
     /// Whether the last step was one by a series.

@@ -32,10 +32,10 @@ pub(super) struct WholeInterval {
     over: Vec<RowBlocks>,
     /// The functions at the start of an interval.
     start: RowBlocks,
-    /// Displacements and velocities and what else is not a function; then values and rates of
-    /// those of displacements, and of those of absolute accelerations.
+    /// Displacements and velocities and what else is not a function; then values of the functions
+    /// of displacements and of those of absolute accelerations, and their rates in the same order.
     others: usize,
-    functions: [Range<usize>; 4],
+    functions: [Range<usize>; 2],
     /// Masses by load, over the coordinates.
     masses: DMatrix<f64>,
     /// After the last interval, and after the one before.
@@ -54,19 +54,21 @@ impl WholeInterval {
     ) -> Self {
         let (n, columns) = (start.nrows() / 4, start.ncols());
         let [displacements, accelerations] = functions;
-        let blocks = [displacements, displacements, accelerations, accelerations];
-        let mut count = 0;
-        let places = blocks.map(|rows| {
-            let first = count;
-            count += padded(rows.nrows());
-            first..count
-        });
+        let half = padded(displacements.nrows()) + padded(accelerations.nrows());
+        let count = 2 * half;
+        // First of the functions, and what they are rows over in the motion.
+        let second = padded(displacements.nrows());
+        let blocks = [
+            (displacements, 0, 0),
+            (accelerations, second, 2),
+            (displacements, half, 1),
+            (accelerations, half + second, 3),
+        ];
         let of_motion = |motion: &DMatrix<f64>| {
             let mut all = DMatrix::zeros(count, columns);
-            for (k, (rows, place)) in blocks.iter().zip(&places).enumerate() {
-                let of = motion.rows(k * n, n);
-                all.rows_mut(place.start, rows.nrows())
-                    .copy_from(&(*rows * of));
+            for (rows, first, of) in blocks {
+                let of = motion.rows(of * n, n);
+                all.rows_mut(first, rows.nrows()).copy_from(&(rows * of));
             }
             all
         };
@@ -92,7 +94,7 @@ impl WholeInterval {
             over,
             start: RowBlocks::new(count, columns, |i, j| at_start[(i, j)]),
             others: first,
-            functions: places.map(|place| first + place.start..first + place.end),
+            functions: [first..first + half, first + half..first + count],
             masses,
             now: vec![0.0; first + count],
             before: vec![0.0; first + count],
@@ -125,12 +127,14 @@ impl WholeInterval {
         [&self.before, &self.now].map(Vec::as_slice)
     }
 
-    /// Functions of displacements, or of absolute accelerations.
-    pub(super) fn courses<'a>(&'a self, of_acceleration: bool) -> Courses<'a> {
-        let [value, rate] = match (&self.functions, of_acceleration) {
-            ([value, rate, ..], false) | ([.., value, rate], true) => [value, rate],
+    /// Functions of displacements, then of absolute accelerations.
+    #[inline]
+    pub(super) fn courses(&self) -> Courses<'_> {
+        let [value, rate] = &self.functions;
+        let of = |all| {
+            let all: &[f64] = all;
+            [&all[value.clone()], &all[rate.clone()]]
         };
-        let of = |all: &'a [f64]| [&all[value.start..value.end], &all[rate.start..rate.end]];
         Courses {
             start: of(&self.before),
             end: of(&self.now),
